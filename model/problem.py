@@ -1,0 +1,264 @@
+"""What is to be planned: depots, customers, a fleet and its travel matrices.
+
+Inside `model`, times are integer milliseconds since plan start, distances integer millimetres,
+amounts integer thousandths, so that simulator, search and checker agree exactly. Costs are floats.
+"""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+IntArray = NDArray[np.int64]
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+UNLIMITED = 2**42
+"""Stands for "no limit" on a time (ms) or a distance (mm)."""
+
+UNREACHABLE = 2**50
+"""Duration and distance of a flight that can't be flown."""
+
+MAX_QUANTITY = 10**12
+"""Largest time (ms), distance (mm) or amount (thousandths) that a problem may state."""
+
+FULL_SPEED = 1_000_000
+"""Factor of a speed profile at which a leg takes its matrix duration."""
+
+MS_PER_HOUR = 3_600_000
+MM_PER_KM = 1_000_000
+
+ServedBy = Literal["truck", "drone", "either"]
+
+
+def _require(condition: bool, name: str, value: object) -> None:
+    """Raise `ValueError` naming the field and its value unless `condition` holds."""
+    if not condition:
+        raise ValueError(f"{name}: {value!r} is not allowed")
+
+
+def _require_quantity(name: str, value: int, limit: int = MAX_QUANTITY) -> None:
+    _require(0 <= value <= limit, name, value)
+
+
+def _require_rate(name: str, value: float) -> None:
+    _require(0 <= value < float("inf"), name, value)
+
+
+@dataclass(frozen=True)
+class Depot:
+    """Start and end of trips."""
+
+    id: str
+
+
+@dataclass(frozen=True)
+class Customer:
+    """Place with a demand, served once by a truck or a drone."""
+
+    id: str
+    demand: tuple[int, ...]  # (dimension,) thousandths
+    service_duration: int = 0
+    earliest: int = 0  # first start of service that needs no waiting
+    latest: int = UNLIMITED  # last arrival that is not late
+    late_cost_per_hour: float | None = None  # None: the window is hard
+    early_cost_per_hour: float = 0.0
+    served_by: ServedBy = "either"
+    skills: frozenset[str] = frozenset()
+    release_time: int = 0  # parcel is at the depot from then on
+
+    def __post_init__(self) -> None:
+        for amount in self.demand:
+            _require_quantity(f"customer {self.id} demand", amount)
+        _require_quantity(f"customer {self.id} service_duration", self.service_duration)
+        _require_quantity(f"customer {self.id} release_time", self.release_time)
+        _require_quantity(f"customer {self.id} earliest", self.earliest)
+        _require(self.earliest <= self.latest, f"customer {self.id} latest", self.latest)
+        _require(self.latest <= UNLIMITED, f"customer {self.id} latest", self.latest)
+        _require_rate(f"customer {self.id} early_cost_per_hour", self.early_cost_per_hour)
+        if self.late_cost_per_hour is not None:
+            _require_rate(f"customer {self.id} late_cost_per_hour", self.late_cost_per_hour)
+
+
+@dataclass(frozen=True)
+class SpeedProfile:
+    """Speed by time of day, piecewise constant, as a share of the matrix speed."""
+
+    times: tuple[int, ...]  # (change,) ms, strictly increasing
+    factors: tuple[int, ...]  # (change + 1,) in 1..FULL_SPEED; the first holds before times[0]
+
+    def __post_init__(self) -> None:
+        _require(len(self.factors) == len(self.times) + 1, "speed profile factors", self.factors)
+        for factor in self.factors:
+            _require(1 <= factor <= FULL_SPEED, "speed profile factor", factor)
+        for time, following in zip(self.times, self.times[1:], strict=False):
+            _require(time < following, "speed profile times", self.times)
+        for time in self.times:
+            _require_quantity("speed profile time", time)
+
+
+@dataclass(frozen=True)
+class DroneType:
+    """The drones that ride on each truck of a type."""
+
+    count: int
+    capacity: tuple[int, ...]  # (dimension,) thousandths
+    travel: int  # index into Problem.travel
+    endurance: int = UNLIMITED  # ms from take-off to the beginning of recovery
+    endurance_includes_waiting: bool = True  # False: to the drone's arrival there
+    launch_duration: int = 0
+    recovery_duration: int = 0
+    service_duration: int | None = None  # None: the customer's
+    max_customers_per_sortie: int = 1
+    cost_per_km: float = 0.0
+    cost_per_hour: float = 0.0
+
+    def __post_init__(self) -> None:
+        _require(self.count >= 1, "drone count", self.count)
+        _require(self.max_customers_per_sortie >= 1, "drone max_customers_per_sortie",
+                 self.max_customers_per_sortie)
+        for amount in self.capacity:
+            _require_quantity("drone capacity", amount)
+        _require_quantity("drone endurance", self.endurance, UNLIMITED)
+        _require_quantity("drone launch_duration", self.launch_duration)
+        _require_quantity("drone recovery_duration", self.recovery_duration)
+        if self.service_duration is not None:
+            _require_quantity("drone service_duration", self.service_duration)
+        _require_rate("drone cost_per_km", self.cost_per_km)
+        _require_rate("drone cost_per_hour", self.cost_per_hour)
+
+
+@dataclass(frozen=True)
+class VehicleType:
+    """`count` equal trucks, with their drones if `drones` is set."""
+
+    id: str
+    count: int
+    capacity: tuple[int, ...]  # (dimension,) thousandths
+    travel: int  # index into Problem.travel
+    depot: int = 0  # home depot, a node
+    fixed_cost: float = 0.0  # per vehicle used
+    cost_per_km: float = 0.0
+    cost_per_hour: float = 0.0  # of working time
+    speed_profile: SpeedProfile | None = None
+    earliest: int = 0  # shift
+    latest: int = UNLIMITED
+    max_working_duration: int | None = None
+    max_trip_distance: int | None = None
+    max_trips: int = 1
+    reload_duration: int = 0  # at the depot between trips
+    skills: frozenset[str] = frozenset()
+    drones: DroneType | None = None
+
+    def __post_init__(self) -> None:
+        _require(self.count >= 1, f"vehicle type {self.id} count", self.count)
+        _require(self.max_trips >= 1, f"vehicle type {self.id} max_trips", self.max_trips)
+        for amount in self.capacity:
+            _require_quantity(f"vehicle type {self.id} capacity", amount)
+        _require_quantity(f"vehicle type {self.id} earliest", self.earliest)
+        _require(self.earliest <= self.latest <= UNLIMITED, f"vehicle type {self.id} latest",
+                 self.latest)
+        _require_quantity(f"vehicle type {self.id} reload_duration", self.reload_duration)
+        for name in ("max_working_duration", "max_trip_distance"):
+            limit = getattr(self, name)
+            if limit is not None:
+                _require_quantity(f"vehicle type {self.id} {name}", limit)
+        for name in ("fixed_cost", "cost_per_km", "cost_per_hour"):
+            _require_rate(f"vehicle type {self.id} {name}", getattr(self, name))
+
+
+@dataclass(frozen=True, eq=False)
+class Travel:
+    """Legs between all nodes by one kind of vehicle, rows are origins."""
+
+    duration: IntArray  # (node, node) ms, UNREACHABLE where there is no leg (drones only)
+    distance: IntArray  # (node, node) mm
+
+    def __post_init__(self) -> None:
+        for name, matrix in (("duration", self.duration), ("distance", self.distance)):
+            _require(matrix.dtype == np.int64, f"travel {name} dtype", matrix.dtype)
+            _require(matrix.ndim == 2 and matrix.shape[0] == matrix.shape[1],
+                     f"travel {name} shape", matrix.shape)
+            _require(bool((matrix >= 0).all()), f"travel {name}", "negative entry")
+            reachable = (matrix <= MAX_QUANTITY) | (matrix == UNREACHABLE)
+            _require(bool(reachable.all()), f"travel {name}", "entry too large")
+        _require(self.duration.shape == self.distance.shape, "travel distance shape",
+                 self.distance.shape)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A complete planning problem.
+
+    Nodes are the depots, in order, then the customers, in order: with one depot, node 0 is the
+    depot and nodes 1..n are the customers.
+    """
+
+    depots: tuple[Depot, ...]
+    customers: tuple[Customer, ...]
+    vehicle_types: tuple[VehicleType, ...]
+    travel: tuple[Travel, ...]
+    coordinates: FloatArray  # (node, 2) any planar unit, seen by the policy alone
+    unassigned_cost: float  # per customer left out
+    num_dimensions: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        _require(len(self.depots) >= 1, "depots", "none")
+        _require(len(self.vehicle_types) >= 1, "vehicle types", "none")
+        _require_rate("unassigned_cost", self.unassigned_cost)
+        dimensions = len(self.vehicle_types[0].capacity)
+        _require(1 <= dimensions <= 3, "capacity dimensions", dimensions)
+        object.__setattr__(self, "num_dimensions", dimensions)
+        _require(self.coordinates.shape == (self.num_nodes, 2), "coordinates shape",
+                 self.coordinates.shape)
+        _require(bool(np.isfinite(self.coordinates).all()), "coordinates", "not finite")
+        for matrix in self.travel:
+            _require(matrix.duration.shape == (self.num_nodes, self.num_nodes), "travel shape",
+                     matrix.duration.shape)
+        for customer in self.customers:
+            _require(len(customer.demand) == dimensions, f"customer {customer.id} demand",
+                     customer.demand)
+        for vehicle_type in self.vehicle_types:
+            self._require_consistent(vehicle_type)
+
+    def _require_consistent(self, vehicle_type: VehicleType) -> None:
+        name = f"vehicle type {vehicle_type.id}"
+        _require(len(vehicle_type.capacity) == self.num_dimensions, f"{name} capacity",
+                 vehicle_type.capacity)
+        _require(0 <= vehicle_type.depot < self.num_depots, f"{name} depot", vehicle_type.depot)
+        _require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
+                 vehicle_type.travel)
+        _require(bool((self.travel[vehicle_type.travel].duration < UNREACHABLE).all()),
+                 f"{name} travel", "unreachable leg")
+        if vehicle_type.drones is not None:
+            _require(len(vehicle_type.drones.capacity) == self.num_dimensions,
+                     f"{name} drone capacity", vehicle_type.drones.capacity)
+            _require(0 <= vehicle_type.drones.travel < len(self.travel), f"{name} drone travel",
+                     vehicle_type.drones.travel)
+
+    @property
+    def num_depots(self) -> int:
+        """Depots; the first customer's node."""
+        return len(self.depots)
+
+    @property
+    def num_customers(self) -> int:
+        """Customers."""
+        return len(self.customers)
+
+    @property
+    def num_nodes(self) -> int:
+        """Depots and customers."""
+        return len(self.depots) + len(self.customers)
+
+    def customer_at(self, node: int) -> Customer:
+        """Return the customer at a node.
+
+        Raises
+        ------
+        ValueError
+            If `node` is a depot or no node.
+        """
+        _require(self.num_depots <= node < self.num_nodes, "customer node", node)
+        return self.customers[node - self.num_depots]

@@ -1,0 +1,84 @@
+"""A plan: routes of trips, with the sorties flown from them. Times in ms, nodes as in `Problem`."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Stop:
+    """A place where the truck halts.
+
+    The first stop of a trip is the depot: `arrival` is when loading is done and launches may
+    begin, `departure` when the truck leaves. The last stop is the depot again: `departure` is when
+    truck and drones are all back, the end of the trip.
+    """
+
+    node: int
+    arrival: int
+    service_start: int  # equals `arrival` at depots
+    departure: int
+
+
+@dataclass(frozen=True)
+class Visit:
+    """A customer served by a drone."""
+
+    node: int
+    arrival: int
+    service_start: int
+    departure: int
+
+
+@dataclass(frozen=True)
+class Sortie:
+    """One drone flight, from launch to recovery, within one trip."""
+
+    drone: int  # 0-based, on its truck
+    launch_stop: int  # index into Trip.stops
+    recovery_stop: int  # the same stop or a later one
+    visits: tuple[Visit, ...]
+    launch_time: int  # take-off; the launch duration lies before it
+    recovery_start: int
+    recovery_time: int  # the end of recovery
+
+
+@dataclass(frozen=True)
+class Trip:
+    """Depot to depot on one loading."""
+
+    stops: tuple[Stop, ...]
+    sorties: tuple[Sortie, ...] = ()
+
+
+@dataclass(frozen=True)
+class Route:
+    """All trips of one vehicle, in order."""
+
+    vehicle_type: int  # index into Problem.vehicle_types
+    vehicle: int  # 0-based, within its type
+    trips: tuple[Trip, ...]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A plan for a whole problem."""
+
+    routes: tuple[Route, ...]
+    unassigned: tuple[int, ...] = ()  # customer nodes
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a plan costs, by term."""
+
+    fixed: float = 0.0
+    distance: float = 0.0  # vehicles and drones
+    time: float = 0.0  # vehicles and drones
+    lateness: float = 0.0
+    earliness: float = 0.0
+    unassigned: float = 0.0
+
+    @property
+    def total(self) -> float:
+        """Sum of all terms."""
+        return (self.fixed + self.distance + self.time + self.lateness + self.earliness
+                + self.unassigned)
