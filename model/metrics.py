@@ -1,0 +1,144 @@
+"""What a timed route carries, drives and costs."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
+from model.solution import Cost, Route, Sortie, Stop, Trip, Visit
+
+
+@dataclass(frozen=True)
+class SortieMetrics:
+    """One drone flight."""
+
+    distance: int  # mm
+    duration: int  # ms from take-off to the end of recovery
+
+
+@dataclass(frozen=True)
+class TripMetrics:
+    """One trip; distance and duration are the truck's."""
+
+    load: tuple[int, ...]  # (dimension,) thousandths, drones' parcels too
+    load_rate: float  # load / capacity, the largest over dimensions
+    distance: int  # mm
+    duration: int  # ms from the first departure or take-off to the end
+    stop_loads: tuple[tuple[int, ...], ...]  # (stop, dimension) on the truck when it leaves
+    sorties: tuple[SortieMetrics, ...]
+
+
+@dataclass(frozen=True)
+class RouteMetrics:
+    """One vehicle."""
+
+    working_duration: int = 0  # ms from first departure to last return
+    working_rate: float | None = None  # of the longest allowed; None without a limit
+    cost: float = 0.0
+    trips: tuple[TripMetrics, ...] = ()
+
+
+def _rate(amount: int, limit: int) -> float:
+    if limit:
+        return amount / limit
+    return float("inf") if amount else 0.0
+
+
+def first_departure(trip: Trip) -> int:
+    """Return when truck or drone first leaves the depot."""
+    take_offs = [sortie.launch_time for sortie in trip.sorties if sortie.launch_stop == 0]
+    return min([trip.stops[0].departure, *take_offs])
+
+
+def flight_legs(trip: Trip, sortie: Sortie) -> Iterator[tuple[int, int]]:
+    """Yield the legs of a sortie as pairs of nodes."""
+    node = trip.stops[sortie.launch_stop].node
+    for visit in sortie.visits:
+        yield node, visit.node
+        node = visit.node
+    yield node, trip.stops[sortie.recovery_stop].node
+
+
+def _measure_sorties(
+    problem: Problem, drones: DroneType | None, trip: Trip
+) -> tuple[SortieMetrics, ...]:
+    if drones is None or not trip.sorties:
+        return ()
+    distance = problem.travel[drones.travel].distance
+    return tuple(
+        SortieMetrics(sum([distance.item(*leg) for leg in flight_legs(trip, sortie)]),
+                      sortie.recovery_time - sortie.launch_time)
+        for sortie in trip.sorties
+    )
+
+
+def _stop_loads(problem: Problem, trip: Trip) -> list[tuple[int, ...]]:
+    """Return what is on the truck when it leaves each stop, last stop first."""
+    customers, first = problem.customers, len(problem.depots)
+    unloaded = [[customers[stop.node - first].demand] for stop in trip.stops[1:-1]]
+    unloaded = [[], *unloaded, []]
+    for sortie in trip.sorties:
+        unloaded[sortie.launch_stop] += [customers[v.node - first].demand for v in sortie.visits]
+    load = (0,) * problem.num_dimensions
+    loads = []
+    for demands in reversed(unloaded):
+        loads.append(load)
+        for demand in demands:
+            load = tuple([a + b for a, b in zip(load, demand, strict=True)])
+    return [*loads, load]
+
+
+def measure_trip(problem: Problem, vehicle_type: VehicleType, trip: Trip) -> TripMetrics:
+    """Return a trip's metrics."""
+    distance = problem.travel[vehicle_type.travel].distance
+    loads = _stop_loads(problem, trip)
+    load = loads.pop()
+    nodes = [stop.node for stop in trip.stops]
+    return TripMetrics(
+        load=load,
+        load_rate=max(map(_rate, load, vehicle_type.capacity)),
+        distance=sum(map(distance.item, nodes, nodes[1:])),
+        duration=trip.stops[-1].departure - first_departure(trip),
+        stop_loads=tuple(reversed(loads)),
+        sorties=_measure_sorties(problem, vehicle_type.drones, trip),
+    )
+
+
+def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
+    """Return the costs of lateness and of earliness."""
+    customers, first = problem.customers, len(problem.depots)
+    lateness = earliness = 0.0
+    for trip in route.trips:
+        halts: list[Stop | Visit] = [*trip.stops[1:-1]]
+        for sortie in trip.sorties:
+            halts += sortie.visits
+        for halt in halts:
+            customer = customers[halt.node - first]
+            arrival = halt.arrival
+            if arrival < customer.earliest:
+                waiting = customer.earliest - arrival
+                earliness += waiting * customer.early_cost_per_hour / MS_PER_HOUR
+            elif arrival > customer.latest and customer.late_cost_per_hour is not None:
+                late = arrival - customer.latest
+                lateness += late * customer.late_cost_per_hour / MS_PER_HOUR
+    return lateness, earliness
+
+
+def measure_route(
+    problem: Problem, route: Route, trips: tuple[TripMetrics, ...]
+) -> tuple[RouteMetrics, Cost]:
+    """Return a route's metrics, made from those of its trips, and what it costs."""
+    vehicle_type = problem.vehicle_types[route.vehicle_type]
+    working = route.trips[-1].stops[-1].departure - first_departure(route.trips[0])
+    distance = sum([trip.distance for trip in trips]) * vehicle_type.cost_per_km
+    time = working * vehicle_type.cost_per_hour
+    drones = vehicle_type.drones
+    if drones is not None:
+        flights = [sortie for trip in trips for sortie in trip.sorties]
+        distance += sum([flight.distance for flight in flights]) * drones.cost_per_km
+        time += sum([flight.duration for flight in flights]) * drones.cost_per_hour
+    lateness, earliness = _window_costs(problem, route)
+    cost = Cost(vehicle_type.fixed_cost, distance / MM_PER_KM, time / MS_PER_HOUR, lateness,
+                earliness)
+    limit = vehicle_type.max_working_duration
+    rate = None if limit is None else _rate(working, limit)
+    return RouteMetrics(working, rate, cost.total, trips), cost

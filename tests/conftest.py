@@ -1,0 +1,74 @@
+"""Tiny problems whose answers were worked out by hand."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import pytest
+
+from model.problem import (
+    MM_PER_KM,
+    Customer,
+    Depot,
+    DroneType,
+    Problem,
+    Travel,
+    VehicleType,
+)
+
+MINUTE = 60_000
+
+
+def _street(places: Sequence[float], minutes_per_km: int) -> Travel:
+    metres = np.rint(np.abs(np.subtract.outer(places, places)) * 1000).astype(np.int64)
+    return Travel(duration=metres * minutes_per_km * MINUTE // 1000,
+                  distance=metres * MM_PER_KM // 1000)
+
+
+def _problem(
+    *customers: Customer,
+    truck: VehicleType,
+    more_types: tuple[VehicleType, ...] = (),
+    places: Sequence[float] | None = None,
+    num_depots: int = 1,
+    unassigned_cost: float = 1000.0,
+) -> Problem:
+    """Return a problem on a straight street, by default with a customer at every kilometre.
+
+    Trucks (travel 0) need 2 minutes per km, drones (travel 1) need 1.
+    """
+    num_nodes = num_depots + len(customers)
+    if places is None:
+        places = range(num_nodes)
+    return Problem(
+        depots=tuple(Depot(f"depot-{index}") for index in range(num_depots)),
+        customers=customers,
+        vehicle_types=(truck, *more_types),
+        travel=(_street(places, 2), _street(places, 1)),
+        coordinates=np.column_stack([places, np.zeros(num_nodes)]).astype(np.float64),
+        unassigned_cost=unassigned_cost,
+    )
+
+
+@pytest.fixture(scope="session")
+def tiny_problem() -> Callable[..., Problem]:
+    """Build a problem on a straight street."""
+    return _problem
+
+
+@pytest.fixture(scope="session")
+def customers() -> tuple[Customer, ...]:
+    """Four customers a, b, c, d: one unit each, five minutes of service."""
+    return tuple(Customer(name, (1000,), service_duration=5 * MINUTE) for name in "abcd")
+
+
+@pytest.fixture(scope="session")
+def truck() -> VehicleType:
+    """Two trucks for ten units, without limits and costs."""
+    return VehicleType("truck", count=2, capacity=(10_000,), travel=0)
+
+
+@pytest.fixture(scope="session")
+def drones() -> DroneType:
+    """One drone for five units; launch and recovery take a minute each."""
+    return DroneType(count=1, capacity=(5000,), travel=1, launch_duration=MINUTE,
+                     recovery_duration=MINUTE)
