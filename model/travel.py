@@ -1,0 +1,208 @@
+"""From locations, or a caller's matrices, to the integer travel matrices of `Problem`.
+
+Distances are rounded to the nearest millimetre and durations up to the next millisecond, both
+once, from the exact float values.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from pyproj import Proj
+
+from model.problem import (
+    FULL_SPEED,
+    MAX_QUANTITY,
+    UNREACHABLE,
+    BoolArray,
+    FloatArray,
+    IntArray,
+    SpeedProfile,
+    Travel,
+)
+
+EARTH_RADIUS_M = 6_371_008.8
+"""Mean radius of the earth, which is taken for a sphere."""
+
+FLOAT_NOISE_MS = 5e-7
+"""A duration less than this above a whole millisecond is that millisecond."""
+
+_EMBEDDING_RANK = 10
+_EMBEDDING_ITERATIONS = 12
+
+
+@dataclass(frozen=True)
+class LocalProjection:
+    """Azimuthal equidistant projection of the sphere: x east and y north at its centre, metres.
+
+    True in length and direction from the centre, and off by about the square of (distance from
+    the centre / earth radius) elsewhere: a few hundredths of a percent within 100 km. It never
+    shortens a distance. It has no seam but at the centre's antipode.
+    """
+
+    longitude: float  # of the centre, degrees
+    latitude: float
+
+    @classmethod
+    def around(cls, lon_lat: FloatArray) -> "LocalProjection":
+        """Centre a projection on (node, 2) points in degrees, wherever on the globe they are."""
+        _require_lon_lat(lon_lat)
+        longitude, latitude = np.radians(lon_lat).T
+        x, y, z = (
+            float((np.cos(latitude) * np.cos(longitude)).mean()),
+            float((np.cos(latitude) * np.sin(longitude)).mean()),
+            float(np.sin(latitude).mean()),
+        )
+        return cls(float(np.degrees(np.arctan2(y, x))),
+                   float(np.degrees(np.arctan2(z, np.hypot(x, y)))))
+
+    def project(self, lon_lat: FloatArray) -> FloatArray:
+        """Map (point, 2) degrees to (point, 2) metres east and north of the centre."""
+        _require_lon_lat(lon_lat)
+        projection = Proj(proj="aeqd", lon_0=self.longitude, lat_0=self.latitude,
+                          R=EARTH_RADIUS_M)
+        x, y = projection(lon_lat[:, 0], lon_lat[:, 1])
+        points = np.stack([x, y], axis=1)
+        # The antipode has every direction; it is drawn due north.
+        points[~np.isfinite(points).all(axis=1)] = (0.0, np.pi * EARTH_RADIUS_M)
+        return points
+
+
+def local_coordinates(lon_lat: FloatArray) -> FloatArray:
+    """Project (node, 2) longitudes and latitudes to metres around their centroid."""
+    return LocalProjection.around(lon_lat).project(lon_lat)
+
+
+def planar_distances(points_m: FloatArray) -> FloatArray:
+    """Return the (node, node) straight-line distances in metres."""
+    x, y = points_m.T
+    distances: FloatArray = np.hypot(x[:, None] - x, y[:, None] - y)
+    return distances
+
+
+def great_circle_distances(lon_lat: FloatArray) -> FloatArray:
+    """Return the (node, node) distances in metres on the sphere, by the haversine formula."""
+    _require_lon_lat(lon_lat)
+    longitude, latitude = np.radians(lon_lat).T
+    haversine = np.sin((latitude[:, None] - latitude) / 2) ** 2
+    cosine = np.cos(latitude)
+    haversine += cosine[:, None] * cosine * np.sin((longitude[:, None] - longitude) / 2) ** 2
+    distances: FloatArray = 2 * EARTH_RADIUS_M * np.arcsin(np.sqrt(np.minimum(haversine, 1.0)))
+    return distances
+
+
+def truck_travel(distances_m: FloatArray, speed_kmh: float) -> Travel:
+    """Drive the distances at one speed (the fastest, where a speed profile applies)."""
+    _require_speed(speed_kmh)
+    _require_lengths("distances", distances_m)
+    return Travel(_whole_ms(distances_m * 3600.0 / speed_kmh), _whole_mm(distances_m))
+
+
+def matrix_travel(durations_s: FloatArray, distances_m: FloatArray) -> Travel:
+    """Take a caller's matrices, which need not be symmetric."""
+    _require_lengths("durations", durations_s)
+    _require_lengths("distances", distances_m)
+    return Travel(_whole_ms(durations_s * 1000.0), _whole_mm(distances_m))
+
+
+def flight_travel(distances_m: FloatArray, durations_s: FloatArray) -> Travel:
+    """Take the legs of a drone: infinite, or longer than any plan, means no flight.
+
+    Raises
+    ------
+    ValueError
+        If an entry is negative or not a number, or a flight's distance is too large.
+    """
+    reachable: BoolArray = (
+        np.isfinite(distances_m) & (durations_s * 1000.0 <= MAX_QUANTITY)
+    )
+    for name, matrix in (("distances", distances_m), ("durations", durations_s)):
+        _require_lengths(name, np.where(np.isposinf(matrix), 0.0, matrix))
+    duration = _whole_ms(np.where(reachable, durations_s * 1000.0, 0.0))
+    distance = _whole_mm(np.where(reachable, distances_m, 0.0))
+    return Travel(np.where(reachable, duration, UNREACHABLE),
+                  np.where(reachable, distance, UNREACHABLE))
+
+
+def speed_profile(
+    base_speed: float, changes: Sequence[tuple[int, float]]
+) -> tuple[float, SpeedProfile]:
+    """Express speeds by time of day as shares of the fastest one.
+
+    A `SpeedProfile` only slows down, so matrix durations must be those at the fastest speed:
+    `truck_travel(distances, fastest)`, or, with speeds that are factors on a caller's matrix,
+    `matrix_travel(durations / fastest, distances)`.
+
+    Parameters
+    ----------
+    base_speed
+        Speed before the first change, in any unit.
+    changes
+        (time in ms, speed from then on), by increasing time.
+
+    Returns
+    -------
+    The fastest speed, in the unit given, and the profile, its factors rounded to the nearest
+    millionth.
+    """
+    speeds = (base_speed, *(speed for _, speed in changes))
+    for speed in speeds:
+        _require_speed(speed)
+    fastest = max(speeds)
+    factors = tuple(round(speed / fastest * FULL_SPEED) for speed in speeds)
+    return fastest, SpeedProfile(tuple(time for time, _ in changes), factors)
+
+
+def embed(duration: IntArray | FloatArray) -> FloatArray:
+    """Place nodes in the plane so that distances resemble a matrix of finite durations.
+
+    Classical scaling of the symmetrised matrix, the leading eigenvectors found by subspace
+    iteration from a fixed start: the same matrix always gives the same (node, 2) coordinates, in
+    the unit of the durations and centred on the origin.
+
+    References
+    ----------
+    Torgerson (1952), multidimensional scaling, Psychometrika 17:401-419. Halko, Martinsson and
+    Tropp (2011), finding structure with randomness, SIAM Review 53:217-288.
+    """
+    num_nodes = len(duration)
+    symmetric = (duration + duration.T) / 2.0
+    np.fill_diagonal(symmetric, 0.0)
+    scale = symmetric.max(initial=0.0)
+    if scale == 0.0:
+        return np.zeros((num_nodes, 2))
+    squared = (symmetric / scale) ** 2
+    mean = squared.mean(axis=0)
+    gram = (mean + mean[:, None] - squared - mean.mean()) / 2.0
+    start = np.random.default_rng(0).standard_normal((num_nodes, min(num_nodes, _EMBEDDING_RANK)))
+    basis = np.linalg.qr(start).Q
+    for _ in range(_EMBEDDING_ITERATIONS):
+        basis = np.linalg.qr(gram @ basis).Q
+    eigenvalues, vectors = np.linalg.eigh(basis.T @ gram @ basis)
+    axes = basis @ vectors[:, :-3:-1]
+    axes *= np.sign(axes[np.abs(axes).argmax(axis=0), (0, 1)])
+    coordinates: FloatArray = axes * np.sqrt(np.maximum(eigenvalues[:-3:-1], 0.0)) * scale
+    return coordinates
+
+
+def _whole_ms(duration_ms: FloatArray) -> IntArray:
+    return np.ceil(duration_ms - FLOAT_NOISE_MS).astype(np.int64)
+
+
+def _whole_mm(distance_m: FloatArray) -> IntArray:
+    return np.rint(distance_m * 1000.0).astype(np.int64)
+
+
+def _require_speed(speed: float) -> None:
+    if not 0 < speed < float("inf"):
+        raise ValueError(f"speed: {speed!r} is not allowed")
+
+
+def _require_lengths(name: str, matrix: FloatArray) -> None:
+    if not (matrix >= 0).all() or np.isinf(matrix).any():
+        raise ValueError(f"{name}: every entry must be finite and not negative")
+
+
+def _require_lon_lat(lon_lat: FloatArray) -> None:
+    if not np.isfinite(lon_lat).all() or np.abs(lon_lat[:, 1]).max(initial=0.0) > 90:
+        raise ValueError("locations: longitude and latitude must be finite, latitude in -90..90")
