@@ -1,0 +1,61 @@
+"""Compilation to machine code, kept on disk under a name that changes with the source.
+
+Numba keeps compiled functions beside a hash of the one file that defines them, and so misses a
+change in a function or constant that was imported from another file and compiled in. Here one
+fingerprint over all files that take part names the folder, so no stale code is ever run.
+"""
+
+import hashlib
+import os
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import Any, TypeVar, cast
+
+from numba import config, njit
+
+SOURCES = ("compiled", "problem", "instance", "schedule", "transition", "simulator", "features")
+"""Files with compiled functions, and those whose constants are compiled into them."""
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def compiled(function: Function) -> Function:
+    """Compile a function at its first call, or load it if that was done before."""
+    folder = compiled_folder()
+    # Numba looks the folder up while it decorates, and nowhere but in its settings.
+    config.CACHE_DIR = str(folder or "")  # type: ignore[attr-defined]
+    return cast(Function, njit(cache=folder is not None, nogil=True)(function))
+
+
+@cache
+def compiled_folder() -> Path | None:
+    """Return where compiled code is kept, or None if no folder can be written to.
+
+    It lies in NUMBA_CACHE_DIR if that is set, else beside the source or in the user's cache.
+    """
+    source = Path(__file__).parent
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    user = os.path.expanduser(os.environ.get("XDG_CACHE_HOME") or "~/.cache")
+    parents = [Path(chosen)] if chosen else [source / "__pycache__", Path(user, "tandem-planner")]
+    name = f"compiled-{fingerprint(source)}"
+    return next((parent / name for parent in parents if _can_write(parent / name)), None)
+
+
+def fingerprint(source: Path) -> str:
+    """Return a short hash of the files in `source` that take part in compilation."""
+    digest = hashlib.sha256()
+    for name in SOURCES:
+        digest.update((source / f"{name}.py").read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _can_write(folder: Path) -> bool:
+    """Tell whether files can be written in a folder, which is made if missing."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        TemporaryFile(dir=folder).close()
+    except OSError:
+        return False
+    return True

@@ -1,0 +1,155 @@
+"""Problems as packed arrays for the compiled code, padded to a common size.
+
+Rows are problems, so that one call can run rollouts of a whole training batch. Columns of the
+integer tables are named by the constants below.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from model.problem import UNLIMITED, BoolArray, Customer, FloatArray, IntArray, Problem, VehicleType
+
+MAX_DIMENSIONS = 3
+
+NODE_EARLIEST, NODE_LATEST, NODE_HARD, NODE_SERVICE, NODE_RELEASE, NODE_DEMAND = range(6)
+NODE_COLUMNS = NODE_DEMAND + MAX_DIMENSIONS
+
+(TYPE_COUNT, TYPE_TRAVEL, TYPE_DEPOT, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_WORKING,
+ TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_PROFILE, TYPE_DRONES, TYPE_DRONE_TRAVEL,
+ TYPE_ENDURANCE, TYPE_WAITING_COUNTS, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_DRONE_SERVICE,
+ TYPE_CAPACITY) = range(18)
+TYPE_PAYLOAD = TYPE_CAPACITY + MAX_DIMENSIONS
+TYPE_COLUMNS = TYPE_PAYLOAD + MAX_DIMENSIONS
+
+NO_PROFILE = -1
+
+RATE_FIXED, RATE_KM, RATE_HOUR, RATE_DRONE_KM, RATE_DRONE_HOUR = range(5)
+
+
+class Instance(NamedTuple):
+    """Packed problems. `TYPE_PROFILE` holds the number of speed changes or `NO_PROFILE`."""
+
+    size: IntArray  # (problem, 4) depots, customers, vehicle types, dimensions
+    node: IntArray  # (problem, node, NODE_COLUMNS)
+    late_early: FloatArray  # (problem, node, 2) cost per hour of lateness and of waiting
+    type: IntArray  # (problem, type, TYPE_COLUMNS)
+    rate: FloatArray  # (problem, type, 5)
+    can_drive: BoolArray  # (problem, type, node) kind, skills and capacity allow a truck
+    can_fly: BoolArray  # (problem, type, node) likewise for its drones
+    profile_time: IntArray  # (problem, type, change)
+    profile_factor: IntArray  # (problem, type, change + 1)
+    duration: IntArray  # (problem, travel, node, node)
+    distance: IntArray  # (problem, travel, node, node)
+    unassigned_cost: FloatArray  # (problem,)
+
+
+def pack(problems: Sequence[Problem]) -> Instance:
+    """Pack problems into common arrays, padded with zeros and False.
+
+    Raises
+    ------
+    ValueError
+        If `problems` is empty.
+    """
+    if not problems:
+        raise ValueError("problems: need at least one")
+    rows = len(problems)
+    nodes = max(problem.num_nodes for problem in problems)
+    types = max(len(problem.vehicle_types) for problem in problems)
+    travels = max(len(problem.travel) for problem in problems)
+    changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
+    instance = Instance(
+        size=np.zeros((rows, 4), np.int64),
+        node=np.zeros((rows, nodes, NODE_COLUMNS), np.int64),
+        late_early=np.zeros((rows, nodes, 2)),
+        type=np.zeros((rows, types, TYPE_COLUMNS), np.int64),
+        rate=np.zeros((rows, types, 5)),
+        can_drive=np.zeros((rows, types, nodes), np.bool_),
+        can_fly=np.zeros((rows, types, nodes), np.bool_),
+        profile_time=np.zeros((rows, types, changes), np.int64),
+        profile_factor=np.ones((rows, types, changes + 1), np.int64),
+        duration=np.zeros((rows, travels, nodes, nodes), np.int64),
+        distance=np.zeros((rows, travels, nodes, nodes), np.int64),
+        unassigned_cost=np.array([problem.unassigned_cost for problem in problems]),
+    )
+    for row, problem in enumerate(problems):
+        _pack_row(instance, row, problem)
+    return instance
+
+
+def _num_changes(vehicle_type: VehicleType) -> int:
+    profile = vehicle_type.speed_profile
+    return 0 if profile is None else len(profile.times)
+
+
+def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
+    """Write one problem. In place."""
+    dimensions = problem.num_dimensions
+    depots, nodes = problem.num_depots, problem.num_nodes
+    types = len(problem.vehicle_types)
+    instance.size[row] = depots, problem.num_customers, types, dimensions
+    for index, travel in enumerate(problem.travel):
+        instance.duration[row, index, :nodes, :nodes] = travel.duration
+        instance.distance[row, index, :nodes, :nodes] = travel.distance
+    if problem.customers:
+        instance.node[row, depots:nodes, : NODE_DEMAND + dimensions] = [
+            _customer_columns(customer) for customer in problem.customers]
+        instance.late_early[row, depots:nodes] = [
+            (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
+            for customer in problem.customers]
+    for index, kind in enumerate(problem.vehicle_types):
+        instance.type[row, index] = _type_columns(kind)
+        drones = kind.drones
+        instance.rate[row, index] = (
+            kind.fixed_cost, kind.cost_per_km, kind.cost_per_hour,
+            drones.cost_per_km if drones else 0.0, drones.cost_per_hour if drones else 0.0)
+        if kind.speed_profile is not None:
+            changes = len(kind.speed_profile.times)
+            instance.profile_time[row, index, :changes] = kind.speed_profile.times
+            instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
+    _pack_compatibility(instance, row, problem)
+
+
+def _customer_columns(customer: Customer) -> tuple[int, ...]:
+    return (customer.earliest, customer.latest, int(customer.late_cost_per_hour is None),
+            customer.service_duration, customer.release_time, *customer.demand)
+
+
+def _type_columns(kind: VehicleType) -> list[int]:
+    drones = kind.drones
+    columns = [
+        kind.count, kind.travel, kind.depot, kind.earliest, kind.latest,
+        UNLIMITED if kind.max_working_duration is None else kind.max_working_duration,
+        UNLIMITED if kind.max_trip_distance is None else kind.max_trip_distance,
+        kind.max_trips, kind.reload_duration,
+        NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times)]
+    if drones is None:
+        columns += [0] * (TYPE_CAPACITY - TYPE_DRONES)
+    else:
+        service = -1 if drones.service_duration is None else drones.service_duration
+        columns += [drones.count, drones.travel, drones.endurance,
+                    int(drones.endurance_includes_waiting), drones.launch_duration,
+                    drones.recovery_duration, service]
+    padding = [0] * (MAX_DIMENSIONS - len(kind.capacity))
+    payload = (0,) * MAX_DIMENSIONS if drones is None else (*drones.capacity, *padding)
+    return [*columns, *kind.capacity, *padding, *payload]
+
+
+def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
+    """Write which types may serve which customers, by truck and by drone. In place."""
+    customers = slice(problem.num_depots, problem.num_nodes)
+    demand = instance.node[row, customers, NODE_DEMAND:]
+    by_truck = np.array([c.served_by != "drone" for c in problem.customers], np.bool_)
+    by_drone = np.array([c.served_by != "truck" for c in problem.customers], np.bool_)
+    skilled_customers = [(i, c.skills) for i, c in enumerate(problem.customers) if c.skills]
+    for index, kind in enumerate(problem.vehicle_types):
+        fits = np.all(demand <= instance.type[row, index, TYPE_CAPACITY:TYPE_PAYLOAD], axis=1)
+        for customer, skills in skilled_customers:
+            fits[customer] &= skills <= kind.skills
+        instance.can_drive[row, index, customers] = fits & by_truck
+        if kind.drones is not None:
+            payload = instance.type[row, index, TYPE_PAYLOAD:]
+            liftable = (demand <= payload).all(axis=1)
+            instance.can_fly[row, index, customers] = fits & by_drone & liftable

@@ -1,0 +1,410 @@
+"""The state of running plans and what each action does to it, compiled."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from model.compiled import compiled
+from model.instance import (
+    MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
+    NODE_SERVICE, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY,
+    TYPE_DEPOT, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_EARLIEST, TYPE_LAUNCH, TYPE_MAX_WORKING,
+    TYPE_PAYLOAD, TYPE_RECOVERY, TYPE_RELOAD, TYPE_TRAVEL, Instance,
+)
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray
+from model.schedule import (
+    COUNT_OPS, COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, IN_FLIGHT, OP_IS_RECOVERY, OP_SORTIE,
+    OP_STOP, SORTIE_ARRIVAL, SORTIE_DRONE, SORTIE_LAUNCH_STOP, SORTIE_NODE, SORTIE_READY,
+    SORTIE_RECOVERY_END, SORTIE_RECOVERY_START, SORTIE_RECOVERY_STOP, SORTIE_START,
+    SORTIE_TAKEOFF, STOP_ARRIVAL, STOP_LEAVE, STOP_NODE, STOP_START, TRIP_FIRST_OP,
+    TRIP_FIRST_STOP, TRIP_RELEASE, TRIP_START, Setting, VehicleLog, drone_service, empty_logs,
+    first_departure, latest_start, log_of, replay, setting_of, travel_arrival, unreachable,
+    within_endurance,
+)
+
+(V_TYPE, V_INDEX, V_NODE, V_IDLE, V_SERVICE_END, V_FREE, V_DISTANCE, V_START_BEST,
+ V_DEPARTURE_BEST, V_NEXT_START, V_FLYING, V_LOAD) = range(12)
+V_COLUMNS = V_LOAD + MAX_DIMENSIONS
+
+(DRONE_SORTIE, DRONE_PLACE, DRONE_NODE, DRONE_TAKEOFF, DRONE_READY, DRONE_BACK,
+ DRONE_RECOVERY) = range(7)
+DRONE_COLUMNS = 7
+ABOARD, MEET, LOOP = range(3)
+
+COST_FIXED, COST_DISTANCE, COST_TIME, COST_LATENESS, COST_EARLINESS, COST_UNASSIGNED = range(6)
+
+NO_VEHICLE = -1
+
+
+class State(NamedTuple):
+    """Running plans, a row per rollout, then scratch rows. Times in ms since plan start.
+
+    `vehicle` columns, of the open vehicle: type (`NO_VEHICLE` before the first opens), index
+    within the type, node, idle (at the depot, no trip begun), end of service here, end of the
+    launches and recoveries here, distance of the trip, the latest known start of the first trip
+    that costs nothing, the departure that follows from it, earliest start of the next trip, drones
+    in flight, load left by dimension.
+
+    `drone` columns: sortie (IN_FLIGHT where aboard), where it is to be recovered (ABOARD, MEET at
+    the next stop, LOOP to this stop), customer, take-off, end of service, arrival at the recovery
+    stop, beginning of recovery.
+    """
+
+    problem: IntArray  # (rollout,) row in the Instance
+    served: BoolArray  # (rollout, node)
+    num_unserved: IntArray  # (rollout,)
+    used: IntArray  # (rollout, type) vehicles opened
+    done: BoolArray  # (rollout,)
+    vehicle: IntArray  # (rollout, V_COLUMNS)
+    drone: IntArray  # (rollout, drone, DRONE_COLUMNS)
+    log: VehicleLog
+    cost: FloatArray  # (rollout, 6) of the vehicles closed so far, by term
+    fresh: BoolArray  # (problem, type, node) servable alone by a fresh vehicle
+
+
+def empty_state(instance: Instance, rows: int) -> State:
+    """Allocate the state of `rows` rollouts, scratch included, before any vehicle opens."""
+    num_problems, num_nodes = instance.node.shape[:2]
+    num_types = instance.type.shape[1]
+    max_drones = max(1, int(instance.type[:, :, TYPE_DRONES].max()))
+    state = State(
+        problem=np.zeros(rows, np.int64),
+        served=np.zeros((rows, num_nodes), np.bool_),
+        num_unserved=np.zeros(rows, np.int64),
+        used=np.zeros((rows, num_types), np.int64),
+        done=np.zeros(rows, np.bool_),
+        vehicle=np.zeros((rows, V_COLUMNS), np.int64),
+        drone=np.zeros((rows, max_drones, DRONE_COLUMNS), np.int64),
+        log=empty_logs(rows, int(instance.size[:, 1].max())),
+        cost=np.zeros((rows, 6)),
+        fresh=np.zeros((num_problems, num_types, num_nodes), np.bool_),
+    )
+    state.vehicle[:, V_TYPE] = NO_VEHICLE
+    state.drone[:, :, DRONE_SORTIE] = IN_FLIGHT
+    return state
+
+
+@compiled
+def recover(setting: Setting, drones: IntArray, place: int, node: int, free: int) -> int:
+    """Recover the drones marked `place` one after another at `node`, in order of arrival.
+
+    In place: notes each one's arrival and beginning of recovery. Returns when the last is
+    recovered, `free` if there is none. Where one can't be within its endurance: -1, and in place,
+    if it was to MEET the truck, it is marked LOOP instead.
+    """
+    for d in range(len(drones)):
+        if drones[d, DRONE_PLACE] == place:
+            drones[d, DRONE_BACK] = drones[d, DRONE_READY] + setting.fly[drones[d, DRONE_NODE],
+                                                                         node]
+            drones[d, DRONE_RECOVERY] = -1
+    while True:
+        chosen = -1
+        for d in range(len(drones)):
+            if drones[d, DRONE_PLACE] == place and drones[d, DRONE_RECOVERY] < 0 and (
+                    chosen < 0 or drones[d, DRONE_BACK] < drones[chosen, DRONE_BACK]):
+                chosen = d
+        if chosen < 0:
+            return free
+        back = drones[chosen, DRONE_BACK]
+        begin = max(free, back)
+        if unreachable(back) or not within_endurance(setting.type, drones[chosen, DRONE_TAKEOFF],
+                                                     back, begin):
+            if place == MEET:
+                drones[chosen, DRONE_PLACE] = LOOP
+            return -1
+        drones[chosen, DRONE_RECOVERY] = begin
+        free = begin + setting.type[TYPE_RECOVERY]
+
+
+@compiled
+def leave_for(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) -> tuple[int, int]:
+    """Decide where the sorties in flight are recovered if the truck drives to `to` next.
+
+    In place: marks each as MEET or LOOP with its times. Returns the truck's arrival at `to` and
+    the end of the recoveries there; -1, -1 if some sortie can be recovered neither here nor there.
+    """
+    here = vehicle[V_NODE]
+    if vehicle[V_FLYING] == 0:
+        leave = max(vehicle[V_SERVICE_END], vehicle[V_FREE])
+        arrival = travel_arrival(setting, here, to, leave)
+        return arrival, arrival
+    for d in range(len(drones)):
+        drones[d, DRONE_PLACE] = ABOARD if drones[d, DRONE_SORTIE] == IN_FLIGHT else MEET
+    while True:
+        free = recover(setting, drones, LOOP, here, vehicle[V_FREE])
+        if free < 0:
+            return -1, -1
+        arrival = travel_arrival(setting, here, to, max(vehicle[V_SERVICE_END], free))
+        free = recover(setting, drones, MEET, to, arrival)
+        if free >= 0:
+            return arrival, free
+
+
+@compiled
+def log_op(log: VehicleLog, stop: int, sortie: int, is_recovery: bool) -> None:
+    """Append a launch or recovery. In place."""
+    op = log.op[log.count[COUNT_OPS]]
+    op[OP_STOP], op[OP_SORTIE], op[OP_IS_RECOVERY] = stop, sortie, is_recovery
+    log.count[COUNT_OPS] += 1
+
+
+@compiled
+def log_stop(log: VehicleLog, node: int, arrival: int, start: int, leave: int) -> None:
+    """Append a stop. In place."""
+    stop = log.stop[log.count[COUNT_STOPS]]
+    stop[STOP_NODE], stop[STOP_ARRIVAL], stop[STOP_START] = node, arrival, start
+    stop[STOP_LEAVE] = leave
+    log.count[COUNT_STOPS] += 1
+
+
+@compiled
+def log_recoveries(setting: Setting, log: VehicleLog, drones: IntArray, place: int,
+                   stop: int) -> None:
+    """Append the recoveries decided by `leave_for`, in order. In place."""
+    while True:
+        chosen = -1
+        for d in range(len(drones)):
+            if drones[d, DRONE_PLACE] == place and (
+                    chosen < 0 or drones[d, DRONE_RECOVERY] < drones[chosen, DRONE_RECOVERY]
+                    or (drones[d, DRONE_RECOVERY] == drones[chosen, DRONE_RECOVERY]
+                        and drones[d, DRONE_BACK] < drones[chosen, DRONE_BACK])):
+                chosen = d
+        if chosen < 0:
+            return
+        drone = drones[chosen]
+        sortie = log.sortie[drone[DRONE_SORTIE]]
+        sortie[SORTIE_RECOVERY_STOP] = stop
+        sortie[SORTIE_RECOVERY_START] = drone[DRONE_RECOVERY]
+        sortie[SORTIE_RECOVERY_END] = drone[DRONE_RECOVERY] + setting.type[TYPE_RECOVERY]
+        log_op(log, stop, drone[DRONE_SORTIE], True)
+        drone[DRONE_PLACE] = ABOARD
+        drone[DRONE_SORTIE] = IN_FLIGHT
+
+
+@compiled
+def begin_trip(log: VehicleLog, vehicle: IntArray, release: int) -> None:
+    """Begin a trip of the idle vehicle as soon as the parcel is released. In place."""
+    start = max(vehicle[V_NEXT_START], release)
+    trip = log.trip[log.count[COUNT_TRIPS]]
+    trip[TRIP_FIRST_STOP], trip[TRIP_FIRST_OP] = log.count[COUNT_STOPS], log.count[COUNT_OPS]
+    trip[TRIP_RELEASE], trip[TRIP_START] = release, start
+    log.count[COUNT_TRIPS] += 1
+    log_stop(log, vehicle[V_NODE], start, start, start)
+    if log.count[COUNT_TRIPS] == 1:
+        vehicle[V_START_BEST] = start
+        vehicle[V_DEPARTURE_BEST] = start
+    vehicle[V_IDLE] = 0
+    vehicle[V_SERVICE_END] = vehicle[V_FREE] = start
+
+
+@compiled
+def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+              drones: IntArray, release: int) -> bool:
+    """Let the trip begin no earlier than `release`. In place; False if it can't be held so long."""
+    trip = log.trip[log.count[COUNT_TRIPS] - 1]
+    trip[TRIP_RELEASE] = max(trip[TRIP_RELEASE], release)
+    if trip[TRIP_START] >= release:
+        return True
+    if not replay(setting, num_depots, log, log.count[COUNT_TRIPS] - 1, release, True):
+        return False
+    here = log.count[COUNT_STOPS] - 1
+    stop = log.stop[here]
+    vehicle[V_SERVICE_END] = stop[STOP_START]
+    if stop[STOP_NODE] >= num_depots:
+        vehicle[V_SERVICE_END] += setting.node[stop[STOP_NODE], NODE_SERVICE]
+    vehicle[V_FREE] = stop[STOP_ARRIVAL]
+    last = log.count[COUNT_OPS] - 1
+    if last >= 0 and log.op[last, OP_STOP] == here:
+        sortie = log.sortie[log.op[last, OP_SORTIE]]
+        ended = SORTIE_RECOVERY_END if log.op[last, OP_IS_RECOVERY] else SORTIE_TAKEOFF
+        vehicle[V_FREE] = sortie[ended]
+    for d in range(len(drones)):
+        if drones[d, DRONE_SORTIE] != IN_FLIGHT:
+            sortie = log.sortie[drones[d, DRONE_SORTIE]]
+            drones[d, DRONE_TAKEOFF], drones[d, DRONE_READY] = (sortie[SORTIE_TAKEOFF],
+                                                                sortie[SORTIE_READY])
+    if log.count[COUNT_TRIPS] == 1:
+        vehicle[V_START_BEST] = max(vehicle[V_START_BEST], release)
+    return True
+
+
+@compiled
+def improve_departure(setting: Setting, num_depots: int, log: VehicleLog,
+                      vehicle: IntArray) -> None:
+    """Find how late the vehicle could have left without ending its last stop later. In place."""
+    if setting.type[TYPE_MAX_WORKING] < UNLIMITED:
+        vehicle[V_START_BEST] = latest_start(setting, num_depots, log, 0, vehicle[V_START_BEST])
+    vehicle[V_DEPARTURE_BEST] = first_departure(setting, log, vehicle[V_START_BEST])
+
+
+@compiled
+def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, node: int,
+          takeoff: int) -> int:
+    """Put the first drone aboard into the air, to a customer. In place; return which."""
+    drone = 0
+    while drones[drone, DRONE_SORTIE] != IN_FLIGHT:
+        drone += 1
+    arrival = takeoff + setting.fly[vehicle[V_NODE], node]
+    drones[drone, DRONE_SORTIE], drones[drone, DRONE_NODE] = sortie, node
+    drones[drone, DRONE_TAKEOFF] = takeoff
+    drones[drone, DRONE_READY] = (max(arrival, setting.node[node, NODE_EARLIEST])
+                                  + drone_service(setting, node))
+    vehicle[V_FLYING] += 1
+    vehicle[V_FREE] = takeoff
+    return drone
+
+
+@compiled
+def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+           drones: IntArray, node: int) -> bool:
+    """Launch a drone to a customer. In place; False if a window or a distance forbids it."""
+    release = setting.node[node, NODE_RELEASE]
+    if vehicle[V_IDLE]:
+        begin_trip(log, vehicle, release)
+    elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
+        return False
+    takeoff = vehicle[V_FREE] + setting.type[TYPE_LAUNCH]
+    flight = setting.fly[vehicle[V_NODE], node]
+    arrival = takeoff + flight
+    if unreachable(flight) or (setting.node[node, NODE_HARD]
+                               and arrival > setting.node[node, NODE_LATEST]):
+        return False
+    here = log.count[COUNT_STOPS] - 1
+    index = log.count[COUNT_SORTIES]
+    drone = board(setting, vehicle, drones, index, node, takeoff)
+    sortie = log.sortie[index]
+    sortie[SORTIE_DRONE], sortie[SORTIE_NODE], sortie[SORTIE_LAUNCH_STOP] = drone, node, here
+    sortie[SORTIE_RECOVERY_STOP] = IN_FLIGHT
+    sortie[SORTIE_TAKEOFF], sortie[SORTIE_ARRIVAL] = takeoff, arrival
+    sortie[SORTIE_START] = max(arrival, setting.node[node, NODE_EARLIEST])
+    sortie[SORTIE_READY] = drones[drone, DRONE_READY]
+    log.count[COUNT_SORTIES] += 1
+    log_op(log, here, index, False)
+    log.stop[here, STOP_LEAVE] = max(vehicle[V_SERVICE_END], takeoff)
+    take_load(setting, vehicle, node)
+    # The start known so far kept the end of service here, not the arrival, on which launches hang.
+    vehicle[V_START_BEST] = log.trip[0, TRIP_START]
+    improve_departure(setting, num_depots, log, vehicle)
+    return True
+
+
+@compiled
+def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+          drones: IntArray, node: int) -> bool:
+    """Drive to a customer or home. In place; False if a window or an endurance forbids it."""
+    is_customer = node >= num_depots
+    release = setting.node[node, NODE_RELEASE]
+    if vehicle[V_IDLE]:
+        begin_trip(log, vehicle, release)
+    elif is_customer and not hold_trip(setting, num_depots, log, vehicle, drones, release):
+        return False
+    arrival, free = leave_for(setting, vehicle, drones, node)
+    if arrival < 0 or (is_customer and setting.node[node, NODE_HARD]
+                       and arrival > setting.node[node, NODE_LATEST]):
+        return False
+    if vehicle[V_FLYING] > 0:
+        here = log.count[COUNT_STOPS] - 1
+        left = recover(setting, drones, LOOP, vehicle[V_NODE], vehicle[V_FREE])
+        log.stop[here, STOP_LEAVE] = max(vehicle[V_SERVICE_END], left)
+        log_recoveries(setting, log, drones, LOOP, here)
+        log_recoveries(setting, log, drones, MEET, here + 1)
+        vehicle[V_FLYING] = 0
+        # The start known so far kept the drones' return, not the last take-off before recoveries.
+        vehicle[V_START_BEST] = log.trip[0, TRIP_START]
+    start = arrival
+    service_end = arrival
+    if is_customer:
+        start = max(arrival, setting.node[node, NODE_EARLIEST])
+        service_end = start + setting.node[node, NODE_SERVICE]
+        take_load(setting, vehicle, node)
+    log_stop(log, node, arrival, start, max(service_end, free))
+    vehicle[V_NODE] = node
+    vehicle[V_SERVICE_END], vehicle[V_FREE] = service_end, free
+    improve_departure(setting, num_depots, log, vehicle)
+    if not is_customer:
+        vehicle[V_IDLE] = 1
+        vehicle[V_DISTANCE] = 0
+        vehicle[V_NEXT_START] = free + setting.type[TYPE_RELOAD]
+        vehicle[V_LOAD:] = setting.type[TYPE_CAPACITY:TYPE_PAYLOAD]
+    return True
+
+
+@compiled
+def take_load(setting: Setting, vehicle: IntArray, node: int) -> None:
+    """Take a customer's demand from the load left. In place."""
+    for dimension in range(MAX_DIMENSIONS):
+        vehicle[V_LOAD + dimension] -= setting.node[node, NODE_DEMAND + dimension]
+
+
+@compiled
+def open_vehicle(instance: Instance, state: State, r: int, k: int) -> None:
+    """Let a fresh vehicle of type `k` stand ready at its depot. In place."""
+    b = state.problem[r]
+    vehicle = state.vehicle[r]
+    vehicle[:] = 0
+    vehicle[V_TYPE], vehicle[V_INDEX] = k, state.used[r, k]
+    vehicle[V_NODE] = instance.type[b, k, TYPE_DEPOT]
+    vehicle[V_IDLE] = 1
+    vehicle[V_NEXT_START] = instance.type[b, k, TYPE_EARLIEST]
+    vehicle[V_LOAD:] = instance.type[b, k, TYPE_CAPACITY:TYPE_PAYLOAD]
+    state.drone[r, :, DRONE_SORTIE] = IN_FLIGHT
+    state.log.count[r] = 0
+    state.used[r, k] += 1
+
+
+@compiled
+def close_vehicle(instance: Instance, state: State, r: int) -> None:
+    """Let each trip of the vehicle begin as late as costs nothing and add its cost. In place."""
+    b = state.problem[r]
+    k = state.vehicle[r, V_TYPE]
+    setting = setting_of(instance, b, k)
+    log = log_of(state.log, r)
+    num_depots = instance.size[b, 0]
+    for trip in range(log.count[COUNT_TRIPS]):
+        known = log.trip[trip, TRIP_START]
+        if trip == 0:
+            known = max(known, state.vehicle[r, V_START_BEST])
+        start = latest_start(setting, num_depots, log, trip, known)
+        if start > log.trip[trip, TRIP_START]:
+            replay(setting, num_depots, log, trip, start, True)
+    if log.count[COUNT_TRIPS] > 0:
+        add_cost(instance, setting, log, b, k, state.cost[r])
+
+
+@compiled
+def add_window_cost(instance: Instance, b: int, node: int, arrival: int, start: int,
+                    cost: FloatArray) -> None:
+    """Add what lateness and earliness at a customer cost. In place."""
+    late = max(0, arrival - instance.node[b, node, NODE_LATEST])
+    cost[COST_LATENESS] += late / MS_PER_HOUR * instance.late_early[b, node, 0]
+    cost[COST_EARLINESS] += (start - arrival) / MS_PER_HOUR * instance.late_early[b, node, 1]
+
+
+@compiled
+def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: int,
+             cost: FloatArray) -> None:
+    """Add the cost of the vehicle in the log. In place."""
+    rate = instance.rate[b, k]
+    driven, flown, airborne = 0, 0, 0
+    legs = instance.distance[b, setting.type[TYPE_TRAVEL]]
+    flights = instance.distance[b, setting.type[TYPE_DRONE_TRAVEL]]
+    for index in range(1, log.count[COUNT_STOPS]):
+        node = log.stop[index, STOP_NODE]
+        driven += legs[log.stop[index - 1, STOP_NODE], node]
+        if node >= instance.size[b, 0]:
+            add_window_cost(instance, b, node, log.stop[index, STOP_ARRIVAL],
+                            log.stop[index, STOP_START], cost)
+    for index in range(log.count[COUNT_SORTIES]):
+        sortie = log.sortie[index]
+        node = sortie[SORTIE_NODE]
+        flown += flights[log.stop[sortie[SORTIE_LAUNCH_STOP], STOP_NODE], node]
+        flown += flights[node, log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE]]
+        airborne += sortie[SORTIE_RECOVERY_END] - sortie[SORTIE_TAKEOFF]
+        add_window_cost(instance, b, node, sortie[SORTIE_ARRIVAL], sortie[SORTIE_START], cost)
+    end = log.stop[log.count[COUNT_STOPS] - 1, STOP_LEAVE]
+    working = end - first_departure(setting, log, log.trip[0, TRIP_START])
+    cost[COST_FIXED] += rate[RATE_FIXED]
+    cost[COST_DISTANCE] += driven / MM_PER_KM * rate[RATE_KM]
+    cost[COST_DISTANCE] += flown / MM_PER_KM * rate[RATE_DRONE_KM]
+    cost[COST_TIME] += working / MS_PER_HOUR * rate[RATE_HOUR]
+    cost[COST_TIME] += airborne / MS_PER_HOUR * rate[RATE_DRONE_HOUR]
