@@ -1,0 +1,82 @@
+"""Random problems to train and validate on: the mix of `training.variants` and `mixture`."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from model.problem import Problem
+from training.mixture import mixed
+from training.variants import (
+    InstanceConfig,
+    cvrp,
+    drone,
+    hetero,
+    multitrip,
+    soft,
+    table1,
+    vrptw,
+)
+
+__all__ = ["VARIANTS", "InstanceConfig", "generate", "sample_variant", "validation_set"]
+
+VARIANTS: dict[str, Callable[[np.random.Generator, int, InstanceConfig], Problem]] = {
+    "cvrp": cvrp,
+    "vrptw": vrptw,
+    "soft": soft,
+    "hetero": hetero,
+    "multitrip": multitrip,
+    "drone": drone,
+    "table1": table1,
+    "mixed": mixed,
+}
+
+SHARES = {"cvrp": 0.08, "vrptw": 0.18, "soft": 0.1, "hetero": 0.12, "multitrip": 0.12,
+          "drone": 0.14, "table1": 0.1, "mixed": 0.16}
+"""How often training draws each variant."""
+
+CUMULATIVE_SHARES = np.cumsum([SHARES[name] for name in VARIANTS])
+
+DEFAULT_CONFIG = InstanceConfig()
+
+VALIDATION_SIZES = (20, 50, 20, 50, 100)
+"""Customers of the validation set's instances, in turn."""
+
+
+def generate(rng: np.random.Generator, num_customers: int, variant: str,
+             config: InstanceConfig = DEFAULT_CONFIG) -> Problem:
+    """Draw a problem.
+
+    Raises
+    ------
+    ValueError
+        If the variant is unknown or there is no customer.
+    """
+    if variant not in VARIANTS:
+        raise ValueError(f"variant: {variant!r} is not one of {', '.join(VARIANTS)}")
+    if num_customers < 1:
+        raise ValueError(f"num_customers: {num_customers!r} is not allowed")
+    return VARIANTS[variant](rng, num_customers, config)
+
+
+def sample_variant(rng: np.random.Generator) -> str:
+    """Draw the name of a variant by `SHARES`."""
+    names = tuple(VARIANTS)
+    return names[min(int(np.searchsorted(CUMULATIVE_SHARES, rng.random(), "right")),
+                     len(names) - 1)]
+
+
+def validation_set(size: int = 200, seed: int = 20_250_926) -> list[tuple[str, Problem]]:
+    """Return the named problems that every run is measured on.
+
+    Variants take turns, then sizes (40 % of 20 customers, 40 % of 50, 20 % of 100): by default
+    each variant has 10, 10 and 5. Each problem has its own stream, so a smaller set is a prefix of
+    a larger one.
+    """
+    names, problems = tuple(VARIANTS), []
+    for index in range(size):
+        variant = names[index % len(names)]
+        num_customers = VALIDATION_SIZES[index // len(names) % len(VALIDATION_SIZES)]
+        rng = np.random.default_rng((seed, index))
+        problems.append((f"{variant}-n{num_customers}-{index:03d}",
+                         generate(rng, num_customers, variant)))
+    return problems
