@@ -1,0 +1,274 @@
+"""Train a policy by REINFORCE. Read from top to bottom; run with `python -m training.train`.
+
+One process, or many: `torchrun --nproc-per-node=N -m training.train ...`. A run that finds its
+checkpoint goes on from there exactly: weights, optimisers, random state, step of the curriculum.
+"""
+
+import csv
+import dataclasses
+import os
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import torch
+import torch.distributed as dist
+import typer
+from torch.utils.tensorboard import SummaryWriter
+from tqdm import tqdm
+
+from model.policy_pointer import Critic
+from training.config import TrainConfig
+from training.dataset import join
+from training.instances import generate, sample_variant, validation_set
+from training.learn import BASELINES, critic_step, policy_gradient, training_costs
+from training.policies import POLICIES
+from training.rollout import Batch, greedy, make_batch, roll_out, sampler
+from training.rules import nearest_neighbour
+
+SAVE_EVERY = 120.0
+VALIDATE_EVERY = 300.0
+BF16_DEVICES = ("cuda",)
+
+
+def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
+          max_steps: int | None = None, validation_size: int = 80) -> dict[str, float]:
+    """Train for some minutes or up to a step; return the last validation's ratios by variant.
+
+    Parameters
+    ----------
+    config
+        The run.
+    folder
+        Receives `checkpoint.pt`, `log.csv`, `validation.csv` and TensorBoard's events.
+    minutes
+        Length of this leg.
+    device_name
+        `cpu` or `cuda`.
+    max_steps
+        Stop at this step even if time is left.
+    validation_size
+        How many problems of the fixed validation set to plan at each validation.
+    """
+    rank, world = start_processes()
+    device = torch.device(device_name)
+    folder.mkdir(parents=True, exist_ok=True)
+    torch.manual_seed(config.seed)
+    run = Run(config, device, rank)
+    if (folder / "checkpoint.pt").exists():
+        run.load(folder / "checkpoint.pt")
+    validation = validation_batches(validation_size)
+    log = Log(folder) if rank == 0 else None
+    began = saved = time.monotonic()
+    validated = began - VALIDATE_EVERY + min(60.0, VALIDATE_EVERY)
+    bar = tqdm(desc=config.policy, unit="problem", disable=rank != 0)
+    while time.monotonic() - began < 60 * minutes and run.step != max_steps:
+        numbers = run.train_step(world)
+        bar.update(int(numbers["problems"]) * world)
+        if log is None:
+            continue
+        log.write("log.csv", {"step": run.step, "seconds": run.seconds(), **numbers})
+        bar.set_postfix(n=int(numbers["customers"]), cost=f"{numbers['cost']:.3f}",
+                        entropy=f"{numbers['entropy']:.2f}")
+        if time.monotonic() - validated > VALIDATE_EVERY:
+            log.write("validation.csv", {"step": run.step, "seconds": run.seconds(),
+                                         **validate(run, validation)})
+            validated = time.monotonic()
+        if time.monotonic() - saved > SAVE_EVERY:
+            run.save(folder / "checkpoint.pt")
+            saved = time.monotonic()
+    ratios: dict[str, float] = {}
+    if log is not None:
+        run.save(folder / "checkpoint.pt")
+        ratios = validate(run, validation)
+        log.write("validation.csv", {"step": run.step, "seconds": run.seconds(), **ratios})
+        log.close()
+    bar.close()
+    if world > 1:
+        dist.destroy_process_group()
+    return ratios
+
+
+def start_processes() -> tuple[int, int]:
+    """Join the other processes if a launcher started several; return rank and number."""
+    if "WORLD_SIZE" not in os.environ:
+        return 0, 1
+    dist.init_process_group("nccl" if torch.cuda.is_available() else "gloo")
+    return dist.get_rank(), dist.get_world_size()
+
+
+class Run:
+    """What a checkpoint keeps: networks, optimisers, random state, step."""
+
+    def __init__(self, config: TrainConfig, device: torch.device, rank: int) -> None:
+        self.config = config
+        self.device = device
+        self.num_threads = os.cpu_count() or 1
+        self.policy = POLICIES[config.policy]().to(device)
+        self.critic = Critic().to(device)
+        self.optimizer = torch.optim.AdamW(self.policy.parameters(), lr=config.learning_rate,
+                                           weight_decay=1e-6)
+        self.critic_optimizer = torch.optim.Adam(self.critic.parameters(), lr=config.critic_rate)
+        self.rng = np.random.default_rng((config.seed, rank))
+        self.generator = torch.Generator(device).manual_seed(config.seed + rank)
+        self.step = 0
+        self.spread = 1.0  # running standard deviation of advantages
+        self.past_seconds = 0.0
+        self.began = time.monotonic()
+
+    def seconds(self) -> float:
+        """Return the training time of all legs so far."""
+        return self.past_seconds + time.monotonic() - self.began
+
+    def draw_batch(self) -> Batch:
+        """Draw problems of one size, of all variants."""
+        size = self.config.size_at(self.step)
+        if self.rng.random() < self.config.size_mix:
+            size = int(self.rng.integers(self.config.sizes[0][1] // 2, size + 1))
+        names = [sample_variant(self.rng) for _ in range(self.config.problems_at(size))]
+        problems = [generate(self.rng, size, name) for name in names]
+        return make_batch(problems, names, self.rng)
+
+    def train_step(self, world: int) -> dict[str, float]:
+        """Roll out, compare with the baseline, move both networks. In place; return numbers."""
+        config = self.config
+        began = time.monotonic()
+        batch = self.draw_batch()
+        rollouts = np.repeat(np.arange(batch.num_problems), config.num_rollouts)
+        with torch.autocast(self.device.type, torch.bfloat16,
+                            enabled=self.device.type in BF16_DEVICES):
+            outcome = roll_out(self.policy, batch, rollouts, sampler(self.generator), self.device,
+                               self.num_threads)
+        rolled = time.monotonic()
+        costs = torch.from_numpy(training_costs(
+            batch, outcome, config.num_rollouts, config.unassigned_weight)).float().to(self.device)
+        node, kind, _, mask = batch.encoder_inputs(self.device)
+        value, critic_loss = critic_step(self.critic, self.critic_optimizer, (node, kind, mask),
+                                         costs)
+        advantage = BASELINES[config.baseline](costs, value).flatten()
+        self.spread = 0.95 * self.spread + 0.05 * float(advantage.std())
+        advantage = (advantage / self.spread).clamp(-4, 4)
+        self.optimizer.zero_grad()
+        loss = policy_gradient(
+            self.policy, batch, *join(outcome.record), advantage, config.max_candidates, config.entropy_weight,
+            self.device.type in BF16_DEVICES)
+        norm = self.move(world)
+        self.step += 1
+        ended = time.monotonic()
+        return {"customers": int(batch.instance.size[0, 1]), "problems": batch.num_problems,
+                "cost": float(costs.mean()), "unserved": float(outcome.num_unserved.mean()),
+                "policy_loss": loss.policy, "critic_loss": critic_loss, "entropy": loss.entropy,
+                "gradient_norm": norm, "problems_per_second":
+                batch.num_problems * world / (ended - began), "rollout_share":
+                (rolled - began) / (ended - began)}
+
+    def move(self, world: int) -> float:
+        """Take the optimiser's step with the gradients of all processes; return their norm."""
+        if world > 1:
+            for parameter in self.policy.parameters():
+                if parameter.grad is None:
+                    parameter.grad = torch.zeros_like(parameter)
+                dist.all_reduce(parameter.grad, op=dist.ReduceOp.AVG)
+            for parameter in self.critic.parameters():
+                dist.all_reduce(parameter.data, op=dist.ReduceOp.AVG)
+        norm = torch.nn.utils.clip_grad_norm_(self.policy.parameters(), self.config.gradient_clip)
+        for group in self.optimizer.param_groups:
+            group["lr"] = self.config.learning_rate_at(self.step)
+        self.optimizer.step()
+        return float(norm)
+
+    def save(self, path: Path) -> None:
+        """Write the checkpoint whole or not at all."""
+        content = {
+            "config": dataclasses.asdict(self.config), "policy": self.policy.state_dict(),
+            "critic": self.critic.state_dict(), "optimizer": self.optimizer.state_dict(),
+            "critic_optimizer": self.critic_optimizer.state_dict(),
+            "rng": self.rng.bit_generator.state, "generator": self.generator.get_state(),
+            "step": self.step, "spread": self.spread, "seconds": self.seconds()}
+        torch.save(content, path.with_suffix(".part"))
+        path.with_suffix(".part").replace(path)
+
+    def load(self, path: Path) -> None:
+        """Go on from a checkpoint. In place."""
+        content: dict[str, Any] = torch.load(path, map_location=self.device, weights_only=False)
+        self.policy.load_state_dict(content["policy"])
+        self.critic.load_state_dict(content["critic"])
+        self.optimizer.load_state_dict(content["optimizer"])
+        self.critic_optimizer.load_state_dict(content["critic_optimizer"])
+        self.rng.bit_generator.state = content["rng"]
+        if content["generator"].shape == self.generator.get_state().shape:
+            self.generator.set_state(content["generator"].cpu())
+        self.step, self.spread = content["step"], content["spread"]
+        self.past_seconds = content["seconds"]
+
+
+def validation_batches(size: int) -> list[tuple[Batch, np.ndarray]]:
+    """Pack the fixed validation set by size, each with its nearest-neighbour costs."""
+    groups: dict[int, list[tuple[str, Any]]] = {}
+    for name, problem in validation_set(size):
+        groups.setdefault(problem.num_customers, []).append((name.split("-")[0], problem))
+    batches = [make_batch([problem for _, problem in group], [name for name, _ in group])
+               for group in groups.values()]
+    return [(batch, nearest_neighbour(batch)) for batch in batches]
+
+
+def validate(run: Run, batches: list[tuple[Batch, np.ndarray]]) -> dict[str, float]:
+    """Plan greedily; return, by variant and size, the mean cost over the nearest neighbour's."""
+    ratios: dict[str, list[float]] = {}
+    for batch, reference in batches:
+        outcome = roll_out(run.policy, batch, np.arange(batch.num_problems), greedy, run.device,
+                           run.num_threads)
+        size = int(batch.instance.size[0, 1])
+        for name, cost, nearest in zip(batch.names, outcome.cost.sum(axis=1), reference,
+                                       strict=True):
+            for key in (name, f"n{size}", "all"):
+                ratios.setdefault(key, []).append(float(cost / max(nearest, 1e-9)))
+    return {key: float(np.mean(ratios[key])) for key in sorted(ratios)}
+
+
+class Log:
+    """CSV files and TensorBoard's events in one folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._board = SummaryWriter(str(folder))
+
+    def write(self, name: str, row: dict[str, float]) -> None:
+        """Append a row and plot its numbers over the step."""
+        path = self._folder / name
+        is_new = not path.exists()
+        with path.open("a", newline="") as file:
+            writer = csv.DictWriter(file, list(row))
+            if is_new:
+                writer.writeheader()
+            writer.writerow(row)
+        for key, value in row.items():
+            self._board.add_scalar(f"{path.stem}/{key}", value, int(row["step"]))
+
+    def close(self) -> None:
+        """Write what is left."""
+        self._board.close()
+
+
+def main(
+    folder: Annotated[Path, typer.Option(help="where checkpoint and logs go")],
+    policy: str = "pointer", baseline: str = "critic", minutes: float = 60.0,
+    device: str = "cpu", seed: int = 0, learning_rate: float = 1e-3, num_problems: int = 64,
+    num_rollouts: int = 8, entropy_weight: float = 0.0, max_candidates: int = 200_000,
+    max_steps: Annotated[int | None, typer.Option(help="stop at this step")] = None,
+    sizes: Annotated[str, typer.Option(help="curriculum, first step:customers")] = "0:20,4000:50",
+    decay: Annotated[str, typer.Option(help="steps first:last of the decay")] = "1000000:1000000",
+) -> None:
+    """Train a policy; goes on from the checkpoint in FOLDER if there is one."""
+    curriculum = tuple((int(a), int(b)) for a, b in (pair.split(":") for pair in sizes.split(",")))
+    first, last = (int(step) for step in decay.split(":"))
+    config = TrainConfig(
+        policy=policy, baseline=baseline, seed=seed, sizes=curriculum,  # type: ignore[arg-type]
+        num_problems=num_problems, num_rollouts=num_rollouts, learning_rate=learning_rate,
+        decay=(first, last), entropy_weight=entropy_weight, max_candidates=max_candidates)
+    print(train(config, folder, minutes, device, max_steps))
+
+
+if __name__ == "__main__":
+    typer.run(main)
