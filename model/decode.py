@@ -1,0 +1,168 @@
+"""Plans from an exported policy: greedy or sampled, one network call a decision for all samples."""
+
+import json
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import onnxruntime as ort
+from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
+
+from model.features import (
+    Float32Array, Observation, Scales, Tokens, act, empty_observation, observe, scales, tokens,
+)
+from model.instance import Instance
+from model.problem import BoolArray, IntArray, Problem
+from model.simulator import reset
+
+ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.InvalidGraph,
+              ort_errors.Fail)
+
+NO_ACTION = -1
+
+BLOCK = 128
+"""Samples planned side by side; further ones follow in further blocks, so memory is bounded."""
+
+
+@dataclass(frozen=True)
+class DecodeConfig:
+    """How to choose actions."""
+
+    decoding: Literal["greedy", "sample"] = "greedy"
+    num_samples: int = 64
+    temperature: float = 1.0
+    seed: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Policy:
+    """An exported policy: one run of `encoder` per plan, one of `step` per decision."""
+
+    name: str
+    encoder: ort.InferenceSession
+    step: ort.InferenceSession
+    hidden_size: int
+
+
+@dataclass(frozen=True, eq=False)
+class Decoded:
+    """The best rollout."""
+
+    actions: tuple[int, ...]
+    cost: float
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A problem as the policy sees it."""
+
+    instance: Instance
+    scale: Scales
+    tokens: Tokens
+    memory: Float32Array  # (token, width)
+
+
+def load_policy(folder: Path) -> Policy:
+    """Load `encoder.onnx`, `step.onnx` and `card.json`.
+
+    Raises
+    ------
+    ValueError
+        If one of them is missing or can't be read.
+    """
+    options = ort.SessionOptions()
+    options.intra_op_num_threads = 1
+    options.inter_op_num_threads = 1
+    options.add_session_config_entry("session.intra_op.allow_spinning", "0")
+    try:
+        card = json.loads((folder / "card.json").read_text())
+        encoder, step = (ort.InferenceSession(str(folder / f"{part}.onnx"), options,
+                                              providers=["CPUExecutionProvider"])
+                         for part in ("encoder", "step"))
+    except (OSError, ValueError, *ORT_ERRORS) as error:
+        raise ValueError(f"policy folder: {str(folder)!r} is not usable: {error}") from error
+    return Policy(folder.name, encoder, step, hidden_size=int(card["hidden_size"]))
+
+
+def prepare(policy: Policy, problem: Problem, instance: Instance) -> Scene:
+    """Run the encoder."""
+    scale = scales(instance)
+    seen = tokens(instance, scale, problem.coordinates[None])
+    memory, = policy.encoder.run(None, {"node": seen.node, "type": seen.type,
+                                        "pair": seen.pair})
+    return Scene(instance, scale, seen, memory)
+
+
+def decode(policy: Policy, scene: Scene, config: DecodeConfig,
+           deadline: float | None = None) -> Decoded:
+    """Plan by the policy; return the cheapest of the rollouts.
+
+    Parameters
+    ----------
+    policy
+        An exported policy.
+    scene
+        The problem, prepared by the same policy.
+    config
+        Greedy or sampled; the same seed gives the same plan.
+    deadline
+        On `time.perf_counter`; no block of samples begins later, but the first. None: no limit.
+    """
+    if config.decoding == "greedy":
+        return _decode_block(policy, scene, 1, None, 1.0)
+    rng = np.random.default_rng(config.seed)
+    best: Decoded | None = None
+    for first in range(0, config.num_samples, BLOCK):
+        if best is not None and deadline is not None and time.perf_counter() >= deadline:
+            break
+        rows = min(BLOCK, config.num_samples - first)
+        block = _decode_block(policy, scene, rows, rng, config.temperature)
+        if best is None or block.cost < best.cost:
+            best = block
+    if best is None:
+        raise ValueError(f"num_samples: {config.num_samples!r} is not allowed")
+    return best
+
+
+def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Generator | None,
+                  temperature: float) -> Decoded:
+    """Plan `rows` rollouts side by side; sampled if there is an `rng`, else greedy."""
+    instance = scene.instance
+    state = reset(instance, np.zeros(rows, np.int64))
+    seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
+    hidden = np.zeros((rows, policy.hidden_size), np.float32)
+    choice = np.zeros(rows, np.int64)
+    steps = []
+    # Each step serves, opens or returns, and no trip and no vehicle stays empty.
+    for _ in range(3 * int(instance.size[0, 1]) + 2):
+        most = observe(instance, scene.scale, state, scene.tokens.type, 0, rows, rows, seen)
+        if most == 0:
+            break
+        logits, hidden = policy.step.run(None, step_inputs(scene, seen, most, hidden))
+        if rng is None:
+            logits.argmax(axis=1, out=choice)
+        else:
+            noise = rng.standard_exponential(logits.shape, np.float32)
+            np.subtract(logits / temperature, np.log(noise)).argmax(axis=1, out=choice)
+        steps.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
+        act(instance, state, 0, rows, choice, seen)
+    cost = state.cost[:rows].sum(axis=1)
+    best = int(cost.argmin())
+    actions = [int(step[best]) for step in steps]
+    return Decoded(tuple(action for action in actions if action != NO_ACTION), float(cost[best]))
+
+
+def step_inputs(scene: Scene, seen: Observation, most: int,
+                hidden: Float32Array) -> dict[str, IntArray | Float32Array | BoolArray]:
+    """Return the inputs of `step.onnx`, padded to `most` candidates."""
+    return {
+        "memory": scene.memory,
+        "here": seen.here,
+        "candidate": np.ascontiguousarray(seen.token[:, :most]),
+        "feature": np.ascontiguousarray(seen.feature[:, :most]),
+        "allowed": np.arange(most) < seen.count[:, None],
+        "glob": seen.glob,
+        "hidden": hidden,
+    }
