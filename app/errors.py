@@ -1,0 +1,210 @@
+"""Errors as clients see them: `application/problem+json` with a code, a path and a remedy each."""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal
+
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, Field
+from pydantic_core import ErrorDetails
+
+MEDIA_TYPE = "application/problem+json"
+
+MAX_LISTED_ERRORS = 1000
+"""A reply lists no more errors than this; `detail` states how many there are."""
+
+_PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+ErrorCode = Literal[
+    "MISSING_FIELD",
+    "UNKNOWN_FIELD",
+    "UNKNOWN_VALUE",
+    "WRONG_TYPE",
+    "WRONG_LENGTH",
+    "OUT_OF_RANGE",
+    "TOO_MANY_ERRORS",
+    "DUPLICATE_ID",
+    "NO_DEPOT",
+    "EMPTY_FLEET",
+    "UNKNOWN_DEPOT",
+    "WINDOW_ENDS_BEFORE_START",
+    "SHIFT_ENDS_BEFORE_START",
+    "DIMENSION_MISMATCH",
+    "MISSING_LOCATION",
+    "MISSING_LOCATION_INDEX",
+    "LOCATION_OFF_GLOBE",
+    "LOCATION_TOO_FAR",
+    "MATRIX_SIZE",
+    "MATRIX_NEGATIVE",
+    "MATRIX_VALUE",
+    "MISSING_SPEED",
+    "TWO_SPEEDS",
+    "SPEED_PROFILE_ORDER",
+    "POLYGON_CROSSES_ITSELF",
+    "POLYGON_WITHOUT_AREA",
+    "TOO_MANY_CORNERS",
+    "UNKNOWN_POLICY",
+    "UNKNOWN_CUSTOMER",
+    "UNKNOWN_VEHICLE_TYPE",
+    "WRONG_NAME",
+]
+
+_CODES: dict[str, ErrorCode] = {
+    "missing": "MISSING_FIELD",
+    "extra_forbidden": "UNKNOWN_FIELD",
+    "literal_error": "UNKNOWN_VALUE",
+    "finite_number": "OUT_OF_RANGE",
+    "greater_than_equal": "OUT_OF_RANGE",
+    "less_than_equal": "OUT_OF_RANGE",
+    "too_short": "WRONG_LENGTH",
+    "too_long": "WRONG_LENGTH",
+    "string_too_short": "WRONG_LENGTH",
+    "string_too_long": "WRONG_LENGTH",
+}
+
+_TYPE_NAMES = {
+    "float_type": "a JSON number",
+    "int_type": "a whole JSON number",
+    "int_from_float": "a whole JSON number",
+    "bool_type": "true or false",
+    "string_type": "a JSON string",
+    "list_type": "a JSON array",
+    "tuple_type": "a JSON array",
+    "dict_type": "a JSON object",
+    "model_type": "a JSON object",
+}
+
+_JSON_NAMES: dict[type, str] = {
+    type(None): "null",
+    bool: "true or false",
+    str: "a string",
+    int: "this number",
+    float: "this number",
+    list: "an array",
+    dict: "an object",
+}
+
+_REMEDIES = {
+    "missing": "This field is required: add it.",
+    "extra_forbidden": "There is no field of this name: remove it or correct its spelling.",
+    "literal_error": "The value must be one of {expected}: use one of these.",
+    "finite_number": "The number is too large: state a finite one, or null where that is allowed.",
+    "greater_than_equal": "The number must be at least {ge}: raise it.",
+    "less_than_equal": "The number must be at most {le}: lower it, or check its unit.",
+    "too_short": "There are fewer than {min_length} entries: add some.",
+    "too_long": "There are more than {max_length} entries: remove some.",
+    "string_too_short": "The text is empty: state at least {min_length} character.",
+    "string_too_long": "The text has more than {max_length} characters: shorten it.",
+}
+
+
+class InputError(BaseModel):
+    """One thing that is wrong with a request."""
+
+    code: ErrorCode = Field(description="Stable name of the kind of error.")
+    path: str = Field(description="Where it is in the request, such as `$.customers[3].id`.")
+    message: str = Field(description="What is wrong and how to mend it.")
+
+
+class ProblemDocument(BaseModel):
+    """An error reply after RFC 9457."""
+
+    type: str = Field(description="Kind of error as a URI.")
+    title: str = Field(description="Kind of error in words.")
+    status: int = Field(description="HTTP status code.")
+    detail: str = Field(description="What happened this time.")
+    errors: list[InputError] = Field([], description="Every error found in the request.")
+
+
+class RequestError(ValueError):
+    """A request that can't be answered, and the HTTP status that says so."""
+
+    status = 400
+    name = "bad-request"
+    title = "The request can't be read"
+
+    def __init__(self, detail: str, errors: Sequence[InputError] = ()) -> None:
+        super().__init__(detail)
+        self.errors = tuple(errors)
+
+
+class NotJsonError(RequestError):
+    """The body is not JSON."""
+
+    name = "not-json"
+    title = "The body is not JSON"
+
+
+class BodyTooLargeError(RequestError):
+    """The body is longer than the service accepts."""
+
+    status = 413
+    name = "body-too-large"
+    title = "The body is too large"
+
+
+class InvalidRequestError(RequestError):
+    """The body is JSON, and not a valid request."""
+
+    status = 422
+    name = "invalid-request"
+    title = "The request is not valid"
+
+    def __init__(self, errors: Sequence[InputError]) -> None:
+        count = len(errors)
+        listed = f"; the first {MAX_LISTED_ERRORS} are listed" if count > MAX_LISTED_ERRORS else ""
+        plural = "" if count == 1 else "s"
+        super().__init__(f"The request has {count} error{plural}{listed}.",
+                         errors[:MAX_LISTED_ERRORS])
+
+
+class NotReadyError(RequestError):
+    """The planner is still warming up."""
+
+    status = 503
+    name = "not-ready"
+    title = "The service is starting"
+
+
+def problem_response(status: int, name: str, title: str, detail: str,
+                     errors: Iterable[InputError] = (),
+                     headers: Mapping[str, str] | None = None) -> JSONResponse:
+    """Return an error reply."""
+    document = ProblemDocument(type=f"urn:tandem:error:{name}", title=title, status=status,
+                               detail=detail, errors=list(errors))
+    return JSONResponse(document.model_dump(), status, headers, media_type=MEDIA_TYPE)
+
+
+def json_path(location: Iterable[str | int]) -> str:
+    """Return a JSON path such as `$.customers[3].time_window.latest`."""
+    path = "$"
+    for key in location:
+        if isinstance(key, int):
+            path += f"[{key}]"
+        elif _PLAIN_KEY.fullmatch(key):
+            path += f".{key}"
+        else:
+            path += "[" + repr(key[:80]) + "]"
+    return path
+
+
+def schema_error(details: ErrorDetails) -> InputError:
+    """Return what pydantic found, in our words."""
+    kind = details["type"]
+    location = details["loc"]
+    context: dict[str, Any] = details.get("ctx", {})
+    if kind in _TYPE_NAMES:
+        message = f"The value must be {_TYPE_NAMES[kind]}: state one, not {_shown(details)}."
+    elif kind in _REMEDIES:
+        message = _REMEDIES[kind].format_map(context)
+    else:
+        message = f"{details['msg']}: correct the value."
+    code = _CODES.get(kind, "WRONG_TYPE")
+    if location[:1] == ("matrices",) and len(location) > 3:
+        code = "MATRIX_VALUE"
+    return InputError(code=code, path=json_path(location), message=message)
+
+
+def _shown(details: ErrorDetails) -> str:
+    """Say what was sent instead, without repeating it."""
+    return _JSON_NAMES.get(type(details["input"]), "this")

@@ -1,0 +1,151 @@
+"""Bytes -> a valid `PlanRequest`, or every error of the request at once."""
+
+from collections.abc import Collection, Sequence
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails, from_json, to_json
+
+from app.errors import (
+    InputError,
+    InvalidRequestError,
+    NotJsonError,
+    RequestError,
+    schema_error,
+)
+from app.schemas_request import (
+    AirspaceInput,
+    CustomerInput,
+    DepotInput,
+    MatrixInput,
+    OptionsInput,
+    PlanRequest,
+    VehicleTypeInput,
+)
+from app.validation import Draft, semantic_errors
+
+Section = TypeVar("Section", bound=BaseModel)
+Parts = set[tuple[str | int, ...]]
+
+MAX_COUNTED_ERRORS = 20_000
+"""With more errors than this the single ones are not looked at."""
+
+MAX_SEARCHED_BYTES = 8 * 2**20
+"""To save memory, longer bodies that don't fit the schema aren't searched for further errors."""
+
+
+def read_request(body: bytes, policies: Collection[str] | None) -> PlanRequest:
+    """Return the request that `body` holds.
+
+    Parameters
+    ----------
+    body
+        JSON.
+    policies
+        Those that may be asked for; None allows any.
+
+    Raises
+    ------
+    NotJsonError
+        If `body` is not JSON.
+    InvalidRequestError
+        With every error found, if it is not a valid request.
+    """
+    try:
+        request = PlanRequest.model_validate_json(body)
+    except ValidationError as error:
+        raise _refusal(error, body, policies) from error
+    errors = semantic_errors(_whole_draft(request), policies)
+    if errors:
+        raise InvalidRequestError(errors)
+    return request
+
+
+def read_json(body: bytes) -> Any:
+    """Return the JSON value that `body` holds.
+
+    Raises
+    ------
+    NotJsonError
+        If `body` is not JSON.
+    """
+    try:
+        return from_json(body, allow_inf_nan=False)
+    except ValueError as error:
+        raise NotJsonError(f"The body is not JSON, {error}: send one JSON object.") from error
+
+
+def _refusal(error: ValidationError, body: bytes,
+             policies: Collection[str] | None) -> RequestError:
+    """Return the refusal of a body that doesn't fit the schema, semantic errors included."""
+    if error.error_count() > MAX_COUNTED_ERRORS:
+        message = f"The request has {error.error_count()} errors: compare it with the schema."
+        return InvalidRequestError([InputError(code="TOO_MANY_ERRORS", path="$", message=message)])
+    details = error.errors(include_url=False)
+    errors = [schema_error(item) for item in details]
+    if len(body) <= MAX_SEARCHED_BYTES or details[0]["type"] == "json_invalid":
+        try:
+            raw = read_json(body)
+        except NotJsonError as not_json:
+            return not_json
+        if isinstance(raw, dict):
+            errors += semantic_errors(_partial_draft(raw, _broken_parts(details)), policies)
+    return InvalidRequestError(errors)
+
+
+def _broken_parts(details: Sequence[ErrorDetails]) -> Parts:
+    """Return the sections, and the entries of sections, that hold an error."""
+    return {item["loc"][:2] for item in details}
+
+
+def _whole_draft(request: PlanRequest) -> Draft:
+    return Draft(
+        coordinate_system=request.coordinate_system,
+        planar_unit=request.planar_unit,
+        depots=request.depots,
+        customers=request.customers,
+        fleet=request.fleet,
+        matrices=request.matrices,
+        matrices_known=True,
+        airspace=request.airspace,
+        options=request.options,
+    )
+
+
+def _partial_draft(raw: dict[str, Any], broken: Parts) -> Draft:
+    """Return the well-formed parts of a request."""
+    scale_known = not {("coordinate_system",), ("planar_unit",)} & broken
+    return Draft(
+        coordinate_system=raw.get("coordinate_system", "planar") if scale_known else None,
+        planar_unit=raw.get("planar_unit", 1.0) if scale_known else 1.0,
+        depots=_entries(raw, broken, "depots", DepotInput),
+        customers=_entries(raw, broken, "customers", CustomerInput),
+        fleet=_entries(raw, broken, "fleet", VehicleTypeInput),
+        matrices=_matrices(raw, broken),
+        matrices_known=("matrices",) not in broken,
+        airspace=_section(raw, broken, "airspace", AirspaceInput),
+        options=_section(raw, broken, "options", OptionsInput),
+    )
+
+
+def _entries(raw: dict[str, Any], broken: Parts, name: str,
+             kind: type[Section]) -> list[Section | None] | None:
+    """Return the entries of a list, None for broken ones, or None if the list is."""
+    if (name,) in broken:
+        return None
+    return [None if (name, index) in broken else kind.model_validate_json(to_json(value))
+            for index, value in enumerate(raw[name])]
+
+
+def _section(raw: dict[str, Any], broken: Parts, name: str, kind: type[Section]) -> Section | None:
+    if any(part[0] == name for part in broken):
+        return None
+    return kind.model_validate_json(to_json(raw.get(name, {})))
+
+
+def _matrices(raw: dict[str, Any], broken: Parts) -> dict[str, MatrixInput | None] | None:
+    if ("matrices",) in broken or raw.get("matrices") is None:
+        return None
+    return {name: None if ("matrices", name) in broken
+            else MatrixInput.model_validate_json(to_json(value))
+            for name, value in raw["matrices"].items()}

@@ -1,0 +1,144 @@
+"""Travel matrices of a request, from locations or the client's matrices, equal ones built once."""
+
+from functools import cached_property
+
+import numpy as np
+
+from app.schemas_request import (
+    DEFAULT_DRONE_SPEED_KMH,
+    DEFAULT_TRUCK_SPEED_KMH,
+    CustomerInput,
+    DepotInput,
+    DronesInput,
+    MatrixInput,
+    PlanRequest,
+    VehicleTypeInput,
+)
+from app.units import thousandths
+from model.airspace import Airspace, flight_legs
+from model.problem import MAX_QUANTITY, FloatArray, SpeedProfile, Travel
+from model.travel import (
+    LocalProjection,
+    embed,
+    flight_travel,
+    great_circle_distances,
+    matrix_travel,
+    planar_distances,
+    speed_profile,
+    truck_travel,
+)
+
+_MAX_FLIGHT_M = MAX_QUANTITY / 1000
+
+
+class Travels:
+    """Collects the matrices of one valid request."""
+
+    def __init__(self, request: PlanRequest) -> None:
+        self._request = request
+        self._places: list[DepotInput | CustomerInput] = [*request.depots, *request.customers]
+        self._index: dict[tuple[str, str, float], int] = {}
+        self._travels: list[Travel] = []
+
+    def built(self) -> tuple[Travel, ...]:
+        """Return the matrices built so far."""
+        return tuple(self._travels)
+
+    def drive(self, vehicle_type: VehicleTypeInput) -> tuple[int, SpeedProfile | None]:
+        """Return the index of the trucks' matrices, and their speeds by time of day."""
+        matrix = self._matrix(vehicle_type.profile)
+        usual = vehicle_type.speed_kmh or DEFAULT_TRUCK_SPEED_KMH
+        scale = usual if matrix is None else 1.0
+        if not vehicle_type.speed_profile:
+            return self._drive_at(vehicle_type.profile, matrix, scale), None
+        changes = [
+            (thousandths(change.from_time),
+             scale * (change.factor or (change.speed_kmh or usual) / usual))
+            for change in vehicle_type.speed_profile
+        ]
+        fastest, profile = speed_profile(scale, changes)
+        return self._drive_at(vehicle_type.profile, matrix, fastest), profile
+
+    def fly(self, drones: DronesInput) -> int:
+        """Return the index of the drones' matrices."""
+        matrix = self._matrix(drones.profile)
+        speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
+        airspace = self._request.airspace
+        if matrix is not None:
+            return self._drive_at(drones.profile, matrix, 1.0)
+        if not airspace.no_fly and not airspace.wind.speed_kmh:
+            return self._drive_at(drones.profile, None, speed)
+        key = ("flight", "", speed)
+        if key not in self._index:
+            legs = flight_legs(self._points_m, self._airspace, speed, self._distances_m)
+            too_long = legs.distance > _MAX_FLIGHT_M
+            self._add(key, flight_travel(np.where(too_long, np.inf, legs.distance),
+                                         np.where(too_long, np.inf, legs.duration)))
+        return self._index[key]
+
+    def coordinates(self) -> FloatArray:
+        """Return the (node, 2) coordinates that the policy sees, in any planar unit."""
+        if all(place.location is not None for place in self._places):
+            return self._points_m
+        return embed(self._travels[0].duration)
+
+    def _matrix(self, profile: str) -> MatrixInput | None:
+        return (self._request.matrices or {}).get(profile)
+
+    def _drive_at(self, profile: str, matrix: MatrixInput | None, speed: float) -> int:
+        """Return the index of legs at a speed: km/h, or a multiple of the matrix speed."""
+        key = ("drive", "", speed) if matrix is None else ("matrix", profile, speed)
+        if key not in self._index:
+            if matrix is None:
+                self._add(key, truck_travel(self._distances_m, speed))
+            else:
+                durations = self._at_places(matrix.durations) / speed
+                distances = (self._distances_m if matrix.distances is None
+                             else self._at_places(matrix.distances))
+                self._add(key, matrix_travel(durations, distances))
+        return self._index[key]
+
+    def _add(self, key: tuple[str, str, float], travel: Travel) -> None:
+        self._index[key] = len(self._travels)
+        self._travels.append(travel)
+
+    def _at_places(self, table: list[list[float]]) -> FloatArray:
+        """Return a client's matrix with one row and column per node."""
+        indices = [place.location_index or 0 for place in self._places]
+        return np.array(table, dtype=np.float64)[np.ix_(indices, indices)]
+
+    @cached_property
+    def _locations(self) -> FloatArray:
+        points = [place.location for place in self._places if place.location is not None]
+        return np.array(points, dtype=np.float64)
+
+    @cached_property
+    def _projection(self) -> LocalProjection:
+        return LocalProjection.around(self._locations)
+
+    @cached_property
+    def _is_geographic(self) -> bool:
+        return self._request.coordinate_system == "geographic"
+
+    def _planar(self, points: FloatArray) -> FloatArray:
+        return (self._projection.project(points) if self._is_geographic
+                else points * self._request.planar_unit)
+
+    @cached_property
+    def _points_m(self) -> FloatArray:
+        return self._planar(self._locations)
+
+    @cached_property
+    def _distances_m(self) -> FloatArray:
+        return (great_circle_distances(self._locations) if self._is_geographic
+                else planar_distances(self._points_m))
+
+    @cached_property
+    def _airspace(self) -> Airspace:
+        stated = self._request.airspace
+        rings = [self._planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
+        return Airspace(
+            no_fly=tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings),
+            wind_speed_kmh=stated.wind.speed_kmh,
+            wind_direction_deg=stated.wind.direction_deg,
+        )

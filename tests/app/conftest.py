@@ -1,0 +1,140 @@
+"""A service with a planner of its own: small, slow, and legal."""
+
+import json
+import logging
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+import uvicorn
+
+from app.main import create_app
+from app.settings import Settings
+from model.check import check
+from model.planner import Elapsed, Planner, PlanOptions, PlanResult
+from model.problem import Problem
+from model.solution import Route, Solution
+from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
+
+APP_DIR = Path(__file__).parents[2] / "app"
+
+
+class FirstFitPlanner:
+    """Serves each customer, in order, in the first place where no rule breaks."""
+
+    policies = ("pointer",)
+
+    def warm(self, progress: Callable[[str], None] | None = None) -> None:
+        if progress is not None:
+            progress("nothing to compile")
+
+    def plan(self, problem: Problem, options: PlanOptions) -> PlanResult:
+        routes: list[RouteDecision] = []
+        unassigned = []
+        for node in range(problem.num_depots, problem.num_nodes):
+            for candidate in _candidates(problem, routes, node):
+                if _is_legal(problem, candidate):
+                    routes = candidate
+                    break
+            else:
+                unassigned.append(node)
+        solution = Solution(_timed(problem, routes), tuple(unassigned))
+        evaluation = check(problem, solution)
+        assert evaluation.is_feasible, evaluation.violations
+        cost = evaluation.cost.total
+        return PlanResult(solution=solution, evaluation=evaluation, decoded_cost=cost,
+                          final_cost=cost, search_iterations=0,
+                          elapsed=Elapsed(decode=0.0, search=0.0, check=0.0))
+
+
+def _candidates(problem: Problem, routes: list[RouteDecision],
+                node: int) -> Iterator[list[RouteDecision]]:
+    for index, route in enumerate(routes):
+        for trip in _with_customer(route.trips[-1], node):
+            longer = RouteDecision(route.vehicle_type, route.vehicle, (*route.trips[:-1], trip))
+            yield [*routes[:index], longer, *routes[index + 1:]]
+    for index, kind in enumerate(problem.vehicle_types):
+        used = sum(route.vehicle_type == index for route in routes)
+        for trip in _with_customer(TripDecision((kind.depot, kind.depot)), node):
+            yield [*routes, RouteDecision(index, used, (trip,))]
+
+
+def _with_customer(trip: TripDecision, node: int) -> Iterator[TripDecision]:
+    """Yield the trip with one more customer: by truck at the end, by drone from the depot."""
+    shifted = tuple(
+        SortieDecision(sortie.nodes, sortie.launch_stop, sortie.recovery_stop, sortie.drone)
+        for sortie in trip.sorties
+    )
+    yield TripDecision((*trip.nodes[:-1], node, trip.nodes[-1]), shifted)
+    yield TripDecision(trip.nodes, (*trip.sorties, SortieDecision((node,), 0, 0)))
+
+
+def _is_legal(problem: Problem, routes: list[RouteDecision]) -> bool:
+    kinds = [problem.vehicle_types[route.vehicle_type] for route in routes]
+    if any(trip.sorties and kind.drones is None
+           for kind, route in zip(kinds, routes, strict=True) for trip in route.trips):
+        return False
+    violations = check(problem, Solution(_timed(problem, routes))).violations
+    return all(violation.code == "MISSING" for violation in violations)
+
+
+def _timed(problem: Problem, routes: list[RouteDecision]) -> tuple[Route, ...]:
+    return tuple(schedule(problem, route) for route in routes)
+
+
+@pytest.fixture
+def planner() -> FirstFitPlanner:
+    """Return a planner that needs no weights."""
+    return FirstFitPlanner()
+
+
+@contextmanager
+def _serving(planner: Planner) -> Iterator[httpx.Client]:
+    """Serve on loopback."""
+    app = create_app(Settings(max_body_bytes=2**20), planner)
+    # With its protocol stated, asyncio sends small packets at once.
+    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    listener.bind(("127.0.0.1", 0))
+    listener.listen()
+    server = uvicorn.Server(uvicorn.Config(app, log_level=logging.CRITICAL + 1))
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread.start()
+    address = f"http://127.0.0.1:{listener.getsockname()[1]}"
+    with httpx.Client(base_url=address, timeout=30, trust_env=False) as client:
+        yield client
+    server.should_exit = True
+    thread.join()
+    listener.close()
+
+
+@pytest.fixture
+def serve() -> Iterator[Callable[[Planner], httpx.Client]]:
+    """Return a function that serves a planner, until the test ends, and returns a client."""
+    with ExitStack() as stack:
+        yield lambda planner: stack.enter_context(_serving(planner))
+
+
+@pytest.fixture(scope="session")
+def client() -> Iterator[httpx.Client]:
+    """Return a client of a warm service."""
+    with _serving(FirstFitPlanner()) as client:
+        while client.get("/health/ready").status_code != 200:
+            pass
+        yield client
+
+
+@pytest.fixture
+def smallest() -> dict[str, Any]:
+    """Return the smallest example request."""
+    return json.loads((APP_DIR / "examples" / "smallest.json").read_text("utf-8"))
+
+
+@pytest.fixture
+def with_drones() -> dict[str, Any]:
+    """Return the example request with drones."""
+    return json.loads((APP_DIR / "examples" / "drones.json").read_text("utf-8"))

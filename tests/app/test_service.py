@@ -1,0 +1,125 @@
+"""Readiness, and what happens when planning fails."""
+
+import asyncio
+import json
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from app.main import create_app
+from app.schemas_request import OptionsInput
+from app.service import PlanService, plan_options
+from app.settings import Settings
+from model.planner import PlanCheckError, Planner, PlanOptions, PlanResult
+from model.problem import Problem
+
+Progress = Callable[[str], None]
+Serve = Callable[[Planner], httpx.Client]
+
+
+class SlowPlanner:
+    """Warms up until told to stop."""
+
+    policies = ("pointer",)
+
+    def __init__(self) -> None:
+        self.started = threading.Event()
+        self.finish = threading.Event()
+
+    def warm(self, progress: Progress | None = None) -> None:
+        if progress is not None:
+            progress("compiling 1 of 2")
+        self.started.set()
+        self.finish.wait()
+
+
+class BrokenPlanner:
+    """Can't be warmed up."""
+
+    def warm(self, progress: Progress | None = None) -> None:
+        raise ValueError("no weights")
+
+
+class WrongPlanner:
+    """Makes plans that break rules, or crashes."""
+
+    policies = ("pointer",)
+
+    def __init__(self, error: Exception) -> None:
+        self._error = error
+
+    def warm(self, progress: Progress | None = None) -> None:
+        pass
+
+    def plan(self, problem: Problem, options: PlanOptions) -> PlanResult:
+        raise self._error
+
+
+def test_service_is_ready_once_warm(serve: Serve, smallest: dict[str, Any]) -> None:
+    planner = SlowPlanner()
+    client = serve(planner)
+    planner.started.wait()
+    response = client.get("/health/ready")
+    assert response.status_code == 503
+    assert response.json() == {"status": "starting", "detail": "compiling 1 of 2"}
+    assert client.get("/health/live").status_code == 200
+    refusal = client.post("/plan", json=smallest)
+    assert refusal.status_code == 503
+    assert refusal.headers["content-type"] == "application/problem+json"
+    assert int(refusal.headers["retry-after"]) > 0
+    planner.finish.set()
+    while client.get("/health/ready").status_code == 503:
+        pass
+    assert client.get("/health/ready").json()["status"] == "ready"
+
+
+def test_service_that_cannot_be_warmed_is_never_ready() -> None:
+    service = PlanService(BrokenPlanner())
+    assert not service.readiness().is_ready
+    service.start()
+    service.stop()
+    while "failed" not in service.readiness().detail:
+        pass
+    assert service.readiness().detail == "warming up failed: no weights"
+
+
+@pytest.mark.parametrize("error", [PlanCheckError("truck overloaded"), ZeroDivisionError()])
+def test_failures_are_internal_errors_without_details(
+        serve: Serve, smallest: dict[str, Any], error: Exception) -> None:
+    client = serve(WrongPlanner(error))
+    while client.get("/health/ready").status_code == 503:
+        pass
+    response = client.post("/plan", json=smallest)
+    assert response.status_code == 500
+    assert response.headers["content-type"] == "application/problem+json"
+    assert response.json()["title"] == "Internal error"
+    assert "overloaded" not in response.text
+
+
+def test_missing_policy_stops_startup(tmp_path: Path) -> None:
+    app = create_app(Settings(weights_dir=tmp_path))
+
+    async def start() -> None:
+        async with app.router.lifespan_context(app):
+            pass
+
+    with pytest.raises((ValueError, OSError)):
+        asyncio.run(start())
+
+
+def test_time_spent_on_validation_is_taken_off_the_limit() -> None:
+    stated = OptionsInput.model_validate_json(json.dumps({"time_limit": 1.0}))
+    assert plan_options(stated, 0.25).time_limit == 0.75
+    assert plan_options(stated, 9).time_limit == 0
+
+
+def test_settings_come_from_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TANDEM_MAX_BODY_BYTES", "77")
+    monkeypatch.setenv("TANDEM_POLICIES", '["pointer", "attention"]')
+    settings = Settings()
+    assert settings.max_body_bytes == 77
+    assert settings.policies == ("pointer", "attention")
