@@ -1,0 +1,229 @@
+"""Make the example requests beside this file.
+
+    python examples/make.py ../shared/data/seed
+
+The argument is the folder with `table1.json` and `reference_plan.json`, the paper's Table 1 and a
+feasible plan for it.
+"""
+
+import json
+import random
+import sys
+from pathlib import Path
+from typing import Any
+
+from shapely import Point, Polygon
+
+from app.convert import to_problem
+from app.schemas_request import PlanRequest
+from model.solution import Stop, Visit
+from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
+
+WINDOWS_SEED = 20250926
+CITY_SEED = 47
+
+HOUR = 3600
+MINUTE = 60
+
+Data = dict[str, Any]
+Windows = dict[str, tuple[float, float]]
+
+
+def table1(seed_dir: Path) -> Data:
+    """Return the paper's Table 1 with one cost unit per unit of length, for trucks and drones."""
+    table = json.loads((seed_dir / "table1.json").read_text("utf-8"))
+    depot = table["depot"]
+    return {
+        "coordinate_system": "planar",
+        "planar_unit": 1000,
+        "depots": [{"id": str(depot["id"]), "location": [depot["x"], depot["y"]]}],
+        "customers": [
+            {"id": str(row["id"]), "location": [row["x"], row["y"]], "demand": [row["demand"]],
+             "served_by": row["served_by"]}
+            for row in table["customers"]
+        ],
+        "fleet": [
+            {"id": "truck", "count": 4, "capacity": [400], "costs": {"per_km": 1},
+             "drones": {"count": 1, "capacity": [10], "costs": {"per_km": 1}}}
+        ],
+        "options": {"seed": 0, "time_limit": 1.0},
+    }
+
+
+def table1_windows(seed_dir: Path) -> Data:
+    """Return Table 1 as a working day with a time window for most customers.
+
+    Every window contains the customer's arrival in the reference plan, driven from 7:00 on, so
+    that all hard windows can be kept at once. Times are seconds since midnight.
+    """
+    request = table1(seed_dir)
+    request["fleet"][0] |= {"shift": {"earliest": 6 * HOUR, "latest": 18 * HOUR},
+                            "max_working_duration": 10 * HOUR,
+                            "costs": {"fixed": 50, "per_km": 1, "per_hour": 20}}
+    request["fleet"][0]["drones"] |= {"endurance": 2 * HOUR, "launch_duration": MINUTE,
+                                      "recovery_duration": MINUTE}
+    for customer in request["customers"]:
+        customer["service_duration"] = 5 * MINUTE
+    rng = random.Random(WINDOWS_SEED)
+    for customer, arrival in zip(request["customers"], _arrivals(request, seed_dir), strict=True):
+        kind = rng.choices(("none", "hard", "soft"), (20, 50, 30))[0]
+        width = rng.choice((1, 2, 4)) * HOUR
+        earliest = arrival - rng.uniform(0.2, 0.8) * width
+        if kind == "none":
+            continue
+        quarter = 15 * MINUTE
+        window: Data = {"earliest": max(6 * HOUR, int(earliest // quarter) * quarter),
+                        "latest": (int((earliest + width) // quarter) + 1) * quarter}
+        if kind == "soft":
+            window["late_cost_per_hour"] = rng.choice((10, 30, 60))
+        customer["time_window"] = window
+    return request
+
+
+def _arrivals(request: Data, seed_dir: Path) -> list[float]:
+    """Return when the reference plan, begun at 7:00, serves each customer, in seconds."""
+    problem = to_problem(PlanRequest.model_validate_json(json.dumps(request)))
+    plan = json.loads((seed_dir / "reference_plan.json").read_text("utf-8"))
+    arrivals = [0.0] * problem.num_customers
+    for vehicle, truck in enumerate(plan["vehicles"]):
+        stops = truck["truck_route"]
+        nodes = (0, *(customer + 1 for customer in stops[1:-1]), 0)
+        sorties = tuple(
+            SortieDecision(tuple(customer + 1 for customer in sortie["customers"]),
+                           stops.index(sortie["launch"]), stops.index(sortie["recover"]))
+            for sortie in truck["sorties"]
+        )
+        trip = TripDecision(nodes, sorties, start=7 * HOUR * 1000)
+        timed = schedule(problem, RouteDecision(0, vehicle, (trip,))).trips[0]
+        visits = [visit for sortie in timed.sorties for visit in sortie.visits]
+        halts: list[Stop | Visit] = [*timed.stops[1:-1], *visits]
+        for halt in halts:
+            arrivals[halt.node - 1] = halt.arrival / 1000
+    return arrivals
+
+
+CITY_CENTRE = (8.541, 47.374)
+CITY_NO_FLY = ((8.532, 47.366), (8.548, 47.364), (8.556, 47.372), (8.550, 47.381), (8.536, 47.382),
+               (8.529, 47.375))
+CITY_KINDS = (  # name, how many, kg, litres, minutes of service
+    ("pharmacy", 8, (1, 4), (2, 10), 3),
+    ("clinic", 4, (2, 8), (5, 20), 6),
+    ("bakery", 6, (15, 60), (40, 150), 8),
+    ("office", 10, (5, 40), (10, 90), 5),
+    ("restaurant", 8, (40, 140), (80, 300), 12),
+    ("parcel-shop", 4, (60, 180), (200, 600), 15),
+)
+
+
+def city_day() -> Data:
+    """Return a day in a city: three vehicle types, two trips, rush hours, wind and a no-fly area.
+
+    Times are seconds since midnight, amounts kilograms and litres.
+    """
+    rng = random.Random(CITY_SEED)
+    customers = [
+        _city_customer(rng, f"{kind}-{number:02}", kind, kilograms, litres, minutes)
+        for kind, count, kilograms, litres, minutes in CITY_KINDS
+        for number in range(1, count + 1)
+    ]
+    return {
+        "coordinate_system": "geographic",
+        "depots": [{"id": "hub-west", "location": [8.478, 47.391]}],
+        "customers": customers,
+        "fleet": [_van(), _drone_truck(), _cargo_bike()],
+        "airspace": {
+            "no_fly": [[list(corner) for corner in CITY_NO_FLY]],
+            "wind": {"speed_kmh": 18, "direction_deg": 240},
+        },
+        "options": {"seed": 0, "time_limit": 2.0},
+    }
+
+
+def _city_customer(rng: random.Random, name: str, kind: str, kilograms: tuple[int, int],
+                   litres: tuple[int, int], minutes: int) -> Data:
+    location = (round(CITY_CENTRE[0] + rng.gauss(0, 0.028), 5),
+                round(CITY_CENTRE[1] + rng.gauss(0, 0.014), 5))
+    customer: Data = {
+        "id": name,
+        "location": list(location),
+        "demand": [rng.randint(*kilograms), rng.randint(*litres)],
+        "service_duration": minutes * MINUTE,
+    }
+    if kind == "clinic":
+        customer |= {"skills": ["cooled"],
+                     "time_window": {"earliest": 7 * HOUR, "latest": 11 * HOUR}}
+    elif kind == "bakery":
+        customer |= {"served_by": "truck",
+                     "time_window": {"earliest": 6 * HOUR, "latest": 9 * HOUR,
+                                     "late_cost_per_hour": 40}}
+    elif kind == "restaurant":
+        customer |= {"served_by": "truck",
+                     "time_window": {"earliest": 9 * HOUR, "latest": 11.5 * HOUR,
+                                     "late_cost_per_hour": 60, "early_cost_per_hour": 5}}
+    elif kind == "pharmacy":
+        in_no_fly = Polygon(CITY_NO_FLY).covers(Point(location))
+        customer |= {"served_by": "either" if in_no_fly else rng.choice(("drone", "either")),
+                     "release_time": rng.choice((0, 10 * HOUR))}
+    elif kind == "office":
+        customer["time_window"] = {"earliest": 8 * HOUR, "latest": 17 * HOUR}
+    return customer
+
+
+def _van() -> Data:
+    return {
+        "id": "van", "depot": "hub-west", "count": 2, "capacity": [900, 4000],
+        "costs": {"fixed": 60, "per_km": 0.45, "per_hour": 32}, "speed_kmh": 36,
+        "speed_profile": _rush_hours(), "shift": {"earliest": 6 * HOUR, "latest": 18 * HOUR},
+        "max_working_duration": 8.5 * HOUR, "max_trip_distance": 120_000, "max_trips": 2,
+        "reload_duration": 20 * MINUTE, "skills": ["cooled"],
+    }
+
+
+def _drone_truck() -> Data:
+    return {
+        "id": "drone-truck", "depot": "hub-west", "count": 2, "capacity": [600, 2500],
+        "costs": {"fixed": 80, "per_km": 0.5, "per_hour": 32}, "speed_kmh": 36,
+        "speed_profile": _rush_hours(), "shift": {"earliest": 6 * HOUR, "latest": 18 * HOUR},
+        "max_working_duration": 8.5 * HOUR, "max_trips": 2, "reload_duration": 20 * MINUTE,
+        "drones": {"count": 2, "capacity": [5, 12], "speed_kmh": 55, "endurance": 25 * MINUTE,
+                   "launch_duration": 45, "recovery_duration": 45, "service_duration": 90,
+                   "max_customers_per_sortie": 2, "costs": {"per_km": 0.1, "per_hour": 2}},
+    }
+
+
+def _cargo_bike() -> Data:
+    return {
+        "id": "cargo-bike", "depot": "hub-west", "count": 3, "capacity": [120, 500],
+        "costs": {"fixed": 15, "per_km": 0.05, "per_hour": 26}, "speed_kmh": 16,
+        "shift": {"earliest": 7 * HOUR, "latest": 17 * HOUR}, "max_working_duration": 8 * HOUR,
+        "max_trip_distance": 40_000, "max_trips": 2, "reload_duration": 10 * MINUTE,
+    }
+
+
+def _rush_hours() -> list[Data]:
+    return [{"from": 7 * HOUR, "speed_kmh": 22}, {"from": 9 * HOUR, "speed_kmh": 34},
+            {"from": 16 * HOUR, "speed_kmh": 20}, {"from": 18.5 * HOUR, "speed_kmh": 36}]
+
+
+def write(request: Data, file: Path) -> None:
+    """Write a request with one line per customer and vehicle type."""
+    lines = []
+    for name, value in request.items():
+        if name in ("customers", "fleet"):
+            entries = ",\n".join(f"    {json.dumps(entry)}" for entry in value)
+            lines.append(f'  "{name}": [\n{entries}\n  ]')
+        else:
+            lines.append(f'  "{name}": {json.dumps(value)}')
+    file.write_text("{\n" + ",\n".join(lines) + "\n}\n", "utf-8")
+
+
+def main() -> None:
+    """Write all examples."""
+    seed_dir, folder = Path(sys.argv[1]), Path(__file__).parent
+    write(table1(seed_dir), folder / "table1.json")
+    write(table1_windows(seed_dir), folder / "table1_windows.json")
+    write(city_day(), folder / "city_day.json")
+
+
+if __name__ == "__main__":
+    main()
