@@ -1,0 +1,39 @@
+FROM python:3.11-slim AS builder
+
+ENV PIP_DISABLE_PIP_VERSION_CHECK=1 \
+    PIP_NO_CACHE_DIR=1
+
+RUN python3 -m venv /opt/tandem
+WORKDIR /src
+COPY pyproject.toml README.md LICENSE ./
+COPY app ./app
+COPY model ./model
+RUN /opt/tandem/bin/pip install . \
+    && /opt/tandem/bin/pip uninstall --yes setuptools pip
+
+
+FROM python:3.11-slim
+
+RUN useradd --system --uid 10001 --user-group --no-create-home --home-dir /nonexistent \
+        --shell /usr/sbin/nologin tandem \
+    && install --directory --owner=tandem --group=tandem /cache /opt/compiled
+COPY entrypoint.sh /usr/local/bin/tandem-entrypoint
+COPY --from=builder /opt/tandem /opt/tandem
+
+ENV PATH=/opt/tandem/bin:$PATH \
+    NUMBA_CACHE_DIR=/cache \
+    PYTHONDONTWRITEBYTECODE=1 \
+    PYTHONUNBUFFERED=1
+
+USER tandem
+WORKDIR /cache
+# Compiled here, copied to the cache at start. On a processor unlike the builder's, the first start
+# compiles again into /cache, the only folder that has to be writable.
+RUN NUMBA_CACHE_DIR=/opt/compiled tandem warm
+VOLUME /cache
+
+EXPOSE 8000
+HEALTHCHECK --interval=10s --timeout=3s --start-period=120s --retries=3 \
+    CMD ["python3", "-c", "import urllib.request as r; r.urlopen('http://127.0.0.1:8000/health/ready', timeout=2)"]
+ENTRYPOINT ["tandem-entrypoint"]
+CMD ["tandem", "serve", "--host", "0.0.0.0", "--port", "8000"]
