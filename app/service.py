@@ -89,8 +89,9 @@ def answer(planner: Planner, body: ReceivedBody) -> bytes:
     request = read_request(body.content, planner.policies)
     problem = to_problem(request)
     validated = time.perf_counter() - body.received_at
-    options = plan_options(request.options, validated)
-    result = planner.plan(problem, options) if problem.customers else _no_plan(problem)
+    options = plan_options(request.options)
+    result = (planner.plan(problem, options, body.received_at) if problem.customers
+              else _no_plan(problem))
     reply = plan_reply(problem, options, result)
     elapsed = reply["solver"]["elapsed"]
     elapsed["validate"] = validated
@@ -98,15 +99,15 @@ def answer(planner: Planner, body: ReceivedBody) -> bytes:
     return to_json(reply)
 
 
-def plan_options(stated: OptionsInput, elapsed: float = 0.0) -> PlanOptions:
-    """Return the planner's options; seconds that have elapsed leave less of the time limit."""
+def plan_options(stated: OptionsInput) -> PlanOptions:
+    """Return the planner's options."""
     return PlanOptions(
         policy=stated.policy,
         decoding=stated.decoding,
         num_samples=stated.num_samples,
         temperature=stated.temperature,
         seed=stated.seed,
-        time_limit=max(0.0, stated.time_limit - elapsed),
+        time_limit=stated.time_limit,
         search_iterations=stated.search_iterations,
     )
 

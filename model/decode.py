@@ -1,7 +1,9 @@
 """Plans from an exported policy: greedy or sampled, one network call a decision for all samples."""
 
 import json
+import os
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -22,8 +24,9 @@ ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.Inva
 
 NO_ACTION = -1
 
-BLOCK = 128
-"""Samples planned side by side; further ones follow in further blocks, so memory is bounded."""
+BLOCK = 64
+"""Samples planned side by side, in one thread. Blocks run on all cores; each has its own random
+numbers, so the plan doesn't depend on their number, and memory is bounded."""
 
 
 @dataclass(frozen=True)
@@ -112,18 +115,21 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
     """
     if config.decoding == "greedy":
         return _decode_block(policy, scene, 1, None, 1.0)
-    rng = np.random.default_rng(config.seed)
-    best: Decoded | None = None
-    for first in range(0, config.num_samples, BLOCK):
-        if best is not None and deadline is not None and time.perf_counter() >= deadline:
-            break
-        rows = min(BLOCK, config.num_samples - first)
-        block = _decode_block(policy, scene, rows, rng, config.temperature)
-        if best is None or block.cost < best.cost:
-            best = block
-    if best is None:
-        raise ValueError(f"num_samples: {config.num_samples!r} is not allowed")
-    return best
+    if config.num_samples < 1 or config.temperature <= 0:
+        raise ValueError(f"num_samples, temperature: {config.num_samples!r}, "
+                         f"{config.temperature!r} are not allowed")
+    firsts = range(0, config.num_samples, BLOCK)
+    seeds = np.random.SeedSequence(config.seed).spawn(len(firsts))
+
+    def plan_block(first: int, seed: np.random.SeedSequence) -> Decoded | None:
+        if first > 0 and deadline is not None and time.perf_counter() >= deadline:
+            return None
+        return _decode_block(policy, scene, min(BLOCK, config.num_samples - first),
+                             np.random.default_rng(seed), config.temperature)
+
+    with ThreadPoolExecutor(min(len(firsts), os.cpu_count() or 1)) as pool:
+        blocks = [block for block in pool.map(plan_block, firsts, seeds) if block is not None]
+    return min(blocks, key=lambda block: block.cost)
 
 
 def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Generator | None,

@@ -29,7 +29,7 @@ class PlanOptions:
     num_samples: int = 64
     temperature: float = 1.0
     seed: int = 0
-    time_limit: float = 1.0  # seconds from now; 0: the decoded plan as it is, all samples of it
+    time_limit: float = 1.0  # seconds; 0: the decoded plan as it is, all samples of it
     search_iterations: int | None = None
 
 
@@ -75,8 +75,18 @@ class Planner:
             self.plan(small_problem(), PlanOptions(name, "sample", num_samples=4))
             tell(f"policy {name} is warm after {time.perf_counter() - began:.1f} s")
 
-    def plan(self, problem: Problem, options: PlanOptions) -> PlanResult:
+    def plan(self, problem: Problem, options: PlanOptions,
+             received_at: float | None = None) -> PlanResult:
         """Plan a problem.
+
+        Parameters
+        ----------
+        problem
+            At least one customer.
+        options
+            How to plan.
+        received_at
+            When the time limit began to run, on `time.perf_counter`; None: now.
 
         Raises
         ------
@@ -88,7 +98,9 @@ class Planner:
         if options.policy not in self._policies:
             raise ValueError(f"policy: {options.policy!r} is not one of {', '.join(self.policies)}")
         began = time.perf_counter()
-        deadline = began + options.time_limit if options.time_limit > 0 else None
+        deadline = None
+        if options.time_limit > 0:
+            deadline = (began if received_at is None else received_at) + options.time_limit
         instance = pack([problem])
         policy = self._policies[options.policy]
         scene = prepare(policy, problem, instance)

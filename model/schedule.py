@@ -194,23 +194,24 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
             arrival = start
             if index > first:
                 arrival = travel_arrival(setting, log.stop[index - 1, STOP_NODE], node, leave)
-            service_start = arrival
-            leave = arrival
+            service_start = leave = free = launched = arrival
             if node >= num_depots:
                 columns = setting.node[node]
                 if not _arrival_allowed(columns, arrival, log.stop[index, STOP_ARRIVAL], write):
                     return False
                 service_start = max(arrival, columns[NODE_EARLIEST])
                 leave = service_start + columns[NODE_SERVICE]
-            free = arrival
             while op < log.count[COUNT_OPS] and log.op[op, OP_STOP] == index:
                 sortie = log.sortie[log.op[op, OP_SORTIE]]
                 if log.op[op, OP_IS_RECOVERY]:
-                    free = _replay_recovery(setting, sortie, node, free, write)
+                    # Recoveries that take no time never hold up one another.
+                    begin = free if setting.type[TYPE_RECOVERY] > 0 else launched
+                    end = _replay_recovery(setting, sortie, node, begin, write)
                 else:
-                    free = _replay_launch(setting, sortie, node, free, write)
-                if free < 0:
+                    end = launched = _replay_launch(setting, sortie, node, free, write)
+                if end < 0:
                     return False
+                free = max(free, end)
                 op += 1
             leave = max(leave, free)
             if write:

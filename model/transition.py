@@ -214,10 +214,10 @@ def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntAr
         vehicle[V_SERVICE_END] += setting.node[stop[STOP_NODE], NODE_SERVICE]
     vehicle[V_FREE] = stop[STOP_ARRIVAL]
     last = log.count[COUNT_OPS] - 1
-    if last >= 0 and log.op[last, OP_STOP] == here:
-        sortie = log.sortie[log.op[last, OP_SORTIE]]
+    while last >= 0 and log.op[last, OP_STOP] == here:
         ended = SORTIE_RECOVERY_END if log.op[last, OP_IS_RECOVERY] else SORTIE_TAKEOFF
-        vehicle[V_FREE] = sortie[ended]
+        vehicle[V_FREE] = max(vehicle[V_FREE], log.sortie[log.op[last, OP_SORTIE], ended])
+        last -= 1
     for d in range(len(drones)):
         if drones[d, DRONE_SORTIE] != IN_FLIGHT:
             sortie = log.sortie[drones[d, DRONE_SORTIE]]

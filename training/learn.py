@@ -86,7 +86,7 @@ def policy_gradient(policy: PolicyNetwork, batch: Batch, decisions: Decisions, c
     device = advantage.device
     num_rollouts = len(advantage)
     with torch.autocast(device.type, torch.bfloat16, enabled=autocast):
-        memory = policy.encode(*batch.encoder_inputs(device)).flatten(0, 1)
+        memory = policy.encode(*batch.encoder_inputs(device)).flatten(0, 1).float()
         memory_leaf = memory.detach().requires_grad_()
         hidden = policy.remember(memory_leaf, paths(decisions, num_rollouts))
     hidden_leaf = hidden.detach().requires_grad_()

@@ -135,7 +135,7 @@ def roll_out(policy: PolicyNetwork, batch: Batch, rollouts: IntArray, choose: Ch
              device: torch.device, num_threads: int = 2) -> Outcome:
     """Plan with a policy; `rollouts` (rollout,) names the problem of each."""
     simulation = Simulation(batch, rollouts, num_threads)
-    memory = policy.encode(*batch.encoder_inputs(device)).flatten(0, 1)
+    memory = policy.encode(*batch.encoder_inputs(device)).flatten(0, 1).float()
     hidden = memory.new_zeros(len(rollouts), policy.hidden_size)
     choice = np.zeros(len(rollouts), np.int64)
     record = Record()

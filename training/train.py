@@ -7,6 +7,8 @@ checkpoint goes on from there exactly: weights, optimisers, random state, step o
 import csv
 import dataclasses
 import os
+import signal
+import threading
 import time
 from pathlib import Path
 from typing import Annotated, Any
@@ -30,6 +32,8 @@ from training.rules import nearest_neighbour
 SAVE_EVERY = 120.0
 VALIDATE_EVERY = 300.0
 BF16_DEVICES = ("cuda",)
+STOP = threading.Event()
+"""Set by a signal: finish the step, save, end."""
 
 
 def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
@@ -63,7 +67,8 @@ def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
     began = saved = time.monotonic()
     validated = began - VALIDATE_EVERY + min(60.0, VALIDATE_EVERY)
     bar = tqdm(desc=config.policy, unit="problem", disable=rank != 0)
-    while time.monotonic() - began < 60 * minutes and run.step != max_steps:
+    while not agree_to_stop(run.step == max_steps or time.monotonic() - began > 60 * minutes
+                            or STOP.is_set(), world):
         numbers = run.train_step(world)
         bar.update(int(numbers["problems"]) * world)
         if log is None:
@@ -96,6 +101,15 @@ def start_processes() -> tuple[int, int]:
         return 0, 1
     dist.init_process_group("nccl" if torch.cuda.is_available() else "gloo")
     return dist.get_rank(), dist.get_world_size()
+
+
+def agree_to_stop(wish: bool, world: int) -> bool:
+    """Tell whether any process wishes to stop, so that none waits for another's gradients."""
+    if world == 1:
+        return wish
+    wishes = torch.tensor(float(wish), device="cuda" if torch.cuda.is_available() else "cpu")
+    dist.all_reduce(wishes, op=dist.ReduceOp.MAX)
+    return bool(wishes > 0)
 
 
 class Run:
@@ -151,8 +165,8 @@ class Run:
         advantage = (advantage / self.spread).clamp(-4, 4)
         self.optimizer.zero_grad()
         loss = policy_gradient(
-            self.policy, batch, *join(outcome.record), advantage, config.max_candidates, config.entropy_weight,
-            self.device.type in BF16_DEVICES)
+            self.policy, batch, *join(outcome.record), advantage, config.max_candidates,
+            config.entropy_weight, self.device.type in BF16_DEVICES)
         norm = self.move(world)
         self.step += 1
         ended = time.monotonic()
@@ -267,6 +281,8 @@ def main(
         policy=policy, baseline=baseline, seed=seed, sizes=curriculum,  # type: ignore[arg-type]
         num_problems=num_problems, num_rollouts=num_rollouts, learning_rate=learning_rate,
         decay=(first, last), entropy_weight=entropy_weight, max_candidates=max_candidates)
+    for name in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(name, lambda *_: STOP.set())
     print(train(config, folder, minutes, device, max_steps))
 
 

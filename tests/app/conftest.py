@@ -33,7 +33,8 @@ class FirstFitPlanner:
         if progress is not None:
             progress("nothing to compile")
 
-    def plan(self, problem: Problem, options: PlanOptions) -> PlanResult:
+    def plan(self, problem: Problem, options: PlanOptions,
+             received_at: float | None = None) -> PlanResult:
         routes: list[RouteDecision] = []
         unassigned = []
         for node in range(problem.num_depots, problem.num_nodes):

@@ -11,8 +11,7 @@ import httpx
 import pytest
 
 from app.main import create_app
-from app.schemas_request import OptionsInput
-from app.service import PlanService, plan_options
+from app.service import PlanService, ReceivedBody, answer
 from app.settings import Settings
 from model.planner import PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
@@ -55,7 +54,8 @@ class WrongPlanner:
     def warm(self, progress: Progress | None = None) -> None:
         pass
 
-    def plan(self, problem: Problem, options: PlanOptions) -> PlanResult:
+    def plan(self, problem: Problem, options: PlanOptions,
+             received_at: float | None = None) -> PlanResult:
         raise self._error
 
 
@@ -111,10 +111,19 @@ def test_missing_policy_stops_startup(tmp_path: Path) -> None:
         asyncio.run(start())
 
 
-def test_time_spent_on_validation_is_taken_off_the_limit() -> None:
-    stated = OptionsInput.model_validate_json(json.dumps({"time_limit": 1.0}))
-    assert plan_options(stated, 0.25).time_limit == 0.75
-    assert plan_options(stated, 9).time_limit == 0
+def test_time_limit_runs_from_the_end_of_the_request(
+        planner: Planner, smallest: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[float | None] = []
+    plan = planner.plan
+
+    def listening(problem: Problem, options: PlanOptions,
+                  received_at: float | None = None) -> PlanResult:
+        told.append(received_at)
+        return plan(problem, options, received_at)
+
+    monkeypatch.setattr(planner, "plan", listening)
+    answer(planner, ReceivedBody(json.dumps(smallest).encode(), 12.5))
+    assert told == [12.5]
 
 
 def test_settings_come_from_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,73 @@
+# `make serve` runs the service, `make test` the tests; `make` alone lists everything.
+
+PYTHON ?= $(firstword $(foreach name,python3.11 python3.12 python3,$(shell command -v $(name))))
+HOST ?= 127.0.0.1
+PORT ?= 8000
+MINUTES ?= 60
+
+BIN := .venv/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+URL := http://$(HOST):$(PORT)
+
+.DEFAULT_GOAL := help
+.PHONY: help serve plan test lint train bench clean
+
+help: ## List what can be made
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+serve: .venv/serving ## Run the service (PORT=8000, HOST=127.0.0.1)
+	@echo "Loading compiled code; the first time it is compiled, which takes a minute."
+	@$(BIN)/tandem warm
+	@echo
+	@echo "Starting. Open $(URL)/docs or, in another terminal and in this folder, run"
+	@echo
+	@echo "  curl -H 'Content-Type: application/json' --data-binary @examples/table1.json $(URL)/plan"
+	@echo
+	@exec $(BIN)/tandem serve --host $(HOST) --port $(PORT)
+
+plan: .venv/serving ## Plan examples/table1.json, write plan.json and check it
+	@$(BIN)/tandem plan examples/table1.json --output plan.json
+	@$(BIN)/tandem check examples/table1.json plan.json
+	@echo "The plan is in plan.json."
+
+test: .venv/testing ## Install what the tests need and run them
+	$(BIN)/pytest
+
+lint: .venv/testing ## Check style and types
+	$(BIN)/ruff check
+	$(BIN)/mypy
+
+train: .venv/testing ## Train a policy in runs/pointer, from where it stopped (MINUTES=60)
+	$(BIN)/python -m training.train --folder runs/pointer --minutes $(MINUTES)
+
+bench: .venv/benching ## Measure how long plans take, phase by phase
+	$(BIN)/python -m benchmarks.latency
+
+clean: ## Remove caches, compiled code and plan.json; keep .venv and training runs
+	rm -rf build dist *.egg-info plan.json .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find app model training benchmarks examples tests -name __pycache__ -prune -exec rm -rf {} +
+
+.venv/serving: pyproject.toml | .venv/created
+	@echo "Installing Tandem into .venv."
+	@$(PIP) install --quiet --editable .
+	@touch $@
+
+.venv/testing: pyproject.toml | .venv/created
+	@echo "Installing Tandem and all that its tests need into .venv; PyTorch is large."
+	@$(PIP) install --quiet --editable '.[test,train]'
+	@touch $@ .venv/serving
+
+.venv/benching: pyproject.toml | .venv/created
+	@echo "Installing Tandem and its benchmarks into .venv."
+	@$(PIP) install --quiet --editable '.[bench]'
+	@touch $@ .venv/serving
+
+.venv/created:
+	@test -n "$(PYTHON)" || { echo "Python 3.11 or 3.12 is needed." >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' || { \
+		echo "Python 3.11 or 3.12 is needed: choose one with 'make ... PYTHON=<path>'." >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
+		echo "This Python can't make virtual environments. On Debian or Ubuntu, run" >&2; \
+		echo "  sudo apt-get install python3-venv" >&2; exit 1; }
+	@$(PYTHON) -m venv .venv
+	@touch $@

@@ -1,0 +1,206 @@
+"""What each action leads to, found in plain Python with the checker alone.
+
+A second reading of the decision process: it keeps the decisions of one vehicle, times them with
+`model.timing`, and asks `model.check` whether the vehicle could go home after one more action.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from model.check import Evaluation, check
+from model.problem import UNREACHABLE, Problem
+from model.rules import airborne_duration
+from model.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
+from model.solution import Route, Solution, Trip
+from model.timing import Operation, RouteDecision, SortieDecision, TripDecision, schedule
+
+MINUTE = 60_000
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A sortie; `recovery_stop` is None while it is in the air."""
+
+    customer: int
+    drone: int
+    launch_stop: int
+    recovery_stop: int | None = None
+
+
+@dataclass(frozen=True)
+class OpenTrip:
+    """A trip so far, with the launches and recoveries of each stop in order."""
+
+    nodes: tuple[int, ...]
+    flights: tuple[Flight, ...] = ()
+    operations: tuple[tuple[Operation, ...], ...] = ((),)
+
+    @property
+    def flying(self) -> list[int]:
+        """Sorties in the air."""
+        return [index for index, flight in enumerate(self.flights) if flight.recovery_stop is None]
+
+    def decision(self) -> TripDecision:
+        """Return the decisions of a trip that is over."""
+        sorties = tuple(SortieDecision((f.customer,), f.launch_stop, f.recovery_stop or 0, f.drone)
+                        for f in self.flights)
+        return TripDecision(self.nodes, sorties, self.operations)
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """What one vehicle has done; the last trip is under way unless `is_idle`."""
+
+    kind: int
+    index: int
+    trips: tuple[OpenTrip, ...] = ()
+    is_idle: bool = True
+
+
+def _recovered(trip: OpenTrip, to: int, loops: list[int], order: list[int]) -> OpenTrip:
+    """Drive on to `to`, recovering the loops here and all others there, in the order given."""
+    here = len(trip.nodes) - 1
+    flights = tuple(
+        flight if flight.recovery_stop is not None
+        else replace(flight, recovery_stop=here if index in loops else here + 1)
+        for index, flight in enumerate(trip.flights))
+    before = tuple(Operation(index, False) for index in order if index in loops)
+    after = tuple(Operation(index, False) for index in order if index not in loops)
+    operations = (*trip.operations[:-1], trip.operations[-1] + before, after)
+    return OpenTrip((*trip.nodes, to), flights, operations)
+
+
+def _timed(problem: Problem, vehicle: Vehicle, trip: OpenTrip) -> Trip:
+    """Time the last trip, cut short by a way home, as soon as possible."""
+    home = problem.vehicle_types[vehicle.kind].depot
+    if trip.nodes[-1] >= problem.num_depots:
+        trip = OpenTrip((*trip.nodes, home), trip.flights, (*trip.operations, ()))
+    trips = tuple(done.decision() for done in (*vehicle.trips[:-1], trip))
+    return schedule(problem, RouteDecision(vehicle.kind, vehicle.index, trips)).trips[-1]
+
+
+def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
+    """Drive the vehicle to a node; None if a sortie can be recovered neither here nor there."""
+    trip = vehicle.trips[-1]
+    drones, flying = problem.vehicle_types[vehicle.kind].drones, trip.flying
+    loops: list[int] = []
+    while True:
+        here = len(trip.nodes) - 1
+        drafted = _timed(problem, vehicle, _recovered(trip, to, loops, flying))
+        arrivals = {}
+        for index in flying:
+            assert drones is not None
+            visit = drafted.sorties[index].visits[0]
+            place = drafted.stops[drafted.sorties[index].recovery_stop].node
+            arrivals[index] = visit.departure + int(
+                problem.travel[drones.travel].duration[visit.node, place])
+        order = sorted(flying, key=lambda index: (arrivals[index], index))
+        settled = _recovered(trip, to, loops, order)
+        timed = _timed(problem, vehicle, settled)
+        late = [index for index in order if drones is not None and (
+            arrivals[index] >= UNREACHABLE or drones.endurance
+            < airborne_duration(problem, drones, timed, timed.sorties[index]))]
+        if not late:
+            return replace(vehicle, trips=(*vehicle.trips[:-1], settled))
+        if set(late) & set(loops):
+            return None
+        assert settled.flights[late[0]].recovery_stop == here + 1
+        loops.append(late[0])
+
+
+def after(problem: Problem, vehicle: Vehicle, kind: int, node: int) -> Vehicle | None:
+    """Return the vehicle after one more action, None if the action cannot be done at all."""
+    home = problem.vehicle_types[vehicle.kind].depot
+    if vehicle.is_idle:
+        if kind == RETURN:
+            return None
+        vehicle = replace(vehicle, trips=(*vehicle.trips, OpenTrip((home,))), is_idle=False)
+    if kind == LAUNCH:
+        return _launched(problem, vehicle, node)
+    moved = _settle(problem, vehicle, node)
+    return replace(moved, is_idle=kind == RETURN) if moved else None
+
+
+def _launched(problem: Problem, vehicle: Vehicle, node: int) -> Vehicle | None:
+    trip, drones = vehicle.trips[-1], problem.vehicle_types[vehicle.kind].drones
+    busy = {trip.flights[index].drone for index in trip.flying}
+    free = [drone for drone in range(drones.count if drones else 0) if drone not in busy]
+    if not free:
+        return None
+    flight = Flight(node, free[0], len(trip.nodes) - 1)
+    launch = Operation(len(trip.flights), True)
+    operations = (*trip.operations[:-1], (*trip.operations[-1], launch))
+    trip = OpenTrip(trip.nodes, (*trip.flights, flight), operations)
+    return replace(vehicle, trips=(*vehicle.trips[:-1], trip))
+
+
+def judge(problem: Problem, vehicle: Vehicle, start: int | None) -> tuple[Route, Evaluation]:
+    """Time and check the route of a vehicle at home whose first trip begins at `start`."""
+    first, *more = [trip.decision() for trip in vehicle.trips]
+    decision = RouteDecision(vehicle.kind, vehicle.index, (replace(first, start=start), *more))
+    route = schedule(problem, decision)
+    served = {node for trip in vehicle.trips for node in trip.nodes}
+    served |= {flight.customer for trip in vehicle.trips for flight in trip.flights}
+    rest = tuple(set(range(problem.num_depots, problem.num_nodes)) - served)
+    return route, check(problem, Solution((route,), rest))
+
+
+def costs_nothing(problem: Problem, soon: Route, later: Route) -> bool:
+    """Tell whether a later start adds no lateness, lengthens no sortie and ends no later."""
+    for early, late in zip(soon.trips, later.trips, strict=True):
+        for stop, same in zip(early.stops[1:-1], late.stops[1:-1], strict=True):
+            if same.arrival > max(stop.arrival, problem.customer_at(stop.node).latest):
+                return False
+        for sortie, flown in zip(early.sorties, late.sorties, strict=True):
+            visit, again = sortie.visits[0], flown.visits[0]
+            if again.arrival > max(visit.arrival, problem.customer_at(visit.node).latest):
+                return False
+            if (flown.recovery_start - flown.launch_time
+                    > sortie.recovery_start - sortie.launch_time):
+                return False
+    return later.trips[-1].stops[-1].departure <= soon.trips[-1].stops[-1].departure
+
+
+def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) -> bool:
+    """Tell whether the vehicle can go straight home and the plan be legal."""
+    if vehicle is None:
+        return False
+    if not vehicle.is_idle:
+        home = _settle(problem, vehicle, problem.vehicle_types[vehicle.kind].depot)
+        if home is None:
+            return False
+        vehicle = replace(home, is_idle=True)
+    soon, judged = judge(problem, vehicle, None)
+    broken = {violation.code for violation in judged.violations}
+    if not broken:
+        return True
+    if broken != {"WORKING_DURATION"} and not any_start:
+        return False
+    for start in range(soon.trips[0].stops[0].arrival, soon.trips[-1].stops[-1].departure, MINUTE):
+        route, judged = judge(problem, vehicle, start)
+        if judged.is_feasible and (any_start or costs_nothing(problem, soon, route)):
+            return True
+    return False
+
+
+def legal_codes(problem: Problem, vehicle: Vehicle | None, served: set[int], used: list[int],
+                any_start: bool = False) -> Iterator[int]:
+    """Yield the code of every action that may be done next."""
+    customers = [node for node in range(problem.num_depots, problem.num_nodes)
+                 if node not in served]
+    if vehicle is not None:
+        home = problem.vehicle_types[vehicle.kind].depot
+        actions = [(kind, node) for node in customers for kind in (DRIVE, LAUNCH)]
+        for kind, node in [*actions, (RETURN, home)]:
+            if can_end(problem, after(problem, vehicle, kind, node), any_start):
+                yield node * NUM_KINDS + kind
+    if vehicle is None or (vehicle.is_idle and vehicle.trips):
+        for kind, vehicle_type in enumerate(problem.vehicle_types):
+            if used[kind] < vehicle_type.count and _is_useful(
+                    problem, Vehicle(kind, used[kind]), customers, any_start):
+                yield kind * NUM_KINDS + OPEN
+
+
+def _is_useful(problem: Problem, fresh: Vehicle, customers: list[int], any_start: bool) -> bool:
+    return any(can_end(problem, after(problem, fresh, kind, node), any_start)
+               for kind in (DRIVE, LAUNCH) for node in customers)

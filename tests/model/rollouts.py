@@ -1,0 +1,195 @@
+"""Random masked rollouts of packed problems, recorded step by step."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from model import features
+from model.instance import Instance, pack
+from model.problem import (
+    UNLIMITED, UNREACHABLE, Customer, DroneType, FloatArray, Problem, SpeedProfile, Travel,
+    VehicleType,
+)
+from model.simulator import NUM_KINDS, RETURN, legal_actions, reset
+from model.transition import State
+from training.instances import VARIANTS, generate
+
+
+@dataclass
+class Step:
+    """What one rollout saw and did."""
+
+    codes: list[int]  # legal actions
+    choice: int  # index into them
+    feature: FloatArray
+    glob: FloatArray
+    token: list[int]
+    here: int
+
+
+@dataclass
+class Rollout:
+    """One rollout, from the first step on."""
+
+    steps: list[Step] = field(default_factory=list)
+    cost: FloatArray = field(default_factory=lambda: np.zeros(6))
+
+    @property
+    def actions(self) -> list[int]:
+        """Codes of the actions done."""
+        return [step.codes[step.choice] for step in self.steps]
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Rollouts of problems packed together, one a problem."""
+
+    problems: Sequence[Problem]
+    instance: Instance
+    tokens: features.Tokens
+    rollouts: list[Rollout]
+    state: State
+
+
+def choose(rng: np.random.Generator, codes: Sequence[int]) -> int:
+    """Draw a candidate; returns are rarer, so that trips grow."""
+    weight = np.array([0.3 if code % NUM_KINDS == RETURN else 1.0 for code in codes])
+    return int(rng.choice(len(codes), p=weight / weight.sum()))
+
+
+def roll(problems: Sequence[Problem], seed: int) -> Batch:
+    """Run one random rollout a problem, all in one batch; each draws from its own stream.
+
+    Raises
+    ------
+    RuntimeError
+        If a rollout does not end.
+    """
+    instance, rows = pack(problems), len(problems)
+    scale = features.scales(instance)
+    width = instance.node.shape[1]
+    coordinates = np.zeros((rows, width, 2))
+    for row, problem in enumerate(problems):
+        coordinates[row, : problem.num_nodes] = problem.coordinates
+    tokens = features.tokens(instance, scale, coordinates)
+    state = reset(instance, np.arange(rows))
+    seen = features.empty_observation(rows, width, instance.type.shape[1])
+    rngs = [np.random.default_rng((seed, problem.num_customers)) for problem in problems]
+    rollouts = [Rollout() for _ in problems]
+    choice = np.zeros(rows, np.int64)
+    vehicles = int(instance.type[:, :, 0].sum(axis=1).max())
+    for _ in range(2 * width + vehicles + 2):
+        if not features.observe(instance, scale, state, tokens.type, 0, rows, rows, seen):
+            break
+        for row in np.flatnonzero(seen.count).tolist():
+            count = seen.count[row]
+            codes = seen.action[row, :count].tolist()
+            choice[row] = choose(rngs[row], codes)
+            rollouts[row].steps.append(Step(
+                codes, int(choice[row]), seen.feature[row, :count].copy(), seen.glob[row].copy(),
+                seen.token[row, :count].tolist(), int(seen.here[row])))
+        features.act(instance, state, 0, rows, choice, seen)
+    else:
+        raise RuntimeError("a rollout does not end")
+    for row in range(rows):
+        rollouts[row].cost = state.cost[row].copy()
+    return Batch(problems, instance, tokens, rollouts, state)
+
+
+def legal(problem: Problem, instance: Instance, state: State) -> list[int]:
+    """Return the legal actions of the only rollout of a state."""
+    most = 2 * problem.num_nodes + 1 + len(problem.vehicle_types)
+    actions, outlooks = np.zeros(most, np.int64), np.zeros((most, 3), np.int64)
+    count = legal_actions(instance, state, 0, 1, actions, outlooks)
+    return actions[:count].tolist()
+
+
+def record(problems: Sequence[Problem], path: Path) -> None:
+    """Save all that rollouts of the problems, in one batch, see, do and cost."""
+    batch = roll(problems, seed=11)
+    steps = [step for rollout in batch.rollouts for step in rollout.steps]
+    np.savez(path, codes=np.concatenate([step.codes for step in steps]),
+             choice=[step.choice for step in steps], glob=np.stack([step.glob for step in steps]),
+             feature=np.concatenate([step.feature for step in steps]), served=batch.state.served,
+             cost=batch.state.cost, used=batch.state.used, fresh=batch.state.fresh)
+
+
+def random_problems(seed: int, count: int, largest: int = 25) -> list[Problem]:
+    """Draw problems of all training variants in turn, of 1 to `largest` customers."""
+    rng = np.random.default_rng(seed)
+    names = list(VARIANTS)
+    return [generate(rng, int(rng.integers(1, largest + 1)), names[index % len(names)])
+            for index in range(count)]
+
+
+@dataclass(frozen=True)
+class Units:
+    """Factors by which a problem's numbers grow when its units shrink."""
+
+    length: int = 1
+    time: int = 1
+    amount: int = 1
+    money: float = 1.0
+
+    def limit(self, time: int) -> int:
+        """Convert a time that may be without limit."""
+        return time if time >= UNLIMITED else time * self.time
+
+    def amounts(self, amounts: tuple[int, ...]) -> tuple[int, ...]:
+        """Convert a demand or a capacity."""
+        return tuple(amount * self.amount for amount in amounts)
+
+    def customer(self, customer: Customer) -> Customer:
+        """Convert a customer."""
+        late, early = customer.late_cost_per_hour, customer.early_cost_per_hour
+        return replace(
+            customer, demand=self.amounts(customer.demand),
+            service_duration=self.time * customer.service_duration,
+            earliest=self.time * customer.earliest, latest=self.limit(customer.latest),
+            release_time=self.time * customer.release_time,
+            late_cost_per_hour=None if late is None else late * self.money / self.time,
+            early_cost_per_hour=early * self.money / self.time)
+
+    def drones(self, drones: DroneType) -> DroneType:
+        """Convert a drone type."""
+        service = drones.service_duration
+        return replace(
+            drones, capacity=self.amounts(drones.capacity), endurance=self.limit(drones.endurance),
+            launch_duration=self.time * drones.launch_duration,
+            recovery_duration=self.time * drones.recovery_duration,
+            service_duration=None if service is None else self.time * service,
+            cost_per_km=self.money / self.length * drones.cost_per_km,
+            cost_per_hour=self.money / self.time * drones.cost_per_hour)
+
+    def vehicle_type(self, kind: VehicleType) -> VehicleType:
+        """Convert a vehicle type."""
+        working, distance, profile = (kind.max_working_duration, kind.max_trip_distance,
+                                      kind.speed_profile)
+        return replace(
+            kind, capacity=self.amounts(kind.capacity), fixed_cost=self.money * kind.fixed_cost,
+            cost_per_km=self.money / self.length * kind.cost_per_km,
+            cost_per_hour=self.money / self.time * kind.cost_per_hour,
+            earliest=self.time * kind.earliest, latest=self.limit(kind.latest),
+            max_working_duration=None if working is None else self.time * working,
+            max_trip_distance=None if distance is None else self.length * distance,
+            reload_duration=self.time * kind.reload_duration,
+            speed_profile=None if profile is None else SpeedProfile(
+                tuple(self.time * change for change in profile.times), profile.factors),
+            drones=None if kind.drones is None else self.drones(kind.drones))
+
+    def travel(self, travel: Travel) -> Travel:
+        """Convert legs."""
+        return Travel(*(np.where(legs < UNREACHABLE, legs * factor, UNREACHABLE) for legs, factor
+                        in ((travel.duration, self.time), (travel.distance, self.length))))
+
+
+def in_other_units(problem: Problem, units: Units) -> Problem:
+    """Return the same problem with every number in other units."""
+    return replace(
+        problem, customers=tuple(map(units.customer, problem.customers)),
+        vehicle_types=tuple(map(units.vehicle_type, problem.vehicle_types)),
+        travel=tuple(map(units.travel, problem.travel)),
+        coordinates=problem.coordinates * units.length,
+        unassigned_cost=units.money * problem.unassigned_cost)

@@ -1,0 +1,60 @@
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from model.compiled import SOURCES, fingerprint
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    """A folder with a copy of every file that takes part in compilation."""
+    for name in SOURCES:
+        shutil.copy(ROOT / "model" / f"{name}.py", tmp_path)
+    return tmp_path
+
+
+def folder_seen_from(root: Path, **environment: str) -> str:
+    """Return what a new process names as the folder of compiled code."""
+    script = "from model.compiled import compiled_folder; print(compiled_folder())"
+    done = subprocess.run([sys.executable, "-B", "-c", script], cwd=root, capture_output=True,
+                          check=True, text=True,
+                          env={**os.environ, "PYTHONPATH": str(root), **environment})
+    return done.stdout.strip()
+
+
+def test_same_sources_have_the_same_fingerprint(source: Path) -> None:
+    assert fingerprint(source) == fingerprint(ROOT / "model")
+
+
+@pytest.mark.parametrize("name", SOURCES)
+def test_change_in_any_source_changes_the_fingerprint(source: Path, name: str) -> None:
+    before = fingerprint(source)
+    with (source / f"{name}.py").open("a") as file:
+        file.write("\n")
+    assert fingerprint(source) != before
+
+
+def test_chosen_folder_holds_the_compiled_code(tmp_path: Path) -> None:
+    name = f"compiled-{fingerprint(ROOT / 'model')}"
+    seen = folder_seen_from(ROOT, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
+    assert Path(seen) == tmp_path / "cache" / name
+    assert Path(seen).is_dir()
+
+
+def test_user_cache_serves_where_the_source_cannot_be_written(tmp_path: Path) -> None:
+    package = tmp_path / "model"
+    shutil.copytree(ROOT / "model", package, ignore=shutil.ignore_patterns("__pycache__"))
+    (package / "__pycache__").write_text("in the way of a folder")
+    seen = folder_seen_from(tmp_path, NUMBA_CACHE_DIR="", XDG_CACHE_HOME=str(tmp_path / "user"))
+    assert Path(seen).parent == tmp_path / "user" / "tandem-planner"
+
+
+def test_nothing_is_kept_where_no_folder_can_be_written(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    assert folder_seen_from(ROOT, NUMBA_CACHE_DIR=str(tmp_path / "file")) == "None"

@@ -1,0 +1,79 @@
+"""Decoding by the committed policies."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from model.check import check
+from model.decode import BLOCK, DecodeConfig, Policy, decode, load_policy, prepare
+from model.extract import extract
+from model.instance import pack
+from model.problem import Problem
+from training.instances import generate
+
+WEIGHTS = Path(__file__).parents[2] / "model" / "weights"
+
+
+@pytest.fixture(scope="module", params=sorted(folder.name for folder in WEIGHTS.iterdir()))
+def policy(request: pytest.FixtureRequest) -> Policy:
+    return load_policy(WEIGHTS / request.param)
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    return generate(np.random.default_rng(8), 25, "drone")
+
+
+def plan(policy: Policy, problem: Problem, config: DecodeConfig,
+         deadline: float | None = None) -> tuple[tuple[int, ...], float]:
+    decoded = decode(policy, prepare(policy, problem, pack([problem])), config, deadline)
+    return decoded.actions, decoded.cost
+
+
+def test_cost_of_the_rollout_is_the_checkers(policy: Policy, problem: Problem) -> None:
+    for config in (DecodeConfig(), DecodeConfig("sample", 10)):
+        actions, cost = plan(policy, problem, config)
+        evaluation = check(problem, extract(problem, pack([problem]), actions))
+        assert not evaluation.violations
+        assert evaluation.cost.total == pytest.approx(cost, rel=1e-9)
+
+
+def test_same_seed_gives_the_same_plan(policy: Policy, problem: Problem) -> None:
+    config = DecodeConfig("sample", BLOCK + 3, seed=11)
+    assert plan(policy, problem, config) == plan(policy, problem, config)
+
+
+def test_other_seeds_give_other_plans(policy: Policy, problem: Problem) -> None:
+    plans = {plan(policy, problem, DecodeConfig("sample", 1, seed=seed))[0] for seed in range(5)}
+    assert len(plans) > 1
+
+
+def test_more_samples_are_never_worse(policy: Policy, problem: Problem) -> None:
+    costs = [plan(policy, problem, DecodeConfig("sample", blocks * BLOCK))[1] for blocks in (1, 2)]
+    assert costs[1] <= costs[0]
+
+
+def test_cold_samples_follow_the_greedy_plan(policy: Policy, problem: Problem) -> None:
+    assert (plan(policy, problem, DecodeConfig("sample", 1, temperature=1e-4))
+            == plan(policy, problem, DecodeConfig()))
+
+
+def test_one_block_is_planned_even_past_the_deadline(policy: Policy, problem: Problem) -> None:
+    late = time.perf_counter() - 1
+    only_first = plan(policy, problem, DecodeConfig("sample", 3 * BLOCK), late)
+    assert only_first[1] >= plan(policy, problem, DecodeConfig("sample", 3 * BLOCK))[1]
+
+
+@pytest.mark.parametrize("config", [DecodeConfig("sample", 0),
+                                    DecodeConfig("sample", 4, temperature=0.0)])
+def test_meaningless_sampling_is_refused(policy: Policy, problem: Problem,
+                                         config: DecodeConfig) -> None:
+    with pytest.raises(ValueError, match="num_samples, temperature"):
+        plan(policy, problem, config)
+
+
+def test_missing_policy_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="policy folder"):
+        load_policy(tmp_path / "nothing")

@@ -1,0 +1,94 @@
+"""Tiny problems that mix all rules; every time is a whole number of minutes."""
+
+import numpy as np
+
+from model.problem import (
+    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Problem,
+    SpeedProfile, Travel, VehicleType,
+)
+
+MINUTE = 60_000
+
+RUSH_HOUR = SpeedProfile((5 * MINUTE, 15 * MINUTE), (FULL_SPEED, FULL_SPEED // 3, FULL_SPEED))
+
+
+def _draw(rng: np.random.Generator, low: int, high: int, unit: int = MINUTE) -> int:
+    return int(rng.integers(low, high + 1)) * unit
+
+
+def _maybe(rng: np.random.Generator, share: float, low: int, high: int,
+           unit: int = MINUTE) -> int | None:
+    return _draw(rng, low, high, unit) if rng.random() < share else None
+
+
+def _travel(rng: np.random.Generator, num_nodes: int, longest: int, blocked: float) -> Travel:
+    """Draw legs, at random or between places on a street; some can't be flown."""
+    steps = rng.integers(1, longest + 1, (num_nodes, num_nodes))
+    if rng.random() < 0.5:
+        place = rng.integers(0, longest + 1, num_nodes)
+        steps = np.abs(place[:, None] - place)
+    np.fill_diagonal(steps, 0)
+    closed = rng.random(steps.shape) < blocked
+    np.fill_diagonal(closed, False)
+    return Travel(np.where(closed, UNREACHABLE, steps * MINUTE).astype(np.int64),
+                  np.where(closed, UNREACHABLE, steps * MM_PER_KM).astype(np.int64))
+
+
+def _customer(rng: np.random.Generator, name: int, dimensions: int) -> Customer:
+    earliest = _maybe(rng, 0.5, 0, 30) or 0
+    width = _maybe(rng, 0.5, 0, 25)
+    return Customer(
+        str(name), tuple(_draw(rng, 0, 3, 1) for _ in range(dimensions)),
+        service_duration=_draw(rng, 0, 4),
+        earliest=earliest, latest=UNLIMITED if width is None else earliest + width,
+        late_cost_per_hour=None if rng.random() < 0.6 else 30.0,
+        early_cost_per_hour=float(rng.integers(0, 2)) * 6,
+        served_by=("truck", "drone", "either", "either")[int(rng.integers(4))],
+        skills=frozenset({"cold"} if rng.random() < 0.2 else ()),
+        release_time=_maybe(rng, 0.3, 1, 20) or 0)
+
+
+def _drones(rng: np.random.Generator, dimensions: int) -> DroneType:
+    endurance = _maybe(rng, 0.8, 3, 25)
+    return DroneType(
+        count=int(rng.integers(1, 3)),
+        capacity=tuple(_draw(rng, 1, 3, 1) for _ in range(dimensions)), travel=1,
+        endurance=UNLIMITED if endurance is None else endurance,
+        endurance_includes_waiting=bool(rng.random() < 0.6), launch_duration=_draw(rng, 0, 2),
+        recovery_duration=_draw(rng, 0, 2), service_duration=_maybe(rng, 0.3, 0, 3),
+        cost_per_km=0.5, cost_per_hour=float(rng.integers(0, 2)) * 5)
+
+
+def _vehicle_type(rng: np.random.Generator, name: int, dimensions: int, num_depots: int,
+                  drone_share: float) -> VehicleType:
+    earliest = _maybe(rng, 0.4, 1, 10) or 0
+    max_working = _maybe(rng, 0.6, 8, 45)
+    # Where the working duration counts, times have to stay whole minutes.
+    rush = max_working is None and rng.random() < 0.3
+    shift = _maybe(rng, 0.4, 15, 60)
+    return VehicleType(
+        str(name), count=int(rng.integers(1, 3)),
+        capacity=tuple(_draw(rng, 3, 8, 1) for _ in range(dimensions)), travel=0,
+        depot=int(rng.integers(num_depots)), fixed_cost=float(rng.integers(0, 3)),
+        cost_per_km=1.0, cost_per_hour=20.0,
+        earliest=earliest, latest=UNLIMITED if shift is None else earliest + shift,
+        max_working_duration=max_working, speed_profile=RUSH_HOUR if rush else None,
+        max_trip_distance=_maybe(rng, 0.3, 8, 25, MM_PER_KM),
+        max_trips=int(rng.integers(1, 4)), reload_duration=_draw(rng, 0, 5),
+        skills=frozenset({"cold"} if rng.random() < 0.6 else ()),
+        drones=_drones(rng, dimensions) if rng.random() < drone_share else None)
+
+
+def draw_tiny(rng: np.random.Generator, drone_share: float = 0.6) -> Problem:
+    """Draw a problem of 2 to 5 customers."""
+    dimensions, num_depots = int(rng.integers(1, 3)), int(rng.integers(1, 3))
+    num_customers = int(rng.integers(2, 6))
+    num_nodes = num_depots + num_customers
+    kinds = int(rng.integers(1, 3))
+    return Problem(
+        depots=tuple(Depot(str(index)) for index in range(num_depots)),
+        customers=tuple(_customer(rng, index, dimensions) for index in range(num_customers)),
+        vehicle_types=tuple(_vehicle_type(rng, index, dimensions, num_depots, drone_share)
+                            for index in range(kinds)),
+        travel=(_travel(rng, num_nodes, 8, 0.0), _travel(rng, num_nodes, 5, 0.08)),
+        coordinates=rng.random((num_nodes, 2)), unassigned_cost=100.0)

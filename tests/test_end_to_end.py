@@ -1,0 +1,97 @@
+"""The service as users run it: the real command, the committed weights, real HTTP."""
+
+import json
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from typer.testing import CliRunner
+
+from app.cli import app as command_line
+
+ROOT = Path(__file__).parent.parent
+EXAMPLES = sorted((ROOT / "examples").glob("*.json"))
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
+    port = free_port()
+    log = (tmp_path_factory.mktemp("serve") / "log.txt").open("w")
+    process = subprocess.Popen([sys.executable, "-m", "app.cli", "serve", "--port", str(port)],
+                               stdout=log, stderr=log, cwd=ROOT)
+    with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=120, trust_env=False) as http:
+        while not is_ready(http):
+            assert process.poll() is None, Path(log.name).read_text()
+        yield http
+    process.terminate()
+    process.wait()
+    log.close()
+
+
+def is_ready(http: httpx.Client) -> bool:
+    try:
+        return http.get("/health/ready").status_code == 200
+    except httpx.TransportError:
+        return False
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("decoding", ["greedy", "sample"])
+def test_examples_are_planned_and_the_plans_pass_the_check(
+        client: httpx.Client, example: Path, decoding: str, tmp_path: Path) -> None:
+    request = json.loads(example.read_text())
+    request["options"] = {"decoding": decoding, "num_samples": 16, "time_limit": 0}
+    reply = client.post("/plan", json=request)
+    assert reply.status_code == 200, reply.text
+    plan = reply.json()
+    assert plan["summary"]["served"] + len(plan["unassigned"]) == len(request["customers"])
+    (tmp_path / "request.json").write_text(json.dumps(request))
+    (tmp_path / "plan.json").write_text(reply.text)
+    result = CliRunner().invoke(
+        command_line, ["check", str(tmp_path / "request.json"), str(tmp_path / "plan.json")])
+    assert result.exit_code == 0, result.output
+
+
+def test_table1_is_served_whole_at_a_fair_cost(client: httpx.Client) -> None:
+    request: dict[str, Any] = json.loads((ROOT / "examples" / "table1.json").read_text())
+    request["options"] = {"decoding": "sample", "num_samples": 128, "time_limit": 0}
+    plan = client.post("/plan", json=request).json()
+    assert plan["status"] == "complete"
+    assert plan["cost"]["total"] < 950
+    assert plan["summary"]["sorties"] >= 10
+
+
+def test_same_request_gets_the_same_plan(client: httpx.Client) -> None:
+    request: dict[str, Any] = json.loads((ROOT / "examples" / "table1.json").read_text())
+    request["options"] = {"decoding": "sample", "num_samples": 8, "seed": 3, "time_limit": 0}
+    plans = [client.post("/plan", json=request).json() for _ in range(2)]
+    for plan in plans:
+        del plan["solver"]["elapsed"]
+    assert plans[0] == plans[1]
+
+
+def test_documents_examples_run_as_they_stand(client: httpx.Client) -> None:
+    document = client.get("/openapi.json").json()
+    body = document["paths"]["/plan"]["post"]["requestBody"]["content"]["application/json"]
+    assert len(body["examples"]) >= 3
+    for name, example in body["examples"].items():
+        reply = client.post("/plan", json=example["value"])
+        assert reply.status_code == 200, (name, reply.text)
+
+
+def test_documentation_needs_no_other_host(client: httpx.Client) -> None:
+    page = client.get("/docs").text
+    assert "swagger" in page.lower()
+    assert "https://" not in page
+    assert "http://" not in page

@@ -1,0 +1,61 @@
+"""Exported graphs say what the network says, at sizes they were not traced at."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import onnx
+import onnxruntime as ort
+import pytest
+import torch
+
+from training.export import Encoder, Step, example_inputs, export
+from training.policies import POLICIES
+
+STEP_INPUTS = ("here", "candidate", "feature", "allowed", "glob", "hidden")
+
+
+@pytest.fixture(scope="module", params=POLICIES)
+def exported(request: pytest.FixtureRequest,
+             tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+    torch.manual_seed(2)
+    folder = tmp_path_factory.mktemp(request.param)
+    policy = POLICIES[request.param]()
+    torch.save(policy.state_dict(), folder / "weights.pt")
+    export(policy, folder, {"note": "untrained"})
+    return request.param, folder
+
+
+@pytest.mark.parametrize(("nodes", "types", "rollouts", "candidates"),
+                         [(2, 1, 1, 1), (3, 2, 2, 2), (21, 4, 1, 30), (101, 1, 64, 50),
+                          (301, 2, 3, 170)])
+def test_torch_and_onnx_agree(exported: tuple[str, Path], nodes: int, types: int, rollouts: int,
+                              candidates: int) -> None:
+    name, folder = exported
+    policy = POLICIES[name]()
+    policy.load_state_dict(torch.load(folder / "weights.pt"))
+    policy.eval()
+    encoder_inputs, step_inputs = example_inputs(policy, nodes, types, rollouts, candidates, seed=9)
+    with torch.no_grad():
+        memory = Encoder(policy)(*encoder_inputs)
+        logits, hidden = Step(policy)(memory, *step_inputs)
+    encoder = ort.InferenceSession(str(folder / "encoder.onnx"))
+    step = ort.InferenceSession(str(folder / "step.onnx"))
+    got_memory, = encoder.run(None, dict(zip(("node", "type", "pair"),
+                                             (x.numpy() for x in encoder_inputs), strict=True)))
+    np.testing.assert_allclose(got_memory, memory.numpy(), atol=1e-4, rtol=1e-4)
+    got_logits, got_hidden = step.run(None, {
+        "memory": got_memory, **{key: x.numpy() for key, x
+                                 in zip(STEP_INPUTS, step_inputs, strict=True)}})
+    np.testing.assert_allclose(got_logits, logits.numpy(), atol=1e-4, rtol=1e-4)
+    np.testing.assert_allclose(got_hidden, hidden.numpy(), atol=1e-4, rtol=1e-4)
+
+
+def test_card_and_graphs_are_complete_and_tell_no_paths(exported: tuple[str, Path]) -> None:
+    name, folder = exported
+    card = json.loads((folder / "card.json").read_text())
+    assert card["hidden_size"] == POLICIES[name]().hidden_size
+    assert card["note"] == "untrained"
+    for part in ("encoder", "step"):
+        onnx.checker.check_model(onnx.load(folder / f"{part}.onnx"))
+        assert b".py" not in (folder / f"{part}.onnx").read_bytes()

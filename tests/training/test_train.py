@@ -1,0 +1,91 @@
+"""Training runs end to end in seconds and resumes exactly."""
+
+import csv
+import os
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import torch
+
+from training.config import TrainConfig
+from training.rules import nearest_neighbour
+from training.train import train, validation_batches
+
+TINY = TrainConfig(sizes=((0, 6), (2, 8)), num_problems=4, num_rollouts=3, warm_up=2)
+
+
+@pytest.mark.parametrize("policy", ["pointer", "attention"])
+@pytest.mark.parametrize("baseline", ["critic", "shared"])
+def test_training_runs_and_logs(policy: str, baseline: str, tmp_path: Path) -> None:
+    config = TrainConfig(policy=policy, baseline=baseline, sizes=((0, 6),),  # type: ignore[arg-type]
+                         num_problems=4, num_rollouts=3)
+    ratios = train(config, tmp_path, 5.0, "cpu", max_steps=2, validation_size=8)
+    assert set(ratios) > {"all", "cvrp", "vrptw", "mixed"}
+    with (tmp_path / "log.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [int(row["step"]) for row in rows] == [1, 2]
+    assert all(float(row["problems_per_second"]) > 0 for row in rows)
+    assert list(tmp_path.glob("events.out.tfevents*"))
+
+
+def test_resumed_run_equals_an_uninterrupted_one(tmp_path: Path) -> None:
+    whole, parted = tmp_path / "whole", tmp_path / "parted"
+    train(TINY, whole, 5.0, "cpu", max_steps=4, validation_size=8)
+    train(TINY, parted, 5.0, "cpu", max_steps=2, validation_size=8)
+    train(TINY, parted, 5.0, "cpu", max_steps=4, validation_size=8)
+    first, second = (torch.load(folder / "checkpoint.pt", weights_only=False)
+                     for folder in (whole, parted))
+    assert first["step"] == second["step"] == 4
+    assert first["rng"] == second["rng"]
+    for part in ("policy", "critic"):
+        for name, value in first[part].items():
+            assert torch.equal(value, second[part][name]), name
+
+
+def test_several_processes_train_one_policy(tmp_path: Path) -> None:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    command = [sys.executable, "-m", "torch.distributed.run", "--nproc-per-node=2",
+               "--master-addr=127.0.0.1", f"--master-port={port}", "-m", "training.train", "--folder",
+               str(tmp_path), "--max-steps", "2", "--sizes", "0:6", "--num-problems", "4",
+               "--num-rollouts", "3", "--minutes", "5"]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False,
+                            env={**os.environ, "OMP_NUM_THREADS": "1"})
+    assert result.returncode == 0, result.stderr[-2000:]
+    assert torch.load(tmp_path / "checkpoint.pt", weights_only=False)["step"] == 2
+
+
+def test_terminated_run_saves_what_it_has(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "training.train", "--folder", str(tmp_path), "--sizes", "0:6",
+               "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                               env={**os.environ, "OMP_NUM_THREADS": "1"})
+    log = tmp_path / "log.csv"
+    while not log.exists():
+        assert process.poll() is None
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=120)
+    assert process.returncode == 0
+    assert torch.load(tmp_path / "checkpoint.pt", weights_only=False)["step"] >= 1
+
+
+def test_curriculum_grows_and_rate_decays() -> None:
+    config = TrainConfig(sizes=((0, 20), (10, 50)), warm_up=4, learning_rate=1.0, decay=(20, 30))
+    assert [config.size_at(step) for step in (0, 9, 10, 99)] == [20, 20, 50, 50]
+    assert config.learning_rate_at(0) == 0.25
+    assert config.learning_rate_at(19) == 1.0
+    assert config.learning_rate_at(25) == pytest.approx(0.505)
+    assert config.learning_rate_at(1000) == 0.01
+    assert config.problems_at(20) == 64
+    assert config.problems_at(50) < 64
+
+
+def test_validation_reference_is_the_nearest_neighbours_plan() -> None:
+    (batch, reference), *_ = validation_batches(8)
+    assert (reference > 0).all()
+    assert (reference == nearest_neighbour(batch)).all()
