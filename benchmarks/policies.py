@@ -1,6 +1,6 @@
-"""Policies on the fixed validation set, beside the nearest neighbour: `python -m benchmarks.policies`.
+"""Policies on the fixed validation set, beside the nearest neighbour.
 
-Writes a CSV of every plan and a table of each class: mean cost relative to the nearest feasible
+`python -m benchmarks.policies` writes a CSV of every plan and a table of each class: mean cost relative to the nearest feasible
 neighbour's plan of the same problem, and customers left out. Every plan is checked.
 """
 
@@ -64,7 +64,7 @@ def plan_all(problems: Sequence[tuple[str, Problem]], policy: str, samples: int)
 
 
 def table(outcomes: Sequence[Outcome]) -> list[list[str]]:
-    """Return header and rows, a row per class and one for all: cost over the nearest neighbour's."""
+    """Return header and rows, a row per class: mean cost over the nearest neighbour's."""
     methods = list(dict.fromkeys(outcome.method for outcome in outcomes))
     classes = [*dict.fromkeys(outcome.name.split("-")[0] for outcome in outcomes), "all"]
     rows = [["class", "problems", *methods]]

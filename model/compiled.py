@@ -15,7 +15,8 @@ from typing import Any, TypeVar, cast
 
 from numba import config, njit
 
-SOURCES = ("compiled", "problem", "instance", "schedule", "transition", "simulator", "features")
+SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", "simulator",
+           "tokens", "features")
 """Files with compiled functions, and those whose constants are compiled into them."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])

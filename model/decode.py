@@ -12,12 +12,11 @@ import numpy as np
 import onnxruntime as ort
 from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
-from model.features import (
-    Float32Array, Observation, Scales, Tokens, act, empty_observation, observe, scales, tokens,
-)
+from model.features import Observation, act, empty_observation, observe
 from model.instance import Instance
 from model.problem import BoolArray, IntArray, Problem
 from model.simulator import reset
+from model.tokens import Float32Array, Scales, Tokens, scales, tokens
 
 ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.InvalidGraph,
               ort_errors.Fail)

@@ -12,11 +12,9 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import pad, silu
 
-from model.features import (
-    NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, NUM_NODE_FEATURES, NUM_PAIR_FEATURES,
-    NUM_TYPE_FEATURES,
-)
+from model.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
 from model.policy import MASKED
+from model.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor, nn
 
-from model.features import (
-    NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, NUM_NODE_FEATURES, NUM_TYPE_FEATURES,
-)
+from model.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
 from model.policy import MASKED
+from model.tokens import NUM_NODE_FEATURES, NUM_TYPE_FEATURES
 
 @dataclass(frozen=True)
 class PointerConfig:

@@ -11,6 +11,7 @@ is not kept by being late. So no legal action leads into an illegal plan.
 import numpy as np
 
 from model.compiled import compiled
+from model.cost import COST_UNASSIGNED
 from model.instance import (
     MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
     NODE_SERVICE, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES, TYPE_LATEST, TYPE_LAUNCH,
@@ -23,7 +24,7 @@ from model.schedule import (
     travel_arrival, unreachable,
 )
 from model.transition import (
-    COST_UNASSIGNED, DRONE_SORTIE, NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE,
+    DRONE_SORTIE, NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE,
     V_IDLE, V_LOAD, V_NEXT_START, V_NODE, V_TYPE, State, board, close_vehicle, drive, empty_state,
     launch, leave_for, open_vehicle,
 )

@@ -22,13 +22,14 @@ FORBIDDEN = {
 
 MODEL_ORDER = (
     "compiled", "problem", "solution", "timing", "metrics", "rules", "check", "attempt", "explain",
-    "travel", "airspace", "instance", "schedule", "transition", "simulator", "features", "extract",
-    "policy", "policy_pointer", "policy_attention", "decode", "planner",
+    "travel", "airspace", "instance", "schedule", "cost", "transition", "simulator", "tokens",
+    "features", "extract", "policy", "policy_pointer", "policy_attention", "decode", "planner",
 )
 """Each file of `model` imports only files to the left of its name."""
 
 CHECKER = ("timing", "metrics", "rules", "check", "attempt", "explain")
-SIMULATION = ("compiled", "instance", "schedule", "transition", "simulator", "features", "extract")
+SIMULATION = ("compiled", "instance", "schedule", "cost", "transition", "simulator", "tokens",
+              "features", "extract")
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 40

@@ -13,11 +13,9 @@ import torch
 import typer
 from torch import Tensor, nn
 
-from model.features import (
-    NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, NUM_NODE_FEATURES, NUM_PAIR_FEATURES,
-    NUM_TYPE_FEATURES,
-)
+from model.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
 from model.policy import PolicyNetwork
+from model.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 from training.policies import POLICIES
 
 OPSET = 20

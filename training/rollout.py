@@ -8,13 +8,12 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from model.features import (
-    Observation, Scales, Tokens, act, empty_observation, observe, scales, tokens,
-)
+from model.features import Observation, act, empty_observation, observe
 from model.instance import Instance, pack
 from model.policy import PolicyNetwork
 from model.problem import FloatArray, IntArray, Problem
 from model.simulator import reset
+from model.tokens import Scales, Tokens, scales, tokens
 from training.dataset import Decisions, Record, pad
 
 Chooser = Callable[[Tensor], Tensor]

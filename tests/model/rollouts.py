@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from model import features
+from model import tokens as token_module
 from model.instance import Instance, pack
 from model.problem import (
     UNLIMITED, UNREACHABLE, Customer, DroneType, FloatArray, Problem, SpeedProfile, Travel,
@@ -48,7 +49,7 @@ class Batch:
 
     problems: Sequence[Problem]
     instance: Instance
-    tokens: features.Tokens
+    tokens: token_module.Tokens
     rollouts: list[Rollout]
     state: State
 
@@ -68,12 +69,12 @@ def roll(problems: Sequence[Problem], seed: int) -> Batch:
         If a rollout does not end.
     """
     instance, rows = pack(problems), len(problems)
-    scale = features.scales(instance)
+    scale = token_module.scales(instance)
     width = instance.node.shape[1]
     coordinates = np.zeros((rows, width, 2))
     for row, problem in enumerate(problems):
         coordinates[row, : problem.num_nodes] = problem.coordinates
-    tokens = features.tokens(instance, scale, coordinates)
+    tokens = token_module.tokens(instance, scale, coordinates)
     state = reset(instance, np.arange(rows))
     seen = features.empty_observation(rows, width, instance.type.shape[1])
     rngs = [np.random.default_rng((seed, problem.num_customers)) for problem in problems]
