@@ -17,6 +17,9 @@ EXAMPLES_DIR = Path(__file__).parent / "examples"
 EXAMPLES = {
     "smallest": "Two customers, one truck, all else by default",
     "drones": "Trucks with a drone each, time windows and a shift",
+    "table1": "The paper's hundred customers, four trucks with a drone each",
+    "hetero_day": "A heterogeneous fleet on several trips within working hours",
+    "city_day": "A city: geographic, rush hours, a no-fly area, wind",
 }
 ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {
     status: {

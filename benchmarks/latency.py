@@ -59,7 +59,7 @@ def service() -> Iterator[str]:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     address = f"http://127.0.0.1:{port}"
-    process = subprocess.Popen([sys.executable, "-m", "app.cli", "serve", "--port", str(port)],
+    process = subprocess.Popen([sys.executable, "-m", "app", "serve", "--port", str(port)],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         began = time.perf_counter()

@@ -1,7 +1,8 @@
 """Policies on the fixed validation set, beside the nearest neighbour.
 
-`python -m benchmarks.policies` writes a CSV of every plan and a table of each class: mean cost relative to the nearest feasible
-neighbour's plan of the same problem, and customers left out. Every plan is checked.
+`python -m benchmarks.policies` writes a CSV of every plan and prints a table of each class: mean
+cost relative to the nearest feasible neighbour's plan of the same problem, and in brackets how
+many customers were left out. Every plan is checked.
 """
 
 import csv

@@ -15,12 +15,15 @@ from typing import Any
 from shapely import Point, Polygon
 
 from app.convert import to_problem
+from app.openapi import EXAMPLES as DOCUMENTED
+from app.openapi import EXAMPLES_DIR
 from app.schemas_request import PlanRequest
 from model.solution import Stop, Visit
 from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
 
 WINDOWS_SEED = 20250926
 CITY_SEED = 47
+DAY_SEED = 12
 
 HOUR = 3600
 MINUTE = 60
@@ -100,6 +103,40 @@ def _arrivals(request: Data, seed_dir: Path) -> list[float]:
         for halt in halts:
             arrivals[halt.node - 1] = halt.arrival / 1000
     return arrivals
+
+
+def hetero_day() -> Data:
+    """Return a day of three vehicle types that drive up to three trips within working hours.
+
+    One unit is a kilometre, times are seconds since midnight.
+    """
+    rng = random.Random(DAY_SEED)
+    customers = []
+    for number in range(1, 51):
+        customer: Data = {
+            "id": f"c{number:02}", "location": [rng.randint(0, 40), rng.randint(0, 40)],
+            "demand": [rng.randint(5, 35)], "service_duration": 5 * MINUTE}
+        if number % 3 == 0:
+            earliest = rng.randint(8, 13) * HOUR
+            customer["time_window"] = {"earliest": earliest, "latest": earliest + 3 * HOUR}
+        customers.append(customer)
+    shift = {"earliest": 8 * HOUR, "latest": 18 * HOUR}
+    fleet = [
+        {"id": f"van-{capacity}", "count": count, "capacity": [capacity],
+         "costs": {"fixed": fixed, "per_km": per_km, "per_hour": 15}, "speed_kmh": 45,
+         "shift": shift, "max_working_duration": 8 * HOUR, "max_trips": 3,
+         "reload_duration": 15 * MINUTE}
+        for capacity, count, fixed, per_km in ((100, 3, 20, 0.4), (150, 2, 30, 0.5),
+                                               (200, 2, 40, 0.6))
+    ]
+    return {
+        "coordinate_system": "planar",
+        "planar_unit": 1000,
+        "depots": [{"id": "depot", "location": [20, 20]}],
+        "customers": customers,
+        "fleet": fleet,
+        "options": {"seed": 0, "time_limit": 1.0},
+    }
 
 
 CITY_CENTRE = (8.541, 47.374)
@@ -218,11 +255,14 @@ def write(request: Data, file: Path) -> None:
 
 
 def main() -> None:
-    """Write all examples."""
+    """Write all examples, those of the API's documentation into the package too."""
     seed_dir, folder = Path(sys.argv[1]), Path(__file__).parent
-    write(table1(seed_dir), folder / "table1.json")
-    write(table1_windows(seed_dir), folder / "table1_windows.json")
-    write(city_day(), folder / "city_day.json")
+    examples = {"table1": table1(seed_dir), "table1_windows": table1_windows(seed_dir),
+                "hetero_day": hetero_day(), "city_day": city_day()}
+    for name, request in examples.items():
+        write(request, folder / f"{name}.json")
+        if name in DOCUMENTED:
+            write(request, EXAMPLES_DIR / f"{name}.json")
 
 
 if __name__ == "__main__":

@@ -55,8 +55,9 @@ class PointerPolicy(nn.Module):
     def advance(self, memory: Tensor, here: Tensor, hidden: Tensor) -> Tensor:
         """Let the LSTM read the present place; `hidden` holds its output and its cell."""
         output, cell = hidden.chunk(2, dim=1)
-        gates = (torch.relu(memory[here]) @ self.lstm.weight_ih_l0.T + self.lstm.bias_ih_l0
-                 + output @ self.lstm.weight_hh_l0.T + self.lstm.bias_hh_l0)
+        weight_in, weight_hidden, bias_in, bias_hidden = self.lstm.all_weights[0]
+        gates = (torch.relu(memory[here]) @ weight_in.T + bias_in
+                 + output @ weight_hidden.T + bias_hidden)
         enter, forget, new, out = gates.chunk(4, dim=1)
         cell = torch.sigmoid(forget) * cell + torch.sigmoid(enter) * torch.tanh(new)
         return torch.cat([torch.sigmoid(out) * torch.tanh(cell), cell], dim=1)

@@ -12,7 +12,7 @@ import httpx
 import pytest
 from typer.testing import CliRunner
 
-from app.cli import app as command_line
+from app.cli import cli as command_line
 
 ROOT = Path(__file__).parent.parent
 EXAMPLES = sorted((ROOT / "examples").glob("*.json"))
@@ -27,16 +27,16 @@ def free_port() -> int:
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     port = free_port()
-    log = (tmp_path_factory.mktemp("serve") / "log.txt").open("w")
-    process = subprocess.Popen([sys.executable, "-m", "app.cli", "serve", "--port", str(port)],
-                               stdout=log, stderr=log, cwd=ROOT)
+    path = tmp_path_factory.mktemp("serve") / "log.txt"
+    with path.open("w") as log:
+        process = subprocess.Popen([sys.executable, "-m", "app", "serve", "--port", str(port)],
+                                   stdout=log, stderr=log, cwd=ROOT)
     with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=120, trust_env=False) as http:
         while not is_ready(http):
-            assert process.poll() is None, Path(log.name).read_text()
+            assert process.poll() is None, path.read_text()
         yield http
     process.terminate()
     process.wait()
-    log.close()
 
 
 def is_ready(http: httpx.Client) -> bool:

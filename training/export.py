@@ -14,9 +14,8 @@ import typer
 from torch import Tensor, nn
 
 from model.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
-from model.policy import PolicyNetwork
 from model.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
-from training.policies import POLICIES
+from training.policies import POLICIES, AnyPolicy
 
 OPSET = 20
 
@@ -24,7 +23,7 @@ OPSET = 20
 class Encoder(nn.Module):
     """One problem's tokens, without padding, to the memory of all decisions."""
 
-    def __init__(self, policy: PolicyNetwork) -> None:
+    def __init__(self, policy: AnyPolicy) -> None:
         super().__init__()
         self.policy = policy
 
@@ -37,7 +36,7 @@ class Encoder(nn.Module):
 class Step(nn.Module):
     """One decision of a batch of rollouts."""
 
-    def __init__(self, policy: PolicyNetwork) -> None:
+    def __init__(self, policy: AnyPolicy) -> None:
         super().__init__()
         self.policy = policy
 
@@ -49,7 +48,7 @@ class Step(nn.Module):
         return logits, after
 
 
-def example_inputs(policy: PolicyNetwork, nodes: int, types: int, rollouts: int,
+def example_inputs(policy: AnyPolicy, nodes: int, types: int, rollouts: int,
                    candidates: int, seed: int = 0) -> tuple[tuple[Tensor, ...], tuple[Tensor, ...]]:
     """Return random inputs of encoder and step (the step's without memory)."""
     generator = torch.Generator().manual_seed(seed)
@@ -66,7 +65,7 @@ def example_inputs(policy: PolicyNetwork, nodes: int, types: int, rollouts: int,
     return encoder, step
 
 
-def export(policy: PolicyNetwork, folder: Path, card: dict[str, Any]) -> None:
+def export(policy: AnyPolicy, folder: Path, card: dict[str, Any]) -> None:
     """Write both graphs and the card.
 
     Parameters

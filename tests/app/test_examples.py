@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 
 from app.convert import to_problem
+from app.openapi import EXAMPLES as DOCUMENTED
+from app.openapi import EXAMPLES_DIR
 from app.reading import read_request
 from app.settings import DEFAULT_POLICY
 from model.problem import UNREACHABLE, Problem
@@ -17,9 +19,15 @@ def _problem(name: str) -> Problem:
     return to_problem(read_request(body, (DEFAULT_POLICY,)))
 
 
-@pytest.mark.parametrize("name", ["table1", "table1_windows", "city_day"])
+@pytest.mark.parametrize("name", ["table1", "table1_windows", "hetero_day", "city_day"])
 def test_example_is_valid(name: str) -> None:
     assert _problem(name).num_customers >= 40
+
+
+@pytest.mark.parametrize("name", ["table1", "hetero_day", "city_day"])
+def test_documented_example_is_the_same_file(name: str) -> None:
+    assert name in DOCUMENTED
+    assert (EXAMPLES_DIR / f"{name}.json").read_bytes() == (EXAMPLES / f"{name}.json").read_bytes()
 
 
 def test_table1_needs_nearly_all_capacity_and_costs_length() -> None:

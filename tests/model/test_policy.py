@@ -5,29 +5,27 @@ import torch
 from torch import Tensor
 
 from model.policy import MASKED
-from model.policy_attention import AttentionPolicy
-from model.policy_pointer import PointerPolicy
 from training.export import example_inputs
-from training.policies import POLICIES
+from training.policies import POLICIES, AnyPolicy
 
 NODES, TYPES, ROLLOUTS, CANDIDATES = 9, 2, 4, 6
 
 
 @pytest.fixture(params=POLICIES)
-def policy(request: pytest.FixtureRequest) -> PointerPolicy | AttentionPolicy:
+def policy(request: pytest.FixtureRequest) -> AnyPolicy:
     torch.manual_seed(4)
     return POLICIES[request.param]().eval()
 
 
 @pytest.fixture
-def memory(policy: PointerPolicy) -> Tensor:
-    encoder, _ = example_inputs(policy, NODES, TYPES, ROLLOUTS, CANDIDATES)
+def memory(policy: AnyPolicy) -> Tensor:
+    (node, kind, pair), _ = example_inputs(policy, NODES, TYPES, ROLLOUTS, CANDIDATES)
     with torch.no_grad():
-        return policy.encode(*encoder, torch.ones(1, NODES + TYPES, dtype=torch.bool))[0]
+        return policy.encode(node, kind, pair, torch.ones(1, NODES + TYPES, dtype=torch.bool))[0]
 
 
 @torch.no_grad()
-def test_padding_candidates_changes_nothing(policy: PointerPolicy, memory: Tensor) -> None:
+def test_padding_candidates_changes_nothing(policy: AnyPolicy, memory: Tensor) -> None:
     _, (here, candidate, feature, allowed, glob, hidden) = example_inputs(
         policy, NODES, TYPES, ROLLOUTS, CANDIDATES)
     short = policy.score(memory, here, candidate, feature, allowed, glob, hidden)
@@ -39,7 +37,7 @@ def test_padding_candidates_changes_nothing(policy: PointerPolicy, memory: Tenso
 
 
 @torch.no_grad()
-def test_order_of_candidates_changes_nothing(policy: PointerPolicy, memory: Tensor) -> None:
+def test_order_of_candidates_changes_nothing(policy: AnyPolicy, memory: Tensor) -> None:
     _, (here, candidate, feature, allowed, glob, hidden) = example_inputs(
         policy, NODES, TYPES, ROLLOUTS, CANDIDATES)
     order = torch.tensor([3, 0, 5, 1, 4, 2])
@@ -50,7 +48,7 @@ def test_order_of_candidates_changes_nothing(policy: PointerPolicy, memory: Tens
 
 
 @torch.no_grad()
-def test_padding_tokens_changes_nothing(policy: PointerPolicy, memory: Tensor) -> None:
+def test_padding_tokens_changes_nothing(policy: AnyPolicy, memory: Tensor) -> None:
     (node, kind, pair), _ = example_inputs(policy, NODES, TYPES, ROLLOUTS, CANDIDATES)
     node = torch.cat([node, torch.zeros(1, 3, node.shape[2])], dim=1)
     pair = torch.nn.functional.pad(pair, (0, 0, 0, 3, 0, 3))

@@ -15,12 +15,13 @@ from training.instances import VARIANTS, generate
 from training.learn import (
     critic_advantage, critic_step, policy_gradient, shared_advantage, training_costs,
 )
+from training.policies import AnyPolicy
 from training.rollout import Batch, Outcome, make_batch, roll_out, sampler
 
 CPU = torch.device("cpu")
 NUM_ROLLOUTS = 3
 
-POLICIES: dict[str, Callable[[], PointerPolicy | AttentionPolicy]] = {
+POLICIES: dict[str, Callable[[], AnyPolicy]] = {
     "pointer": lambda: PointerPolicy(PointerConfig(width=16)),
     "attention": lambda: AttentionPolicy(
         AttentionConfig(width=16, num_heads=2, num_layers=2, inner=16, action_width=8)),
@@ -35,7 +36,7 @@ def batch() -> Batch:
 
 
 @pytest.fixture(params=POLICIES)
-def policy(request: pytest.FixtureRequest) -> PointerPolicy | AttentionPolicy:
+def policy(request: pytest.FixtureRequest) -> AnyPolicy:
     torch.manual_seed(5)
     return POLICIES[request.param]()
 
@@ -57,7 +58,7 @@ def play(policy: PolicyNetwork, batch: Batch, scored: list[Tensor] | None = None
 
 @torch.no_grad()
 def test_probabilities_computed_anew_are_those_of_the_rollout(
-        policy: PointerPolicy, batch: Batch) -> None:
+        policy: AnyPolicy, batch: Batch) -> None:
     scored: list[Tensor] = []
     decisions, choice = join(play(policy, batch, scored).record)
     expected = torch.cat(scored)
@@ -77,7 +78,7 @@ def test_probabilities_computed_anew_are_those_of_the_rollout(
     assert all(probability == 0.0 for probability in by_decision.values())  # no choice there
 
 
-def test_size_of_chunks_does_not_change_the_gradient(policy: PointerPolicy, batch: Batch) -> None:
+def test_size_of_chunks_does_not_change_the_gradient(policy: AnyPolicy, batch: Batch) -> None:
     decisions, choice = join(play(policy, batch).record)
     advantage = torch.linspace(-1, 1, batch.num_problems * NUM_ROLLOUTS)
     gradients = []
@@ -94,7 +95,7 @@ def test_size_of_chunks_does_not_change_the_gradient(policy: PointerPolicy, batc
 
 
 def test_a_step_along_the_gradient_makes_cheap_rollouts_likelier(
-        policy: PointerPolicy, batch: Batch) -> None:
+        policy: AnyPolicy, batch: Batch) -> None:
     outcome = play(policy, batch)
     costs = torch.from_numpy(training_costs(batch, outcome, NUM_ROLLOUTS, 0.2)).float()
     advantage = shared_advantage(costs, costs[:, 0]).flatten()
@@ -103,7 +104,7 @@ def test_a_step_along_the_gradient_makes_cheap_rollouts_likelier(
     with torch.no_grad():
         for parameter in policy.parameters():
             if parameter.grad is not None:
-                parameter -= 1e-3 * parameter.grad
+                parameter.sub_(1e-3 * parameter.grad)
     policy.zero_grad()
     after = policy_gradient(policy, batch, decisions, choice, advantage, 10_000, 0.0, False)
     assert after.policy < before.policy

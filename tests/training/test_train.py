@@ -52,8 +52,8 @@ def test_several_processes_train_one_policy(tmp_path: Path) -> None:
         port = probe.getsockname()[1]
     command = [sys.executable, "-m", "torch.distributed.run", "--nproc-per-node=2",
                "--master-addr=127.0.0.1", f"--master-port={port}", "-m", "training.train",
-               "--folder", str(tmp_path), "--max-steps", "2", "--sizes", "0:6", "--num-problems", "4",
-               "--num-rollouts", "3", "--minutes", "5"]
+               "--folder", str(tmp_path), "--max-steps", "2", "--sizes", "0:6",
+               "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]
     result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False,
                             env={**os.environ, "OMP_NUM_THREADS": "1"})
     assert result.returncode == 0, result.stderr[-2000:]
