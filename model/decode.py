@@ -12,7 +12,7 @@ import numpy as np
 import onnxruntime as ort
 from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
-from model.features import Observation, act, empty_observation, observe
+from model.features import Observation, empty_observation, step
 from model.instance import Instance
 from model.problem import BoolArray, IntArray, Problem
 from model.simulator import reset
@@ -139,10 +139,10 @@ def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Genera
     seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
     hidden = np.zeros((rows, policy.hidden_size), np.float32)
     choice = np.zeros(rows, np.int64)
-    steps = []
+    actions = []
     # Each step serves, opens or returns, and no trip and no vehicle stays empty.
     for _ in range(3 * int(instance.size[0, 1]) + 2):
-        most = observe(instance, scene.scale, state, scene.tokens.type, 0, rows, rows, seen)
+        most = step(instance, scene.scale, state, scene.tokens.type, 0, rows, rows, choice, seen)
         if most == 0:
             break
         logits, hidden = policy.step.run(None, step_inputs(scene, seen, most, hidden))
@@ -151,12 +151,11 @@ def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Genera
         else:
             noise = rng.standard_exponential(logits.shape, np.float32)
             np.subtract(logits / temperature, np.log(noise)).argmax(axis=1, out=choice)
-        steps.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
-        act(instance, state, 0, rows, choice, seen)
+        actions.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
     cost = state.cost[:rows].sum(axis=1)
     best = int(cost.argmin())
-    actions = [int(step[best]) for step in steps]
-    return Decoded(tuple(action for action in actions if action != NO_ACTION), float(cost[best]))
+    of_best = (int(step_actions[best]) for step_actions in actions)
+    return Decoded(tuple(action for action in of_best if action != NO_ACTION), float(cost[best]))
 
 
 def step_inputs(scene: Scene, seen: Observation, most: int,

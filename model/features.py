@@ -315,3 +315,14 @@ def act(instance: Instance, state: State, first: int, behind: int, choice: IntAr
     for r in range(first, behind):
         if seen.count[r] > 0:
             apply(instance, state, r, seen.action[r, choice[r]])
+
+
+@compiled
+def step(instance: Instance, scale: Scales, state: State, type_token: Float32Array, first: int,
+         behind: int, scratch: int, choice: IntArray, seen: Observation) -> int:
+    """Do what was chosen of what was `seen`, then observe; at the beginning, only the latter.
+
+    In place, like `act` and `observe`, in one call. Returns the largest count.
+    """
+    act(instance, state, first, behind, choice, seen)
+    return observe(instance, scale, state, type_token, first, behind, scratch, seen)

@@ -71,16 +71,19 @@ class PointerPolicy(nn.Module):
               allowed: Tensor, glob: Tensor, hidden: Tensor) -> Tensor:
         """Fuse local and global state, attend to a context, point from it."""
         output = hidden[:, : self.config.width]
-        local = memory[candidate] + feature @ self.step_convolution.weight[:, :, 0].T
-        globe = self.global_convolution(glob[:, :, None])[:, :, 0]
-        fused = (torch.relu(local) * self.local_weight
-                 + (torch.relu(globe) * self.global_weight)[:, None])
+        local = torch.relu(memory[candidate] + feature @ self.step_convolution.weight[:, :, 0].T)
+        globe = self.global_weight * torch.relu(
+            self.global_convolution(glob[:, :, None])[:, :, 0])
+        # The fused state of a candidate is local * local_weight + globe. Its linear maps are taken
+        # apart, so that what all candidates share is computed once.
+        shared = self.attention_local(globe) + self.attention_hidden(output)
         similarity = self.attention_score(torch.tanh(
-            self.attention_local(fused) + self.attention_hidden(output)[:, None]))[..., 0]
+            local @ (self.attention_local.weight * self.local_weight).T + shared[:, None]))[..., 0]
         weight = torch.softmax(similarity.masked_fill(~allowed, MASKED), dim=1)
-        context = (weight[..., None] * fused).sum(dim=1)
+        context = (weight[:, None] @ local)[:, 0] * self.local_weight + globe
+        shared = self.pointer_local(globe) + self.pointer_context(context)
         logits = self.pointer_score(torch.tanh(
-            self.pointer_local(fused) + self.pointer_context(context)[:, None]))[..., 0]
+            local @ (self.pointer_local.weight * self.local_weight).T + shared[:, None]))[..., 0]
         return logits.masked_fill(~allowed, MASKED)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from model.features import Observation, act, empty_observation, observe
+from model.features import Observation, empty_observation, step
 from model.instance import Instance, pack
 from model.policy import PolicyNetwork
 from model.problem import FloatArray, IntArray, Problem
@@ -97,16 +97,19 @@ class Simulation:
         self._parts = list(zip(bounds, bounds[1:], range(num_threads), strict=False))
         self._pool = ThreadPoolExecutor(num_threads)
 
-    def observe(self) -> int:
-        """List the legal actions of all rollouts. In place; return the largest count."""
+    def step(self, choice: IntArray) -> int:
+        """Do the chosen actions, then list the legal ones. In place; return the largest count.
+
+        `choice` is (rollout,), of no effect at the first step.
+        """
         def part(first: int, behind: int, thread: int) -> int:
-            return int(observe(self.batch.instance, self.batch.scale, self.state,
-                               self.batch.tokens.type, first, behind,
-                               self.num_rollouts + thread, self.seen))
+            return int(step(self.batch.instance, self.batch.scale, self.state,
+                            self.batch.tokens.type, first, behind, self.num_rollouts + thread,
+                            choice, self.seen))
         return max(self._pool.map(part, *zip(*self._parts, strict=True)))
 
-    def decisions(self, step: int, most: int, device: torch.device) -> Decisions:
-        """Return what the rollouts that go on have seen, on a device."""
+    def decisions(self, number: int, most: int, device: torch.device) -> Decisions:
+        """Return what the rollouts that go on have seen at step `number`, on a device."""
         seen = self.seen
         rows = np.flatnonzero(seen.count)
         count, offset = seen.count[rows], self.offset[rows]
@@ -114,15 +117,9 @@ class Simulation:
         flat = (np.arange(most) + (rows * width)[:, None])[np.arange(most) < count[:, None]]
         candidate = seen.token.reshape(-1)[flat] + np.repeat(offset, count)
         feature = seen.feature.reshape(-1, seen.feature.shape[2])[flat]
-        arrays = (rows, np.full(len(rows), step), count, seen.here[rows] + offset,
+        arrays = (rows, np.full(len(rows), number), count, seen.here[rows] + offset,
                   seen.glob[rows], candidate, feature)
         return Decisions(*(torch.from_numpy(array).to(device) for array in arrays))
-
-    def act(self, choice: IntArray) -> None:
-        """Do the chosen actions. In place."""
-        def part(first: int, behind: int, _: int) -> None:
-            act(self.batch.instance, self.state, first, behind, choice, self.seen)
-        list(self._pool.map(part, *zip(*self._parts, strict=True)))
 
     def close(self) -> None:
         """Let go of the threads. In place."""
@@ -139,11 +136,11 @@ def roll_out(policy: PolicyNetwork, batch: Batch, rollouts: IntArray, choose: Ch
     choice = np.zeros(len(rollouts), np.int64)
     record = Record()
     # Each step serves, opens or returns, and no trip and no vehicle stays empty.
-    for step in range(3 * int(batch.instance.size[:, 1].max()) + 2):
-        most = simulation.observe()
+    for number in range(3 * int(batch.instance.size[:, 1].max()) + 2):
+        most = simulation.step(choice)
         if most == 0:
             break
-        seen = simulation.decisions(step, most, device)
+        seen = simulation.decisions(number, most, device)
         first = torch.cumsum(seen.count, 0) - seen.count
         now = pad(seen, seen.count, torch.arange(len(seen.count), device=device), first, most)
         after = policy.advance(memory, now.here, hidden[now.rollout])
@@ -153,7 +150,6 @@ def roll_out(policy: PolicyNetwork, batch: Batch, rollouts: IntArray, choose: Ch
         record.seen.append(seen)
         record.choice.append(chosen)
         choice[simulation.seen.count > 0] = chosen.cpu().numpy()
-        simulation.act(choice)
     simulation.close()
     state = simulation.state
     return Outcome(state.cost[: len(rollouts)].copy(),

@@ -28,9 +28,8 @@ def nearest_neighbour(batch: Batch) -> FloatArray:
     """Plan each problem by the nearest feasible customer; return the true costs, (problem,)."""
     simulation = Simulation(batch, np.arange(batch.num_problems), 1)
     choice: IntArray = np.zeros(batch.num_problems, np.int64)
-    while simulation.observe():
+    while simulation.step(choice):
         for row in np.flatnonzero(simulation.seen.count).tolist():
             choice[row] = nearest_choice(batch, simulation.seen, row, row)
-        simulation.act(choice)
     simulation.close()
     return simulation.state.cost[: batch.num_problems].sum(axis=1)
