@@ -1,8 +1,8 @@
 """Policies on the fixed validation set, beside the nearest neighbour.
 
-`python -m benchmarks.policies` writes a CSV of every plan and prints a table of each class: mean
-cost relative to the nearest feasible neighbour's plan of the same problem, and in brackets how
-many customers were left out. Every plan is checked.
+`python -m benchmarks.policies` writes a CSV of every plan and prints a table of each class: the
+geometric mean of costs relative to the nearest feasible neighbour's plan of the same problem, and
+in brackets how many customers were left out. Every plan is checked.
 """
 
 import csv
@@ -65,7 +65,7 @@ def plan_all(problems: Sequence[tuple[str, Problem]], policy: str, samples: int)
 
 
 def table(outcomes: Sequence[Outcome]) -> list[list[str]]:
-    """Return header and rows, a row per class: mean cost over the nearest neighbour's."""
+    """Return header and rows, a row per class: geometric mean of cost ratios."""
     methods = list(dict.fromkeys(outcome.method for outcome in outcomes))
     classes = [*dict.fromkeys(outcome.name.split("-")[0] for outcome in outcomes), "all"]
     rows = [["class", "problems", *methods]]
@@ -74,7 +74,7 @@ def table(outcomes: Sequence[Outcome]) -> list[list[str]]:
         cells = []
         for method in methods:
             mine = [o for o in chosen if o.method == method]
-            ratio = np.mean([o.cost / o.nearest_cost for o in mine])
+            ratio = np.exp(np.mean([np.log(o.cost / o.nearest_cost) for o in mine]))
             cells.append(f"{ratio:.3f} ({sum(o.unassigned for o in mine)})")
         rows.append([name, str(len(chosen) // len(methods)), *cells])
     return rows
