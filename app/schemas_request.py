@@ -15,7 +15,7 @@ MAX_AMOUNT = MAX_QUANTITY // 1000
 """Largest amount, duration in seconds or distance in metres: all are held as thousandths."""
 
 MAX_MONEY = 1e12
-MAX_CUSTOMERS = 10_000
+MAX_CUSTOMERS = 3_000
 MAX_DEPOTS = 100
 MAX_VEHICLE_TYPES = 100
 MAX_POLYGON_POINTS = 500
