@@ -14,7 +14,7 @@ from model.instance import (
     TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_TRAVEL, Instance,
 )
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray
 from model.schedule import COUNT_TRIPS, Setting, setting_of
 from model.simulator import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, OUTLOOK_ARRIVAL, OUTLOOK_END, OUTLOOK_START, RETURN, apply,
@@ -26,7 +26,10 @@ from model.transition import (
     V_NODE, V_SERVICE_END, V_TYPE, State,
 )
 
-NUM_ACTION_FEATURES = 20
+NUM_ACTION_FEATURES = 23
+
+NUM_COMPANY = 3
+"""How many unserved neighbours of a candidate are looked at."""
 NUM_STATE_FEATURES = 14
 NUM_GLOBAL_FEATURES = NUM_STATE_FEATURES + NUM_TYPE_FEATURES
 
@@ -45,7 +48,8 @@ class Observation(NamedTuple):
     Action features: kind (4), duration by scale and by nearness, cost, waiting, slack to the end
     of the window, lateness cost, share of the load left and of the capacity, slack to the end of
     the shift, way home from there, slack of distance, of working duration, detour against going
-    home now, excess over the nearest candidate, share of the endurance, delay for release.
+    home now, excess over the nearest candidate, share of the endurance, delay for release, way to
+    the nearest unserved customer, to the third nearest, the former's excess over the way from here.
     """
 
     count: IntArray  # type: ignore[assignment]  # (rollout,)
@@ -110,6 +114,27 @@ def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, veh
     departure = vehicle[V_DEPARTURE_BEST] if begun else vehicle[V_NEXT_START]
     feature[15] = _slack(setting.type[TYPE_MAX_WORKING], end - departure, unit.time)
     feature[19] = _ratio(columns[NODE_RELEASE] - vehicle[V_NEXT_START], unit.time)
+
+
+@compiled
+def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, here: int,
+                      node: int, unit: Unit, feature: Float32Array) -> None:
+    """Describe how close a candidate's unserved neighbours are. In place."""
+    found = 0
+    feature[20] = feature[21] = feature[22] = 1.0
+    for rank in range(neighbours.shape[1]):
+        other = neighbours[node, rank]
+        if other < 0 or found == NUM_COMPANY:
+            return
+        if served[other]:
+            continue
+        found += 1
+        way = drive[node, other]
+        feature[21] = _ratio(way, unit.near)
+        if found == 1:
+            feature[20] = feature[21]
+            excess = (way - drive[here, node]) / unit.near
+            feature[22] = max(min(excess / 3.0, 1.0), -1.0)
 
 
 @compiled
@@ -276,6 +301,8 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
             feature[17] = _ratio(drive[node] - nearest, unit.near)
         _describe_customer(setting, unit, late_early, vehicle, trips > 0, node,
                            seen.outlook[r, index], feature)
+        _describe_company(setting.drive, instance.neighbour[b], state.served[r], here, node, unit,
+                          feature)
 
 
 @compiled

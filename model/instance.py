@@ -13,6 +13,9 @@ from model.problem import UNLIMITED, BoolArray, Customer, FloatArray, IntArray, 
 
 MAX_DIMENSIONS = 3
 
+MAX_NEIGHBOURS = 24
+"""How many nearest customers of each node are kept."""
+
 NODE_EARLIEST, NODE_LATEST, NODE_HARD, NODE_SERVICE, NODE_RELEASE, NODE_DEMAND = range(6)
 NODE_COLUMNS = NODE_DEMAND + MAX_DIMENSIONS
 
@@ -43,6 +46,7 @@ class Instance(NamedTuple):
     duration: IntArray  # (problem, travel, node, node)
     distance: IntArray  # (problem, travel, node, node)
     unassigned_cost: FloatArray  # (problem,)
+    neighbour: IntArray  # (problem, node, rank) nearest customers first, -1 behind the last
 
 
 def pack(problems: Sequence[Problem]) -> Instance:
@@ -73,6 +77,7 @@ def pack(problems: Sequence[Problem]) -> Instance:
         duration=np.zeros((rows, travels, nodes, nodes), np.int64),
         distance=np.zeros((rows, travels, nodes, nodes), np.int64),
         unassigned_cost=np.array([problem.unassigned_cost for problem in problems]),
+        neighbour=np.full((rows, nodes, MAX_NEIGHBOURS), -1, np.int64),
     )
     for row, problem in enumerate(problems):
         _pack_row(instance, row, problem)
@@ -110,6 +115,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
     _pack_compatibility(instance, row, problem)
+    _pack_neighbours(instance, row, problem)
 
 
 def _customer_columns(customer: Customer) -> tuple[int, ...]:
@@ -153,3 +159,17 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
             payload = instance.type[row, index, TYPE_PAYLOAD:]
             liftable = (demand <= payload).all(axis=1)
             instance.can_fly[row, index, customers] = fits & by_drone & liftable
+
+
+def _pack_neighbours(instance: Instance, row: int, problem: Problem) -> None:
+    """Write each node's nearest other customers, by the first vehicle type's drive. In place."""
+    depots, nodes = problem.num_depots, problem.num_nodes
+    drive = problem.travel[problem.vehicle_types[0].travel].duration[:, depots:].astype(np.float64)
+    customers = np.arange(problem.num_customers)
+    drive[customers + depots, customers] = np.inf
+    most = min(MAX_NEIGHBOURS, problem.num_customers - 1)
+    if most < 1:
+        return
+    nearest = np.argpartition(drive, most - 1, axis=1)[:, :most]
+    order = np.argsort(np.take_along_axis(drive, nearest, axis=1), axis=1, kind="stable")
+    instance.neighbour[row, :nodes, :most] = np.take_along_axis(nearest, order, axis=1) + depots

@@ -4,11 +4,17 @@ import numpy as np
 import pytest
 from model import features
 from model.problem import Problem
-from model.simulator import OPEN
+from model.instance import pack
+from model.simulator import DRIVE, OPEN, apply, encode_action, reset
+from model.tokens import scales, tokens
+from tests.conftest import MINUTE
 from tests.model.rollouts import Batch, Units, in_other_units, random_problems, roll
 
 TOLERANCE = 1e-5
-SIGNED = {16}  # the detour may be a short cut where the triangle inequality fails
+SIGNED = {
+    16,  # the detour may be a short cut where the triangle inequality fails
+    22,  # the way to the next customer may be shorter than the way from here
+}
 SIGNED_STATE = {7}  # the capacity left may fall short of the demand left
 
 
@@ -94,3 +100,22 @@ def test_padding_has_no_effect(problems: list[Problem], alone: list[Batch]) -> N
                 assert packed.here == step.here
                 np.testing.assert_array_equal(packed.feature, step.feature)
                 np.testing.assert_array_equal(packed.glob, step.glob)
+
+
+def test_company_is_the_unserved_customers_nearby(tiny_problem, customers, truck) -> None:
+    problem = tiny_problem(*customers, truck=truck, places=(0.0, 1.0, 2.0, 4.0, 8.0))
+    instance = pack([problem])
+    scale = scales(instance)
+    assert scale.near[0] == 2 * 2 * MINUTE  # neighbours are 1, 1, 2, 4 km away, 2 minutes a km
+    state = reset(instance, np.zeros(1, np.int64))
+    seen = features.empty_observation(1, problem.num_nodes, 1)
+    types = tokens(instance, scale, problem.coordinates[None]).type
+    for action in (encode_action(OPEN, 0), encode_action(DRIVE, 2)):
+        apply(instance, state, 0, action)
+    features.observe(instance, scale, state, types, 0, 1, 1, seen)
+    of_node = {int(code) // 4: seen.feature[0, index, 20:] for index, code
+               in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == DRIVE}
+    # From 2 km: customer 1 has 4 km (3 away) next and nobody third but 8 km (7 away).
+    np.testing.assert_allclose(of_node[1], [3 / 5, 7 / 9, (3 - 1) / 2 / 3], rtol=1e-6)
+    np.testing.assert_allclose(of_node[3], [3 / 5, 4 / 6, (3 - 2) / 2 / 3], rtol=1e-6)
+    np.testing.assert_allclose(of_node[4], [4 / 6, 7 / 9, (4 - 6) / 2 / 3], rtol=1e-6)

@@ -77,3 +77,17 @@ def test_compiled_legs_end_when_the_checker_says(tiny_problem, customers, truck)
     for leave in times:
         duration = int(rng.integers(0, 1_500_000))
         assert profile_arrival(setting, duration, leave) == leg_end(leave, duration, RUSH_HOUR)
+
+
+def test_neighbours_are_the_nearest_other_customers_in_order(tiny_problem, customers,
+                                                             truck) -> None:
+    problem = tiny_problem(*customers, truck=truck, places=(0.0, 1.0, 2.5, 4.0, 8.0))
+    neighbour = pack([problem]).neighbour[0]
+    assert neighbour[0, :4].tolist() == [1, 2, 3, -1]
+    assert neighbour[4, :4].tolist() == [3, 2, 1, -1]
+    assert sorted(neighbour[2, :2].tolist()) == [1, 3]
+    assert neighbour[1, 0] == 2
+
+
+def test_a_single_customer_has_no_neighbour(tiny_problem, customers, truck) -> None:
+    assert (pack([tiny_problem(customers[0], truck=truck)]).neighbour == -1).all()
