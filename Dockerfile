@@ -22,6 +22,7 @@ COPY --from=builder /opt/tandem /opt/tandem
 
 ENV PATH=/opt/tandem/bin:$PATH \
     NUMBA_CACHE_DIR=/cache \
+    ORT_DISABLE_TELEMETRY=1 \
     PYTHONDONTWRITEBYTECODE=1 \
     PYTHONUNBUFFERED=1
 

@@ -74,6 +74,7 @@ def load_policy(folder: Path) -> Policy:
     ValueError
         If one of them is missing or can't be read.
     """
+    ort.disable_telemetry_events()  # in case it was loaded before this package
     options = ort.SessionOptions()
     options.intra_op_num_threads = 1
     options.inter_op_num_threads = 1

@@ -1,5 +1,8 @@
 """Decoding by the committed policies."""
 
+import os
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -77,3 +80,18 @@ def test_meaningless_sampling_is_refused(policy: Policy, problem: Problem,
 def test_missing_policy_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="policy folder"):
         load_policy(tmp_path / "nothing")
+
+
+def test_runtime_is_told_to_call_nobody_before_it_is_loaded() -> None:
+    program = """
+import os, sys
+import model
+assert "onnxruntime" not in sys.modules
+assert os.environ["ORT_DISABLE_TELEMETRY"] == "1"
+import model.decode
+assert "onnxruntime" in sys.modules
+"""
+    environment = {name: value for name, value in os.environ.items()
+                   if name != "ORT_DISABLE_TELEMETRY"}
+    subprocess.run([sys.executable, "-c", program], check=True, env=environment,
+                   cwd=WEIGHTS.parents[1])
