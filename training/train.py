@@ -1,7 +1,7 @@
 """Train a policy by REINFORCE. Read from top to bottom; run with `python -m training.train`.
 
 One process, or many: `torchrun --nproc-per-node=N -m training.train ...`. A run that finds its
-checkpoint goes on from there exactly: weights, optimisers, random state, step of the curriculum.
+checkpoint goes on from there exactly: weights, optimisers, step of the curriculum, random numbers.
 """
 
 import csv
@@ -113,7 +113,7 @@ def agree_to_stop(wish: bool, world: int) -> bool:
 
 
 class Run:
-    """What a checkpoint keeps: networks, optimisers, random state, step."""
+    """What a checkpoint keeps: networks, optimisers, step."""
 
     def __init__(self, config: TrainConfig, device: torch.device, rank: int) -> None:
         self.config = config
@@ -124,8 +124,7 @@ class Run:
         self.optimizer = torch.optim.AdamW(self.policy.parameters(), lr=config.learning_rate,
                                            weight_decay=1e-6)
         self.critic_optimizer = torch.optim.Adam(self.critic.parameters(), lr=config.critic_rate)
-        self.rng = np.random.default_rng((config.seed, rank))
-        self.generator = torch.Generator(device).manual_seed(config.seed + rank)
+        self.rank = rank
         self.step = 0
         self.spread = 1.0  # running standard deviation of advantages
         self.past_seconds = 0.0
@@ -135,24 +134,27 @@ class Run:
         """Return the training time of all legs so far."""
         return self.past_seconds + time.monotonic() - self.began
 
-    def draw_batch(self) -> Batch:
+    def draw_batch(self, rng: np.random.Generator) -> Batch:
         """Draw problems of one size, of all variants."""
         size = self.config.size_at(self.step)
-        if self.rng.random() < self.config.size_mix:
-            size = int(self.rng.integers(self.config.sizes[0][1] // 2, size + 1))
-        names = [sample_variant(self.rng) for _ in range(self.config.problems_at(size))]
-        problems = [generate(self.rng, size, name) for name in names]
-        return make_batch(problems, names, self.rng)
+        if rng.random() < self.config.size_mix:
+            size = int(rng.integers(self.config.sizes[0][1] // 2, size + 1))
+        names = [sample_variant(rng) for _ in range(self.config.problems_at(size))]
+        problems = [generate(rng, size, name) for name in names]
+        return make_batch(problems, names, rng)
 
     def train_step(self, world: int) -> dict[str, float]:
         """Roll out, compare with the baseline, move both networks. In place; return numbers."""
         config = self.config
         began = time.monotonic()
-        batch = self.draw_batch()
+        # Random numbers follow from seed, process and step alone, so a resumed run goes on exactly.
+        rng = np.random.default_rng((config.seed, self.rank, self.step))
+        generator = torch.Generator(self.device).manual_seed(int(rng.integers(2**62)))
+        batch = self.draw_batch(rng)
         rollouts = np.repeat(np.arange(batch.num_problems), config.num_rollouts)
         with torch.autocast(self.device.type, torch.bfloat16,
                             enabled=self.device.type in BF16_DEVICES):
-            outcome = roll_out(self.policy, batch, rollouts, sampler(self.generator), self.device,
+            outcome = roll_out(self.policy, batch, rollouts, sampler(generator), self.device,
                                self.num_threads)
         rolled = time.monotonic()
         costs = torch.from_numpy(training_costs(
@@ -198,7 +200,6 @@ class Run:
             "config": dataclasses.asdict(self.config), "policy": self.policy.state_dict(),
             "critic": self.critic.state_dict(), "optimizer": self.optimizer.state_dict(),
             "critic_optimizer": self.critic_optimizer.state_dict(),
-            "rng": self.rng.bit_generator.state, "generator": self.generator.get_state(),
             "step": self.step, "spread": self.spread, "seconds": self.seconds()}
         torch.save(content, path.with_suffix(".part"))
         path.with_suffix(".part").replace(path)
@@ -210,9 +211,6 @@ class Run:
         self.critic.load_state_dict(content["critic"])
         self.optimizer.load_state_dict(content["optimizer"])
         self.critic_optimizer.load_state_dict(content["critic_optimizer"])
-        self.rng.bit_generator.state = content["rng"]
-        if content["generator"].shape == self.generator.get_state().shape:
-            self.generator.set_state(content["generator"].cpu())
         self.step, self.spread = content["step"], content["spread"]
         self.past_seconds = content["seconds"]
 
