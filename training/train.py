@@ -271,6 +271,7 @@ def main(
     policy: str = "pointer", baseline: str = "critic", minutes: float = 60.0,
     device: str = "cpu", seed: int = 0, learning_rate: float = 1e-3, num_problems: int = 64,
     num_rollouts: int = 8, entropy_weight: float = 0.0, max_candidates: int = 200_000,
+    size_mix: Annotated[float, typer.Option(help="share of batches at smaller sizes")] = 0.3,
     max_steps: Annotated[int | None, typer.Option(help="stop at this step")] = None,
     sizes: Annotated[str, typer.Option(help="curriculum, first step:customers")] = "0:20,4000:50",
     decay: Annotated[str, typer.Option(help="steps first:last of the decay")] = "1000000:1000000",
@@ -281,7 +282,8 @@ def main(
     config = TrainConfig(
         policy=policy, baseline=baseline, seed=seed, sizes=curriculum,  # type: ignore[arg-type]
         num_problems=num_problems, num_rollouts=num_rollouts, learning_rate=learning_rate,
-        decay=(first, last), entropy_weight=entropy_weight, max_candidates=max_candidates)
+        decay=(first, last), entropy_weight=entropy_weight, max_candidates=max_candidates,
+        size_mix=size_mix)
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: STOP.set())
     print(train(config, folder, minutes, device, max_steps))
