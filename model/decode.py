@@ -147,16 +147,23 @@ def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Genera
         if most == 0:
             break
         logits, hidden = policy.step.run(None, step_inputs(scene, seen, most, hidden))
-        if rng is None:
-            logits.argmax(axis=1, out=choice)
-        else:
-            noise = rng.standard_exponential(logits.shape, np.float32)
-            np.subtract(logits / temperature, np.log(noise)).argmax(axis=1, out=choice)
+        if rng is not None:
+            logits = disturbed(logits, temperature, rng.standard_exponential(logits.shape,
+                                                                             np.float32))
+        logits.argmax(axis=1, out=choice)
         actions.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
     cost = state.cost[:rows].sum(axis=1)
     best = int(cost.argmin())
     of_best = (int(step_actions[best]) for step_actions in actions)
     return Decoded(tuple(action for action in of_best if action != NO_ACTION), float(cost[best]))
+
+
+def disturbed(logits: Float32Array, temperature: float, noise: Float32Array) -> Float32Array:
+    """Return logits whose largest is a draw by their probabilities; `noise` is exponential.
+
+    Noise may be exactly zero, whose logarithm would let even what is masked win.
+    """
+    return logits / temperature - np.log(np.maximum(noise, np.finfo(np.float32).tiny))
 
 
 def step_inputs(scene: Scene, seen: Observation, most: int,

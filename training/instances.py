@@ -30,8 +30,8 @@ VARIANTS: dict[str, Callable[[np.random.Generator, int, InstanceConfig], Problem
     "mixed": mixed,
 }
 
-SHARES = {"cvrp": 0.08, "vrptw": 0.18, "soft": 0.1, "hetero": 0.12, "multitrip": 0.12,
-          "drone": 0.14, "table1": 0.1, "mixed": 0.16}
+SHARES = {"cvrp": 0.06, "vrptw": 0.13, "soft": 0.07, "hetero": 0.1, "multitrip": 0.1,
+          "drone": 0.12, "table1": 0.3, "mixed": 0.12}
 """How often training draws each variant."""
 
 CUMULATIVE_SHARES = np.cumsum([SHARES[name] for name in VARIANTS])

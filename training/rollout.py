@@ -79,7 +79,8 @@ def sampler(generator: torch.Generator) -> Chooser:
     """Choose candidates at random by their probabilities, with Gumbel noise."""
     def choose(logits: Tensor) -> Tensor:
         noise = torch.empty_like(logits).exponential_(generator=generator)
-        return (logits - torch.log(noise)).argmax(dim=1)
+        # Noise may be exactly zero, whose logarithm would let even what is masked win.
+        return (logits - torch.log(noise.clamp_min(torch.finfo(noise.dtype).tiny))).argmax(dim=1)
     return choose
 
 

@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 
 from model.check import check
-from model.decode import BLOCK, DecodeConfig, Policy, decode, load_policy, prepare
+from model.decode import (
+    BLOCK, DecodeConfig, Policy, decode, disturbed, load_policy, prepare,
+)
 from model.extract import extract
 from model.instance import pack
+from model.policy import MASKED
 from model.problem import Problem
 from training.instances import generate
 
@@ -75,6 +78,16 @@ def test_meaningless_sampling_is_refused(policy: Policy, problem: Problem,
                                          config: DecodeConfig) -> None:
     with pytest.raises(ValueError, match="num_samples, temperature"):
         plan(policy, problem, config)
+
+
+def test_draws_follow_the_probabilities_and_never_what_is_masked() -> None:
+    logits = np.log(np.array([[0.7, 0.3, 0.0]], np.float32) + 1e-30).repeat(20_000, axis=0)
+    logits[:, 2] = MASKED
+    noise = np.random.default_rng(0).standard_exponential(logits.shape, np.float32)
+    noise[0] = [1.0, 1.0, 0.0]
+    drawn = np.bincount(disturbed(logits, 1.0, noise).argmax(axis=1), minlength=3)
+    assert drawn[2] == 0
+    assert drawn[0] / len(logits) == pytest.approx(0.7, abs=0.02)
 
 
 def test_missing_policy_is_refused(tmp_path: Path) -> None:
