@@ -15,7 +15,7 @@ from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 from model.features import Observation, empty_observation, step
 from model.instance import Instance
 from model.problem import BoolArray, IntArray, Problem
-from model.simulator import reset
+from model.simulator import max_steps, reset
 from model.tokens import Float32Array, Scales, Tokens, scales, tokens
 
 ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.InvalidGraph,
@@ -141,8 +141,7 @@ def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Genera
     hidden = np.zeros((rows, policy.hidden_size), np.float32)
     choice = np.zeros(rows, np.int64)
     actions = []
-    # Each step serves, opens or returns, and no trip and no vehicle stays empty.
-    for _ in range(3 * int(instance.size[0, 1]) + 2):
+    for _ in range(max_steps(instance)):
         most = step(instance, scene.scale, state, scene.tokens.type, 0, rows, rows, choice, seen)
         if most == 0:
             break

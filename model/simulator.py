@@ -305,6 +305,15 @@ def _mark_fresh(instance: Instance, state: State, scratch: int) -> None:
     state.vehicle[row, V_TYPE] = NO_VEHICLE
 
 
+def max_steps(instance: Instance) -> int:
+    """Return how many times the longest rollout may be observed at most.
+
+    Each step serves a customer, opens a vehicle or returns, and neither trip nor vehicle stays
+    empty; the observation after the last step finds nothing to do.
+    """
+    return 3 * int(instance.size[:, 1].max()) + 2
+
+
 def reset(instance: Instance, rollouts: IntArray, num_scratch: int = 1) -> State:
     """Begin one rollout for each entry of `rollouts`.
 

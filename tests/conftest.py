@@ -1,5 +1,6 @@
 """Tiny problems whose answers were worked out by hand."""
 
+import socket
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -16,6 +17,13 @@ from model.problem import (
 )
 
 MINUTE = 60_000
+
+
+def free_port() -> int:
+    """Return a port of this machine that nobody listens on."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
 
 
 def _street(places: Sequence[float], minutes_per_km: int) -> Travel:

@@ -1,7 +1,6 @@
 """The service as users run it: the real command, the committed weights, real HTTP."""
 
 import json
-import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -13,15 +12,10 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli import cli as command_line
+from tests.conftest import free_port
 
 ROOT = Path(__file__).parent.parent
 EXAMPLES = sorted((ROOT / "examples").glob("*.json"))
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 @pytest.fixture(scope="module")

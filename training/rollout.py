@@ -12,7 +12,7 @@ from model.features import Observation, empty_observation, step
 from model.instance import Instance, pack
 from model.policy import PolicyNetwork
 from model.problem import FloatArray, IntArray, Problem
-from model.simulator import reset
+from model.simulator import max_steps, reset
 from model.tokens import Scales, Tokens, scales, tokens
 from training.dataset import Decisions, Record, pad
 
@@ -136,8 +136,7 @@ def roll_out(policy: PolicyNetwork, batch: Batch, rollouts: IntArray, choose: Ch
     hidden = memory.new_zeros(len(rollouts), policy.hidden_size)
     choice = np.zeros(len(rollouts), np.int64)
     record = Record()
-    # Each step serves, opens or returns, and no trip and no vehicle stays empty.
-    for number in range(3 * int(batch.instance.size[:, 1].max()) + 2):
+    for number in range(max_steps(batch.instance)):
         most = simulation.step(choice)
         if most == 0:
             break

@@ -3,7 +3,6 @@
 import csv
 import os
 import signal
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +10,7 @@ from pathlib import Path
 import pytest
 import torch
 
+from tests.conftest import free_port
 from training.config import TrainConfig
 from training.rules import nearest_neighbour
 from training.train import train, validation_batches
@@ -46,11 +46,8 @@ def test_resumed_run_equals_an_uninterrupted_one(tmp_path: Path) -> None:
 
 
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
     command = [sys.executable, "-m", "torch.distributed.run", "--nproc-per-node=2",
-               "--master-addr=127.0.0.1", f"--master-port={port}", "-m", "training.train",
+               "--master-addr=127.0.0.1", f"--master-port={free_port()}", "-m", "training.train",
                "--folder", str(tmp_path), "--max-steps", "2", "--sizes", "0:6",
                "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]
     result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False,
