@@ -9,6 +9,8 @@ import uvicorn
 
 from app.convert import to_problem
 from app.errors import RequestError
+from app.importers import FileFormat, convert_file
+from app.instance_files import Rounding
 from app.main import create_app
 from app.plan_reading import plan_to_solution
 from app.reading import read_request
@@ -28,6 +30,13 @@ ProblemFile = Annotated[Path, typer.Argument(help="Request of POST /plan as JSON
 PlanFile = Annotated[Path, typer.Argument(help="Reply of POST /plan as JSON.", exists=True,
                                           dir_okay=False)]
 Output = Annotated[Path | None, typer.Option("--output", "-o", help="File to write the plan to.")]
+InstanceFormat = Annotated[FileFormat, typer.Option(
+    "--format", help="auto knows Solomon's format by its headings; all else is VRPLIB.")]
+RoundingOption = Annotated[Rounding, typer.Option(help=(
+    "How distances are rounded. exact: as the crow flies; round: to whole units, as CVRPLIB does "
+    "without time windows; trunc: to whole units, downwards; dimacs: to tenths, downwards, as is "
+    "usual with time windows; thousandths: as is usual with mixed fleets. All but exact write "
+    "matrices, large ones for many customers."))]
 
 
 @cli.command()
@@ -76,6 +85,27 @@ def check_plan(problem_file: ProblemFile, plan_file: PlanFile) -> None:
     _print_evaluation(evaluation)
     if not evaluation.is_feasible:
         raise typer.Exit(EXIT_INFEASIBLE)
+
+
+@cli.command()
+def convert(
+    instance_file: Annotated[Path, typer.Argument(
+        metavar="INPUT", help="Instance in VRPLIB or Solomon format.", exists=True,
+        dir_okay=False)],
+    output: Annotated[Path | None, typer.Option(
+        "--output", "-o", help="File to write the request to.")] = None,
+    file_format: InstanceFormat = "auto",
+    rounding: RoundingOption = "exact",
+) -> None:
+    """Turn a published instance into a request of POST /plan, a unit being 1 m, 1 s and 1 cost."""
+    try:
+        request = convert_file(instance_file, file_format, rounding)
+    except RequestError as error:
+        _refuse(instance_file, error)
+    if output is None:
+        typer.echo(request)
+    else:
+        output.write_bytes(request)
 
 
 def main() -> None:

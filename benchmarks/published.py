@@ -1,0 +1,261 @@
+"""Instances of public benchmark sets, in the integer units of each set's convention."""
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from vrplib import read_solution  # type: ignore[import-untyped]
+
+from app.importers import read_instance_file
+from app.instance_files import FileVehicles, InstanceFile, Rounding, distances
+from model.problem import (
+    MM_PER_KM,
+    UNLIMITED,
+    Customer,
+    Depot,
+    FloatArray,
+    IntArray,
+    Problem,
+    Travel,
+    VehicleType,
+)
+from model.solution import Solution
+from model.timing import RouteDecision, TripDecision, schedule
+
+NO_LIMIT = 2**40
+"""Stands for "no limit" in `Published.latest`."""
+
+MODEL_UNITS = 1000
+"""Millimetres and milliseconds per unit of distance and time, thousandths per unit of demand."""
+
+DETOURS_PER_CUSTOMER = 10
+"""A customer left out costs as much as this many of the longest trips, in dearest vehicles."""
+
+
+@dataclass(frozen=True)
+class Convention:
+    """How a set counts: its unit is 1/`scale` of the file's."""
+
+    scale: int  # integer units per unit of distance and time in the file
+    rounding: Rounding  # of distances, to whole units
+    divisor: int  # objective units per unit of published cost
+
+
+@dataclass(frozen=True)
+class PublishedVehicle:
+    """Equal vehicles."""
+
+    count: int
+    capacity: int
+    fixed_cost: int  # in integer objective units
+    unit_cost: int  # objective units per unit of distance
+
+
+@dataclass(frozen=True, eq=False)
+class Published:
+    """A public instance in the integer units of its set's convention; node 0 is the depot."""
+
+    name: str
+    set_name: str
+    coordinates: FloatArray  # (node, 2) as in the file
+    demand: IntArray  # (node,)
+    earliest: IntArray  # (node,) of the start of service; of the depot: its opening
+    latest: IntArray  # (node,) NO_LIMIT where the set has no windows
+    service: IntArray  # (node,)
+    release: IntArray  # (node,)
+    travel: IntArray  # (node, node) distance, which is the duration too
+    vehicles: tuple[PublishedVehicle, ...]  # types, in the order of the file
+    max_trips: int  # per vehicle
+    has_windows: bool
+    divisor: int  # published cost = integer objective / divisor
+    best_known: float  # published cost, nan if unknown
+
+    @property
+    def num_customers(self) -> int:
+        """Customers."""
+        return len(self.demand) - 1
+
+
+_DIMACS = Convention(scale=10, rounding="dimacs", divisor=10)
+
+CONVENTIONS: dict[str, Convention] = {
+    "solomon": _DIMACS,
+    "homberger_200": _DIMACS,
+    "homberger_400": _DIMACS,
+    "homberger_1000": _DIMACS,
+    "mtvrptwr": _DIMACS,
+    "cvrp_x": Convention(scale=1, rounding="round", divisor=1),
+    # The files state costs a hundredfold.
+    "hfvrp": Convention(scale=1000, rounding="thousandths", divisor=100_000),
+}
+"""Sets of `data` by folder name."""
+
+
+def published_set(data: Path, set_name: str) -> list[Published]:
+    """Return all instances of a set, sorted by name.
+
+    Raises
+    ------
+    ValueError
+        If the set is unknown or has no files, or a file holds no instance.
+    """
+    paths = sorted(path for path in (data / set_name).glob("*") if path.suffix in (".txt", ".vrp"))
+    if not paths:
+        raise ValueError(f"set: {set_name!r} has no files in {data}")
+    return [read_published(path, set_name) for path in paths]
+
+
+def read_published(path: Path, set_name: str) -> Published:
+    """Return an instance; its best known cost is from `best_known.csv` in the folder above.
+
+    Raises
+    ------
+    ValueError
+        If the set is unknown, or the file holds no instance that fits its convention.
+    """
+    if set_name not in CONVENTIONS:
+        raise ValueError(f"set: {set_name!r} is none of {', '.join(CONVENTIONS)}")
+    convention = CONVENTIONS[set_name]
+    file = read_instance_file(path)
+    _require_plain(file, path)
+    scale = convention.scale
+    limited = np.isfinite(file.latest)
+    latest = np.where(limited, file.latest, 0)
+    return Published(
+        name=path.stem,
+        set_name=set_name,
+        coordinates=_coordinates(file, path),
+        demand=_whole(file.demand, "demand"),
+        earliest=_whole(file.earliest * scale, "earliest"),
+        latest=np.where(limited, _whole(latest * scale, "latest"), NO_LIMIT),
+        service=_whole(file.service * scale, "service"),
+        release=_whole(file.release * scale, "release"),
+        travel=np.rint(distances(file, convention.rounding) * scale).astype(np.int64),
+        vehicles=tuple(_vehicle(kind, scale) for kind in file.vehicles),
+        max_trips=_max_trips(file),
+        has_windows=file.has_windows,
+        divisor=convention.divisor,
+        best_known=_best_known(path.parent.parent / "best_known.csv", path.stem, set_name),
+    )
+
+
+def _require_plain(file: InstanceFile, path: Path) -> None:
+    """Refuse what `Published` can't state."""
+    limits = [(kind.max_distance, kind.max_duration) for kind in file.vehicles]
+    if (file.depots != (0,) or set(limits) != {(None, None)}
+            or len({kind.max_trips for kind in file.vehicles}) > 1):
+        raise ValueError(f"{path}: instances of a set have one depot, the first node, vehicles "
+                         "that may make equally many trips, and no longest trips")
+
+
+def _coordinates(file: InstanceFile, path: Path) -> FloatArray:
+    if file.coordinates is None:
+        raise ValueError(f"{path}: instances of a set have coordinates")
+    return file.coordinates
+
+
+def _whole(values: FloatArray, name: str) -> IntArray:
+    """Return whole numbers as integers."""
+    whole = np.rint(values)
+    if not np.allclose(whole, values, rtol=0, atol=1e-6):
+        raise ValueError(f"{name}: the set's unit does not make it whole")
+    return whole.astype(np.int64)
+
+
+def _vehicle(kind: FileVehicles, scale: int) -> PublishedVehicle:
+    costs = np.array([kind.capacity, kind.fixed_cost * scale, kind.unit_cost])
+    capacity, fixed_cost, unit_cost = _whole(costs, "vehicle").tolist()
+    return PublishedVehicle(kind.count, capacity, fixed_cost, unit_cost)
+
+
+def _max_trips(file: InstanceFile) -> int:
+    max_trips = file.vehicles[0].max_trips
+    return len(file.customers()) if max_trips is None else max_trips
+
+
+def _best_known(table: Path, name: str, set_name: str) -> float:
+    if not table.is_file():
+        return float("nan")
+    with table.open(encoding="utf-8", newline="") as lines:
+        for row in csv.DictReader(lines):
+            if (row["instance"], row["set"]) == (name, set_name):
+                return float(row["best_known_cost"])
+    return float("nan")
+
+
+def to_problem(instance: Published) -> Problem:
+    """Return an instance whose plans cost what the set's convention says.
+
+    A unit of distance is a metre, a unit of time a second.
+    """
+    legs = instance.travel * MODEL_UNITS
+    nodes = range(1, instance.num_customers + 1)
+    customers = tuple([_customer(instance, node) for node in nodes])
+    vehicle_types = tuple([_vehicle_type(instance, index)
+                           for index in range(len(instance.vehicles))])
+    longest = int((instance.travel[0] + instance.travel[:, 0]).max())
+    dearest = max(kind.unit_cost for kind in instance.vehicles) * longest
+    dearest += max(kind.fixed_cost for kind in instance.vehicles)
+    return Problem((Depot("depot"),), customers, vehicle_types, (Travel(legs, legs),),
+                   instance.coordinates,
+                   unassigned_cost=DETOURS_PER_CUSTOMER * dearest / instance.divisor)
+
+
+def _customer(instance: Published, node: int) -> Customer:
+    return Customer(
+        str(node), (int(instance.demand[node]) * MODEL_UNITS,),
+        service_duration=int(instance.service[node]) * MODEL_UNITS,
+        earliest=int(instance.earliest[node]) * MODEL_UNITS,
+        latest=_model_latest(instance, node),
+        release_time=int(instance.release[node]) * MODEL_UNITS)
+
+
+def _vehicle_type(instance: Published, index: int) -> VehicleType:
+    kind = instance.vehicles[index]
+    name = "truck" if len(instance.vehicles) == 1 else f"type-{index + 1}"
+    return VehicleType(
+        name, kind.count, (kind.capacity * MODEL_UNITS,), travel=0,
+        fixed_cost=kind.fixed_cost / instance.divisor,
+        cost_per_km=kind.unit_cost * MM_PER_KM / (MODEL_UNITS * instance.divisor),
+        earliest=int(instance.earliest[0]) * MODEL_UNITS, latest=_model_latest(instance, 0),
+        max_trips=instance.max_trips)
+
+
+def _model_latest(instance: Published, node: int) -> int:
+    latest = int(instance.latest[node])
+    return UNLIMITED if latest == NO_LIMIT else latest * MODEL_UNITS
+
+
+def read_routes(path: Path) -> list[list[list[int]]]:
+    """Return the trips of each vehicle in a `.sol` file, in order; 0 is a reload there."""
+    routes: list[list[list[int]]] = []
+    for visits in read_solution(path)["routes"]:
+        trips: list[list[int]] = [[]]
+        for node in visits:
+            if node:
+                trips[-1].append(node)
+            else:
+                trips.append([])
+        routes.append([trip for trip in trips if trip])
+    return routes
+
+
+def to_solution(instance: Published, problem: Problem,
+                routes: Sequence[Sequence[Sequence[int]]]) -> Solution:
+    """Return the plan in which vehicle k, as the file counts them, makes the trips of `routes[k]`.
+
+    Raises
+    ------
+    ValueError
+        If there are more routes than vehicles, or a node is no customer.
+    """
+    places = [(index, vehicle) for index, kind in enumerate(instance.vehicles)
+              for vehicle in range(kind.count)]
+    if len(routes) > len(places):
+        raise ValueError(f"routes: {len(routes)} for {len(places)} vehicles")
+    return Solution(tuple(
+        schedule(problem, RouteDecision(*place, tuple(TripDecision((0, *trip, 0))
+                                                      for trip in trips)))
+        for place, trips in zip(places, routes, strict=False) if trips))
