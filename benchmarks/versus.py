@@ -1,0 +1,153 @@
+"""Tandem beside other solvers on published instances: `python -m benchmarks.versus`.
+
+Each run is a row of a CSV, written as soon as it is there; runs that have a row are not repeated,
+so a broken-off measurement goes on where it stopped. One solver runs at a time. Neighbouring runs
+are of one instance and budget by all solvers in turn, so that what else the machine does hits all
+alike. `python -m benchmarks.report` makes tables and plots of the CSV.
+"""
+
+import math
+import os
+import platform
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from itertools import zip_longest
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from benchmarks.peers import PeerAnswer, judge
+from benchmarks.published import CONVENTIONS, Published, published_set, to_problem
+from benchmarks.results import Result, append_results, gap_percent, read_results
+from benchmarks.workers import SOLVERS, NoPlanError, Worker, require_installed
+
+QUICK = ("R101", "RC207", "R1_2_6", "X157-HD", "R205R0.25", "X-n200-k36")
+"""Instances of a quick look."""
+
+QUICK_BUDGETS = (0.1, 1.0)
+
+
+@dataclass(frozen=True)
+class Run:
+    """What is to be measured once."""
+
+    instance: Published
+    solver: str
+    budget: float  # seconds
+    seed: int
+
+    @property
+    def key(self) -> tuple[str, str, str, float, int]:
+        """As in `Result`."""
+        return self.instance.set_name, self.instance.name, self.solver, self.budget, self.seed
+
+
+def in_turn(sets: Sequence[Sequence[Published]]) -> list[Published]:
+    """Return the first instance of each set, then the second of each, and so on."""
+    return [instance for row in zip_longest(*sets) for instance in row if instance is not None]
+
+
+def runs(instances: Sequence[Published], solvers: Sequence[str], budgets: Sequence[float],
+         num_seeds: int) -> Iterator[Run]:
+    """Yield all runs; the solvers take turns at being first. Seeds count from 1."""
+    turn = 0
+    for seed in range(1, num_seeds + 1):
+        asked = [name for name in solvers if seed == 1 or SOLVERS[name].has_seed]
+        for instance in instances:
+            for budget in budgets:
+                for place in range(len(asked)):
+                    yield Run(instance, asked[(turn + place) % len(asked)], budget, seed)
+                turn += 1
+
+
+def machine() -> str:
+    """Return the processor's name and how many cores there are."""
+    name = platform.processor() or platform.machine()
+    table = Path("/proc/cpuinfo")
+    if table.exists():
+        for line in table.read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                name = line.partition(":")[2].strip()
+                break
+    return f"{name}, {os.cpu_count()} cores"
+
+
+def result(run: Run, answer: PeerAnswer | None) -> Result:
+    """Return the row of a run; without an answer there is no plan."""
+    instance = run.instance
+    seconds = cost = gap = math.nan
+    feasible = complete = False
+    if answer is not None:
+        verdict = judge(to_problem(instance), answer.routes)
+        feasible, complete = verdict.is_feasible, verdict.num_unassigned == 0
+        seconds, cost = answer.seconds, verdict.cost
+        gap = gap_percent(cost, instance.best_known) if verdict.counts else math.nan
+    return Result(
+        instance.set_name, instance.name, instance.num_customers, run.solver,
+        SOLVERS[run.solver].threads, run.budget, run.seed, round(seconds, 4), round(cost, 6),
+        instance.best_known, round(gap, 4), feasible, complete,
+        "" if answer is None else answer.version, datetime.now(UTC).date().isoformat(), machine())
+
+
+def measure(planned: Sequence[Run]) -> Iterator[Result]:
+    """Yield the result of each run that its solver can make at all."""
+    workers: dict[str, Worker] = {}
+    try:
+        for number, run in enumerate(planned, start=1):
+            worker = workers.setdefault(run.solver, Worker(SOLVERS[run.solver]))
+            title = f"{number}/{len(planned)} {run.instance.name} {run.solver} {run.budget:g} s"
+            try:
+                answer = worker.run(run.instance, run.budget, run.seed)
+            except NoPlanError as error:
+                typer.echo(f"{title}: no plan, {error}", err=True)
+                yield result(run, None)
+                continue
+            if answer is not None:
+                row = result(run, answer)
+                found = (f"{row.gap_percent:.2f} %" if row.counts
+                         else "incomplete" if row.feasible else "infeasible")
+                typer.echo(f"{title}: {found} in {row.wall_s:.2f} s")
+                yield row
+    finally:
+        for worker in workers.values():
+            worker.close()
+
+
+def _instances(data: Path, sets: Sequence[str], names: Sequence[str]) -> list[Published]:
+    """Return the instances of sets in turn, those named or, if none are, all."""
+    read = [published_set(data, name) for name in sets]
+    return in_turn([[instance for instance in group if not names or instance.name in names]
+                    for group in read])
+
+
+def main(
+    data: Annotated[Path, typer.Option(help="folder of the published sets")]
+    = Path("../shared/data"),
+    sets: Annotated[str, typer.Option(help="comma-separated")] = ",".join(CONVENTIONS),
+    budgets: Annotated[str, typer.Option(help="seconds, comma-separated")] = "0.1,1,10",
+    seeds: Annotated[int, typer.Option(help="runs of each solver that has seeds", min=1)] = 3,
+    solvers: Annotated[str, typer.Option(help="comma-separated")] = ",".join(SOLVERS),
+    output: Annotated[Path, typer.Option(help="CSV to write to, or to go on with")]
+    = Path("runs/bench/versus.csv"),
+    quick: Annotated[bool, typer.Option(
+        "--quick", help="six instances, budgets of 0.1 and 1 s, one seed: a few minutes")] = False,
+) -> None:
+    """Measure what isn't measured yet."""
+    names = solvers.split(",")
+    try:
+        require_installed(names)
+        limits = QUICK_BUDGETS if quick else tuple(float(text) for text in budgets.split(","))
+        instances = _instances(data, sets.split(","), QUICK if quick else ())
+        known = {row.key for row in read_results(output)} if output.exists() else set()
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from error
+    planned = [run for run in runs(instances, names, limits, 1 if quick else seeds)
+               if run.key not in known]
+    typer.echo(f"{len(known)} runs are in {output}, up to {len(planned)} are to come")
+    append_results(output, measure(planned))
+
+
+if __name__ == "__main__":
+    typer.run(main)
