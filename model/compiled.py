@@ -16,7 +16,9 @@ from typing import Any, TypeVar, cast
 from numba import config, njit
 
 SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", "simulator",
-           "tokens", "features")
+           "tokens", "features", *(f"search/{part}" for part in (
+               "layout", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate", "insertion",
+               "ruin", "state", "retype", "exchange", "anneal", "savings", "translate")))
 """Files with compiled functions, and those whose constants are compiled into them."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -28,6 +30,15 @@ def compiled(function: Function) -> Function:
     # Numba looks the folder up while it decorates, and nowhere but in its settings.
     config.CACHE_DIR = str(folder or "")  # type: ignore[attr-defined]
     return cast(Function, njit(cache=folder is not None, nogil=True)(function))
+
+
+def inlined(function: Function) -> Function:
+    """Compile a function that only compiled functions call, as a part of these.
+
+    It has no entry from Python and counts no references, so it may not make arrays.
+    """
+    options = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
+    return cast(Function, njit(nogil=True, **options)(function))
 
 
 @cache

@@ -4,16 +4,35 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from model.check import Evaluation, check
 from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.extract import extract
-from model.instance import pack
+from model.instance import Instance, pack
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
+from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.solution import Solution
+
+Start = Literal["policy", "insertion"]
+
+DECODING_SHARE = 0.1
+"""Most of the time limit that the policy may take; else the search plans from nothing."""
+
+SECONDS_PER_CUSTOMER = 6e-5
+"""Kept back for checking a plan and writing it down."""
+
+
+class Listener(NamedTuple):
+    """What a caller may say and hear while a plan is improved."""
+
+    should_stop: Callable[[], bool] = lambda: False
+    on_progress: Callable[[Progress], None] = lambda _: None
+
+
+ALONE = Listener()
 
 
 class PlanCheckError(Exception):
@@ -31,6 +50,7 @@ class PlanOptions:
     seed: int = 0
     time_limit: float = 1.0  # seconds; 0: the decoded plan as it is, all samples of it
     search_iterations: int | None = None
+    threads: int = 1  # of the search
 
 
 @dataclass(frozen=True)
@@ -48,9 +68,11 @@ class PlanResult:
 
     solution: Solution
     evaluation: Evaluation
-    decoded_cost: float
+    start: Start
+    decoded_cost: float  # of the plan that the search began with
     final_cost: float
     search_iterations: int
+    threads: int
     elapsed: Elapsed
 
 
@@ -71,12 +93,13 @@ class Planner:
         for index, name in enumerate(self._policies, 1):
             tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
             began = time.perf_counter()
-            self.plan(small_problem(), PlanOptions(name))
-            self.plan(small_problem(), PlanOptions(name, "sample", num_samples=4))
+            self.plan(small_problem(), PlanOptions(name, time_limit=60.0, search_iterations=4))
+            options = PlanOptions(name, "sample", num_samples=4, time_limit=0.0)
+            self.plan(small_problem(), options)
             tell(f"policy {name} is warm after {time.perf_counter() - began:.1f} s")
 
-    def plan(self, problem: Problem, options: PlanOptions,
-             received_at: float | None = None) -> PlanResult:
+    def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
+             listener: Listener = ALONE) -> PlanResult:
         """Plan a problem.
 
         Parameters
@@ -87,6 +110,8 @@ class Planner:
             How to plan.
         received_at
             When the time limit began to run, on `time.perf_counter`; None: now.
+        listener
+            Whether to stop improving, and whom to tell of improvements.
 
         Raises
         ------
@@ -102,20 +127,80 @@ class Planner:
         if options.time_limit > 0:
             deadline = (began if received_at is None else received_at) + options.time_limit
         instance = pack([problem])
+        searches = options.search_iterations != 0 and deadline is not None
+        first: _Judged | None = None
+        decoded = began
+        if not searches or policy_begins(problem.num_customers, options):
+            solution = self._decode(problem, instance, options, deadline)
+            decoded = time.perf_counter()
+            first = _judged(problem, solution)
+        if first is not None and not searches:
+            return _result(first, first.cost, options, None,
+                           Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
+        improved = _improve(problem, instance, first, options, deadline, listener)
+        searched = time.perf_counter()
+        last = _judged(problem, improved.solution)
+        if first is not None and first.cost <= last.cost:
+            last = first
+        elapsed = Elapsed(decoded - began, searched - decoded, time.perf_counter() - searched)
+        return _result(last, None if first is None else first.cost, options, improved, elapsed)
+
+    def _decode(self, problem: Problem, instance: Instance, options: PlanOptions,
+                deadline: float | None) -> Solution:
         policy = self._policies[options.policy]
         scene = prepare(policy, problem, instance)
         config = DecodeConfig(options.decoding, options.num_samples, options.temperature,
                               options.seed)
-        decoded = decode(policy, scene, config, deadline)
-        solution = extract(problem, instance, decoded.actions)
-        ready = time.perf_counter()
-        evaluation = check(problem, solution)
-        if evaluation.violations:
-            raise PlanCheckError("; ".join(f"{violation.path}: {violation.message}"
-                                           for violation in evaluation.violations))
-        cost = evaluation.cost.total
-        return PlanResult(solution, evaluation, cost, cost, 0,
-                          Elapsed(ready - began, 0.0, time.perf_counter() - ready))
+        return extract(problem, instance, decode(policy, scene, config, deadline).actions)
+
+
+def policy_begins(num_customers: int, options: PlanOptions) -> bool:
+    """Tell whether the policy plans first: only if that leaves the search most of the time."""
+    seconds = 1.2e-4 * num_customers * (1 + num_customers / 300)
+    if options.decoding == "sample":
+        seconds *= 1 + options.num_samples / 6
+    return seconds <= DECODING_SHARE * options.time_limit
+
+
+@dataclass(frozen=True)
+class _Judged:
+    """A plan that keeps all rules."""
+
+    solution: Solution
+    evaluation: Evaluation
+
+    @property
+    def cost(self) -> float:
+        return self.evaluation.cost.total
+
+
+def _judged(problem: Problem, solution: Solution) -> _Judged:
+    evaluation = check(problem, solution)
+    if evaluation.violations:
+        raise PlanCheckError("; ".join(f"{violation.path}: {violation.message}"
+                                       for violation in evaluation.violations))
+    return _Judged(solution, evaluation)
+
+
+def _improve(problem: Problem, instance: Instance, first: _Judged | None, options: PlanOptions,
+             deadline: float | None, listener: Listener) -> Improved:
+    nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    config = SearchConfig(options.seed, options.threads, options.search_iterations)
+    if deadline is not None:
+        deadline -= SECONDS_PER_CUSTOMER * problem.num_customers
+    return improve(problem, instance, nobody if first is None else first.solution, config,
+                   deadline, listener.should_stop, listener.on_progress)
+
+
+def _result(last: _Judged, first_cost: float | None, options: PlanOptions,
+            improved: Improved | None, elapsed: Elapsed) -> PlanResult:
+    start: Start = "insertion" if first_cost is None else "policy"
+    if first_cost is None:
+        first_cost = last.cost if improved is None else improved.first_cost
+    return PlanResult(
+        last.solution, last.evaluation, start, decoded_cost=first_cost, final_cost=last.cost,
+        search_iterations=0 if improved is None else improved.turns, threads=options.threads,
+        elapsed=elapsed)
 
 
 def load_planner(weights: Path, names: Sequence[str]) -> Planner:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 IntArray = NDArray[np.int64]
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+UIntArray = NDArray[np.uint64]
 
 UNLIMITED = 2**42
 """Stands for "no limit" on a time (ms) or a distance (mm)."""

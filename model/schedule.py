@@ -81,14 +81,14 @@ def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
     duration = setting.drive[origin, to]
     if setting.type[TYPE_PROFILE] == NO_PROFILE:
         return leave + duration
-    return profile_arrival(setting, duration, leave)
+    return arrival_by_profile(setting.profile_time, setting.profile_factor,
+                              setting.type[TYPE_PROFILE], duration, leave)
 
 
 @compiled
-def profile_arrival(setting: Setting, duration: int, leave: int) -> int:
+def arrival_by_profile(times: IntArray, factors: IntArray, changes: int, duration: int,
+                       leave: int) -> int:
     """Return when a leg of `duration` at full speed, begun at `leave`, is done."""
-    changes = setting.type[TYPE_PROFILE]
-    times, factors = setting.profile_time, setting.profile_factor
     piece = 0
     while piece < changes and times[piece] <= leave:
         piece += 1

@@ -1,0 +1,1 @@
+"""Improvement of plans by ruin and recreate, compiled, on several threads."""

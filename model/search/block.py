@@ -1,0 +1,238 @@
+"""Timing of a block: the stops of a truck from one where all drones are aboard to the next."""
+
+from model.compiled import inlined
+from model.instance import (
+    NO_PROFILE, TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LATEST, TYPE_LAUNCH,
+    TYPE_PROFILE, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+)
+from model.problem import UNREACHABLE, IntArray
+from model.schedule import arrival_by_profile
+from model.search.layout import (
+    CUSTOMER, DONE, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_READY_C, F_READY_D,
+    F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, FAR, FLYING, NONE, P_EARLIEST,
+    P_LATEST, P_LIMIT, P_SERVICE, S_ARRIVAL, S_BLOCK, S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP, S_HI,
+    S_HOLD, S_KIND, S_LATEST, S_LEAVE, S_LO, S_NODE, S_RELEASE, START, WAITING, World,
+)
+
+A_TIME, A_FREE_D, A_FREE_C, A_HI, A_LO, A_DEP, A_OLDEST, A_FLYING = range(8)
+
+
+@inlined
+def travel(world: World, k: int, duration: int, d: int, c: int) -> tuple[int, int]:
+    """Return the pair at the end of a leg of `duration` at full speed."""
+    changes = world.type[k, TYPE_PROFILE]
+    if changes == NO_PROFILE:
+        return d + duration, c + duration
+    return NONE, arrival_by_profile(world.profile_time[k], world.profile_factor[k], changes,
+                                    duration, c)
+
+
+@inlined
+def serve(world: World, k: int, stop: IntArray, time: int, d: int, c: int) -> tuple[int, int]:
+    """Return the pair at the end of what a truck does at a stop by itself, reached at (d, c)."""
+    kind = stop[S_KIND]
+    if kind == CUSTOMER:
+        place = world.place[stop[S_NODE]]
+        return d + place[P_SERVICE], max(c, place[P_EARLIEST]) + place[P_SERVICE]
+    if kind == START:
+        return d, max(c, max(stop[S_RELEASE], stop[S_HOLD]))
+    return d, c
+
+
+@inlined
+def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
+    """Write the block of a stop without launches, reached at `time`. In place."""
+    d, c = 0, NONE
+    if world.type[k, TYPE_PROFILE] != NO_PROFILE:
+        d, c = NONE, time
+    stop[S_D], stop[S_C] = serve(world, k, stop, time, d, c)
+    stop[S_HI], stop[S_LO], stop[S_DEP] = FAR, NONE, FAR
+    if stop[S_KIND] == CUSTOMER:
+        place = world.place[stop[S_NODE]]
+        stop[S_HI], stop[S_DEP] = place[P_LIMIT], max(time, place[P_LATEST])
+    elif stop[S_KIND] == END:
+        stop[S_HI] = world.type[k, TYPE_LATEST]
+
+
+@inlined
+def fly_out(world: World, k: int, sortie: IntArray, node: int, acc: IntArray) -> bool:
+    """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
+    flights = world.type[k, TYPE_DRONE_TRAVEL]
+    own = world.type[k, TYPE_DRONE_SERVICE]
+    d = acc[A_FREE_D] + world.type[k, TYPE_LAUNCH]
+    c = acc[A_FREE_C] + world.type[k, TYPE_LAUNCH]
+    acc[A_FREE_D], acc[A_FREE_C] = d, c
+    sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C] = d, c
+    sortie[F_TAKEOFF] = max(acc[A_TIME] + d, c)
+    for index in range(sortie[F_COUNT]):
+        customer = sortie[F_NODE + index]
+        flight = world.leg[flights, node, customer, 0]
+        place = world.place[customer]
+        d, c = d + flight, c + flight
+        arrival = max(acc[A_TIME] + d, c)
+        if flight >= UNREACHABLE or c > place[P_LIMIT]:
+            return False
+        sortie[F_NODE + world.max_visits + index] = arrival
+        acc[A_HI] = min(acc[A_HI], place[P_LIMIT] - d)
+        acc[A_DEP] = min(acc[A_DEP], max(arrival, place[P_LATEST]) - d)
+        service = own if own >= 0 else place[P_SERVICE]
+        d, c = d + service, max(c, place[P_EARLIEST]) + service
+        node = customer
+    sortie[F_READY_D], sortie[F_READY_C] = d, c
+    sortie[F_STATE] = FLYING
+    acc[A_FLYING] += 1
+    return True
+
+
+@inlined
+def bound_arrival(sortie: IntArray, d: int, c: int, endurance: int, acc: IntArray) -> bool:
+    """Bound the truck's arrival so that (d, c) comes within the endurance after take-off.
+
+    In place; False if no arrival will do.
+    """
+    takeoff_d, takeoff_c = sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C]
+    if d - takeoff_d <= endurance:
+        if c - takeoff_c > endurance:
+            acc[A_LO] = max(acc[A_LO], c - endurance - takeoff_d)
+    else:
+        if c - takeoff_c > endurance:
+            return False
+        acc[A_HI] = min(acc[A_HI], endurance + takeoff_c - d)
+    return acc[A_LO] <= acc[A_HI]
+
+
+@inlined
+def bring_home(world: World, k: int, sortie: IntArray, node: int, acc: IntArray) -> bool:
+    """Recover a sortie at `node`. In place; False if endurance forbids it."""
+    columns = world.type[k]
+    last = sortie[F_NODE + sortie[F_COUNT] - 1]
+    flight = world.leg[columns[TYPE_DRONE_TRAVEL], last, node, 0]
+    back_d, back_c = sortie[F_READY_D] + flight, sortie[F_READY_C] + flight
+    begin_d, begin_c = max(acc[A_FREE_D], back_d), max(acc[A_FREE_C], back_c)
+    if flight >= UNREACHABLE:
+        return False
+    within = True
+    if columns[TYPE_WAITING_COUNTS]:
+        within = bound_arrival(sortie, begin_d, begin_c, columns[TYPE_ENDURANCE], acc)
+    else:
+        within = bound_arrival(sortie, back_d, back_c, columns[TYPE_ENDURANCE], acc)
+    begin = max(acc[A_TIME] + begin_d, begin_c)
+    sortie[F_BEGIN] = begin
+    slack = begin - begin_d
+    if sortie[F_TAKEOFF] - sortie[F_TAKEOFF_D] > slack:
+        acc[A_DEP] = min(acc[A_DEP], slack)
+    acc[A_FREE_D] = begin_d + columns[TYPE_RECOVERY]
+    acc[A_FREE_C] = begin_c + columns[TYPE_RECOVERY]
+    sortie[F_STATE] = DONE
+    acc[A_FLYING] -= 1
+    return within
+
+
+@inlined
+def is_aboard(sorties: IntArray, index: int, oldest: int) -> bool:
+    """Tell whether the drone of a sortie has ended all sorties before it."""
+    for other in range(oldest, index):
+        if sorties[other, F_DRONE] == sorties[index, F_DRONE] and sorties[other, F_STATE] != DONE:
+            return False
+    return True
+
+
+@inlined
+def next_operation(world: World, k: int, sorties: IntArray, count: int, p: int, node: int,
+                   acc: IntArray) -> int:
+    """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
+
+    A drone that is there is recovered before another is launched.
+    """
+    chosen, earliest = -1, FAR
+    free = max(acc[A_TIME] + acc[A_FREE_D], acc[A_FREE_C])
+    flights = world.type[k, TYPE_DRONE_TRAVEL]
+    for index in range(acc[A_OLDEST], count):
+        if sorties[index, F_LAUNCH] > p:
+            break
+        begin = FAR
+        if sorties[index, F_STATE] == FLYING:
+            if sorties[index, F_RECOVERY] == p:
+                last = sorties[index, F_NODE + sorties[index, F_COUNT] - 1]
+                flight = world.leg[flights, last, node, 0]
+                begin = max(2 * free, 2 * (max(acc[A_TIME] + sorties[index, F_READY_D],
+                                               sorties[index, F_READY_C]) + flight))
+        elif (sorties[index, F_STATE] == WAITING and sorties[index, F_LAUNCH] == p
+              and is_aboard(sorties, index, acc[A_OLDEST])):
+            begin = 2 * free + 1
+        if begin < earliest:
+            chosen, earliest = index, begin
+    return chosen
+
+
+@inlined
+def operate(world: World, k: int, sorties: IntArray, count: int, p: int, node: int,
+            acc: IntArray) -> bool:
+    """Launch and recover all that stop `p` asks for. In place; False if not allowed."""
+    while True:
+        index = next_operation(world, k, sorties, count, p, node, acc)
+        if index < 0:
+            break
+        if sorties[index, F_STATE] == FLYING:
+            if not bring_home(world, k, sorties[index], node, acc):
+                return False
+        elif not fly_out(world, k, sorties[index], node, acc):
+            return False
+    for index in range(acc[A_OLDEST], count):
+        if sorties[index, F_LAUNCH] > p:
+            break
+        if sorties[index, F_STATE] == WAITING:
+            return False
+    while acc[A_OLDEST] < count and sorties[acc[A_OLDEST], F_STATE] == DONE:
+        acc[A_OLDEST] += 1
+    return True
+
+
+@inlined
+def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntArray, count: int,
+               first: int, oldest: int, time: int, acc: IntArray) -> int:
+    """Write the block from stop `first`, which the truck reaches at `time`. In place.
+
+    `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
+    """
+    d, c = 0, NONE
+    if world.type[k, TYPE_PROFILE] != NO_PROFILE:
+        d, c = NONE, time
+    acc[A_TIME], acc[A_HI], acc[A_LO], acc[A_DEP] = time, FAR, NONE, FAR
+    acc[A_OLDEST], acc[A_FLYING] = oldest, 0
+    p = first
+    while True:
+        stop = stops[p]
+        kind, node = stop[S_KIND], stop[S_NODE]
+        stop[S_ARRIVAL], stop[S_BLOCK] = max(time + d, c), first
+        if kind == CUSTOMER:
+            place = world.place[node]
+            if c > place[P_LIMIT]:
+                return -1
+            acc[A_HI] = min(acc[A_HI], place[P_LIMIT] - d)
+            acc[A_DEP] = min(acc[A_DEP], max(stop[S_ARRIVAL], place[P_LATEST]) - d)
+        elif kind == START:
+            c = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
+        acc[A_FREE_D], acc[A_FREE_C] = d, c
+        d, c = serve(world, k, stop, time, d, c)
+        if not operate(world, k, sorties, count, p, node, acc):
+            return -1
+        d, c = max(d, acc[A_FREE_D]), max(c, acc[A_FREE_C])
+        stop[S_LEAVE], stop[S_FLYING] = max(time + d, c), acc[A_FLYING]
+        stop[S_LATEST], stop[S_EARLY] = FAR, NONE
+        if kind == END:
+            if acc[A_FLYING] > 0 or c > world.type[k, TYPE_LATEST]:
+                return -1
+            acc[A_HI] = min(acc[A_HI], world.type[k, TYPE_LATEST] - d)
+        if acc[A_FLYING] == 0:
+            break
+        if p + 1 >= length:
+            return -1
+        leg = world.leg[world.type[k, TYPE_TRAVEL], node, stops[p + 1, S_NODE], 0]
+        stop[S_GAP] = leg
+        d, c = travel(world, k, leg, d, c)
+        p += 1
+    stop = stops[first]
+    stop[S_D], stop[S_C], stop[S_HI], stop[S_LO] = d, c, acc[A_HI], acc[A_LO]
+    stop[S_DEP] = acc[A_DEP]
+    return p

@@ -1,0 +1,192 @@
+"""What an insertion costs: from the blocks around it, or by timing the whole route again."""
+
+from model.compiled import inlined
+from model.instance import (
+    MAX_DIMENSIONS, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_DEPOT, TYPE_MAX_DISTANCE,
+    TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL,
+)
+from model.problem import IntArray
+from model.search.block import plain_block, time_block
+from model.search.edit import (
+    AT_STOP, BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, NEW_TRIP, ON_SORTIE, TRIP_FROM,
+    TRIP_UNTIL, apply,
+)
+from model.search.layout import (
+    CUSTOMER, END, F_LAUNCH, F_RECOVERY, F_STATE, FAR, MODE_PRICED, NONE, P_DEMAND, P_RELEASE,
+    R_LENGTH, R_OFFSET, R_SORTIES, R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_D,
+    S_DEP, S_DEPART, S_EARLY, S_END, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST, S_LATEST, S_LEG, S_LO,
+    S_NODE, S_RELEASE, S_REST, S_TRIP, SEQUENCE_COLUMNS, START, T_FIRST, T_LOAD, T_RELEASE,
+    WAITING, Fleet, World,
+)
+from model.search.refresh import refresh
+from model.search.routes import sortie_cost
+from model.search.rows import copy_row
+
+INFEASIBLE = 1e300
+
+
+@inlined
+def copy_part(fleet: Fleet, slot: int, first: int, last: int, to: int) -> int:
+    """Copy the sequence of stops `first` to `last` with their sorties to another slot.
+
+    In place; returns how many sorties were skipped.
+    """
+    source, target = fleet.stop[slot], fleet.stop[to]
+    for p in range(first, last + 1):
+        for column in range(SEQUENCE_COLUMNS):
+            target[p - first, column] = source[p, column]
+        target[p - first, S_HOLD] = NONE
+    skipped, count = 0, 0
+    flights, copies = fleet.sortie[slot], fleet.sortie[to]
+    for s in range(fleet.route[slot, R_SORTIES]):
+        launch = flights[s, F_LAUNCH]
+        if launch < first:
+            skipped += 1
+        elif launch <= last:
+            copy_row(flights[s], copies[count])
+            copies[count, F_LAUNCH] -= first
+            copies[count, F_RECOVERY] -= first
+            count += 1
+    copy_row(fleet.route[slot], fleet.route[to])
+    fleet.route[to, R_LENGTH], fleet.route[to, R_SORTIES] = last - first + 1, count
+    return skipped
+
+
+@inlined
+def part_of(fleet: Fleet, slot: int, move: IntArray, held: bool) -> tuple[int, int]:
+    """Return the first and last stop of the blocks that a move changes.
+
+    `held` tells that the trip will begin later, so that all from its beginning on changes.
+    """
+    stops = fleet.stop[slot]
+    kind, p = move[M_KIND], move[M_FIRST]
+    q = p + 1
+    if kind == BY_SORTIE:
+        q = move[M_LAST]
+    elif kind == ON_SORTIE:
+        p = fleet.sortie[slot, move[M_SORTIE], F_LAUNCH]
+        q = fleet.sortie[slot, move[M_SORTIE], F_RECOVERY]
+    p, q = max(p, 0), min(q, fleet.route[slot, R_LENGTH] - 1)
+    if held:
+        p = fleet.trip[slot, stops[p, S_TRIP], T_FIRST]
+    return stops[p, S_BLOCK], stops[stops[q, S_BLOCK], S_LAST]
+
+
+@inlined
+def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: IntArray) -> bool:
+    """Time the changed stops in slot `to`, which take the place of those from `first` on.
+
+    In place; False if a rule is broken. Leaves the sums so far in the route of slot `to`.
+    """
+    route, stops, sorties = fleet.route[to], fleet.stop[to], fleet.sortie[to]
+    old = fleet.stop[slot]
+    k, length, count = route[R_TYPE], route[R_LENGTH], route[R_SORTIES]
+    legs = world.leg[world.type[k, TYPE_TRAVEL]]
+    time, cum = old[first, S_ARRIVAL], old[first, S_BEFORE]
+    depart = old[first - 1, S_DEPART] if first > 0 else FAR
+    for s in range(count):
+        sorties[s, F_STATE] = WAITING
+    p = s = driven = 0
+    while p < length:
+        stop = stops[p]
+        last = p
+        if s < count and sorties[s, F_LAUNCH] == p:
+            last = time_block(world, k, stops, length, sorties, count, p, s, time, acc)
+            if last < 0:
+                return False
+            while s < count and sorties[s, F_LAUNCH] <= last:
+                s += 1
+            for q in range(p, last):
+                driven += legs[stops[q, S_NODE], stops[q + 1, S_NODE], 1]
+        else:
+            plain_block(world, k, stop, time)
+        if time > stop[S_HI] or time < stop[S_LO]:
+            return False
+        depart = min(depart, stop[S_DEP] - cum)
+        cum += stop[S_D]
+        time = max(time + stop[S_D], stop[S_C])
+        p = last + 1
+        if p < length:
+            if stops[last, S_KIND] == END:
+                gap = world.type[k, TYPE_RELOAD]
+            else:
+                leg = legs[stops[last, S_NODE], stops[p, S_NODE]]
+                gap = leg[0]
+                driven += leg[1]
+            cum, time = cum + gap, time + gap
+    acc[0], acc[1], acc[2], acc[3] = time, cum, depart, driven
+    return True
+
+
+@inlined
+def price_part(world: World, fleet: Fleet, slot: int, first: int, last: int, to: int,
+               acc: IntArray) -> float:
+    """Return what it costs to put the stops in slot `to` in the place of `first` to `last`."""
+    if not time_part(world, fleet, slot, first, to, acc):
+        return INFEASIBLE
+    time, cum, depart, driven = acc[0], acc[1], acc[2], acc[3]
+    route, old = fleet.route[slot], fleet.stop[slot]
+    k, end = route[R_TYPE], time
+    if last + 1 < route[R_LENGTH]:
+        arrival = time + old[last, S_GAP]
+        behind = old[last + 1]
+        cum += old[last, S_GAP]
+        if arrival > behind[S_LATEST] or arrival < behind[S_EARLY]:
+            return INFEASIBLE
+        depart = min(depart, behind[S_LATEST] - cum)
+        cum += behind[S_REST]
+        end = max(arrival + behind[S_REST], behind[S_END])
+    working = end - min(depart, end - cum) - route[R_OFFSET]
+    if working > world.type[k, TYPE_MAX_WORKING]:
+        return INFEASIBLE
+    for p in range(first, last):
+        driven -= old[p, S_LEG]
+    cost = driven * world.rate[k, RATE_KM] + (working - route[R_WORKING]) * world.rate[k, RATE_HOUR]
+    for s in range(fleet.route[to, R_SORTIES]):
+        cost += sortie_cost(world, k, fleet.stop[to], fleet.sortie[to, s])
+    for s in range(route[R_SORTIES]):
+        if first <= fleet.sortie[slot, s, F_LAUNCH] <= last:
+            cost -= sortie_cost(world, k, old, fleet.sortie[slot, s])
+    return cost
+
+
+@inlined
+def give_releases(world: World, fleet: Fleet, to: int, kind: int, trip: IntArray,
+                  release: int) -> None:
+    """Let the trips in slot `to` begin no earlier than their parcels are there. In place."""
+    for p in range(fleet.route[to, R_LENGTH]):
+        stop = fleet.stop[to, p]
+        if stop[S_KIND] == START:
+            if stop[S_RELEASE] == NONE:
+                stop[S_RELEASE] = release
+                if kind != NEW_TRIP:
+                    stop[S_RELEASE] = max(release, trip[T_RELEASE])
+            elif p == 0 and kind != NEW_TRIP:
+                stop[S_RELEASE] = max(stop[S_RELEASE], release)
+
+
+@inlined
+def price_move(world: World, fleet: Fleet, move: IntArray, node: int, acc: IntArray) -> float:
+    """Return what it costs to insert a customer as `move` says; INFEASIBLE if it can't be."""
+    slot, to = move[M_SLOT], len(fleet.route) - 1
+    route = fleet.route[slot]
+    k = route[R_TYPE]
+    depot = world.type[k, TYPE_DEPOT]
+    if world.mode[k] & MODE_PRICED:
+        copy_part(fleet, slot, 0, route[R_LENGTH] - 1, to)
+        apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0)
+        if not refresh(world, fleet, to, acc):
+            return INFEASIBLE
+        return fleet.cost[to] - fleet.cost[slot]
+    kind = move[M_KIND]
+    trip = fleet.trip[slot, fleet.stop[slot, max(move[M_FIRST], 0), S_TRIP]]
+    if kind == ON_SORTIE:
+        trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move[M_SORTIE], F_LAUNCH],
+                                           S_TRIP]]
+    release = world.place[node, P_RELEASE]
+    held = kind != NEW_TRIP and release > trip[T_RELEASE]
+    first, last = part_of(fleet, slot, move, held)
+    skipped = copy_part(fleet, slot, first, last, to)
+    apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, first, skipped)
+    give_releases(world, fleet, to, kind, trip, release)
+    return price_part(world, fleet, slot, first, last, to, acc)

@@ -1,0 +1,417 @@
+"""The cheapest place for a customer."""
+
+from model.compiled import inlined
+from model.instance import (
+    MAX_DIMENSIONS, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT,
+    TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_ENDURANCE, TYPE_MAX_TRIPS,
+    TYPE_PAYLOAD, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+)
+from model.problem import UNREACHABLE, BoolArray, FloatArray, IntArray, UIntArray
+from model.search.draw import uniform
+from model.search.edit import (
+    AT_STOP, BY_SORTIE, M_DRONE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, M_TYPE, NEW_FLIGHT,
+    NEW_ROUTE, NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL,
+)
+from model.search.evaluate import INFEASIBLE, price_move
+from model.search.layout import (
+    END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_SIMPLE, MODE_TIMED, NOWHERE,
+    P_DEMAND, P_EARLIEST, P_LIMIT, P_SERVICE, R_CUM, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE,
+    R_WORKING, S_ARRIVAL, S_EARLY, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE,
+    S_TRIP, START, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+)
+from model.search.retype import larger_type, route_cost
+from model.search.rows import copy_row
+
+BLINK = 0.01
+"""How often a better place is overlooked."""
+
+MAX_SPAN = 8
+"""How many stops after its launch a sortie is recovered at most."""
+
+
+@inlined
+def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntArray) -> bool:
+    """Tell whether a customer's demand fits on top of a trip's load."""
+    for dimension in range(MAX_DIMENSIONS):
+        if (trips[index, T_LOAD + dimension] + place[node, P_DEMAND + dimension]
+                > columns[TYPE_CAPACITY + dimension]):
+            return False
+    return True
+
+
+@inlined
+def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last: int,
+               place: IntArray, rate: float, best: float, rng: UIntArray) -> tuple[float, int]:
+    """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
+
+    Where cost is that of the detour. `back` and `leg` are the legs to and from the customer,
+    (node, 2). Returns its cost and the stop, or `best` and -1 if none costs less.
+    """
+    chosen = -1
+    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    for p in range(first, last + 1):
+        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+        cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate
+        if cost >= best:
+            continue
+        arrival = stops[p, S_LEAVE] + back[here, 0]
+        if arrival > limit:
+            if stops[p, S_LEAVE] > limit:
+                break
+            continue
+        arrival = max(arrival, earliest) + service + leg[there, 0]
+        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= BLINK:
+            chosen, best = p, cost
+    return best, chosen
+
+
+@inlined
+def next_stop(world: World, k: int, back: IntArray, leg: IntArray, stops: IntArray, first: int,
+              last: int, place: IntArray, spare: int, best: float) -> int:
+    """Return the first stop from `first` to `last` behind which a customer may cost less.
+
+    `spare` is the time that the route could work longer at no cost; returns -1 if there is none.
+    """
+    timed = world.mode[k] & MODE_TIMED
+    rate, per_time = world.rate[k, RATE_KM], world.rate[k, RATE_HOUR]
+    for p in range(first, last + 1):
+        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+        cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate
+        if timed and stops[p, S_FLYING] == 0:
+            longer = back[here, 0] + leg[there, 0] + place[P_SERVICE] - stops[p, S_GAP]
+            cost += max(0, longer - spare) * per_time
+        if cost >= best:
+            continue
+        arrival = stops[p, S_LEAVE] + back[here, 0]
+        leave = max(arrival, place[P_EARLIEST]) + place[P_SERVICE] + leg[there, 0]
+        if arrival <= place[P_LIMIT] and leave <= stops[p + 1, S_LATEST]:
+            return p
+    return -1
+
+
+@inlined
+def try_stops(world: World, fleet: Fleet, slot: int, first: int, last: int, node: int,
+              best: float, move: IntArray, trial: IntArray, rng: UIntArray,
+              acc: IntArray) -> float:
+    """Try a customer behind each stop from `first` to `last`. Returns the best cost so far.
+
+    In place: `move` takes the insertion if it is the best.
+    """
+    k = fleet.route[slot, R_TYPE]
+    m = world.type[k, TYPE_TRAVEL]
+    back, leg, stops = world.back[m, node], world.leg[m, node], fleet.stop[slot]
+    place = world.place[node]
+    if world.mode[k] & MODE_SIMPLE and fleet.route[slot, R_SORTIES] == 0:
+        best, p = scan_stops(back, leg, stops, first, last, place, world.rate[k, RATE_KM], best,
+                             rng)
+        if p >= 0:
+            move[M_KIND], move[M_SLOT], move[M_FIRST] = AT_STOP, slot, p
+        return best
+    spare = fleet.route[slot, R_WORKING] - fleet.route[slot, R_CUM]
+    trial[M_KIND], trial[M_SLOT] = AT_STOP, slot
+    p = first
+    while True:
+        p = next_stop(world, k, back, leg, stops, p, last, place, spare, best)
+        if p < 0:
+            return best
+        trial[M_FIRST] = p
+        cost = price_move(world, fleet, trial, node, acc)
+        if cost < best and uniform(rng) >= BLINK:
+            best = cost
+            copy_row(trial, move)
+        p += 1
+
+
+@inlined
+def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int) -> int:
+    """Return a drone that is aboard from stop `launch` to `recovery`; -1 if there is none."""
+    sorties = fleet.sortie[slot]
+    for drone in range(world.type[fleet.route[slot, R_TYPE], TYPE_DRONES]):
+        free = True
+        for s in range(fleet.route[slot, R_SORTIES]):
+            if sorties[s, F_DRONE] == drone:
+                first, last = sorties[s, F_LAUNCH], sorties[s, F_RECOVERY]
+                if first < recovery and launch < last:
+                    free = False
+                if launch == recovery and first < launch < last:
+                    free = False
+                if first == last and launch < first < recovery:
+                    free = False
+                if first == launch and recovery > launch and last > first:
+                    free = False
+        if free:
+            return drone
+    return NOWHERE
+
+
+@inlined
+def try_sorties(world: World, fleet: Fleet, slot: int, launch: int, node: int, best: float,
+                move: IntArray, trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
+    """Try a customer on sorties of its own from stop `launch`. As `try_stops`."""
+    k = fleet.route[slot, R_TYPE]
+    columns = world.type[k]
+    flights, stops = columns[TYPE_DRONE_TRAVEL], fleet.stop[slot]
+    out = world.back[flights, node, stops[launch, S_NODE]]
+    if stops[launch, S_KIND] == END or out[0] >= UNREACHABLE:
+        return best
+    service = columns[TYPE_DRONE_SERVICE]
+    if service < 0:
+        service = world.place[node, P_SERVICE]
+    last = fleet.trip[slot, stops[launch, S_TRIP], T_LAST]
+    trial[M_KIND], trial[M_SLOT], trial[M_FIRST] = BY_SORTIE, slot, launch
+    for recovery in range(launch, min(last, launch + MAX_SPAN) + 1):
+        home = world.leg[flights, node, stops[recovery, S_NODE]]
+        away = stops[recovery, S_ARRIVAL] - stops[launch, S_LEAVE]
+        if columns[TYPE_WAITING_COUNTS] and away > columns[TYPE_ENDURANCE]:
+            break
+        if (home[0] >= UNREACHABLE or out[0] + service + home[0] > columns[TYPE_ENDURANCE]
+                or (out[1] + home[1]) * world.rate[k, RATE_DRONE_KM] >= best):
+            continue
+        drone = free_drone(world, fleet, slot, launch, recovery)
+        if drone < 0:
+            continue
+        trial[M_LAST], trial[M_DRONE] = recovery, drone
+        cost = price_move(world, fleet, trial, node, acc)
+        if cost < best and uniform(rng) >= BLINK:
+            best = cost
+            copy_row(trial, move)
+    return best
+
+
+@inlined
+def lifts(world: World, sortie: IntArray, k: int, node: int) -> bool:
+    """Tell whether a customer's demand fits on top of a sortie's payload."""
+    for dimension in range(MAX_DIMENSIONS):
+        payload = world.place[node, P_DEMAND + dimension]
+        for visit in range(sortie[F_COUNT]):
+            payload += world.place[sortie[F_NODE + visit], P_DEMAND + dimension]
+        if payload > world.type[k, TYPE_PAYLOAD + dimension]:
+            return False
+    return True
+
+
+@inlined
+def try_joining(world: World, fleet: Fleet, slot: int, node: int, best: float, move: IntArray,
+                trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
+    """Try a customer on the sorties of a route. As `try_stops`."""
+    k = fleet.route[slot, R_TYPE]
+    sorties = fleet.sortie[slot]
+    for s in range(fleet.route[slot, R_SORTIES]):
+        trip = fleet.stop[slot, sorties[s, F_LAUNCH], S_TRIP]
+        if (sorties[s, F_COUNT] >= world.visits[k]
+                or not fits(world.place, node, fleet.trip[slot], trip, world.type[k])
+                or not lifts(world, sorties[s], k, node)):
+            continue
+        for place in range(sorties[s, F_COUNT] + 1):
+            trial[M_KIND], trial[M_SLOT], trial[M_FIRST] = ON_SORTIE, slot, place
+            trial[M_SORTIE] = s
+            cost = price_move(world, fleet, trial, node, acc)
+            if cost < best and uniform(rng) >= BLINK:
+                best = cost
+                copy_row(trial, move)
+    return best
+
+
+@inlined
+def try_trips(world: World, fleet: Fleet, slot: int, node: int, best: float, move: IntArray,
+              trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
+    """Try a customer where a trip more begins or ends. As `try_stops`."""
+    route, stops = fleet.route[slot], fleet.stop[slot]
+    k = route[R_TYPE]
+    m, depot = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_DEPOT]
+    rate = world.rate[k, RATE_KM]
+    out, home = world.back[m, node, depot, 1], world.leg[m, node, depot, 1]
+    trial[M_SLOT] = slot
+    for p in range(-1, route[R_LENGTH]):
+        kind = NEW_TRIP
+        bound = (out + home) * rate
+        if p >= 0 and stops[p, S_KIND] != END:
+            if stops[p, S_FLYING] > 0 or stops[p, S_KIND] == START or stops[p + 1, S_KIND] == END:
+                continue
+            here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+            base = -stops[p, S_LEG]
+            until = (base + world.back[m, node, here, 1] + home
+                     + world.leg[m, depot, there, 1]) * rate
+            bound = (base + world.leg[m, here, depot, 1] + out
+                     + world.leg[m, node, there, 1]) * rate
+            kind = TRIP_FROM
+            if until < bound:
+                kind, bound = TRIP_UNTIL, until
+        if bound >= best or (p >= 0 and stops[p, S_LEAVE] > world.place[node, P_LIMIT]):
+            continue
+        trial[M_KIND], trial[M_FIRST] = kind, p
+        cost = price_move(world, fleet, trial, node, acc)
+        if cost < best and uniform(rng) >= BLINK:
+            best = cost
+            copy_row(trial, move)
+    return best
+
+
+@inlined
+def try_new_route(world: World, fleet: Fleet, alone: FloatArray, node: int, best: float,
+                  move: IntArray, rng: UIntArray) -> float:
+    """Try a customer on a route of its own. As `try_stops`."""
+    for k in range(world.num_types):
+        if fleet.used[k] >= world.type[k, TYPE_COUNT]:
+            continue
+        for by_drone in range(2):
+            cost = alone[k, by_drone, node]
+            if cost < best and uniform(rng) >= BLINK:
+                best = cost
+                move[M_KIND], move[M_TYPE] = NEW_ROUTE + by_drone, k
+    return best
+
+
+@inlined
+def try_trip(world: World, fleet: Fleet, slot: int, index: int, node: int, best: float,
+             move: IntArray, trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
+    """Try a customer on a trip that `scan_simple` left out, or by a sortie. As `try_stops`."""
+    k = fleet.route[slot, R_TYPE]
+    first, last = fleet.trip[slot, index, T_FIRST], fleet.trip[slot, index, T_LAST]
+    simple = world.mode[k] & MODE_SIMPLE and fleet.route[slot, R_SORTIES] == 0
+    if world.can[k, 0, node] and not simple:
+        best = try_stops(world, fleet, slot, first, last - 1, node, best, move, trial, rng, acc)
+    if world.can[k, 1, node]:
+        for p in range(first, last):
+            best = try_sorties(world, fleet, slot, p, node, best, move, trial, rng, acc)
+    return best
+
+
+@inlined
+def exchanged(world: World, fleet: Fleet, slot: int, node: int,
+              enlarge: bool) -> tuple[int, float]:
+    """Return the type that would serve a customer more on a route, and what it costs more."""
+    if not enlarge:
+        return NOWHERE, 0.0
+    by = larger_type(world, fleet, slot, node)
+    if by < 0:
+        return by, 0.0
+    return by, route_cost(world, by, fleet.trip[slot, 0, T_DISTANCE]) - fleet.cost[slot]
+
+
+@inlined
+def scan_simple(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
+                best: float, enlarge: bool, move: IntArray, rng: UIntArray) -> float:
+    """Find the cheapest stop among the routes where only distance counts. As `try_stops`."""
+    place = world.place[node]
+    for index in range(num_active):
+        slot = active[index]
+        k = fleet.route[slot, R_TYPE]
+        if (not world.mode[k] & MODE_SIMPLE or fleet.route[slot, R_SORTIES] > 0
+                or not world.can[k, 0, node]):
+            continue
+        m = world.type[k, TYPE_TRAVEL]
+        for trip in range(fleet.route[slot, R_TRIPS]):
+            by, base = k, 0.0
+            if not fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
+                by, base = exchanged(world, fleet, slot, node, enlarge)
+                if by < 0 or base >= best:
+                    continue
+            cost, p = scan_stops(
+                world.back[m, node], world.leg[m, node], fleet.stop[slot],
+                fleet.trip[slot, trip, T_FIRST], fleet.trip[slot, trip, T_LAST] - 1, place,
+                world.rate[by, RATE_KM], best - base, rng)
+            if p >= 0:
+                best = cost + base
+                move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+    return best
+
+
+@inlined
+def find_place(world: World, fleet: Fleet, alone: FloatArray, active: IntArray, num_active: int,
+               node: int, enlarge: bool, move: IntArray, trial: IntArray, rng: UIntArray,
+               acc: IntArray) -> float:
+    """Find the cheapest insertion of a customer; return its cost, INFEASIBLE if there is none.
+
+    In place: `move`.
+    """
+    best = try_new_route(world, fleet, alone, node, INFEASIBLE, move, rng)
+    best = scan_simple(world, fleet, active, num_active, node, best, enlarge, move, rng)
+    if not world.general:
+        return best
+    for index in range(num_active):
+        slot = active[index]
+        k = fleet.route[slot, R_TYPE]
+        by_truck, by_drone = world.can[k, 0, node], world.can[k, 1, node]
+        if not (by_truck or by_drone):
+            continue
+        simple = world.mode[k] & MODE_SIMPLE and fleet.route[slot, R_SORTIES] == 0
+        if by_drone or not simple:
+            for trip in range(fleet.route[slot, R_TRIPS]):
+                if fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
+                    best = try_trip(world, fleet, slot, trip, node, best, move, trial, rng, acc)
+        if world.visits[k] > 1 and by_drone:
+            best = try_joining(world, fleet, slot, node, best, move, trial, rng, acc)
+        if fleet.route[slot, R_TRIPS] < world.type[k, TYPE_MAX_TRIPS] and by_truck:
+            best = try_trips(world, fleet, slot, node, best, move, trial, rng, acc)
+    return best
+
+
+@inlined
+def stop_beside(fleet: Fleet, node: int) -> int:
+    """Return the stop at a customer, or the one from where a drone flies there."""
+    p = fleet.where[node, W_POSITION]
+    if p < 0:
+        p = fleet.sortie[fleet.where[node, W_SLOT], fleet.where[node, W_SORTIE], F_LAUNCH]
+    return p
+
+
+@inlined
+def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
+                move: IntArray, rng: UIntArray) -> float:
+    """Find the cheapest stop beside neighbours where only distance counts. As `try_stops`."""
+    place = world.place[node]
+    for rank in range(world.fit.shape[1]):
+        other = world.fit[node, rank]
+        slot = fleet.where[other, W_SLOT]
+        if slot < 0:
+            continue
+        k = fleet.route[slot, R_TYPE]
+        if (not world.mode[k] & MODE_SIMPLE or fleet.route[slot, R_SORTIES] > 0
+                or not world.can[k, 0, node]):
+            continue
+        p = fleet.where[other, W_POSITION]
+        by, base = k, 0.0
+        if not fits(world.place, node, fleet.trip[slot], fleet.stop[slot, p, S_TRIP],
+                    world.type[k]):
+            by, base = exchanged(world, fleet, slot, node, enlarge)
+            if by < 0 or base >= best:
+                continue
+        m = world.type[k, TYPE_TRAVEL]
+        cost, p = scan_stops(world.back[m, node], world.leg[m, node], fleet.stop[slot], p - 1, p,
+                             place, world.rate[by, RATE_KM], best - base, rng)
+        if p >= 0:
+            best = cost + base
+            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+    return best
+
+
+@inlined
+def find_beside(world: World, fleet: Fleet, alone: FloatArray, node: int, enlarge: bool,
+                move: IntArray, trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
+    """Find the cheapest insertion of a customer beside its neighbours. As `find_place`."""
+    best = try_new_route(world, fleet, alone, node, INFEASIBLE, move, rng)
+    best = scan_beside(world, fleet, node, best, enlarge, move, rng)
+    if not world.general:
+        return best
+    for rank in range(world.fit.shape[1]):
+        other = world.fit[node, rank]
+        slot = fleet.where[other, W_SLOT]
+        if slot < 0:
+            continue
+        k = fleet.route[slot, R_TYPE]
+        by_truck, by_drone = world.can[k, 0, node], world.can[k, 1, node]
+        simple = world.mode[k] & MODE_SIMPLE and fleet.route[slot, R_SORTIES] == 0
+        if not (by_drone or (by_truck and not simple)):
+            continue
+        p = stop_beside(fleet, other)
+        trip = fleet.stop[slot, p, S_TRIP]
+        if not fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
+            continue
+        first = max(p - 1, fleet.trip[slot, trip, T_FIRST])
+        if by_truck and not simple:
+            best = try_stops(world, fleet, slot, first, p, node, best, move, trial, rng, acc)
+        if by_drone:
+            for q in range(first, p + 1):
+                best = try_sorties(world, fleet, slot, q, node, best, move, trial, rng, acc)
+    return best

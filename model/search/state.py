@@ -1,0 +1,123 @@
+"""What one thread of the search holds."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from model.compiled import compiled, inlined
+from model.problem import BoolArray, FloatArray, IntArray, UIntArray
+from model.search.layout import (
+    NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, W_SLOT, Fleet, World,
+)
+from model.search.refresh import locate
+from model.search.rows import copy_row, copy_rows, copy_some
+
+I_ACTIVE, I_MISSING, I_ABSENT, I_TOUCHED, I_TURN, I_STAMP, I_BEST_MISSING = range(7)
+V_COST, V_BEST, V_TEMPERATURE, V_COOLING = range(4)
+
+
+class Searcher(NamedTuple):
+    """Routes as they are, as they were before this turn, and as they were at their best."""
+
+    now: Fleet
+    before: Fleet
+    best: Fleet
+    count: IntArray  # type: ignore[assignment]  # (8,) I_ numbers
+    value: FloatArray  # (4,) V_ numbers
+    rng: UIntArray  # (1,)
+    active: IntArray  # slots in use
+    missing: IntArray  # customers left out
+    best_missing: IntArray
+    absent: IntArray  # to be inserted this turn, behind those left alone
+    touched: IntArray  # slots changed this turn
+    marked: BoolArray  # (node,) removed this turn
+    absences: IntArray  # (node,) turns after which a customer was left out
+    hit: IntArray  # (slot, trip) turn of the last string
+    key: FloatArray  # (node,) order of insertion
+    moved: IntArray  # scratch
+    move: IntArray  # scratch, best insertion
+    trial: IntArray  # scratch, insertion tried
+    acc: IntArray  # scratch, sums of a block
+    alone: FloatArray  # (type, 2, node) cost of a route that serves one customer
+
+
+@inlined
+def copy_route(source: Fleet, target: Fleet, slot: int) -> None:
+    """Copy a route between fleets. In place."""
+    route = source.route[slot]
+    copy_row(route, target.route[slot])
+    target.cost[slot] = source.cost[slot]
+    copy_rows(source.stop[slot], target.stop[slot], route[R_LENGTH])
+    copy_rows(source.trip[slot], target.trip[slot], route[R_TRIPS])
+    copy_rows(source.sortie[slot], target.sortie[slot], route[R_SORTIES])
+
+
+@inlined
+def list_active(searcher: Searcher) -> None:
+    """List the slots in use. In place."""
+    found = 0
+    for slot in range(len(searcher.active)):
+        if searcher.now.route[slot, R_LENGTH] > 0:
+            searcher.active[found] = slot
+            found += 1
+    searcher.count[I_ACTIVE] = found
+
+
+@inlined
+def touch(searcher: Searcher, slot: int) -> None:
+    """Keep a route as it is before it changes this turn. In place."""
+    for index in range(searcher.count[I_TOUCHED]):
+        if searcher.touched[index] == slot:
+            return
+    copy_route(searcher.now, searcher.before, slot)
+    searcher.touched[searcher.count[I_TOUCHED]] = slot
+    searcher.count[I_TOUCHED] += 1
+
+
+@inlined
+def keep_aside(fleet: Fleet, slot: int, to: int) -> None:
+    """Copy the sequence and times of a route to another slot. In place."""
+    route = fleet.route[slot]
+    copy_row(route, fleet.route[to])
+    copy_rows(fleet.stop[slot], fleet.stop[to], route[R_LENGTH])
+    copy_rows(fleet.sortie[slot], fleet.sortie[to], route[R_SORTIES])
+
+
+@inlined
+def keep_best(searcher: Searcher) -> None:
+    """Take the routes as they are for the best. In place."""
+    now, best = searcher.now, searcher.best
+    for slot in range(len(searcher.active)):
+        if now.route[slot, R_STAMP] != best.route[slot, R_STAMP]:
+            copy_route(now, best, slot)
+    copy_row(now.used, best.used)
+    missing = searcher.count[I_MISSING]
+    searcher.count[I_BEST_MISSING] = missing
+    copy_some(searcher.missing, searcher.best_missing, missing)
+    searcher.value[V_BEST] = searcher.value[V_COST]
+
+
+@inlined
+def adopt(searcher: Searcher, other: Fleet, missing: IntArray, num_missing: int,
+          cost: float) -> None:
+    """Go on from other routes. In place."""
+    now = searcher.now
+    searcher.count[I_STAMP] += 1
+    for slot in range(len(searcher.active)):
+        copy_route(other, now, slot)
+        now.route[slot, R_STAMP] = searcher.count[I_STAMP]
+    copy_row(other.used, now.used)
+    for node in range(len(now.where)):
+        now.where[node, W_SLOT] = NOWHERE
+    list_active(searcher)
+    for index in range(searcher.count[I_ACTIVE]):
+        locate(now, searcher.active[index])
+    searcher.count[I_MISSING] = num_missing
+    copy_some(missing, searcher.missing, num_missing)
+    searcher.value[V_COST] = cost
+
+
+@compiled
+def follow(searcher: Searcher, leader: Searcher) -> None:
+    """Go on from another thread's routes. In place."""
+    adopt(searcher, leader.now, leader.missing, leader.count[I_MISSING], leader.value[V_COST])

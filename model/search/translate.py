@@ -1,0 +1,206 @@
+"""Plans to and from the routes of a search."""
+
+import numpy as np
+
+from model.compiled import compiled, inlined
+from model.instance import TYPE_CAPACITY, TYPE_COUNT, TYPE_MAX_TRIPS, TYPE_RECOVERY
+from model.problem import FloatArray, IntArray, Problem
+from model.search.edit import begin_route
+from model.search.evaluate import INFEASIBLE
+from model.search.layout import (
+    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_READY_C, F_READY_D, F_RECOVERY,
+    F_TAKEOFF, NONE, NOWHERE, P_DEMAND, P_EARLIEST, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_ARRIVAL, S_HOLD,
+    S_KIND, S_LEAVE, S_NODE, S_RELEASE, START, T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
+)
+from model.search.refresh import clear_holds, locate, refresh, settle
+from model.search.routes import drive_forward, load_trips
+from model.search.savings import savings_routes
+from model.search.state import I_MISSING, I_STAMP, V_COST, Searcher, keep_best, list_active
+from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+
+SPARE_SLOTS = 8
+STOPS_OPENED = 4
+"""Stops that one insertion adds at most, and one more."""
+
+
+def make_searcher(problem: Problem, world: World, solution: Solution,
+                  seed: np.random.SeedSequence) -> Searcher:
+    """Begin a search from a plan; routes that it can't read are left to be planned anew."""
+    slots, stops, trips, sorties = _sizes(problem, world, solution)
+    now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
+    nodes = world.num_nodes
+    moves = (np.zeros(8, np.int64) for _ in range(3))
+    alone = np.full(world.can.shape, INFEASIBLE)
+    alone_costs(world, now, np.zeros(8, np.int64), alone)
+    searcher = Searcher(
+        now, before, best, np.zeros(8, np.int64), np.zeros(4),
+        seed.generate_state(1, np.uint64), np.zeros(slots, np.int64),
+        *(np.zeros(nodes, np.int64) for _ in range(3)), np.zeros(slots, np.int64),
+        np.zeros(nodes, np.bool_), np.zeros(nodes, np.int64), np.zeros((slots, trips), np.int64), np.zeros(nodes),
+        np.zeros(max(slots, stops) + 2, np.int64), *moves,
+        alone)
+    for slot, route in enumerate(solution.routes):
+        write_route(now, slot, route)
+    begin(world, searcher, len(solution.routes))
+    return searcher
+
+
+def first_plan(problem: Problem, world: World) -> Solution:
+    """Return routes by savings where all vehicles are alike, else none.
+
+    They have no times yet.
+    """
+    everyone = tuple(range(world.num_depots, world.num_nodes))
+    kinds = problem.vehicle_types
+    if len(kinds) > 1 or kinds[0].drones is not None or kinds[0].max_trips > 1:
+        return Solution((), everyone)
+    depot = kinds[0].depot
+    routes = sorted(savings_routes(world, 0), key=len, reverse=True)[: kinds[0].count]
+    return Solution(tuple(
+        Route(0, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (depot, *customers, depot))),))
+        for number, customers in enumerate(routes)), everyone)
+
+
+def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
+    """Return how many routes, and stops, trips and sorties of one, are provided for."""
+    columns, number = world.type, problem.num_customers
+    demand = np.sort(world.place[problem.num_depots:, P_DEMAND:], axis=0).cumsum(axis=0)
+    most, fewest = 0, number
+    for kind in columns:
+        trips = min(int(kind[TYPE_MAX_TRIPS]), number)
+        capacity = kind[TYPE_CAPACITY:TYPE_CAPACITY + 3] * trips
+        most = max(most, int((demand <= capacity).all(axis=1).sum()))
+        largest = np.maximum(capacity, 1)
+        fewest = min(fewest, int(np.ceil(demand[-1] / largest).max()) if number else 0)
+    count = int(columns[:, TYPE_COUNT].sum())
+    wanted = 2 * max(len(solution.routes), 2 * fewest) + SPARE_SLOTS
+    if not solution.routes:
+        wanted = number
+    trips = min(int(columns[:, TYPE_MAX_TRIPS].max()), max(1, most)) + 1
+    flown = most if world.visits.any() else 0
+    return (max(1, min(count, number, wanted), len(solution.routes)),
+            most + 2 * trips + STOPS_OPENED, trips, flown + 1)
+
+
+@compiled
+def alone_costs(world: World, fleet: Fleet, acc: IntArray, alone: FloatArray) -> None:
+    """Write the cost of a route that serves one customer alone, (type, 2, node). In place."""
+    slot = len(fleet.route) - 1
+    for k in range(world.num_types):
+        for by_drone in range(2):
+            for node in range(world.num_depots, world.num_nodes):
+                if world.can[k, by_drone, node]:
+                    begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k,
+                                world.type[k, 2], node, by_drone == 1)
+                    if refresh(world, fleet, slot, acc):
+                        alone[k, by_drone, node] = fleet.cost[slot]
+
+
+@compiled
+def begin(world: World, searcher: Searcher, num_routes: int) -> None:
+    """Time the routes written; those that break a rule are left to be planned anew. In place."""
+    now, count = searcher.now, searcher.count
+    now.where[:] = NOWHERE
+    cost = 0.0
+    for slot in range(num_routes):
+        if refresh(world, now, slot, searcher.acc):
+            now.used[now.route[slot, R_TYPE]] += 1
+            now.route[slot, R_STAMP] = 1
+            cost += now.cost[slot]
+            locate(now, slot)
+        else:
+            now.route[slot, R_LENGTH] = now.route[slot, R_SORTIES] = now.route[slot, R_TRIPS] = 0
+            now.cost[slot] = 0.0
+    for node in range(world.num_depots, world.num_nodes):
+        if now.where[node, W_SLOT] == NOWHERE:
+            searcher.missing[count[I_MISSING]] = node
+            count[I_MISSING] += 1
+    count[I_STAMP] = 1
+    searcher.value[V_COST] = cost + count[I_MISSING] * world.unassigned_cost
+    list_active(searcher)
+    keep_best(searcher)
+
+
+def write_route(fleet: Fleet, slot: int, route: Route) -> None:
+    """Write the sequence of a route. In place."""
+    stops = [(stop.node, START if index == 0 else END if index == len(trip.stops) - 1 else CUSTOMER)
+             for trip in route.trips for index, stop in enumerate(trip.stops)]
+    fleet.stop[slot, : len(stops), [S_NODE, S_KIND]] = np.array(stops).T
+    fleet.stop[slot, : len(stops), S_HOLD] = NONE
+    firsts = np.cumsum([0] + [len(trip.stops) for trip in route.trips])
+    sorties = sorted(((int(first) + sortie.launch_stop, int(first) + sortie.recovery_stop,
+                       index, sortie)
+                      for first, trip in zip(firsts, route.trips, strict=False)
+                      for index, sortie in enumerate(
+                          sorted(trip.sorties, key=lambda sortie: sortie.launch_time))),
+                     key=lambda entry: entry[:3])
+    for s, (launch, recovery, _, sortie) in enumerate(sorties):
+        row = fleet.sortie[slot, s]
+        nodes = [visit.node for visit in sortie.visits]
+        row[[F_LAUNCH, F_RECOVERY, F_DRONE, F_COUNT]] = (launch, recovery, sortie.drone,
+                                                         len(nodes))
+        row[F_NODE:F_NODE + len(nodes)] = nodes
+    fleet.route[slot, [R_TYPE, R_LENGTH, R_SORTIES]] = (route.vehicle_type, len(stops),
+                                                        len(sorties))
+
+
+def read_plan(world: World, searcher: Searcher) -> Solution:
+    """Return the best plan found, each trip begun as late as costs nothing."""
+    best = searcher.best
+    routes = []
+    numbers = [0] * world.num_types
+    for slot in range(len(searcher.active)):
+        if best.route[slot, R_LENGTH] > 0:
+            finish_route(world, best, slot, searcher.acc)
+            k = int(best.route[slot, R_TYPE])
+            routes.append(Route(k, numbers[k], _trips(world, best, slot)))
+            numbers[k] += 1
+    missing = searcher.best_missing[: searcher.count[6]]
+    return Solution(tuple(routes), tuple(sorted(int(node) for node in missing)))
+
+
+@compiled
+def finish_route(world: World, fleet: Fleet, slot: int, acc: IntArray) -> None:
+    """Write the times of a route whose trips begin as late as costs nothing. In place."""
+    route, stops = fleet.route[slot], fleet.stop[slot]
+    trips, sorties = fleet.trip[slot], fleet.sortie[slot]
+    load_trips(world, route, stops, trips, sorties)
+    clear_holds(route, stops, trips)
+    drive_forward(world, route, stops, sorties, acc)
+    settle(world, route, stops, trips, sorties, acc)
+
+
+def _trips(world: World, fleet: Fleet, slot: int) -> tuple[Trip, ...]:
+    """Return the trips of a timed route."""
+    columns = fleet.route[slot]
+    stops = fleet.stop[slot, : columns[R_LENGTH]].tolist()
+    sorties = fleet.sortie[slot, : columns[R_SORTIES]].tolist()
+    trips = []
+    for first, last in fleet.trip[slot, : columns[R_TRIPS], [T_FIRST, T_LAST]].T.tolist():
+        halts = tuple(_stop(world, row) for row in stops[first:last + 1])
+        flown = tuple(_sortie(world, int(columns[R_TYPE]), row, first, stops) for row in sorties
+                      if first <= row[F_LAUNCH] <= last)
+        trips.append(Trip(halts, flown))
+    return tuple(trips)
+
+
+def _stop(world: World, row: list[int]) -> Stop:
+    arrival = begin = row[S_ARRIVAL]
+    if row[S_KIND] == START:
+        arrival = begin = max(arrival, row[S_RELEASE], row[S_HOLD])
+    elif row[S_KIND] == CUSTOMER:
+        begin = max(arrival, int(world.place[row[S_NODE], P_EARLIEST]))
+    return Stop(row[S_NODE], arrival, begin, row[S_LEAVE])
+
+
+def _sortie(world: World, k: int, row: list[int], first: int, stops: list[list[int]]) -> Sortie:
+    kind = world.type[k]
+    own = int(kind[16])
+    visits = []
+    for index in range(row[F_COUNT]):
+        node, arrival = row[F_NODE + index], row[F_NODE + world.max_visits + index]
+        begin = max(arrival, int(world.place[node, P_EARLIEST]))
+        service = own if own >= 0 else int(world.place[node, 2])
+        visits.append(Visit(node, arrival, begin, begin + service))
+    return Sortie(row[F_DRONE], row[F_LAUNCH] - first, row[F_RECOVERY] - first, tuple(visits),
+                  row[F_TAKEOFF], row[F_BEGIN], row[F_BEGIN] + int(kind[TYPE_RECOVERY]))

@@ -1,0 +1,170 @@
+"""The search's arrays for a problem, and plans to and from its routes."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.instance import (
+    MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
+    NODE_SERVICE, RATE_HOUR, TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
+    TYPE_PROFILE, Instance,
+)
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem
+from model.search.layout import (
+    FAR, MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_RELEASE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED, P_DEMAND,
+    World,
+)
+
+NEAR_RUIN = 128
+"""How many customers a ruin may spread to."""
+
+NEAR_INSERTION = 40
+"""Beside how many customers an insertion is tried where not everywhere is."""
+
+SCAN_ALL_BELOW = 400
+"""Number of customers from which insertions are tried beside neighbours only."""
+
+MOST_VISITS = 8
+"""Customers on a sortie that the search puts there at most."""
+
+WAITING_WEIGHT = 0.2
+LATENESS_WEIGHT = 1.0
+"""What waiting and lateness weigh against driving between neighbours."""
+
+
+def make_world(problem: Problem, instance: Instance) -> World:
+    """Lay out a problem for the search."""
+    columns, rates = instance.type[0], instance.rate[0]
+    place = _places(instance)
+    travel = np.stack([instance.duration[0], instance.distance[0]], axis=-1)
+    back = travel
+    if not _symmetric(instance.duration[0]) or not _symmetric(instance.distance[0]):
+        back = np.ascontiguousarray(travel.transpose(0, 2, 1, 3))
+    near = _near(problem)
+    visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
+                       for kind in problem.vehicle_types], np.int64)
+    visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
+    rate = rates / np.array([1.0, MM_PER_KM, MS_PER_HOUR, MM_PER_KM, MS_PER_HOUR])
+    mode = _modes(instance, place)
+    swap = _swaps(problem, mode)
+    return World(
+        num_depots=problem.num_depots, num_nodes=problem.num_nodes,
+        num_types=len(problem.vehicle_types), max_visits=max(1, int(visits.max())),
+        general=not bool((mode & MODE_LEAN).all()),
+        traded=bool(swap.any()),
+        scan_all=problem.num_customers < SCAN_ALL_BELOW,
+        must_serve=_must_serve(problem), unassigned_cost=float(problem.unassigned_cost), place=place,
+        price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR), type=columns, rate=rate,
+        mode=mode, visits=visits,
+        can=np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1)),
+        swap=swap, leg=travel, back=back,
+        profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
+        near=near, fit=_fit(problem, place, near),
+    )
+
+
+def _symmetric(matrices: IntArray) -> bool:
+    """Tell whether all matrices (travel, node, node) are their own transposes."""
+    return bool((matrices == matrices.transpose(0, 2, 1)).all())
+
+
+def _places(instance: Instance) -> IntArray:
+    node = instance.node[0]
+    place = np.zeros((len(node), P_DEMAND + MAX_DIMENSIONS), np.int64)
+    hard = node[:, NODE_HARD] == 1
+    limit = np.where(hard, node[:, NODE_LATEST], FAR)
+    place[:, :P_DEMAND] = np.stack(
+        [node[:, NODE_EARLIEST], limit, node[:, NODE_SERVICE], node[:, NODE_RELEASE],
+         node[:, NODE_LATEST]], axis=1)
+    place[:, P_DEMAND:] = node[:, NODE_DEMAND:]
+    return place
+
+
+def _modes(instance: Instance, place: IntArray) -> IntArray:
+    columns, rates = instance.type[0], instance.rate[0]
+    late, early = (instance.late_early[0] > 0).any(axis=0)
+    soft = bool((place[:, 1] == FAR).any()) and bool(late)
+    timed = (rates[:, RATE_HOUR] > 0) | (columns[:, TYPE_MAX_WORKING] < UNLIMITED)
+    profile = columns[:, TYPE_PROFILE] != NO_PROFILE
+    settled = np.logical_or(early, profile & timed)
+    priced = np.logical_or(soft, settled | profile)
+    release = bool((instance.node[0, :, NODE_RELEASE] > 0).any())
+    simple = ~(timed | priced | release | (columns[:, TYPE_MAX_DISTANCE] < UNLIMITED))
+    lean = simple & (columns[:, TYPE_MAX_TRIPS] == 1) & (columns[:, TYPE_DRONES] == 0)
+    mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
+                      + MODE_PROFILE * profile + MODE_RELEASE * release
+                      + MODE_SIMPLE * simple + MODE_LEAN * lean).astype(np.int64)
+    return mode
+
+
+def _must_serve(problem: Problem) -> bool:
+    """Tell whether leaving a customer out costs more than the longest drive there and back."""
+    dearest = 0.0
+    for kind in problem.vehicle_types:
+        distance = problem.travel[kind.travel].distance
+        longest = float(distance[kind.depot].max() + distance[:, kind.depot].max())
+        dearest = max(dearest, kind.fixed_cost + longest / MM_PER_KM * kind.cost_per_km)
+    return problem.unassigned_cost > dearest
+
+
+def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
+    kinds = [(kind.travel, kind.depot, kind.earliest, kind.latest, kind.skills)
+             for kind in problem.vehicle_types]
+    alike = np.array([[one == other for other in kinds] for one in kinds])
+    lean = mode & MODE_LEAN > 0
+    swaps: BoolArray = alike & lean & lean[:, None] & ~np.eye(len(kinds), dtype=np.bool_)
+    return swaps
+
+
+def _near(problem: Problem) -> IntArray:
+    """Return each customer's closest others by the first type's drive, there or back.
+
+    (node, rank), nearest first; -1 for depots and behind the last.
+    """
+    first, number = problem.num_depots, problem.num_customers
+    ranks = max(1, min(NEAR_RUIN, number - 1))
+    near = np.full((problem.num_nodes, ranks), -1, np.int64)
+    if number > 1:
+        duration = problem.travel[problem.vehicle_types[0].travel].duration[first:, first:]
+        drive = duration.astype(np.float32)
+        drive = np.minimum(drive, drive.T)
+        np.fill_diagonal(drive, np.inf)
+        near[first:] = _ranked(drive, ranks) + first
+    return near
+
+
+def _ranked(weight: NDArray[np.floating], ranks: int) -> IntArray:
+    """Return the columns of the least entries of each row, least first."""
+    chosen = np.argpartition(weight, ranks - 1, axis=1)[:, :ranks]
+    order = np.argsort(np.take_along_axis(weight, chosen, axis=1), axis=1, kind="stable")
+    return np.take_along_axis(chosen, order, axis=1)
+
+
+def _fit(problem: Problem, place: IntArray, near: IntArray) -> IntArray:
+    """Return those of each customer's neighbours whom a truck would best visit before or after.
+
+    References
+    ----------
+    Vidal, Crainic, Gendreau and Prins (2013), a hybrid genetic algorithm with adaptive diversity
+    management for a large class of vehicle routing problems with time windows, Computers and
+    Operations Research 40:475-489.
+    """
+    ranks = min(NEAR_INSERTION, near.shape[1])
+    fit = near[:, :ranks].copy()
+    first, number = problem.num_depots, problem.num_customers
+    earliest, limit, service = place[:, :3].astype(np.float64).T
+    latest = np.minimum(limit, place[:, 4])
+    if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
+        return fit
+    duration = problem.travel[problem.vehicle_types[0].travel].duration
+    one, other = np.arange(first, problem.num_nodes)[:, None], near[first:]
+
+    def detour(origin: IntArray, to: IntArray) -> FloatArray:
+        drive = duration[origin, to]
+        wait = earliest[to] - (latest[origin] + service[origin]) - drive
+        late = earliest[origin] + service[origin] + drive - latest[to]
+        return (drive + WAITING_WEIGHT * np.maximum(wait, 0.0)
+                + LATENESS_WEIGHT * np.maximum(late, 0.0))
+
+    weight = np.minimum(detour(one, other), detour(other, one))
+    fit[first:] = np.take_along_axis(other, _ranked(weight, ranks), axis=1)
+    return fit
