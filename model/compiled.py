@@ -17,8 +17,9 @@ from numba import config, njit
 
 SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", "simulator",
            "tokens", "features", *(f"search/{part}" for part in (
-               "layout", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate", "insertion",
-               "ruin", "state", "retype", "exchange", "anneal", "savings", "translate")))
+               "layout", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
+               "ruin", "state", "retype", "scan", "insertion", "exchange", "anneal", "savings",
+               "translate")))
 """Files with compiled functions, and those whose constants are compiled into them."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -37,8 +38,9 @@ def inlined(function: Function) -> Function:
 
     It has no entry from Python and counts no references, so it may not make arrays.
     """
-    options = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
-    return cast(Function, njit(nogil=True, **options)(function))
+    options: dict[str, Any] = {
+        "nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
+    return cast(Function, njit(**options)(function))
 
 
 @cache

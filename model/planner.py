@@ -71,8 +71,9 @@ class PlanResult:
     start: Start
     decoded_cost: float  # of the plan that the search began with
     final_cost: float
-    search_iterations: int
+    search_iterations: int  # of all threads together
     threads: int
+    deterministic: bool  # no clock and no listener had a say in it
     elapsed: Elapsed
 
 
@@ -130,12 +131,14 @@ class Planner:
         searches = options.search_iterations != 0 and deadline is not None
         first: _Judged | None = None
         decoded = began
+        whole = True  # the clock cut no samples
         if not searches or policy_begins(problem.num_customers, options):
             solution = self._decode(problem, instance, options, deadline)
             decoded = time.perf_counter()
+            whole = deadline is None or decoded < deadline
             first = _judged(problem, solution)
         if first is not None and not searches:
-            return _result(first, first.cost, options, None,
+            return _result(first, first.cost, options, None, whole,
                            Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
         improved = _improve(problem, instance, first, options, deadline, listener)
         searched = time.perf_counter()
@@ -143,7 +146,8 @@ class Planner:
         if first is not None and first.cost <= last.cost:
             last = first
         elapsed = Elapsed(decoded - began, searched - decoded, time.perf_counter() - searched)
-        return _result(last, None if first is None else first.cost, options, improved, elapsed)
+        return _result(last, None if first is None else first.cost, options, improved, whole,
+                       elapsed)
 
     def _decode(self, problem: Problem, instance: Instance, options: PlanOptions,
                 deadline: float | None) -> Solution:
@@ -193,14 +197,22 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
 
 
 def _result(last: _Judged, first_cost: float | None, options: PlanOptions,
-            improved: Improved | None, elapsed: Elapsed) -> PlanResult:
+            improved: Improved | None, whole: bool, elapsed: Elapsed) -> PlanResult:
     start: Start = "insertion" if first_cost is None else "policy"
     if first_cost is None:
         first_cost = last.cost if improved is None else improved.first_cost
     return PlanResult(
         last.solution, last.evaluation, start, decoded_cost=first_cost, final_cost=last.cost,
         search_iterations=0 if improved is None else improved.turns, threads=options.threads,
+        deterministic=whole and (improved is None or _made_all_turns(options, improved)),
         elapsed=elapsed)
+
+
+def _made_all_turns(options: PlanOptions, improved: Improved) -> bool:
+    """Tell whether a search made the iterations asked for, each thread as many as the others."""
+    if options.search_iterations is None:
+        return False
+    return improved.turns == options.search_iterations // options.threads * options.threads
 
 
 def load_planner(weights: Path, names: Sequence[str]) -> Planner:

@@ -19,8 +19,8 @@ from model.search.evaluate import INFEASIBLE
 from model.search.exchange import exchange_tails
 from model.search.insertion import find_beside, find_place
 from model.search.layout import (
-    MODE_LEAN, MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS,
-    R_TYPE, W_SLOT, World,
+    MODE_LEAN, MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_SORTIES, R_STAMP,
+    R_TRIPS, R_TYPE, W_SLOT, World,
 )
 from model.search.lean import insert_lean
 from model.search.refresh import locate, refresh
@@ -28,8 +28,8 @@ from model.search.retype import change_type, improve_types
 from model.search.rows import clear, copy_some
 from model.search.ruin import choose, remove_marked
 from model.search.state import (
-    I_ABSENT, I_ACTIVE, I_BEST_MISSING, I_MISSING, I_STAMP, I_TOUCHED, I_TURN, V_BEST, V_COOLING, V_COST,
-    V_TEMPERATURE, Searcher, adopt, copy_route, keep_aside, keep_best, list_active, touch,
+    I_ABSENT, I_ACTIVE, I_BEST_MISSING, I_MISSING, I_STAMP, I_TOUCHED, I_TURN, V_BEST, V_COOLING,
+    V_COST, V_TEMPERATURE, Searcher, adopt, copy_route, keep_aside, keep_best, list_active, touch,
 )
 
 MOST_MISSING = 12
@@ -53,7 +53,7 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     place = world.place[node]
     if order == BY_DEMAND:
         return -float(place[P_DEMAND] + place[P_DEMAND + 1] + place[P_DEMAND + 2])
-    if order == BY_FAR or order == BY_CLOSE:
+    if order in (BY_FAR, BY_CLOSE):
         distance = float(world.leg[world.type[0, TYPE_TRAVEL], world.type[0, TYPE_DEPOT], node, 1])
         return -distance if order == BY_FAR else distance
     if order == BY_WIDTH:
@@ -116,8 +116,8 @@ def insert(world: World, searcher: Searcher, node: int) -> bool:
     spare = len(now.route) - 2
     if not simple:
         keep_aside(now, slot, spare)
-    apply(world.type[route[R_TYPE], TYPE_DEPOT], route, now.stop[slot], now.sortie[slot], move, node,
-          0, 0)
+    depot = world.type[route[R_TYPE], TYPE_DEPOT]
+    apply(depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0)
     done = refresh(world, now, slot, searcher.acc)
     if not done:
         keep_aside(now, spare, slot)
@@ -140,8 +140,8 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool) -> No
                                searcher.move, searcher.trial, searcher.rng, searcher.acc)
         if cost == INFEASIBLE:
             cost = find_place(world, searcher.now, searcher.alone, searcher.active,
-                              count[I_ACTIVE], node, enlarge, searcher.move, searcher.trial, searcher.rng,
-                              searcher.acc)
+                              count[I_ACTIVE], node, enlarge, searcher.move, searcher.trial,
+                              searcher.rng, searcher.acc)
         if cost >= world.unassigned_cost or not insert(world, searcher, node):
             absent[left] = node
             left += 1

@@ -10,8 +10,8 @@ from model.schedule import arrival_by_profile
 from model.search.layout import (
     CUSTOMER, DONE, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_READY_C, F_READY_D,
     F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, FAR, FLYING, NONE, P_EARLIEST,
-    P_LATEST, P_LIMIT, P_SERVICE, S_ARRIVAL, S_BLOCK, S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP, S_HI,
-    S_HOLD, S_KIND, S_LATEST, S_LEAVE, S_LO, S_NODE, S_RELEASE, START, WAITING, World,
+    P_LATEST, P_LIMIT, P_SERVICE, S_ARRIVAL, S_BLOCK, S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP,
+    S_HI, S_HOLD, S_KIND, S_LATEST, S_LEAVE, S_LO, S_NODE, S_RELEASE, START, WAITING, World,
 )
 
 A_TIME, A_FREE_D, A_FREE_C, A_HI, A_LO, A_DEP, A_OLDEST, A_FLYING = range(8)
@@ -221,12 +221,12 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
         stop[S_LEAVE], stop[S_FLYING] = max(time + d, c), acc[A_FLYING]
         stop[S_LATEST], stop[S_EARLY] = FAR, NONE
         if kind == END:
-            if acc[A_FLYING] > 0 or c > world.type[k, TYPE_LATEST]:
+            if c > world.type[k, TYPE_LATEST]:
                 return -1
             acc[A_HI] = min(acc[A_HI], world.type[k, TYPE_LATEST] - d)
         if acc[A_FLYING] == 0:
             break
-        if p + 1 >= length:
+        if kind == END or p + 1 >= length:
             return -1
         leg = world.leg[world.type[k, TYPE_TRAVEL], node, stops[p + 1, S_NODE], 0]
         stop[S_GAP] = leg

@@ -4,7 +4,7 @@ from model.compiled import inlined
 from model.problem import BoolArray, IntArray
 from model.search.layout import (
     CUSTOMER, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, NONE, R_LENGTH, R_SORTIES,
-    R_TYPE, S_HOLD, S_KIND, S_NODE, S_RELEASE, SEQUENCE_COLUMNS, START, Fleet, World,
+    R_TYPE, S_HOLD, S_KIND, S_NODE, S_RELEASE, SEQUENCE_COLUMNS, START,
 )
 from model.search.rows import clear, copy_row
 
@@ -154,10 +154,10 @@ def is_empty_trip(route: IntArray, stops: IntArray, sorties: IntArray, marked: B
         if not marked[stops[q, S_NODE]]:
             return False
         q += 1
+    empty = True
     for s in range(route[R_SORTIES]):
-        if p <= sorties[s, F_LAUNCH] <= q:
-            return False
-    return True
+        empty = empty and not p <= sorties[s, F_LAUNCH] <= q
+    return empty
 
 
 @inlined

@@ -2,21 +2,18 @@
 
 from model.compiled import inlined
 from model.instance import (
-    MAX_DIMENSIONS, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_DEPOT, TYPE_MAX_DISTANCE,
-    TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL,
+    RATE_HOUR, RATE_KM, TYPE_DEPOT, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL,
 )
 from model.problem import IntArray
 from model.search.block import plain_block, time_block
 from model.search.edit import (
-    AT_STOP, BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, NEW_TRIP, ON_SORTIE, TRIP_FROM,
-    TRIP_UNTIL, apply,
+    BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, NEW_TRIP, ON_SORTIE, apply,
 )
 from model.search.layout import (
-    CUSTOMER, END, F_LAUNCH, F_RECOVERY, F_STATE, FAR, MODE_PRICED, NONE, P_DEMAND, P_RELEASE,
-    R_LENGTH, R_OFFSET, R_SORTIES, R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_D,
-    S_DEP, S_DEPART, S_EARLY, S_END, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST, S_LATEST, S_LEG, S_LO,
-    S_NODE, S_RELEASE, S_REST, S_TRIP, SEQUENCE_COLUMNS, START, T_FIRST, T_LOAD, T_RELEASE,
-    WAITING, Fleet, World,
+    END, F_LAUNCH, F_RECOVERY, F_STATE, FAR, MODE_PRICED, NONE, P_RELEASE, R_LENGTH, R_OFFSET,
+    R_SORTIES, R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_D, S_DEP, S_DEPART, S_EARLY,
+    S_END, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST, S_LATEST, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST,
+    S_TRIP, SEQUENCE_COLUMNS, START, T_FIRST, T_RELEASE, WAITING, Fleet, World,
 )
 from model.search.refresh import refresh
 from model.search.routes import sortie_cost

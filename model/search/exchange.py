@@ -4,25 +4,31 @@ import math
 
 from model.compiled import inlined
 from model.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT,
-    TYPE_MAX_TRIPS, TYPE_TRAVEL,
+    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_MAX_TRIPS,
+    TYPE_TRAVEL,
 )
-from model.problem import IntArray, UIntArray
-from model.search.draw import below, uniform
+from model.search.draw import below
 from model.search.edit import put
 from model.search.layout import (
-    CUSTOMER, END, F_LAUNCH, F_RECOVERY, FAR, MODE_PRICED, MODE_PROFILE, NOWHERE, P_DEMAND,
-    R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG,
-    S_NODE, S_TRIP, START, W_POSITION, W_SLOT, Fleet, World,
+    CUSTOMER, END, F_LAUNCH, F_RECOVERY, NOWHERE, P_DEMAND, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE,
+    S_FLYING, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, W_POSITION, W_SLOT, Fleet,
+    World,
 )
 from model.search.refresh import locate, refresh
 from model.search.rows import copy_row
-from model.search.state import (
-    I_ACTIVE, I_MISSING, I_TOUCHED, V_COST, V_TEMPERATURE, Searcher, keep_aside, list_active, touch,
-)
+from model.search.state import Searcher, keep_aside, touch
 
 NEIGHBOURS = 16
 """With how many neighbours' routes a tail is tried."""
+
+
+@inlined
+def rest_distance(fleet: Fleet, slot: int, p: int) -> int:
+    """Return how far a route goes on from stop `p`."""
+    distance = 0
+    for q in range(p, fleet.route[slot, R_LENGTH]):
+        distance += fleet.stop[slot, q, S_LEG]
+    return distance
 
 
 @inlined
@@ -31,7 +37,7 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
 
     By distance alone; infinite where a tail would be reached too late.
     """
-    k = fleet.route[a, R_TYPE]
+    k, by = fleet.route[a, R_TYPE], fleet.route[b, R_TYPE]
     m = world.type[k, TYPE_TRAVEL]
     one, other = fleet.stop[a], fleet.stop[b]
     here, there = one[p, S_NODE], other[q, S_NODE]
@@ -40,7 +46,12 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
     if (one[p, S_LEAVE] + to_other[0] > other[q + 1, S_LATEST]
             or other[q, S_LEAVE] + to_one[0] > one[p + 1, S_LATEST]):
         return math.inf
-    return (to_other[1] + to_one[1] - one[p, S_LEG] - other[q, S_LEG]) * world.rate[k, RATE_KM]
+    rate, rate_by = world.rate[k, RATE_KM], world.rate[by, RATE_KM]
+    cost = (to_other[1] - one[p, S_LEG]) * rate + (to_one[1] - other[q, S_LEG]) * rate_by
+    if rate != rate_by:
+        longer = rest_distance(fleet, b, q + 1) - rest_distance(fleet, a, p + 1)
+        cost += longer * (rate - rate_by)
+    return cost
 
 
 @inlined
@@ -61,8 +72,7 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
         if b < 0 or q < 0 or b == a or now.stop[b, q, S_FLYING] > 0:
             continue
         by = now.route[b, R_TYPE]
-        if by != k and not (world.swap[k, by]
-                            and world.rate[k, RATE_KM] == world.rate[by, RATE_KM]):
+        if by != k and not world.swap[k, by]:
             continue
         cost = tail_saving(world, now, a, p, b, q)
         if cost < best:
@@ -115,8 +125,7 @@ def swap_tails(world: World, searcher: Searcher, a: int, p: int, b: int, q: int)
         now.used[k] += 1
     keep_aside(now, a, one)
     keep_aside(now, b, two)
-    for slot, keep, length in ((a, p + 1, now.route[one, R_LENGTH]),
-                               (b, q + 1, now.route[two, R_LENGTH])):
+    for slot, keep in ((a, p + 1), (b, q + 1)):
         mine, others, cut = (one, two, q + 1) if slot == a else (two, one, p + 1)
         now.route[slot, R_LENGTH] = now.route[slot, R_SORTIES] = 0
         append(now, mine, 0, keep, slot)

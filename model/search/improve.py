@@ -13,9 +13,7 @@ from model.instance import Instance
 from model.problem import Problem
 from model.search.anneal import anneal, begin_anew
 from model.search.layout import World
-from model.search.state import (
-    I_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher, follow,
-)
+from model.search.state import I_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher, follow
 from model.search.translate import first_plan, make_searcher, read_plan
 from model.search.world import make_world
 from model.solution import Solution
@@ -198,7 +196,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
 
 
 def _share(workers: list[_Worker]) -> Searcher:
-    """Let all threads go on from the cheapest routes; return the one that saw the best. In place."""
+    """Let all threads go on from the cheapest routes; return that with the best. In place."""
     searchers = [worker.searcher for worker in workers]
     leader = min(searchers, key=lambda searcher: float(searcher.value[V_COST]))
     for searcher in searchers:

@@ -2,67 +2,28 @@
 
 from model.compiled import inlined
 from model.instance import (
-    MAX_DIMENSIONS, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT,
-    TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_ENDURANCE, TYPE_MAX_TRIPS,
-    TYPE_PAYLOAD, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+    MAX_DIMENSIONS, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_SERVICE,
+    TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_ENDURANCE, TYPE_MAX_TRIPS, TYPE_PAYLOAD, TYPE_TRAVEL,
+    TYPE_WAITING_COUNTS,
 )
-from model.problem import UNREACHABLE, BoolArray, FloatArray, IntArray, UIntArray
+from model.problem import UNREACHABLE, FloatArray, IntArray, UIntArray
 from model.search.draw import uniform
 from model.search.edit import (
-    AT_STOP, BY_SORTIE, M_DRONE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, M_TYPE, NEW_FLIGHT,
-    NEW_ROUTE, NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL,
+    AT_STOP, BY_SORTIE, M_DRONE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, M_TYPE, NEW_ROUTE,
+    NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL,
 )
 from model.search.evaluate import INFEASIBLE, price_move
 from model.search.layout import (
-    END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_SIMPLE, MODE_TIMED, NOWHERE,
-    P_DEMAND, P_EARLIEST, P_LIMIT, P_SERVICE, R_CUM, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE,
-    R_WORKING, S_ARRIVAL, S_EARLY, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE,
-    S_TRIP, START, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_SIMPLE, MODE_TIMED, NOWHERE, P_DEMAND,
+    P_EARLIEST, P_LIMIT, P_SERVICE, R_CUM, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING,
+    S_ARRIVAL, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, T_FIRST,
+    T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
 )
-from model.search.retype import larger_type, route_cost
 from model.search.rows import copy_row
-
-BLINK = 0.01
-"""How often a better place is overlooked."""
+from model.search.scan import BLINK, fits, scan_beside, scan_simple, scan_stops
 
 MAX_SPAN = 8
 """How many stops after its launch a sortie is recovered at most."""
-
-
-@inlined
-def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntArray) -> bool:
-    """Tell whether a customer's demand fits on top of a trip's load."""
-    for dimension in range(MAX_DIMENSIONS):
-        if (trips[index, T_LOAD + dimension] + place[node, P_DEMAND + dimension]
-                > columns[TYPE_CAPACITY + dimension]):
-            return False
-    return True
-
-
-@inlined
-def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last: int,
-               place: IntArray, rate: float, best: float, rng: UIntArray) -> tuple[float, int]:
-    """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
-
-    Where cost is that of the detour. `back` and `leg` are the legs to and from the customer,
-    (node, 2). Returns its cost and the stop, or `best` and -1 if none costs less.
-    """
-    chosen = -1
-    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
-    for p in range(first, last + 1):
-        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
-        cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate
-        if cost >= best:
-            continue
-        arrival = stops[p, S_LEAVE] + back[here, 0]
-        if arrival > limit:
-            if stops[p, S_LEAVE] > limit:
-                break
-            continue
-        arrival = max(arrival, earliest) + service + leg[there, 0]
-        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= BLINK:
-            chosen, best = p, cost
-    return best, chosen
 
 
 @inlined
@@ -278,46 +239,6 @@ def try_trip(world: World, fleet: Fleet, slot: int, index: int, node: int, best:
 
 
 @inlined
-def exchanged(world: World, fleet: Fleet, slot: int, node: int,
-              enlarge: bool) -> tuple[int, float]:
-    """Return the type that would serve a customer more on a route, and what it costs more."""
-    if not enlarge:
-        return NOWHERE, 0.0
-    by = larger_type(world, fleet, slot, node)
-    if by < 0:
-        return by, 0.0
-    return by, route_cost(world, by, fleet.trip[slot, 0, T_DISTANCE]) - fleet.cost[slot]
-
-
-@inlined
-def scan_simple(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
-                best: float, enlarge: bool, move: IntArray, rng: UIntArray) -> float:
-    """Find the cheapest stop among the routes where only distance counts. As `try_stops`."""
-    place = world.place[node]
-    for index in range(num_active):
-        slot = active[index]
-        k = fleet.route[slot, R_TYPE]
-        if (not world.mode[k] & MODE_SIMPLE or fleet.route[slot, R_SORTIES] > 0
-                or not world.can[k, 0, node]):
-            continue
-        m = world.type[k, TYPE_TRAVEL]
-        for trip in range(fleet.route[slot, R_TRIPS]):
-            by, base = k, 0.0
-            if not fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
-                by, base = exchanged(world, fleet, slot, node, enlarge)
-                if by < 0 or base >= best:
-                    continue
-            cost, p = scan_stops(
-                world.back[m, node], world.leg[m, node], fleet.stop[slot],
-                fleet.trip[slot, trip, T_FIRST], fleet.trip[slot, trip, T_LAST] - 1, place,
-                world.rate[by, RATE_KM], best - base, rng)
-            if p >= 0:
-                best = cost + base
-                move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
-    return best
-
-
-@inlined
 def find_place(world: World, fleet: Fleet, alone: FloatArray, active: IntArray, num_active: int,
                node: int, enlarge: bool, move: IntArray, trial: IntArray, rng: UIntArray,
                acc: IntArray) -> float:
@@ -354,36 +275,6 @@ def stop_beside(fleet: Fleet, node: int) -> int:
     if p < 0:
         p = fleet.sortie[fleet.where[node, W_SLOT], fleet.where[node, W_SORTIE], F_LAUNCH]
     return p
-
-
-@inlined
-def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
-                move: IntArray, rng: UIntArray) -> float:
-    """Find the cheapest stop beside neighbours where only distance counts. As `try_stops`."""
-    place = world.place[node]
-    for rank in range(world.fit.shape[1]):
-        other = world.fit[node, rank]
-        slot = fleet.where[other, W_SLOT]
-        if slot < 0:
-            continue
-        k = fleet.route[slot, R_TYPE]
-        if (not world.mode[k] & MODE_SIMPLE or fleet.route[slot, R_SORTIES] > 0
-                or not world.can[k, 0, node]):
-            continue
-        p = fleet.where[other, W_POSITION]
-        by, base = k, 0.0
-        if not fits(world.place, node, fleet.trip[slot], fleet.stop[slot, p, S_TRIP],
-                    world.type[k]):
-            by, base = exchanged(world, fleet, slot, node, enlarge)
-            if by < 0 or base >= best:
-                continue
-        m = world.type[k, TYPE_TRAVEL]
-        cost, p = scan_stops(world.back[m, node], world.leg[m, node], fleet.stop[slot], p - 1, p,
-                             place, world.rate[by, RATE_KM], best - base, rng)
-        if p >= 0:
-            best = cost + base
-            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
-    return best
 
 
 @inlined

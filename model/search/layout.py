@@ -15,12 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.instance import (
-    NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE, NODE_SERVICE,
-    RATE_DRONE_HOUR, RATE_HOUR, TYPE_COUNT, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_MAX_DISTANCE,
-    TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, Instance,
-)
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray
+from model.problem import BoolArray, FloatArray, IntArray
 
 NONE = -(2**58)
 FAR = 2**58

@@ -7,8 +7,8 @@ from model.instance import (
 from model.problem import IntArray
 from model.search.layout import (
     CUSTOMER, LEAN_COLUMNS, NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_SERVICE, R_LENGTH, R_TRIPS,
-    R_TYPE, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST,
-    T_LAST, T_LOAD, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    R_TYPE, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_LAST,
+    T_LOAD, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
 )
 from model.search.rows import clear
 

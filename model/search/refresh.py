@@ -1,13 +1,13 @@
 """Bringing a route up to date after its sequence has changed."""
 
 from model.compiled import inlined
-from model.instance import NO_PROFILE, TYPE_MAX_WORKING, TYPE_PROFILE
+from model.instance import TYPE_MAX_WORKING, TYPE_PROFILE
 from model.problem import FULL_SPEED, IntArray
 from model.search.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, FAR, MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, NONE, P_LATEST,
-    P_SERVICE, R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, S_ARRIVAL,
-    S_BEFORE, S_DEP, S_GAP, S_HOLD, S_KIND, S_LAST, S_LEAVE, S_NODE, S_RELEASE, START, T_FIRST,
-    W_POSITION, W_SLOT, W_SORTIE, NOWHERE, Fleet, World,
+    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, FAR, MODE_LEAN, MODE_PROFILE, MODE_SETTLED,
+    NONE, P_LATEST, P_SERVICE, R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE,
+    R_WORKING, S_ARRIVAL, S_BEFORE, S_DEP, S_GAP, S_HOLD, S_KIND, S_LAST, S_LEAVE, S_NODE,
+    S_RELEASE, START, T_FIRST, W_POSITION, W_SLOT, W_SORTIE, NOWHERE, Fleet, World,
 )
 from model.search.lean import refresh_lean
 from model.search.routes import (
@@ -56,10 +56,10 @@ def latest_hold(world: World, route: IntArray, stops: IntArray, sorties: IntArra
 @inlined
 def has_sortie(route: IntArray, sorties: IntArray, p: int) -> bool:
     """Tell whether a drone is launched or recovered at a stop or in the air meanwhile."""
+    found = False
     for s in range(route[R_SORTIES]):
-        if sorties[s, F_LAUNCH] <= p <= sorties[s, F_RECOVERY]:
-            return True
-    return False
+        found = found or sorties[s, F_LAUNCH] <= p <= sorties[s, F_RECOVERY]
+    return found
 
 
 @inlined

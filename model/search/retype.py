@@ -3,9 +3,7 @@
 import math
 
 from model.compiled import inlined
-from model.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT,
-)
+from model.instance import MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT
 from model.problem import IntArray
 from model.search.layout import (
     MODE_LEAN, NOWHERE, P_DEMAND, R_LENGTH, R_TYPE, T_DISTANCE, T_LOAD, Fleet, World,

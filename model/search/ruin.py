@@ -14,6 +14,9 @@ AVERAGE_REMOVED = 10
 LONGEST_STRING = 10
 SPLIT = 0.5
 SPLIT_MORE = 0.01
+WHOLE_TRIP = 0.05
+"""How often a trip is removed whole, if it has no more stops than `LONGEST_TRIP`."""
+LONGEST_TRIP = 25
 MAKE_ROOM = 0.5
 """How often strings are removed around a customer left out, if there is one."""
 FLIGHT_ONLY = 0.5
@@ -70,6 +73,8 @@ def mark_around(world: World, fleet: Fleet, customer: int, longest: float, marke
     if stops_there == 0 or (by_drone and uniform(rng) < FLIGHT_ONLY):
         return num_absent
     size = 1 + int(uniform(rng) * min(longest, stops_there))
+    if uniform(rng) < WHOLE_TRIP and stops_there <= LONGEST_TRIP:
+        size = stops_there
     return mark_string(fleet, slot, index, max(p, first + 1), min(size, stops_there), marked,
                        absent, num_absent, rng)
 
@@ -117,10 +122,10 @@ def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, marked
 @inlined
 def listed(slots: IntArray, count: int, slot: int) -> bool:
     """Tell whether a slot is in a list."""
+    found = False
     for index in range(count):
-        if slots[index] == slot:
-            return True
-    return False
+        found = found or slots[index] == slot
+    return found
 
 
 @inlined

@@ -13,9 +13,7 @@ from model.instance import (
     MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_DEPOT, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL,
 )
 from model.problem import IntArray
-from model.search.layout import (
-    NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, World,
-)
+from model.search.layout import NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, World
 
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""

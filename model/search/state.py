@@ -2,13 +2,10 @@
 
 from typing import NamedTuple
 
-import numpy as np
 
 from model.compiled import compiled, inlined
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
-from model.search.layout import (
-    NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, W_SLOT, Fleet, World,
-)
+from model.search.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, Fleet
 from model.search.refresh import locate
 from model.search.rows import copy_row, copy_rows, copy_some
 

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from model.compiled import compiled, inlined
+from model.compiled import compiled
 from model.instance import TYPE_CAPACITY, TYPE_COUNT, TYPE_MAX_TRIPS, TYPE_RECOVERY
 from model.problem import FloatArray, IntArray, Problem
-from model.search.edit import begin_route
+from model.search.edit import MOVE_COLUMNS, begin_route
 from model.search.evaluate import INFEASIBLE
 from model.search.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_READY_C, F_READY_D, F_RECOVERY,
-    F_TAKEOFF, NONE, NOWHERE, P_DEMAND, P_EARLIEST, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_ARRIVAL, S_HOLD,
+    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, NONE,
+    NOWHERE, P_DEMAND, P_EARLIEST, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_ARRIVAL, S_HOLD,
     S_KIND, S_LEAVE, S_NODE, S_RELEASE, START, T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
 )
 from model.search.refresh import clear_holds, locate, refresh, settle
@@ -29,20 +29,24 @@ def make_searcher(problem: Problem, world: World, solution: Solution,
     slots, stops, trips, sorties = _sizes(problem, world, solution)
     now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
     nodes = world.num_nodes
-    moves = (np.zeros(8, np.int64) for _ in range(3))
     alone = np.full(world.can.shape, INFEASIBLE)
-    alone_costs(world, now, np.zeros(8, np.int64), alone)
+    alone_costs(world, now, _row(8), alone)
     searcher = Searcher(
-        now, before, best, np.zeros(8, np.int64), np.zeros(4),
-        seed.generate_state(1, np.uint64), np.zeros(slots, np.int64),
-        *(np.zeros(nodes, np.int64) for _ in range(3)), np.zeros(slots, np.int64),
-        np.zeros(nodes, np.bool_), np.zeros(nodes, np.int64), np.zeros((slots, trips), np.int64), np.zeros(nodes),
-        np.zeros(max(slots, stops) + 2, np.int64), *moves,
-        alone)
+        now=now, before=before, best=best, count=_row(8), value=np.zeros(4),
+        rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
+        missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
+        marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
+        hit=np.zeros((slots, trips), np.int64), key=np.zeros(nodes),
+        moved=_row(max(slots, stops) + 2), move=_row(MOVE_COLUMNS), trial=_row(MOVE_COLUMNS),
+        acc=_row(8), alone=alone)
     for slot, route in enumerate(solution.routes):
         write_route(now, slot, route)
     begin(world, searcher, len(solution.routes))
     return searcher
+
+
+def _row(length: int) -> IntArray:
+    return np.zeros(length, np.int64)
 
 
 def first_plan(problem: Problem, world: World) -> Solution:

@@ -8,10 +8,12 @@ from model.instance import (
     NODE_SERVICE, RATE_HOUR, TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_PROFILE, Instance,
 )
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem
+from model.problem import (
+    MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
+)
 from model.search.layout import (
-    FAR, MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_RELEASE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED, P_DEMAND,
-    World,
+    FAR, MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_RELEASE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED,
+    P_DEMAND, World,
 )
 
 NEAR_RUIN = 128
@@ -52,9 +54,9 @@ def make_world(problem: Problem, instance: Instance) -> World:
         general=not bool((mode & MODE_LEAN).all()),
         traded=bool(swap.any()),
         scan_all=problem.num_customers < SCAN_ALL_BELOW,
-        must_serve=_must_serve(problem), unassigned_cost=float(problem.unassigned_cost), place=place,
-        price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR), type=columns, rate=rate,
-        mode=mode, visits=visits,
+        must_serve=_must_serve(problem), unassigned_cost=float(problem.unassigned_cost),
+        place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
+        type=columns, rate=rate, mode=mode, visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1)),
         swap=swap, leg=travel, back=back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
