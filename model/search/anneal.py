@@ -24,6 +24,7 @@ from model.search.layout import (
 )
 from model.search.lean import insert_lean
 from model.search.refresh import locate, refresh
+from model.search.resplit import resplit
 from model.search.retype import change_type, improve_types
 from model.search.rows import clear, copy_some
 from model.search.ruin import choose, remove_marked
@@ -37,6 +38,9 @@ MOST_MISSING = 12
 
 ENLARGED = 0.2
 """How often a full route may take a larger vehicle to serve a customer more."""
+
+RESPLITS = 5
+"""Trips with one drone planned anew from their order each turn."""
 
 RETYPED = 0.1
 """How often the routes touched are given the vehicles that cost least."""
@@ -248,13 +252,14 @@ def accept(searcher: Searcher, cost: float) -> None:
 
 
 @inlined
-def move_tails(world: World, searcher: Searcher) -> None:
-    """Swap tails of routes if that is accepted. In place."""
+def move_parts(world: World, searcher: Searcher, tails: bool) -> None:
+    """Swap tails of routes, or plan a trip anew, if that is accepted. In place."""
     value, count = searcher.value, searcher.count
     limit = -value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
     count[I_TOUCHED] = 0
     count[I_ABSENT] = count[I_MISSING]
-    if exchange_tails(world, searcher, limit):
+    changed = exchange_tails(world, searcher, limit) if tails else resplit(world, searcher)
+    if changed:
         if world.traded and uniform(searcher.rng) < RETYPED:
             improve_types(world, searcher)
         cost = turn_cost(world, searcher)
@@ -343,5 +348,8 @@ def anneal(world: World, searcher: Searcher, turns: int) -> None:
                 keep_best(searcher)
         else:
             undo(searcher)
-        move_tails(world, searcher)
+        move_parts(world, searcher, True)
+        if world.single_drones:
+            for _ in range(RESPLITS):
+                move_parts(world, searcher, False)
         value[V_TEMPERATURE] *= value[V_COOLING]

@@ -40,6 +40,8 @@ class SearchConfig:
     turns: int | None = None  # of all threads together; None: until the deadline
     hot: float = 1.0
     cold: float = 0.01
+    loops: bool = True  # sorties may end at the stop where they began
+    crossings: bool = True  # and at others
 
 
 @dataclass(frozen=True)
@@ -174,7 +176,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
         raise ValueError("deadline, turns: None, None is not allowed")
     limits = _Limits(time.perf_counter(), math.inf if deadline is None else deadline,
                      None if config.turns is None else config.turns // config.threads, should_stop)
-    world = make_world(problem, instance)
+    world = make_world(problem, instance, config.loops, config.crossings)
     fresh = not solution.routes
     if fresh:
         solution = first_plan(problem, world)

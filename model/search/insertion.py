@@ -120,7 +120,9 @@ def try_sorties(world: World, fleet: Fleet, slot: int, launch: int, node: int, b
         service = world.place[node, P_SERVICE]
     last = fleet.trip[slot, stops[launch, S_TRIP], T_LAST]
     trial[M_KIND], trial[M_SLOT], trial[M_FIRST] = BY_SORTIE, slot, launch
-    for recovery in range(launch, min(last, launch + MAX_SPAN) + 1):
+    first = launch if world.loops else launch + 1
+    last = min(last, launch + MAX_SPAN) if world.crossings else launch
+    for recovery in range(first, last + 1):
         home = world.leg[flights, node, stops[recovery, S_NODE]]
         away = stops[recovery, S_ARRIVAL] - stops[launch, S_LEAVE]
         if columns[TYPE_WAITING_COUNTS] and away > columns[TYPE_ENDURANCE]:
@@ -215,7 +217,7 @@ def try_new_route(world: World, fleet: Fleet, alone: FloatArray, node: int, best
     for k in range(world.num_types):
         if fleet.used[k] >= world.type[k, TYPE_COUNT]:
             continue
-        for by_drone in range(2):
+        for by_drone in range(2 if world.loops else 1):
             cost = alone[k, by_drone, node]
             if cost < best and uniform(rng) >= BLINK:
                 best = cost

@@ -62,6 +62,9 @@ class World(NamedTuple):
     num_nodes: int
     num_types: int
     max_visits: int  # customers on a sortie
+    single_drones: bool  # some type has one drone
+    loops: bool  # sorties may end where they began
+    crossings: bool  # sorties may end elsewhere
     general: bool  # insertions may cost more than their detour
     traded: bool  # vehicles may drive each other's routes
     scan_all: bool  # else insertion looks beside neighbours only

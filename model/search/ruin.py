@@ -20,7 +20,7 @@ LONGEST_TRIP = 25
 MAKE_ROOM = 0.5
 """How often strings are removed around a customer left out, if there is one."""
 FLIGHT_ONLY = 0.5
-"""How often only the sortie goes where a string begins at a drone's customer."""
+"""How often a customer of a drone goes alone, as a string of its own."""
 
 
 @inlined
@@ -70,7 +70,7 @@ def mark_around(world: World, fleet: Fleet, customer: int, longest: float, marke
     index = fleet.stop[slot, p, S_TRIP]
     first, last = fleet.trip[slot, index, T_FIRST], fleet.trip[slot, index, T_LAST]
     stops_there = last - first - 1
-    if stops_there == 0 or (by_drone and uniform(rng) < FLIGHT_ONLY):
+    if stops_there == 0:
         return num_absent
     size = 1 + int(uniform(rng) * min(longest, stops_there))
     if uniform(rng) < WHOLE_TRIP and stops_there <= LONGEST_TRIP:
@@ -104,7 +104,13 @@ def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, marked
             if p < 0:
                 p = fleet.sortie[slot, fleet.where[customer, W_SORTIE], F_LAUNCH]
             trip = fleet.stop[slot, p, S_TRIP]
-            if hit[slot, trip] != turn:
+            if fleet.where[customer, W_POSITION] < 0 and uniform(rng) < FLIGHT_ONLY:
+                if not listed(touched, num_touched, slot):
+                    touched[num_touched] = slot
+                    num_touched += 1
+                num_absent = mark(fleet, marked, absent, num_absent, customer)
+                strings -= 1
+            elif hit[slot, trip] != turn:
                 if not listed(touched, num_touched, slot):
                     touched[num_touched] = slot
                     num_touched += 1

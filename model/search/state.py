@@ -30,6 +30,8 @@ class Searcher(NamedTuple):
     marked: BoolArray  # (node,) removed this turn
     absences: IntArray  # (node,) turns after which a customer was left out
     hit: IntArray  # (slot, trip) turn of the last string
+    line: IntArray  # (node + 2, LINE_COLUMNS) scratch, a trip's places in order
+    line_cost: FloatArray  # (node + 2,) scratch
     key: FloatArray  # (node,) order of insertion
     moved: IntArray  # scratch
     move: IntArray  # scratch, best insertion

@@ -14,6 +14,7 @@ from model.search.layout import (
 )
 from model.search.refresh import clear_holds, locate, refresh, settle
 from model.search.routes import drive_forward, load_trips
+from model.search.resplit import LINE_COLUMNS
 from model.search.savings import savings_routes
 from model.search.state import I_MISSING, I_STAMP, V_COST, Searcher, keep_best, list_active
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
@@ -37,6 +38,7 @@ def make_searcher(problem: Problem, world: World, solution: Solution,
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
         hit=np.zeros((slots, trips), np.int64), key=np.zeros(nodes),
+        line=np.zeros((nodes + 2, LINE_COLUMNS), np.int64), line_cost=np.zeros(nodes + 2),
         moved=_row(max(slots, stops) + 2), move=_row(MOVE_COLUMNS), trial=_row(MOVE_COLUMNS),
         acc=_row(8), alone=alone)
     for slot, route in enumerate(solution.routes):

@@ -33,8 +33,13 @@ LATENESS_WEIGHT = 1.0
 """What waiting and lateness weigh against driving between neighbours."""
 
 
-def make_world(problem: Problem, instance: Instance) -> World:
-    """Lay out a problem for the search."""
+def make_world(problem: Problem, instance: Instance, loops: bool = True,
+               crossings: bool = True) -> World:
+    """Lay out a problem for the search.
+
+    `loops` and `crossings` tell whether sorties may end at the stop where they began, and at
+    others.
+    """
     columns, rates = instance.type[0], instance.rate[0]
     place = _places(instance)
     travel = np.stack([instance.duration[0], instance.distance[0]], axis=-1)
@@ -51,7 +56,8 @@ def make_world(problem: Problem, instance: Instance) -> World:
     return World(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=max(1, int(visits.max())),
-        general=not bool((mode & MODE_LEAN).all()),
+        single_drones=bool((columns[:, TYPE_DRONES] == 1).any()), loops=loops,
+        crossings=crossings, general=not bool((mode & MODE_LEAN).all()),
         traded=bool(swap.any()),
         scan_all=problem.num_customers < SCAN_ALL_BELOW,
         must_serve=_must_serve(problem), unassigned_cost=float(problem.unassigned_cost),
