@@ -17,7 +17,7 @@ from model.search.edit import (
 )
 from model.search.evaluate import INFEASIBLE
 from model.search.exchange import exchange_tails
-from model.search.insertion import find_beside, find_place
+from model.search.insertion import find_beside, find_place, try_new_route
 from model.search.layout import (
     MODE_LEAN, MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_SORTIES, R_STAMP,
     R_TRIPS, R_TYPE, W_SLOT, World,
@@ -38,6 +38,9 @@ MOST_MISSING = 12
 
 ENLARGED = 0.2
 """How often a full route may take a larger vehicle to serve a customer more."""
+
+OPENING = 0.03
+"""How often the first customer inserted is given a route of its own."""
 
 RESPLITS = 5
 """Trips with one drone planned anew from their order each turn."""
@@ -135,11 +138,15 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool) -> No
     """Insert the absent customers from number `first` on, each where it costs least. In place."""
     absent, count = searcher.absent, searcher.count
     enlarge = world.traded and uniform(searcher.rng) < ENLARGED
+    opening = uniform(searcher.rng) < OPENING
     left = first
     for index in range(first, count[I_ABSENT]):
         node = absent[index]
         cost = INFEASIBLE
-        if not scan_all:
+        if opening and index == first:
+            cost = try_new_route(world, searcher.now, searcher.alone, node, cost, searcher.move,
+                                 searcher.rng)
+        elif not scan_all:
             cost = find_beside(world, searcher.now, searcher.alone, node, enlarge,
                                searcher.move, searcher.trial, searcher.rng, searcher.acc)
         if cost == INFEASIBLE:

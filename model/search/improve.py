@@ -13,8 +13,8 @@ from model.instance import Instance
 from model.problem import Problem
 from model.search.anneal import anneal, begin_anew
 from model.search.layout import World
-from model.search.state import I_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher, follow
-from model.search.translate import first_plan, make_searcher, read_plan
+from model.search.state import V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher, follow
+from model.search.translate import first_plan, leg_cost, make_searcher, read_plan
 from model.search.world import make_world
 from model.solution import Solution
 
@@ -24,22 +24,19 @@ ROUNDS = 40
 SLICE = 0.003
 """Seconds between two looks at the clock."""
 
-SMALLEST_COST = 1e-9
-"""Keeps the temperature above zero."""
-
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
 
 
 @dataclass(frozen=True)
 class SearchConfig:
-    """How to search. Temperatures are shares of the cost per customer of the first routes."""
+    """How to search. Temperatures are shares of what a leg between customers costs at first."""
 
     seed: int = 0
     threads: int = 1
     turns: int | None = None  # of all threads together; None: until the deadline
-    hot: float = 1.0
-    cold: float = 0.01
+    hot: float = 2.0
+    cold: float = 0.06
     loops: bool = True  # sorties may end at the stop where they began
     crossings: bool = True  # and at others
 
@@ -102,7 +99,7 @@ class _Worker:
     fresh: bool  # there was no plan to begin with
     turns: int = 0
     pace: float = 0.0  # seconds a turn takes
-    scale: float = 0.0  # cost per customer
+    scale: float = 0.0  # cost of a leg between customers
     first_cost: float = 0.0
 
     def run(self) -> None:
@@ -110,10 +107,7 @@ class _Worker:
         if self.scale == 0.0:
             begin_anew(self.world, self.searcher, self.fresh)
             self.first_cost = float(self.searcher.value[V_COST])
-            missing = float(self.searcher.count[I_MISSING]) * self.world.unassigned_cost
-            served = self.world.num_nodes - self.world.num_depots
-            routes = self.first_cost - missing
-            self.scale = max(routes, SMALLEST_COST) / max(1, served)
+            self.scale = leg_cost(self.world, self.searcher)
         most, end = self.limits.round_end(self.turns)
         while self.turns < most and not self.limits.should_stop():
             now = time.perf_counter()

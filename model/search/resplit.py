@@ -14,7 +14,7 @@ import math
 from model.compiled import inlined
 from model.instance import (
     RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL,
-    TYPE_DRONES, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_TRAVEL,
+    TYPE_DRONES, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
 )
 from model.problem import FloatArray, IntArray
 from model.search.draw import below, uniform
@@ -22,7 +22,7 @@ from model.search.edit import add_sortie, put
 from model.search.exchange import append
 from model.search.layout import (
     CUSTOMER, END, F_COUNT, F_LAUNCH, F_NODE, NOWHERE, P_SERVICE, R_LENGTH, R_SORTIES, R_TYPE,
-    S_KIND, S_NODE, S_TRIP, START, T_FIRST, T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    S_NODE, S_TRIP, START, T_FIRST, T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
 )
 from model.search.refresh import locate, refresh
 from model.search.state import Searcher, keep_aside, touch
@@ -120,11 +120,11 @@ def operation_cost(world: World, k: int, line: IntArray, length: int, i: int, j:
     distance = (line[j, L_DISTANCE] - line[i, L_DISTANCE] + legs[before, behind, 1]
                 - legs[before, customer, 1] - legs[customer, behind, 1])
     here = world.place[node, P_SERVICE] if i > 0 else 0
-    airborne = max(flight, drive - here)
-    if airborne > columns[TYPE_ENDURANCE]:
+    airborne = max(flight, drive - here + max(0, here - columns[TYPE_LAUNCH]))
+    counted = airborne if columns[TYPE_WAITING_COUNTS] else flight
+    if counted > columns[TYPE_ENDURANCE]:
         return math.inf
-    handled = columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
-    duration = airborne + max(handled, here)
+    duration = columns[TYPE_LAUNCH] + airborne + columns[TYPE_RECOVERY]
     return (duration * rate[RATE_HOUR] + distance * rate[RATE_KM]
             + airborne * rate[RATE_DRONE_HOUR]
             + (flights[node, customer, 1] + flights[customer, to, 1]) * rate[RATE_DRONE_KM])

@@ -3,18 +3,21 @@
 import numpy as np
 
 from model.compiled import compiled
-from model.instance import TYPE_CAPACITY, TYPE_COUNT, TYPE_MAX_TRIPS, TYPE_RECOVERY
+from model.instance import (
+    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_MAX_TRIPS, TYPE_RECOVERY,
+)
 from model.problem import FloatArray, IntArray, Problem
 from model.search.edit import MOVE_COLUMNS, begin_route
 from model.search.evaluate import INFEASIBLE
 from model.search.layout import (
     CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, NONE,
-    NOWHERE, P_DEMAND, P_EARLIEST, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_ARRIVAL, S_HOLD,
-    S_KIND, S_LEAVE, S_NODE, S_RELEASE, START, T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
+    NOWHERE, P_DEMAND, P_EARLIEST, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_ARRIVAL, S_GAP,
+    S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, START, T_FIRST, T_LAST, W_SLOT, Fleet, World,
+    empty_fleet,
 )
 from model.search.refresh import clear_holds, locate, refresh, settle
-from model.search.routes import drive_forward, load_trips
 from model.search.resplit import LINE_COLUMNS
+from model.search.routes import drive_forward, load_trips
 from model.search.savings import savings_routes
 from model.search.state import I_MISSING, I_STAMP, V_COST, Searcher, keep_best, list_active
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
@@ -125,6 +128,27 @@ def begin(world: World, searcher: Searcher, num_routes: int) -> None:
     searcher.value[V_COST] = cost + count[I_MISSING] * world.unassigned_cost
     list_active(searcher)
     keep_best(searcher)
+
+
+@compiled
+def leg_cost(world: World, searcher: Searcher) -> float:
+    """Return what the truck's legs between customers cost on average.
+
+    Where there are none, a share of the whole cost; always above zero.
+    """
+    now = searcher.now
+    cost, legs = 0.0, 0
+    for slot in range(len(searcher.active)):
+        rate = world.rate[now.route[slot, R_TYPE]]
+        for p in range(now.route[slot, R_LENGTH] - 1):
+            if now.stop[slot, p, S_KIND] == CUSTOMER and now.stop[slot, p + 1, S_KIND] == CUSTOMER:
+                cost += (now.stop[slot, p, S_LEG] * rate[RATE_KM]
+                         + now.stop[slot, p, S_GAP] * rate[RATE_HOUR])
+                legs += 1
+    if cost > 0.0:
+        return cost / legs
+    missing = searcher.count[I_MISSING] * world.unassigned_cost
+    return max(1e-9, (searcher.value[V_COST] - missing) / len(world.place))
 
 
 def write_route(fleet: Fleet, slot: int, route: Route) -> None:
