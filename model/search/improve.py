@@ -24,6 +24,12 @@ ROUNDS = 40
 SLICE = 0.003
 """Seconds between two looks at the clock."""
 
+HEAT = (1.5, 0.1)
+"""First and last temperature."""
+
+HEAT_WITH_DRONES = (0.5, 0.005)
+"""Likewise where trips are split between truck and drone, which many small changes do."""
+
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
 
@@ -35,8 +41,8 @@ class SearchConfig:
     seed: int = 0
     threads: int = 1
     turns: int | None = None  # of all threads together; None: until the deadline
-    hot: float = 2.0
-    cold: float = 0.06
+    hot: float | None = None  # None: by the kind of problem
+    cold: float | None = None
     loops: bool = True  # sorties may end at the stop where they began
     crossings: bool = True  # and at others
 
@@ -123,7 +129,8 @@ class _Worker:
         return max(1.0, min(SLICE, seconds) / self.pace)
 
     def _anneal(self, turns: int) -> None:
-        hot, cold = self.config.hot, self.config.cold
+        hot, cold = HEAT_WITH_DRONES if self.world.single_drones else HEAT
+        hot, cold = self.config.hot or hot, self.config.cold or cold
         value = self.searcher.value
         share = self.limits.share(self.turns)
         value[V_TEMPERATURE] = self.scale * hot * (cold / hot) ** share
