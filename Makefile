@@ -4,16 +4,17 @@ PYTHON ?= $(firstword $(foreach name,python3.11 python3.12 python3,$(shell comma
 HOST ?= 127.0.0.1
 PORT ?= 8000
 MINUTES ?= 60
+DATA ?= ../shared/data
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
-.PHONY: help serve plan test lint train bench clean
+.PHONY: help serve plan test lint train bench bench-quick latency clean
 
 help: ## List what can be made
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 serve: .venv/serving ## Run the service (PORT=8000, HOST=127.0.0.1)
 	@echo "Loading compiled code; the first time it is compiled, which takes a minute."
@@ -40,7 +41,16 @@ lint: .venv/testing ## Check style and types
 train: .venv/testing ## Train a policy in runs/pointer, from where it stopped (MINUTES=60)
 	$(BIN)/python -m training.train --folder runs/pointer --minutes $(MINUTES)
 
-bench: .venv/benching ## Measure how long plans take, phase by phase
+bench: .venv/benching ## Run other solvers and Tandem side by side (DATA=../shared/data; hours)
+	$(BIN)/python -m benchmarks.versus --data $(DATA) --output runs/bench/versus.csv
+	$(BIN)/python -m benchmarks.drones --data $(DATA) --output runs/bench/drones.csv
+	$(BIN)/python -m benchmarks.report --results runs/bench/versus.csv
+
+bench-quick: .venv/benching ## The same on a few instances, in five minutes
+	$(BIN)/python -m benchmarks.versus --data $(DATA) --quick --output runs/bench/quick.csv
+	$(BIN)/python -m benchmarks.report --results runs/bench/quick.csv --output runs/bench/quick.md
+
+latency: .venv/benching ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency
 
 clean: ## Remove caches, compiled code and plan.json; keep .venv and training runs

@@ -58,10 +58,11 @@ def warm() -> None:
 @cli.command()
 def plan(problem_file: ProblemFile, output: Output = None) -> None:
     """Plan one problem."""
-    planner = _warm_planner(Settings())
+    settings = Settings()
+    planner = _warm_planner(settings)
     body = ReceivedBody(problem_file.read_bytes(), time.perf_counter())
     try:
-        reply = answer(planner, body)
+        reply = answer(planner, body, settings.search_threads)
     except RequestError as error:
         _refuse(problem_file, error)
     if output is None:

@@ -39,7 +39,8 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         anyio.to_thread.current_default_thread_limiter().total_tokens = (
             settings.max_concurrent_plans)
-        service = PlanService(planner or load_planner(settings.weights_dir, settings.policies))
+        service = PlanService(planner or load_planner(settings.weights_dir, settings.policies),
+                              settings.search_threads)
         service.start()
         app.state.service = service
         yield

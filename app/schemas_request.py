@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.settings import DEFAULT_POLICY
+from app.settings import DEFAULT_POLICY, MAX_THREADS
 from model.problem import MAX_QUANTITY
 
 MAX_AMOUNT = MAX_QUANTITY // 1000
@@ -263,14 +263,27 @@ class OptionsInput(_Input):
         1.0, description="Above 1 samples more widely, below 1 more narrowly."
     )
     seed: int = Field(
-        0, ge=0, le=2**63 - 1, description="Same seed and same `search_iterations`, same plan."
+        0,
+        ge=0,
+        le=2**63 - 1,
+        description="Seed of all random draws. See `search_iterations` for when plans repeat.",
     )
     time_limit: Annotated[float, Field(ge=0, le=3600)] = Field(
         1.0,
         description="Seconds until the reply, validation included. 0: the policy's plan as it is.",
     )
     search_iterations: Annotated[int, Field(ge=0, le=10**12)] | None = Field(
-        None, description="Most iterations of the search. Null: until `time_limit`."
+        None,
+        description="Iterations of the search, of all its threads together. Null: until "
+        "`time_limit`. 0: the policy's plan as it is. If stated, the same request with the same "
+        "`seed` and number of threads gets the same plan, unless `time_limit` ends the search "
+        "first; the reply's `solver.deterministic` tells.",
+    )
+    threads: Annotated[int, Field(ge=1, le=MAX_THREADS)] | None = Field(
+        None,
+        description="Threads of the search. Null: as the service's setting "
+        "`TANDEM_SEARCH_THREADS` says, usually one. No more are used than the machine has cores; "
+        "the reply's `solver.threads` tells how many.",
     )
 
 

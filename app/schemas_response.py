@@ -141,12 +141,23 @@ class ElapsedReply(_Reply):
 class SolverReply(_Reply):
     """How the plan was made."""
 
-    policy: str = Field(description="Policy that built the plan.")
+    policy: str = Field(description="Policy that was asked for.")
     decoding: str = Field(description="How its decisions were taken.")
     seed: int = Field(description="Seed of all random draws.")
-    decoded_cost: float = Field(description="Cost of the policy's plan.")
-    final_cost: float = Field(description="Cost after the search.")
-    search_iterations: int = Field(description="Iterations of the search.")
+    start: Literal["policy", "insertion"] = Field(
+        description="What the search began with: the policy's plan, or one made by insertion where "
+        "the policy would take too much of `time_limit`."
+    )
+    decoded_cost: float = Field(description="Cost of the plan that the search began with.")
+    final_cost: float = Field(description="Cost of this plan.")
+    search_iterations: int = Field(
+        description="Iterations of the search, of all its threads together."
+    )
+    threads: int = Field(description="Threads of the search.")
+    deterministic: bool = Field(
+        description="True if the same request gets the same plan again, with as many threads: all "
+        "iterations asked for were made, or none was. False if the clock ended the search."
+    )
     elapsed: ElapsedReply = Field(description="Seconds by phase.")
 
 

@@ -1,6 +1,7 @@
 """One loaded planner: is it ready, and what does it answer."""
 
 import logging
+import os
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -39,8 +40,9 @@ class Readiness:
 class PlanService:
     """Answers planning requests once its planner is warm."""
 
-    def __init__(self, planner: Planner) -> None:
+    def __init__(self, planner: Planner, search_threads: int = 1) -> None:
         self._planner = planner
+        self._search_threads = search_threads
         self._executor = ThreadPoolExecutor(1, thread_name_prefix="warm")
         self._warming: Future[None] | None = None
         self._progress = "not started"
@@ -77,21 +79,24 @@ class PlanService:
         readiness = self.readiness()
         if not readiness.is_ready:
             raise NotReadyError(f"The planner is not ready ({readiness.detail}): try again soon.")
-        return answer(self._planner, body)
+        return answer(self._planner, body, self._search_threads)
 
     def _note(self, progress: str) -> None:
         logger.info("warming up: %s", progress)
         self._progress = progress
 
 
-def answer(planner: Planner, body: ReceivedBody) -> bytes:
-    """Return the reply to a planning request as JSON; raises as `PlanService.plan` does."""
+def answer(planner: Planner, body: ReceivedBody, search_threads: int = 1) -> bytes:
+    """Return the reply to a planning request as JSON; raises as `PlanService.plan` does.
+
+    A request that states no number of threads gets `search_threads`.
+    """
     request = read_request(body.content, planner.policies)
     problem = to_problem(request)
     validated = time.perf_counter() - body.received_at
-    options = plan_options(request.options)
+    options = plan_options(request.options, search_threads)
     result = (planner.plan(problem, options, body.received_at) if problem.customers
-              else _no_plan(problem))
+              else _no_plan(problem, options))
     reply = plan_reply(problem, options, result)
     elapsed = reply["solver"]["elapsed"]
     elapsed["validate"] = validated
@@ -99,8 +104,9 @@ def answer(planner: Planner, body: ReceivedBody) -> bytes:
     return to_json(reply)
 
 
-def plan_options(stated: OptionsInput) -> PlanOptions:
-    """Return the planner's options."""
+def plan_options(stated: OptionsInput, search_threads: int = 1) -> PlanOptions:
+    """Return the planner's options; `search_threads` stands where the request states none."""
+    threads = search_threads if stated.threads is None else stated.threads
     return PlanOptions(
         policy=stated.policy,
         decoding=stated.decoding,
@@ -109,17 +115,21 @@ def plan_options(stated: OptionsInput) -> PlanOptions:
         seed=stated.seed,
         time_limit=stated.time_limit,
         search_iterations=stated.search_iterations,
+        threads=min(threads, os.cpu_count() or 1),
     )
 
 
-def _no_plan(problem: Problem) -> PlanResult:
+def _no_plan(problem: Problem, options: PlanOptions) -> PlanResult:
     """Return the empty plan of a problem without customers."""
     solution = Solution(())
     return PlanResult(
         solution=solution,
         evaluation=check(problem, solution),
+        start="policy",
         decoded_cost=0.0,
         final_cost=0.0,
         search_iterations=0,
+        threads=options.threads,
+        deterministic=True,
         elapsed=Elapsed(decode=0.0, search=0.0, check=0.0),
     )

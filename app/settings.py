@@ -9,6 +9,9 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 DEFAULT_POLICY = "pointer"
 """Policy that plans when a request names none."""
 
+MAX_THREADS = 64
+"""Most threads of a search that may be asked for."""
+
 WEIGHTS_DIR = Path(__file__).resolve().parent.parent / "model" / "weights"
 
 
@@ -30,4 +33,11 @@ class Settings(BaseSettings):
         default_factory=lambda: os.cpu_count() or 1,
         ge=1,
         description="Plans computed at the same time; further requests wait for their turn.",
+    )
+    search_threads: int = Field(
+        1,
+        ge=1,
+        le=MAX_THREADS,
+        description="Threads of a search when the request states none; no more than this machine "
+        "has cores are ever used.",
     )

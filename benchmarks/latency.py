@@ -119,8 +119,10 @@ def by_phase(request: dict[str, Any], runs: int) -> Clock:
         with now.phase("check"):
             evaluation = check(problem, solution)
         with now.phase("serialise"):
-            result = PlanResult(solution, evaluation, decoded.cost, decoded.cost, 0,
-                                Elapsed(0.0, 0.0, 0.0))
+            result = PlanResult(
+                solution, evaluation, start="policy", decoded_cost=decoded.cost,
+                final_cost=decoded.cost, search_iterations=0, threads=1, deterministic=True,
+                elapsed=Elapsed(0.0, 0.0, 0.0))
             to_json(plan_reply(problem, options, result))
     return clock
 

@@ -10,7 +10,7 @@ from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Route, Solution
 
-VERSION = "tandem"
+VERSION = "0.2.0"
 
 
 @lru_cache(maxsize=1)

@@ -19,8 +19,8 @@ from model.search.evaluate import INFEASIBLE
 from model.search.exchange import exchange_tails
 from model.search.insertion import find_beside, find_place, try_new_route
 from model.search.layout import (
-    MODE_LEAN, MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_SORTIES, R_STAMP,
-    R_TRIPS, R_TYPE, W_SLOT, World,
+    MODE_LEAN, NOWHERE, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS,
+    R_TYPE, W_SLOT, World,
 )
 from model.search.lean import insert_lean
 from model.search.refresh import locate, refresh
@@ -119,10 +119,8 @@ def insert(world: World, searcher: Searcher, node: int) -> bool:
             change_type(world, now, slot, move[M_TYPE])
         insert_lean(world, now, slot, move[M_FIRST], node)
         return True
-    simple = world.mode[route[R_TYPE]] & MODE_SIMPLE and route[R_SORTIES] == 0
     spare = len(now.route) - 2
-    if not simple:
-        keep_aside(now, slot, spare)
+    keep_aside(now, slot, spare)
     depot = world.type[route[R_TYPE], TYPE_DEPOT]
     apply(depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0)
     done = refresh(world, now, slot, searcher.acc)
@@ -153,7 +151,8 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool) -> No
             cost = find_place(world, searcher.now, searcher.alone, searcher.active,
                               count[I_ACTIVE], node, enlarge, searcher.move, searcher.trial,
                               searcher.rng, searcher.acc)
-        if cost >= world.unassigned_cost or not insert(world, searcher, node):
+        wanted = cost < world.unassigned_cost or (opening and index == first)
+        if cost == INFEASIBLE or not wanted or not insert(world, searcher, node):
             absent[left] = node
             left += 1
     count[I_ABSENT] = left

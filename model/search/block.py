@@ -28,7 +28,7 @@ def travel(world: World, k: int, duration: int, d: int, c: int) -> tuple[int, in
 
 
 @inlined
-def serve(world: World, k: int, stop: IntArray, time: int, d: int, c: int) -> tuple[int, int]:
+def serve(world: World, stop: IntArray, d: int, c: int) -> tuple[int, int]:
     """Return the pair at the end of what a truck does at a stop by itself, reached at (d, c)."""
     kind = stop[S_KIND]
     if kind == CUSTOMER:
@@ -45,7 +45,7 @@ def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
     d, c = 0, NONE
     if world.type[k, TYPE_PROFILE] != NO_PROFILE:
         d, c = NONE, time
-    stop[S_D], stop[S_C] = serve(world, k, stop, time, d, c)
+    stop[S_D], stop[S_C] = serve(world, stop, d, c)
     stop[S_HI], stop[S_LO], stop[S_DEP] = FAR, NONE, FAR
     if stop[S_KIND] == CUSTOMER:
         place = world.place[stop[S_NODE]]
@@ -198,23 +198,23 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
     d, c = 0, NONE
     if world.type[k, TYPE_PROFILE] != NO_PROFILE:
         d, c = NONE, time
-    acc[A_TIME], acc[A_HI], acc[A_LO], acc[A_DEP] = time, FAR, NONE, FAR
-    acc[A_OLDEST], acc[A_FLYING] = oldest, 0
+    acc[A_TIME], acc[A_HI], acc[A_LO] = time, FAR, NONE
+    acc[A_DEP], acc[A_OLDEST], acc[A_FLYING] = FAR, oldest, 0
     p = first
     while True:
         stop = stops[p]
         kind, node = stop[S_KIND], stop[S_NODE]
         stop[S_ARRIVAL], stop[S_BLOCK] = max(time + d, c), first
         if kind == CUSTOMER:
-            place = world.place[node]
-            if c > place[P_LIMIT]:
+            limit = world.place[node, P_LIMIT]
+            if c > limit:
                 return -1
-            acc[A_HI] = min(acc[A_HI], place[P_LIMIT] - d)
-            acc[A_DEP] = min(acc[A_DEP], max(stop[S_ARRIVAL], place[P_LATEST]) - d)
+            acc[A_HI] = min(acc[A_HI], limit - d)
+            acc[A_DEP] = min(acc[A_DEP], max(stop[S_ARRIVAL], world.place[node, P_LATEST]) - d)
         elif kind == START:
             c = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
         acc[A_FREE_D], acc[A_FREE_C] = d, c
-        d, c = serve(world, k, stop, time, d, c)
+        d, c = serve(world, stop, d, c)
         if not operate(world, k, sorties, count, p, node, acc):
             return -1
         d, c = max(d, acc[A_FREE_D]), max(c, acc[A_FREE_C])
@@ -233,6 +233,6 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
         d, c = travel(world, k, leg, d, c)
         p += 1
     stop = stops[first]
-    stop[S_D], stop[S_C], stop[S_HI], stop[S_LO] = d, c, acc[A_HI], acc[A_LO]
-    stop[S_DEP] = acc[A_DEP]
+    stop[S_D], stop[S_C], stop[S_HI] = d, c, acc[A_HI]
+    stop[S_LO], stop[S_DEP] = acc[A_LO], acc[A_DEP]
     return p

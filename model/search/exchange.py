@@ -174,6 +174,13 @@ def too_long(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> bool
 
 
 @inlined
+def leaves_nothing(fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
+    """Tell whether route `b` up to stop `q`, then `a` behind stop `p`, has a trip to nobody."""
+    nobody = fleet.stop[b, q, S_KIND] == START and fleet.stop[a, p + 1, S_KIND] == END
+    return nobody and not (q == 0 and p + 2 == fleet.route[a, R_LENGTH])
+
+
+@inlined
 def exchange_tails(world: World, searcher: Searcher, limit: float) -> bool:
     """Swap the tail behind a random stop if that may cost less than `limit`.
 
@@ -188,7 +195,8 @@ def exchange_tails(world: World, searcher: Searcher, limit: float) -> bool:
     if b < 0:
         return False
     if now.route[b, R_LENGTH] > 0 and (
-            overloads(world, now, a, p, b, q) or overloads(world, now, b, q, a, p)
+            leaves_nothing(now, a, p, b, q)
+            or overloads(world, now, a, p, b, q) or overloads(world, now, b, q, a, p)
             or too_long(world, now, a, p, b, q) or too_long(world, now, b, q, a, p)):
         return False
     return swap_tails(world, searcher, a, p, b, q)

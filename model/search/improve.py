@@ -75,10 +75,8 @@ class _Limits:
     turns: int | None
     should_stop: Callable[[], bool]
 
-    def share(self, turns: int) -> float:
-        """Return how much of the search is over after `turns`, 0 to 1."""
-        if self.turns is not None:
-            return turns / max(1, self.turns)
+    def share(self) -> float:
+        """Return how much of the time is over, 0 to 1."""
         return min(1.0, (time.perf_counter() - self.began) / (self.deadline - self.began))
 
     def round_end(self, turns: int) -> tuple[float, float]:
@@ -132,9 +130,14 @@ class _Worker:
         hot, cold = HEAT_WITH_DRONES if self.world.single_drones else HEAT
         hot, cold = self.config.hot or hot, self.config.cold or cold
         value = self.searcher.value
-        share = self.limits.share(self.turns)
-        value[V_TEMPERATURE] = self.scale * hot * (cold / hot) ** share
-        value[V_COOLING] = 1.0
+        if self.limits.turns is None:
+            share = self.limits.share()
+            value[V_TEMPERATURE] = self.scale * hot * (cold / hot) ** share
+            value[V_COOLING] = 1.0
+        elif self.turns == 0:
+            # By turns alone, so that the clock changes nothing.
+            value[V_TEMPERATURE] = self.scale * hot
+            value[V_COOLING] = (cold / hot) ** (1 / self.limits.turns)
         began = time.perf_counter()
         anneal(self.world, self.searcher, turns)
         self.turns += turns

@@ -2,9 +2,9 @@
 
 from model.compiled import inlined
 from model.instance import (
-    MAX_DIMENSIONS, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_SERVICE,
-    TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_ENDURANCE, TYPE_MAX_TRIPS, TYPE_PAYLOAD, TYPE_TRAVEL,
-    TYPE_WAITING_COUNTS,
+    MAX_DIMENSIONS, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT,
+    TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_ENDURANCE, TYPE_MAX_TRIPS,
+    TYPE_PAYLOAD, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
 )
 from model.problem import UNREACHABLE, FloatArray, IntArray, UIntArray
 from model.search.draw import uniform
@@ -14,10 +14,10 @@ from model.search.edit import (
 )
 from model.search.evaluate import INFEASIBLE, price_move
 from model.search.layout import (
-    END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_SIMPLE, MODE_TIMED, NOWHERE, P_DEMAND,
-    P_EARLIEST, P_LIMIT, P_SERVICE, R_CUM, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING,
-    S_ARRIVAL, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, T_FIRST,
-    T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    CUSTOMER, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_SIMPLE, MODE_TIMED, NOWHERE,
+    P_DEMAND, P_EARLIEST, P_LIMIT, P_SERVICE, R_CUM, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE,
+    R_WORKING, S_ARRIVAL, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START,
+    T_FIRST, T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
 )
 from model.search.rows import copy_row
 from model.search.scan import BLINK, fits, scan_beside, scan_simple, scan_stops
@@ -85,13 +85,19 @@ def try_stops(world: World, fleet: Fleet, slot: int, first: int, last: int, node
 
 @inlined
 def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int) -> int:
-    """Return a drone that is aboard from stop `launch` to `recovery`; -1 if there is none."""
+    """Return a drone that is aboard from stop `launch` to `recovery`; -1 if there is none.
+
+    That which flies least from and to these stops, so that drones fly side by side.
+    """
     sorties = fleet.sortie[slot]
+    chosen, fewest = NOWHERE, 0
     for drone in range(world.type[fleet.route[slot, R_TYPE], TYPE_DRONES]):
-        free = True
+        free, beside = True, 0
         for s in range(fleet.route[slot, R_SORTIES]):
             if sorties[s, F_DRONE] == drone:
                 first, last = sorties[s, F_LAUNCH], sorties[s, F_RECOVERY]
+                if first <= recovery and launch <= last:
+                    beside += 1
                 if first < recovery and launch < last:
                     free = False
                 if launch == recovery and first < launch < last:
@@ -100,9 +106,9 @@ def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int
                     free = False
                 if first == launch and recovery > launch and last > first:
                     free = False
-        if free:
-            return drone
-    return NOWHERE
+        if free and (chosen == NOWHERE or beside < fewest):
+            chosen, fewest = drone, beside
+    return chosen
 
 
 @inlined
@@ -176,6 +182,26 @@ def try_joining(world: World, fleet: Fleet, slot: int, node: int, best: float, m
 
 
 @inlined
+def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: bool) -> bool:
+    """Tell whether a customer's demand fits on top of a trip's up to stop `p`, or of the rest."""
+    stops, sorties = fleet.stop[slot], fleet.sortie[slot]
+    trip = fleet.trip[slot, stops[p, S_TRIP]]
+    first, last = (trip[T_FIRST], p) if front else (p + 1, trip[T_LAST])
+    for dimension in range(MAX_DIMENSIONS):
+        load = world.place[node, P_DEMAND + dimension]
+        for q in range(first, last + 1):
+            if stops[q, S_KIND] == CUSTOMER:
+                load += world.place[stops[q, S_NODE], P_DEMAND + dimension]
+        for s in range(fleet.route[slot, R_SORTIES]):
+            if first <= sorties[s, F_LAUNCH] <= last:
+                for visit in range(sorties[s, F_COUNT]):
+                    load += world.place[sorties[s, F_NODE + visit], P_DEMAND + dimension]
+        if load > world.type[fleet.route[slot, R_TYPE], TYPE_CAPACITY + dimension]:
+            return False
+    return True
+
+
+@inlined
 def try_trips(world: World, fleet: Fleet, slot: int, node: int, best: float, move: IntArray,
               trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
     """Try a customer where a trip more begins or ends. As `try_stops`."""
@@ -200,6 +226,8 @@ def try_trips(world: World, fleet: Fleet, slot: int, node: int, best: float, mov
             kind = TRIP_FROM
             if until < bound:
                 kind, bound = TRIP_UNTIL, until
+            if bound < best and not part_fits(world, fleet, slot, p, node, kind == TRIP_UNTIL):
+                continue
         if bound >= best or (p >= 0 and stops[p, S_LEAVE] > world.place[node, P_LIMIT]):
             continue
         trial[M_KIND], trial[M_FIRST] = kind, p

@@ -108,9 +108,13 @@ def settle(world: World, route: IntArray, stops: IntArray, trips: IntArray, sort
         stop = stops[first]
         hold = latest_hold(world, route, stops, sorties, first)
         if hold > max(stop[S_ARRIVAL], stop[S_RELEASE]):
+            end = route[R_END]
             stop[S_HOLD] = hold
-            if not drive_forward(world, route, stops, sorties, acc):
-                return False
+            if not drive_forward(world, route, stops, sorties, acc) or route[R_END] > end:
+                # Drones in another order of arrival took longer.
+                stop[S_HOLD] = NONE
+                if not drive_forward(world, route, stops, sorties, acc):
+                    return False
     return True
 
 

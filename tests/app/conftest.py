@@ -48,8 +48,9 @@ class FirstFitPlanner:
         evaluation = check(problem, solution)
         assert evaluation.is_feasible, evaluation.violations
         cost = evaluation.cost.total
-        return PlanResult(solution=solution, evaluation=evaluation, decoded_cost=cost,
-                          final_cost=cost, search_iterations=0,
+        return PlanResult(solution=solution, evaluation=evaluation, start="policy",
+                          decoded_cost=cost, final_cost=cost, search_iterations=0,
+                          threads=options.threads, deterministic=True,
                           elapsed=Elapsed(decode=0.0, search=0.0, check=0.0))
 
 

@@ -43,6 +43,16 @@ def test_drone_example_reply_fits_its_schema(client: httpx.Client, with_drones: 
     assert elapsed["total"] >= elapsed["validate"] > 0
 
 
+def test_solver_tells_how_the_plan_was_made(client: httpx.Client, smallest: Request) -> None:
+    smallest["options"] = {"seed": 4, "threads": 1, "search_iterations": 10}
+    nobody: Request = smallest | {"customers": []}
+    for request in (smallest, nobody):
+        solver = client.post("/plan", json=request).json()["solver"]
+        assert solver["start"] == "policy"
+        assert (solver["seed"], solver["threads"]) == (4, 1)
+        assert solver["deterministic"] is True
+
+
 def test_no_customers_give_an_empty_complete_plan(client: httpx.Client, smallest: Request) -> None:
     plan = client.post("/plan", json=smallest | {"customers": []}).json()
     PlanReply.model_validate(plan)
@@ -180,6 +190,10 @@ def _set(request: Request, path: str, value: Any) -> None:
      "$.airspace.no_fly"),
     ("options", {"policy": "oracle"}, "UNKNOWN_POLICY", "$.options.policy"),
     ("options", {"seed": -1}, "OUT_OF_RANGE", "$.options.seed"),
+    ("options", {"threads": 0}, "OUT_OF_RANGE", "$.options.threads"),
+    ("options", {"threads": 65}, "OUT_OF_RANGE", "$.options.threads"),
+    ("options", {"threads": 1.5}, "WRONG_TYPE", "$.options.threads"),
+    ("options", {"search_iterations": -1}, "OUT_OF_RANGE", "$.options.search_iterations"),
     ("options", {"time_limit": "1"}, "WRONG_TYPE", "$.options.time_limit"),
     ("matrices", {"truck": 7}, "WRONG_TYPE", "$.matrices.truck"),
 ])

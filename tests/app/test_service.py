@@ -11,7 +11,8 @@ import httpx
 import pytest
 
 from app.main import create_app
-from app.service import PlanService, ReceivedBody, answer
+from app.schemas_request import OptionsInput
+from app.service import PlanService, ReceivedBody, answer, plan_options
 from app.settings import Settings
 from model.planner import PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
@@ -127,8 +128,33 @@ def test_time_limit_runs_from_the_end_of_the_request(
 
 
 def test_settings_come_from_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert Settings().search_threads == 1
     monkeypatch.setenv("TANDEM_MAX_BODY_BYTES", "77")
     monkeypatch.setenv("TANDEM_POLICIES", '["pointer", "attention"]')
+    monkeypatch.setenv("TANDEM_SEARCH_THREADS", "3")
     settings = Settings()
     assert settings.max_body_bytes == 77
     assert settings.policies == ("pointer", "attention")
+    assert settings.search_threads == 3
+
+
+@pytest.mark.parametrize(("stated", "cores", "used"), [
+    (None, 8, 3), (None, 2, 2), (5, 8, 5), (64, 8, 8), (1, 8, 1), (4, None, 1)])
+def test_threads_are_the_requests_then_the_settings_and_no_more_than_cores(
+        monkeypatch: pytest.MonkeyPatch, stated: int | None, cores: int | None,
+        used: int) -> None:
+    monkeypatch.setattr("os.cpu_count", lambda: cores)
+    options = plan_options(OptionsInput(threads=stated), search_threads=3)
+    assert options.threads == used
+
+
+def test_service_searches_with_the_threads_of_its_settings(
+        monkeypatch: pytest.MonkeyPatch, smallest: dict[str, Any], planner: Planner) -> None:
+    monkeypatch.setattr("os.cpu_count", lambda: 8)
+    service = PlanService(planner, search_threads=3)
+    service.start()
+    while not service.readiness().is_ready:
+        pass
+    body = ReceivedBody(json.dumps(smallest).encode(), 0.0)
+    assert json.loads(service.plan(body))["solver"]["threads"] == 3
+    service.stop()

@@ -15,7 +15,9 @@ ROOT = Path(__file__).resolve().parents[2]
 def source(tmp_path: Path) -> Path:
     """A folder with a copy of every file that takes part in compilation."""
     for name in SOURCES:
-        shutil.copy(ROOT / "model" / f"{name}.py", tmp_path)
+        target = tmp_path / f"{name}.py"
+        target.parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / "model" / f"{name}.py", target)
     return tmp_path
 
 

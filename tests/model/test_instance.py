@@ -10,7 +10,7 @@ from model.instance import (
     TYPE_MAX_WORKING, TYPE_PROFILE, pack,
 )
 from model.problem import UNLIMITED, Problem
-from model.schedule import profile_arrival, setting_of
+from model.schedule import arrival_by_profile, setting_of
 from model.timing import leg_end
 from tests.model.rollouts import random_problems
 from tests.model.tiny import RUSH_HOUR
@@ -76,7 +76,9 @@ def test_compiled_legs_end_when_the_checker_says(tiny_problem, customers, truck)
     times = [0, *RUSH_HOUR.times, *rng.integers(0, 2_000_000, 500).tolist()]
     for leave in times:
         duration = int(rng.integers(0, 1_500_000))
-        assert profile_arrival(setting, duration, leave) == leg_end(leave, duration, RUSH_HOUR)
+        arrival = arrival_by_profile(setting.profile_time, setting.profile_factor,
+                                     len(RUSH_HOUR.times), duration, leave)
+        assert arrival == leg_end(leave, duration, RUSH_HOUR)
 
 
 def test_neighbours_are_the_nearest_other_customers_in_order(tiny_problem, customers,

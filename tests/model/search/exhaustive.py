@@ -1,0 +1,170 @@
+"""The cheapest plans of tiny problems, found by trying all of them with the checker alone.
+
+Every trip begins as late as costs nothing; drones are recovered in order of arrival.
+"""
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from itertools import combinations, pairwise, permutations
+
+from model.check import check
+from model.problem import (
+    MM_PER_KM, MS_PER_HOUR, DroneType, IntArray, Problem, VehicleType,
+)
+from model.solution import Route, Solution, Stop, Visit
+from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
+
+STEP = 30_000
+"""Departures are tried every half minute: enough where all else is in whole minutes."""
+
+Nodes = tuple[int, ...]
+
+
+def cheapest_cost(problem: Problem) -> float:
+    """Return the cost of the cheapest plan of a problem of a few customers."""
+    everyone = tuple(range(problem.num_depots, problem.num_nodes))
+    kinds = range(len(problem.vehicle_types))
+    route = {(kind, nodes): _cheapest_route(problem, kind, nodes)
+             for kind in kinds for size in range(1, len(everyone) + 1)
+             for nodes in combinations(everyone, size)}
+
+    @cache
+    def cheapest(left: Nodes, used: tuple[int, ...]) -> float:
+        """Return the cost of serving or leaving out the customers left."""
+        if not left:
+            return 0.0
+        best = problem.unassigned_cost + cheapest(left[1:], used)
+        for kind in kinds:
+            if used[kind] < problem.vehicle_types[kind].count:
+                more = (*used[:kind], used[kind] + 1, *used[kind + 1:])
+                for size in range(len(left)):
+                    for others in combinations(left[1:], size):
+                        rest = tuple(node for node in left[1:] if node not in others)
+                        cost = route[kind, (left[0], *others)] + cheapest(rest, more)
+                        best = min(best, cost)
+        return best
+
+    return cheapest(everyone, (0,) * len(kinds))
+
+
+def _cheapest_route(problem: Problem, kind: int, nodes: Nodes) -> float:
+    """Return the cost of the cheapest route that serves exactly these; infinite without one."""
+    best, vehicle_type = math.inf, problem.vehicle_types[kind]
+    for trips in _trip_lists(problem, vehicle_type, nodes, vehicle_type.max_trips):
+        if _least_cost(problem, vehicle_type, trips) >= best:
+            continue
+        decision = RouteDecision(kind, 0, trips)
+        soon = schedule(problem, decision)
+        evaluation = check(problem, Solution((soon,)))
+        broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
+        cost = evaluation.cost
+        # A later start saves nothing but time and waiting.
+        if broken <= {"WORKING_DURATION"} and cost.total - cost.time - cost.earliness < best:
+            best = min(best, _cost_begun_late(problem, decision, soon))
+    return best
+
+
+def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, ...]) -> float:
+    """Return a cost that the trips can't undercut; infinite if a flight exceeds endurance."""
+    truck, drones = problem.travel[kind.travel], kind.drones
+    kilometres = sum(_sum(truck.distance, trip.nodes) for trip in trips) / MM_PER_KM
+    cost = kind.fixed_cost + kilometres * kind.cost_per_km
+    busy = Counter({"truck": sum(_sum(truck.duration, trip.nodes) for trip in trips)})
+    busy["truck"] += sum(problem.customer_at(node).service_duration
+                         for trip in trips for node in trip.nodes[1:-1])
+    flights = [(trip, sortie) for trip in trips for sortie in trip.sorties]
+    for trip, sortie in flights:
+        if drones is not None:
+            path = (trip.nodes[sortie.launch_stop], *sortie.nodes,
+                    trip.nodes[sortie.recovery_stop])
+            flight = _sum(problem.travel[drones.travel].duration, path)
+            if drones.service_duration is None:
+                flight += sum(problem.customer_at(node).service_duration for node in sortie.nodes)
+            if flight > drones.endurance:
+                return math.inf
+            busy[f"drone {sortie.drone}"] += flight
+            cost += _sum(problem.travel[drones.travel].distance, path) / MM_PER_KM * (
+                drones.cost_per_km)
+    return cost + max(busy.values()) / MS_PER_HOUR * kind.cost_per_hour
+
+
+def _sum(legs: IntArray, path: Nodes) -> int:
+    return sum(legs.item(origin, to) for origin, to in pairwise(path))
+
+
+def _cost_begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> float:
+    """Return what a route costs whose trips begin as late as costs nothing."""
+    for index in range(len(decision.trips)):
+        first, end = soon.trips[index].stops[0].arrival, soon.trips[-1].stops[-1].departure
+        for start in range(end - (end - first) % STEP, first, -STEP):
+            trip = replace(decision.trips[index], start=start)
+            trips = (*decision.trips[:index], trip, *decision.trips[index + 1:])
+            late = schedule(problem, replace(decision, trips=trips))
+            if _costs_nothing(problem, soon, late):
+                decision, soon = replace(decision, trips=trips), late
+                break
+    evaluation = check(problem, Solution((soon,)))
+    broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
+    return math.inf if broken else evaluation.cost.total
+
+
+def _costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
+    """Tell whether a later start adds no lateness, lengthens no sortie and ends no later."""
+    def may_be(halt: Stop | Visit, later: Stop | Visit) -> bool:
+        return later.arrival <= max(halt.arrival, problem.customer_at(halt.node).latest)
+
+    for trip, other in zip(soon.trips, late.trips, strict=True):
+        if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):
+            return False
+        for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
+            longer = (flown.recovery_start - flown.launch_time
+                      > sortie.recovery_start - sortie.launch_time)
+            if longer or not all(map(may_be, sortie.visits, flown.visits)):
+                return False
+    return late.trips[-1].stops[-1].departure <= soon.trips[-1].stops[-1].departure
+
+
+def _trip_lists(problem: Problem, kind: VehicleType, nodes: Nodes,
+                most: int) -> Iterator[tuple[TripDecision, ...]]:
+    """Yield all ways to serve customers by at most `most` trips, one after another."""
+    if not nodes:
+        yield ()
+    elif most > 0:
+        for size in range(1, len(nodes) + 1):
+            for served in combinations(nodes, size):
+                rest = tuple(node for node in nodes if node not in served)
+                for trip in _trips(problem, kind, served):
+                    for others in _trip_lists(problem, kind, rest, most - 1):
+                        yield (trip, *others)
+
+
+def _trips(problem: Problem, kind: VehicleType, nodes: Nodes) -> Iterator[TripDecision]:
+    """Yield all trips that serve exactly these customers by truck and drones."""
+    for size in range(len(nodes) + 1 if kind.drones else 1):
+        for flown in combinations(nodes, size):
+            driven = [node for node in nodes if node not in flown]
+            if (any(problem.customer_at(node).served_by == "truck" for node in flown)
+                    or any(problem.customer_at(node).served_by == "drone" for node in driven)):
+                continue
+            for order in permutations(driven):
+                stops = (kind.depot, *order, kind.depot)
+                for queue in permutations(flown):
+                    for sorties in _sorties(kind.drones, queue, len(stops), 0):
+                        yield TripDecision(stops, sorties)
+
+
+def _sorties(drones: DroneType | None, queue: Nodes, num_stops: int,
+             earliest: int) -> Iterator[tuple[SortieDecision, ...]]:
+    """Yield all ways to fly to customers in turn, launched from stop `earliest` on."""
+    if not queue:
+        yield ()
+    elif drones is not None:
+        for size in range(1, min(len(queue), drones.max_customers_per_sortie) + 1):
+            for launch in range(earliest, num_stops):
+                for others in _sorties(drones, queue[size:], num_stops, launch):
+                    for recovery in range(launch, num_stops):
+                        for drone in range(drones.count):
+                            yield (SortieDecision(queue[:size], launch, recovery, drone), *others)

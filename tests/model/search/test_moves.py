@@ -1,0 +1,181 @@
+"""Small problems where one kind of move is needed, and found."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.check import check
+from model.instance import pack
+from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
+from model.search.improve import Improved, SearchConfig, improve
+from model.search.savings import savings_routes
+from model.search.translate import first_plan
+from model.search.world import make_world
+from model.solution import Solution
+from model.timing import RouteDecision, TripDecision, schedule
+
+MINUTE = 60_000
+
+TRUCK = VehicleType("truck", 2, (40_000,), 0, cost_per_km=1.0)
+COLD = {"hot": 0.01, "cold": 0.001}
+"""Temperatures at which no detour of many turns is made."""
+
+
+def on_a_plane(places: Sequence[tuple[float, float]], *kinds: VehicleType,
+               demand: int = 1000) -> Problem:
+    """Return a problem with a depot at (0, 0) and equal customers, places in km, a minute a km."""
+    place = np.array([(0, 0), *places], dtype=np.float64)
+    legs = np.rint(np.linalg.norm(place[:, None] - place, axis=2) * MM_PER_KM).astype(np.int64)
+    travel = Travel(legs * MINUTE // MM_PER_KM, legs)
+    customers = tuple(Customer(str(number), (demand,)) for number in range(len(places)))
+    return Problem((Depot("hub"),), customers, kinds, (travel,), place, unassigned_cost=1e6)
+
+
+def plan(problem: Problem, *routes: tuple[int, Sequence[int]]) -> Solution:
+    """Return the plan whose routes, a type and its customers each, are of one trip."""
+    numbers = [0] * len(problem.vehicle_types)
+    timed = []
+    for kind, customers in routes:
+        trip = TripDecision((0, *customers, 0))
+        timed.append(schedule(problem, RouteDecision(kind, numbers[kind], (trip,))))
+        numbers[kind] += 1
+    return Solution(tuple(timed))
+
+
+def improved_cost(problem: Problem, start: Solution, turns: int, seed: int) -> float:
+    """Return the cost after a cold search."""
+    assert check(problem, start).violations == ()
+    config = SearchConfig(seed=seed, turns=turns, **COLD)
+    found: Improved = improve(problem, pack([problem]), start, config)
+    evaluation = check(problem, found.solution)
+    assert evaluation.violations == ()
+    return evaluation.cost.total
+
+
+def test_savings_join_what_lies_on_the_way() -> None:
+    problem = on_a_plane([(1, 0), (2, 0), (3, 0), (-1, 0), (-2, 0)], TRUCK)
+    world = make_world(problem, pack([problem]))
+    routes = sorted(sorted(route) for route in savings_routes(world, 0))
+    assert routes == [[1, 2, 3], [4, 5]]
+
+
+def test_savings_keep_to_capacity_and_windows() -> None:
+    problem = on_a_plane([(1, 0), (2, 0), (3, 0)], replace(TRUCK, count=3, capacity=(2000,)))
+    world = make_world(problem, pack([problem]))
+    assert sorted(map(sorted, savings_routes(world, 0))) == [[1], [2, 3]]
+    near, middle, far = problem.customers
+    early = (replace(near, latest=MINUTE), replace(middle, latest=2 * MINUTE),
+             replace(far, latest=3 * MINUTE))
+    problem = replace(problem, customers=early, vehicle_types=(TRUCK,))
+    assert savings_routes(make_world(problem, pack([problem])), 0) == [[1, 2, 3]]
+    problem = replace(problem, customers=(near, replace(middle, latest=2 * MINUTE),
+                                          replace(far, latest=3 * MINUTE)))
+    windows = replace(problem, customers=(replace(near, earliest=9 * MINUTE),
+                                          *problem.customers[1:]))
+    assert savings_routes(make_world(windows, pack([windows])), 0) == [[2, 3, 1]]
+
+
+def test_savings_begin_the_search_only_where_all_vehicles_are_alike() -> None:
+    places = [(1.0, 0.0), (2.0, 0.0)]
+    van = replace(TRUCK, id="van", capacity=(1000,))
+    with_drone = replace(TRUCK, drones=DroneType(1, (1000,), 0))
+    for kinds, joined in (((TRUCK,), True), ((TRUCK, van), False), ((with_drone,), False),
+                          ((replace(TRUCK, max_trips=2),), False)):
+        problem = on_a_plane(places, *kinds)
+        first = first_plan(problem, make_world(problem, pack([problem])))
+        assert (len(first.routes) == 1) == joined
+
+
+def crossed(kind: VehicleType) -> tuple[Problem, Solution, float]:
+    """Return two full trucks that change sides halfway, that plan, and the cost if they did not.
+
+    The tails are longer than any string that is removed at once, and no customer fits into the
+    other truck alone.
+    """
+    north = [(float(x), 6.0) for x in range(1, 25)]
+    south = [(float(x), -6.0) for x in range(1, 25)]
+    problem = on_a_plane([*north, *south], replace(kind, capacity=(24_000,)))
+    up, down = list(range(1, 25)), list(range(25, 49))
+    start = plan(problem, (0, up[:12] + down[12:]), (0, down[:12] + up[12:]))
+    return problem, start, check(problem, plan(problem, (0, up), (0, down))).cost.total
+
+
+@pytest.mark.parametrize("kind", [
+    TRUCK,
+    replace(TRUCK, cost_per_hour=2.0),
+    replace(TRUCK, max_trips=2, cost_per_hour=2.0),
+    replace(TRUCK, drones=DroneType(1, (100,), 0)),
+], ids=["distance", "time", "trips", "drones"])
+def test_tails_are_exchanged(kind: VehicleType) -> None:
+    problem, start, straight = crossed(kind)
+    assert straight < check(problem, start).cost.total - 10
+    for seed in range(3):
+        assert improved_cost(problem, start, 1000, seed) <= straight * (1 + 1e-9)
+
+
+def test_a_tail_becomes_a_route_of_its_own() -> None:
+    morning = [(20.0 + x, 0.0) for x in range(14)]
+    evening = [(-20.0 - x, 0.0) for x in range(14)]
+    problem = on_a_plane([*morning, *evening], replace(TRUCK, cost_per_hour=1.0))
+    customers = (*problem.customers[:14], *(replace(customer, earliest=1000 * MINUTE)
+                                            for customer in problem.customers[14:]))
+    problem = replace(problem, customers=customers)
+    start = plan(problem, (0, range(1, 29)))
+    for seed in range(3):
+        # One truck for both waits for hours, which are paid; two trucks drive no farther.
+        cost = improved_cost(problem, start, 1000, seed)
+        assert cost < check(problem, start).cost.total - 10
+
+
+def test_vehicles_are_traded() -> None:
+    near = [(1 + 0.1 * x, 0.0) for x in range(14)]
+    far = [(-50 - 0.1 * x, 0.0) for x in range(14)]
+    thrifty = replace(TRUCK, id="thrifty", count=1, capacity=(14_000,), cost_per_km=1.0)
+    thirsty = replace(TRUCK, id="thirsty", count=1, capacity=(14_000,), cost_per_km=3.0)
+    problem = on_a_plane([*near, *far], thrifty, thirsty)
+    start = plan(problem, (0, range(1, 15)), (1, range(15, 29)))
+    traded = plan(problem, (0, range(15, 29)), (1, range(1, 15)))
+    for seed in range(3):
+        cost = improved_cost(problem, start, 300, seed)
+        assert cost <= check(problem, traded).cost.total * (1 + 1e-9)
+
+
+def test_cheaper_vehicles_left_over_are_taken() -> None:
+    near = [(1 + 0.1 * x, 0.0) for x in range(14)]
+    far = [(-5 - 0.1 * x, 0.0) for x in range(14)]
+    large = replace(TRUCK, id="large", count=2, capacity=(20_000,), fixed_cost=50.0)
+    small = replace(TRUCK, id="small", count=2, capacity=(14_000,), fixed_cost=20.0)
+    problem = on_a_plane([*near, *far], large, small)
+    start = plan(problem, (0, range(1, 15)), (0, range(15, 29)))
+    smaller = plan(problem, (1, range(1, 15)), (1, range(15, 29)))
+    for seed in range(3):
+        cost = improved_cost(problem, start, 300, seed)
+        assert cost <= check(problem, smaller).cost.total * (1 + 1e-9)
+
+
+def test_a_larger_vehicle_makes_room_for_a_customer_more() -> None:
+    places = [(10 + 0.1 * x, 0.0) for x in range(15)]
+    small = replace(TRUCK, id="small", count=2, capacity=(14_000,), fixed_cost=20.0)
+    large = replace(TRUCK, id="large", count=1, capacity=(15_000,), fixed_cost=25.0)
+    problem = on_a_plane(places, small, large)
+    start = plan(problem, (0, range(1, 15)), (0, (15,)))
+    alone = plan(problem, (1, range(1, 16)))
+    for seed in range(3):
+        cost = improved_cost(problem, start, 300, seed)
+        assert cost <= check(problem, alone).cost.total * (1 + 1e-9)
+
+
+def test_trips_joined_by_their_ends_leave_no_empty_trip() -> None:
+    """The second trip of one truck and the first of the other lie side by side and fit in one."""
+    places = [(float(x), y) for y in (-9.0, 1.0, 2.0, 9.0) for x in range(5, 19)]
+    truck = replace(TRUCK, count=2, max_trips=3)
+    problem = on_a_plane(places, truck)
+    trips = [TripDecision((0, *range(first, first + 14), 0)) for first in (1, 15)]
+    others = [TripDecision((0, *range(first + 13, first - 1, -1), 0)) for first in (29, 43)]
+    start = Solution((schedule(problem, RouteDecision(0, 0, tuple(trips))),
+                      schedule(problem, RouteDecision(0, 1, tuple(others)))))
+    for seed in range(40):
+        for turns in (5, 40):
+            improved_cost(problem, start, turns, seed)

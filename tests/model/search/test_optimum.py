@@ -1,0 +1,177 @@
+"""The search finds the cheapest plan of tiny problems, which were all enumerated."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.check import check
+from model.instance import pack
+from model.problem import (
+    FULL_SPEED, MM_PER_KM, Customer, Depot, DroneType, Problem, SpeedProfile, Travel,
+    VehicleType,
+)
+from model.search.improve import SearchConfig, improve
+from model.solution import Solution
+from tests.model.search.exhaustive import cheapest_cost
+from tests.model.tiny import draw_tiny
+
+MINUTE = 60_000
+TURNS = 2000
+
+Customers = tuple[Customer, ...]
+
+
+def street_problem(rng: np.random.Generator, customers: Customers,
+                   *kinds: VehicleType, unassigned_cost: float = 1000.0) -> Problem:
+    """Return a problem on a grid of streets: trucks need 2 minutes per km, drones fly straight."""
+    place = rng.integers(-6, 7, (len(customers) + 1, 2))
+    step = np.abs(place[:, None] - place)
+    travels = tuple(Travel((minutes * MINUTE * legs).astype(np.int64),
+                           (legs * MM_PER_KM).astype(np.int64))
+                    for minutes, legs in ((2, step.sum(axis=2)), (1, step.max(axis=2))))
+    return Problem((Depot("hub"),), customers, kinds, travels, place.astype(np.float64),
+                   unassigned_cost)
+
+
+def plain_customers(rng: np.random.Generator, number: int) -> Customers:
+    """Return customers of one to four units and up to three minutes of service."""
+    return tuple(Customer(str(index), (int(rng.integers(1, 5)) * 1000,),
+                          service_duration=int(rng.integers(0, 4)) * MINUTE)
+                 for index in range(number))
+
+
+def one_by_truck(rng: np.random.Generator) -> Customers:
+    """Return four customers, one of whom only a truck may serve."""
+    first, *others = plain_customers(rng, 4)
+    return (replace(first, served_by="truck"), *others)
+
+
+def with_windows(rng: np.random.Generator, customers: Customers, shortest: int,
+                 late_cost_per_hour: float | None) -> Customers:
+    """Give most customers a time window."""
+    def window(customer: Customer) -> Customer:
+        earliest = int(rng.integers(0, 40))
+        latest = earliest + int(rng.integers(shortest, shortest + 25))
+        return replace(customer, earliest=earliest * MINUTE, latest=latest * MINUTE,
+                       late_cost_per_hour=late_cost_per_hour)
+
+    return tuple(window(customer) if rng.random() < 0.8 else customer for customer in customers)
+
+
+TRUCK = VehicleType("truck", 3, (8000,), 0, cost_per_km=1.0)
+DRONES = DroneType(1, (5000,), 1, endurance=14 * MINUTE, launch_duration=MINUTE,
+                   recovery_duration=MINUTE, cost_per_km=0.2)
+
+
+def plain(rng: np.random.Generator) -> Problem:
+    return street_problem(rng, plain_customers(rng, 5), TRUCK)
+
+
+def windows(rng: np.random.Generator) -> Problem:
+    customers = with_windows(rng, plain_customers(rng, 5), 5, None)
+    return street_problem(rng, customers, TRUCK)
+
+
+def timed_windows(rng: np.random.Generator) -> Problem:
+    customers = with_windows(rng, plain_customers(rng, 5), 5, None)
+    return street_problem(rng, customers, replace(TRUCK, cost_per_hour=30.0,
+                                                  max_working_duration=75 * MINUTE))
+
+
+def soft_windows(rng: np.random.Generator) -> Problem:
+    customers = with_windows(rng, plain_customers(rng, 5), 0, 60.0)
+    return street_problem(rng, customers, replace(TRUCK, count=2, cost_per_hour=12.0,
+                                                  capacity=(10_000,)))
+
+
+def costly_waiting(rng: np.random.Generator) -> Problem:
+    customers = with_windows(rng, plain_customers(rng, 4), 3, 60.0)
+    waiting = tuple(replace(customer, early_cost_per_hour=30.0) for customer in customers)
+    return street_problem(rng, waiting, replace(TRUCK, count=2, capacity=(10_000,)))
+
+
+def two_types(rng: np.random.Generator) -> Problem:
+    van = VehicleType("van", 2, (4000,), 0, fixed_cost=4.0, cost_per_km=0.6)
+    return street_problem(rng, plain_customers(rng, 5), replace(TRUCK, count=2, fixed_cost=15.0),
+                          van)
+
+
+def two_trips(rng: np.random.Generator) -> Problem:
+    customers = tuple(replace(customer, release_time=int(rng.integers(0, 30)) * MINUTE)
+                      for customer in plain_customers(rng, 4))
+    truck = replace(TRUCK, count=2, capacity=(6000,), fixed_cost=10.0, cost_per_hour=20.0,
+                    max_trips=2, reload_duration=3 * MINUTE, latest=150 * MINUTE)
+    return street_problem(rng, customers, truck)
+
+
+def one_drone(rng: np.random.Generator) -> Problem:
+    truck = replace(TRUCK, count=1, capacity=(20_000,), cost_per_hour=30.0, drones=DRONES)
+    return street_problem(rng, one_by_truck(rng), truck)
+
+
+def two_drones(rng: np.random.Generator) -> Problem:
+    truck = replace(TRUCK, count=1, capacity=(20_000,), cost_per_km=0.0, cost_per_hour=60.0,
+                    drones=replace(DRONES, count=2, cost_per_km=0.0))
+    return street_problem(rng, one_by_truck(rng), truck)
+
+
+def long_sorties(rng: np.random.Generator) -> Problem:
+    drones = replace(DRONES, max_customers_per_sortie=2, endurance=25 * MINUTE)
+    truck = replace(TRUCK, count=1, capacity=(20_000,), cost_per_hour=20.0, drones=drones)
+    return street_problem(rng, one_by_truck(rng), truck)
+
+
+def rush_hour(rng: np.random.Generator) -> Problem:
+    profile = SpeedProfile((20 * MINUTE, 60 * MINUTE), (FULL_SPEED, FULL_SPEED // 2, FULL_SPEED))
+    customers = with_windows(rng, plain_customers(rng, 4), 20, None)
+    return street_problem(rng, customers, replace(TRUCK, count=2, cost_per_hour=30.0,
+                                                  speed_profile=profile))
+
+
+def optional_customers(rng: np.random.Generator) -> Problem:
+    return street_problem(rng, plain_customers(rng, 5), replace(TRUCK, fixed_cost=5.0),
+                          unassigned_cost=8.0)
+
+
+KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
+    plain, windows, timed_windows, soft_windows, costly_waiting, two_types, two_trips, one_drone,
+    two_drones, long_sorties, rush_hour, optional_customers)
+
+
+def searched_cost(problem: Problem, turns: int = TURNS) -> float:
+    """Return the cost of the plan that the search finds, as the checker counts it."""
+    nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    found = improve(problem, pack([problem]), nobody, SearchConfig(turns=turns))
+    evaluation = check(problem, found.solution)
+    assert evaluation.violations == ()
+    return evaluation.cost.total
+
+
+def missed_seeds(draw: Callable[[np.random.Generator], Problem], seeds: range) -> list[int]:
+    """Return the seeds of problems of which a cheaper plan is known than the search finds."""
+    missed = []
+    for seed in seeds:
+        problem = draw(np.random.default_rng(seed))
+        if searched_cost(problem) > cheapest_cost(problem) * (1 + 1e-9):
+            missed.append(seed)
+    return missed
+
+
+def all_rules(rng: np.random.Generator) -> Problem:
+    """Draw problems of two or three customers until one has no speed profile."""
+    while True:
+        problem = draw_tiny(rng, drone_share=0.6)
+        if problem.num_customers <= 3 and not any(kind.speed_profile
+                                                  for kind in problem.vehicle_types):
+            return problem
+
+
+@pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
+def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
+    assert missed_seeds(draw, range(4)) == []
+
+
+def test_search_finds_the_cheapest_plan_where_all_rules_mix() -> None:
+    assert missed_seeds(all_rules, range(100)) == []
