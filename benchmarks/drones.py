@@ -25,6 +25,7 @@ from model.check import check
 from model.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
+from model.search.world import Moves
 from model.solution import Solution
 
 EQUAL = 1e-6
@@ -105,8 +106,8 @@ class Verdict:
 
 def plan(instance: TruckDroneInstance, seconds: float, seed: int, threads: int) -> list[Solution]:
     """Plan each variant of an instance from nothing, in equal shares of the time."""
-    config = SearchConfig(seed, threads, loops="loops" not in instance.forbids,
-                          crossings="crossings" not in instance.forbids)
+    moves = Moves("loops" not in instance.forbids, "crossings" not in instance.forbids)
+    config = SearchConfig(seed, threads, moves=moves)
     return [_search(problem, config, seconds / len(instance.variants))
             for problem in instance.variants]
 

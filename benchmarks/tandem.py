@@ -27,7 +27,7 @@ def solve(instance: Published, seconds: float, seed: int, threads: int) -> PeerA
     problem = _problem(instance)
     nothing = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
-    improved = improve(problem, pack([problem]), nothing, SearchConfig(seed, threads),
-                       began + seconds)
+    improved = improve(problem, pack([problem], neighbours=False), nothing,
+                       SearchConfig(seed, threads), began + seconds)
     routes = [(route.vehicle_type, _trips(route)) for route in improved.solution.routes]
     return PeerAnswer(routes, time.perf_counter() - began, VERSION)

@@ -49,8 +49,10 @@ class Instance(NamedTuple):
     neighbour: IntArray  # (problem, node, rank) nearest customers first, -1 behind the last
 
 
-def pack(problems: Sequence[Problem]) -> Instance:
+def pack(problems: Sequence[Problem], neighbours: bool = True) -> Instance:
     """Pack problems into common arrays, padded with zeros and False.
+
+    `neighbours` are what policies alone look at; without them `Instance.neighbour` lists none.
 
     Raises
     ------
@@ -81,6 +83,8 @@ def pack(problems: Sequence[Problem]) -> Instance:
     )
     for row, problem in enumerate(problems):
         _pack_row(instance, row, problem)
+        if neighbours:
+            _pack_neighbours(instance, row, problem)
     return instance
 
 
@@ -115,7 +119,6 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
     _pack_compatibility(instance, row, problem)
-    _pack_neighbours(instance, row, problem)
 
 
 def _customer_columns(customer: Customer) -> tuple[int, ...]:

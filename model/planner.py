@@ -127,12 +127,13 @@ class Planner:
         deadline = None
         if options.time_limit > 0:
             deadline = (began if received_at is None else received_at) + options.time_limit
-        instance = pack([problem])
         searches = options.search_iterations != 0 and deadline is not None
         first: _Judged | None = None
         decoded = began
         whole = True  # the clock cut no samples
-        if not searches or policy_begins(problem.num_customers, options):
+        by_policy = not searches or policy_begins(problem.num_customers, options)
+        instance = pack([problem], neighbours=by_policy)
+        if by_policy:
             solution = self._decode(problem, instance, options, deadline)
             decoded = time.perf_counter()
             whole = deadline is None or decoded < deadline

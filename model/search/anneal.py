@@ -354,7 +354,8 @@ def anneal(world: World, searcher: Searcher, turns: int) -> None:
                 keep_best(searcher)
         else:
             undo(searcher)
-        move_parts(world, searcher, True)
+        if world.tails:
+            move_parts(world, searcher, True)
         if world.single_drones:
             for _ in range(RESPLITS):
                 move_parts(world, searcher, False)

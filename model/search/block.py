@@ -18,6 +18,14 @@ A_TIME, A_FREE_D, A_FREE_C, A_HI, A_LO, A_DEP, A_OLDEST, A_FLYING = range(8)
 
 
 @inlined
+def origin(world: World, k: int, time: int) -> tuple[int, int]:
+    """Return the pair of an arrival at `time`, at the beginning of a block."""
+    if world.type[k, TYPE_PROFILE] == NO_PROFILE:
+        return 0, NONE
+    return NONE, time
+
+
+@inlined
 def travel(world: World, k: int, duration: int, d: int, c: int) -> tuple[int, int]:
     """Return the pair at the end of a leg of `duration` at full speed."""
     changes = world.type[k, TYPE_PROFILE]
@@ -42,9 +50,7 @@ def serve(world: World, stop: IntArray, d: int, c: int) -> tuple[int, int]:
 @inlined
 def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
     """Write the block of a stop without launches, reached at `time`. In place."""
-    d, c = 0, NONE
-    if world.type[k, TYPE_PROFILE] != NO_PROFILE:
-        d, c = NONE, time
+    d, c = origin(world, k, time)
     stop[S_D], stop[S_C] = serve(world, stop, d, c)
     stop[S_HI], stop[S_LO], stop[S_DEP] = FAR, NONE, FAR
     if stop[S_KIND] == CUSTOMER:
@@ -195,9 +201,7 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
 
     `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
     """
-    d, c = 0, NONE
-    if world.type[k, TYPE_PROFILE] != NO_PROFILE:
-        d, c = NONE, time
+    d, c = origin(world, k, time)
     acc[A_TIME], acc[A_HI], acc[A_LO] = time, FAR, NONE
     acc[A_DEP], acc[A_OLDEST], acc[A_FLYING] = FAR, oldest, 0
     p = first

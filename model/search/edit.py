@@ -11,10 +11,12 @@ from model.search.rows import clear, copy_row
 (M_KIND, M_SLOT, M_FIRST, M_LAST, M_DRONE, M_SORTIE, M_TYPE) = range(7)
 MOVE_COLUMNS = 8
 
-AT_STOP, BY_SORTIE, ON_SORTIE, NEW_TRIP, TRIP_FROM, TRIP_UNTIL, NEW_ROUTE, NEW_FLIGHT = range(8)
+(AT_STOP, BY_SORTIE, ON_SORTIE, NEW_TRIP, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL, NEW_ROUTE,
+ NEW_FLIGHT) = range(9)
 """Where a customer goes: behind stop M_FIRST; on a sortie of its own from stop M_FIRST to M_LAST;
-on sortie M_SORTIE before its customer M_FIRST; on a trip of its own behind stop M_FIRST; behind
-M_FIRST, where a new trip begins, or where one ends; on a route of its own; by drone from there."""
+on sortie M_SORTIE before its customer M_FIRST; on a trip of its own behind stop M_FIRST, by truck
+or drone; behind M_FIRST, where a new trip begins, or where one ends; on a route of its own; by
+drone from there."""
 
 
 @inlined
@@ -83,6 +85,11 @@ def apply(depot: int, route: IntArray, stops: IntArray, sorties: IntArray, move:
         put(stops, first + 1, depot, START)
         put(stops, first + 2, node, CUSTOMER)
         put(stops, first + 3, depot, END)
+    elif kind == FLIGHT_TRIP:
+        make_room(route, stops, sorties, first + 1, 2)
+        put(stops, first + 1, depot, START)
+        put(stops, first + 2, depot, END)
+        add_sortie(route, sorties, first + 1, first + 1, 0, node)
     elif kind == TRIP_FROM:
         make_room(route, stops, sorties, first + 1, 3)
         put(stops, first + 1, depot, END)

@@ -7,7 +7,7 @@ from model.instance import (
 from model.problem import IntArray
 from model.search.block import plain_block, time_block
 from model.search.edit import (
-    BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, NEW_TRIP, ON_SORTIE, apply,
+    BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, apply,
 )
 from model.search.layout import (
     END, F_LAUNCH, F_RECOVERY, F_STATE, FAR, MODE_PRICED, NONE, P_RELEASE, R_LENGTH, R_OFFSET,
@@ -148,17 +148,19 @@ def price_part(world: World, fleet: Fleet, slot: int, first: int, last: int, to:
 
 
 @inlined
-def give_releases(world: World, fleet: Fleet, to: int, kind: int, trip: IntArray,
-                  release: int) -> None:
-    """Let the trips in slot `to` begin no earlier than their parcels are there. In place."""
+def give_releases(fleet: Fleet, to: int, alone: bool, trip: IntArray, release: int) -> None:
+    """Let the trips in slot `to` begin no earlier than their parcels are there.
+
+    In place; `alone` tells that the customer has a trip of its own.
+    """
     for p in range(fleet.route[to, R_LENGTH]):
         stop = fleet.stop[to, p]
         if stop[S_KIND] == START:
             if stop[S_RELEASE] == NONE:
                 stop[S_RELEASE] = release
-                if kind != NEW_TRIP:
+                if not alone:
                     stop[S_RELEASE] = max(release, trip[T_RELEASE])
-            elif p == 0 and kind != NEW_TRIP:
+            elif p == 0 and not alone:
                 stop[S_RELEASE] = max(stop[S_RELEASE], release)
 
 
@@ -181,9 +183,10 @@ def price_move(world: World, fleet: Fleet, move: IntArray, node: int, acc: IntAr
         trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move[M_SORTIE], F_LAUNCH],
                                            S_TRIP]]
     release = world.place[node, P_RELEASE]
-    held = kind != NEW_TRIP and release > trip[T_RELEASE]
+    alone = kind in (FLIGHT_TRIP, NEW_TRIP, FLIGHT_TRIP)
+    held = not alone and release > trip[T_RELEASE]
     first, last = part_of(fleet, slot, move, held)
     skipped = copy_part(fleet, slot, first, last, to)
     apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, first, skipped)
-    give_releases(world, fleet, to, kind, trip, release)
+    give_releases(fleet, to, alone, trip, release)
     return price_part(world, fleet, slot, first, last, to, acc)

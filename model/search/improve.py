@@ -15,7 +15,7 @@ from model.search.anneal import anneal, begin_anew
 from model.search.layout import World
 from model.search.state import V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher, follow
 from model.search.translate import first_plan, leg_cost, make_searcher, read_plan
-from model.search.world import make_world
+from model.search.world import ALL_MOVES, Moves, make_world
 from model.solution import Solution
 
 ROUNDS = 40
@@ -43,8 +43,7 @@ class SearchConfig:
     turns: int | None = None  # of all threads together; None: until the deadline
     hot: float | None = None  # None: by the kind of problem
     cold: float | None = None
-    loops: bool = True  # sorties may end at the stop where they began
-    crossings: bool = True  # and at others
+    moves: Moves = ALL_MOVES
 
 
 @dataclass(frozen=True)
@@ -180,7 +179,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
         raise ValueError("deadline, turns: None, None is not allowed")
     limits = _Limits(time.perf_counter(), math.inf if deadline is None else deadline,
                      None if config.turns is None else config.turns // config.threads, should_stop)
-    world = make_world(problem, instance, config.loops, config.crossings)
+    world = make_world(problem, instance, config.moves)
     fresh = not solution.routes
     if fresh:
         solution = first_plan(problem, world)

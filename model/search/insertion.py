@@ -9,8 +9,8 @@ from model.instance import (
 from model.problem import UNREACHABLE, FloatArray, IntArray, UIntArray
 from model.search.draw import uniform
 from model.search.edit import (
-    AT_STOP, BY_SORTIE, M_DRONE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, M_TYPE, NEW_ROUTE,
-    NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL,
+    AT_STOP, BY_SORTIE, FLIGHT_TRIP, M_DRONE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, M_TYPE,
+    NEW_ROUTE, NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL,
 )
 from model.search.evaluate import INFEASIBLE, price_move
 from model.search.layout import (
@@ -202,6 +202,28 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
 
 
 @inlined
+def try_flight_trips(world: World, fleet: Fleet, slot: int, node: int, best: float, move: IntArray,
+                     trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
+    """Try a customer on trips that a drone flies alone. As `try_stops`."""
+    route, stops = fleet.route[slot], fleet.stop[slot]
+    k = route[R_TYPE]
+    flights, depot = world.type[k, TYPE_DRONE_TRAVEL], world.type[k, TYPE_DEPOT]
+    out, home = world.back[flights, node, depot], world.leg[flights, node, depot]
+    if (not world.loops or out[0] >= UNREACHABLE or home[0] >= UNREACHABLE
+            or (out[1] + home[1]) * world.rate[k, RATE_DRONE_KM] >= best):
+        return best
+    trial[M_KIND], trial[M_SLOT] = FLIGHT_TRIP, slot
+    for p in range(-1, route[R_LENGTH]):
+        if p < 0 or stops[p, S_KIND] == END:
+            trial[M_FIRST] = p
+            cost = price_move(world, fleet, trial, node, acc)
+            if cost < best and uniform(rng) >= BLINK:
+                best = cost
+                copy_row(trial, move)
+    return best
+
+
+@inlined
 def try_trips(world: World, fleet: Fleet, slot: int, node: int, best: float, move: IntArray,
               trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
     """Try a customer where a trip more begins or ends. As `try_stops`."""
@@ -293,8 +315,11 @@ def find_place(world: World, fleet: Fleet, alone: FloatArray, active: IntArray, 
                     best = try_trip(world, fleet, slot, trip, node, best, move, trial, rng, acc)
         if world.visits[k] > 1 and by_drone:
             best = try_joining(world, fleet, slot, node, best, move, trial, rng, acc)
-        if fleet.route[slot, R_TRIPS] < world.type[k, TYPE_MAX_TRIPS] and by_truck:
-            best = try_trips(world, fleet, slot, node, best, move, trial, rng, acc)
+        if fleet.route[slot, R_TRIPS] < world.type[k, TYPE_MAX_TRIPS]:
+            if by_truck:
+                best = try_trips(world, fleet, slot, node, best, move, trial, rng, acc)
+            if by_drone:
+                best = try_flight_trips(world, fleet, slot, node, best, move, trial, rng, acc)
     return best
 
 

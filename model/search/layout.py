@@ -62,7 +62,8 @@ class World(NamedTuple):
     num_nodes: int
     num_types: int
     max_visits: int  # customers on a sortie
-    single_drones: bool  # some type has one drone
+    tails: bool  # routes may swap their tails
+    single_drones: bool  # some type has one drone, and trips may be split anew
     loops: bool  # sorties may end where they began
     crossings: bool  # sorties may end elsewhere
     general: bool  # insertions may cost more than their detour

@@ -61,7 +61,7 @@ def first_plan(problem: Problem, world: World) -> Solution:
     """
     everyone = tuple(range(world.num_depots, world.num_nodes))
     kinds = problem.vehicle_types
-    if len(kinds) > 1 or kinds[0].drones is not None or kinds[0].max_trips > 1:
+    if len(kinds) > 1 or kinds[0].drones is not None:
         return Solution((), everyone)
     depot = kinds[0].depot
     routes = sorted(savings_routes(world, 0), key=len, reverse=True)[: kinds[0].count]
@@ -158,13 +158,12 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
     fleet.stop[slot, : len(stops), [S_NODE, S_KIND]] = np.array(stops).T
     fleet.stop[slot, : len(stops), S_HOLD] = NONE
     firsts = np.cumsum([0] + [len(trip.stops) for trip in route.trips])
-    sorties = sorted(((int(first) + sortie.launch_stop, int(first) + sortie.recovery_stop,
-                       index, sortie)
-                      for first, trip in zip(firsts, route.trips, strict=False)
-                      for index, sortie in enumerate(
-                          sorted(trip.sorties, key=lambda sortie: sortie.launch_time))),
-                     key=lambda entry: entry[:3])
-    for s, (launch, recovery, _, sortie) in enumerate(sorties):
+    sorties = sorted(
+        ((int(first) + sortie.launch_stop, sortie.launch_time, int(first) + sortie.recovery_stop,
+          index, sortie)
+         for first, trip in zip(firsts, route.trips, strict=False)
+         for index, sortie in enumerate(trip.sorties)), key=lambda entry: entry[:4])
+    for s, (launch, _, recovery, _, sortie) in enumerate(sorties):
         row = fleet.sortie[slot, s]
         nodes = [visit.node for visit in sortie.visits]
         row[[F_LAUNCH, F_RECOVERY, F_DRONE, F_COUNT]] = (launch, recovery, sortie.drone,

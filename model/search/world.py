@@ -1,5 +1,7 @@
 """The search's arrays for a problem, and plans to and from its routes."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,13 +35,22 @@ LATENESS_WEIGHT = 1.0
 """What waiting and lateness weigh against driving between neighbours."""
 
 
-def make_world(problem: Problem, instance: Instance, loops: bool = True,
-               crossings: bool = True) -> World:
-    """Lay out a problem for the search.
+@dataclass(frozen=True)
+class Moves:
+    """What the search may do beyond inserting customers where they cost least."""
 
-    `loops` and `crossings` tell whether sorties may end at the stop where they began, and at
-    others.
-    """
+    loops: bool = True  # sorties may end at the stop where they began
+    crossings: bool = True  # and at others
+    tails: bool = True  # routes may swap their tails
+    splits: bool = True  # trips with one drone may be split anew
+    types: bool = True  # vehicles may drive each other's routes
+
+
+ALL_MOVES = Moves()
+
+
+def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -> World:
+    """Lay out a problem for the search."""
     columns, rates = instance.type[0], instance.rate[0]
     place = _places(instance)
     travel = np.stack([instance.duration[0], instance.distance[0]], axis=-1)
@@ -56,9 +67,10 @@ def make_world(problem: Problem, instance: Instance, loops: bool = True,
     return World(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=max(1, int(visits.max())),
-        single_drones=bool((columns[:, TYPE_DRONES] == 1).any()), loops=loops,
-        crossings=crossings, general=not bool((mode & MODE_LEAN).all()),
-        traded=bool(swap.any()),
+        tails=moves.tails,
+        single_drones=moves.splits and bool((columns[:, TYPE_DRONES] == 1).any()),
+        loops=moves.loops, crossings=moves.crossings, general=not bool((mode & MODE_LEAN).all()),
+        traded=moves.types and bool(swap.any()),
         scan_all=problem.num_customers < SCAN_ALL_BELOW,
         must_serve=_must_serve(problem), unassigned_cost=float(problem.unassigned_cost),
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),

@@ -82,7 +82,7 @@ def test_savings_begin_the_search_only_where_all_vehicles_are_alike() -> None:
     van = replace(TRUCK, id="van", capacity=(1000,))
     with_drone = replace(TRUCK, drones=DroneType(1, (1000,), 0))
     for kinds, joined in (((TRUCK,), True), ((TRUCK, van), False), ((with_drone,), False),
-                          ((replace(TRUCK, max_trips=2),), False)):
+                          ((replace(TRUCK, max_trips=2),), True)):
         problem = on_a_plane(places, *kinds)
         first = first_plan(problem, make_world(problem, pack([problem])))
         assert (len(first.routes) == 1) == joined

@@ -1,0 +1,114 @@
+"""Tests of `benchmarks.ablation` and `benchmarks.table1`."""
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.settings import DEFAULT_POLICY, Settings
+from benchmarks.ablation import (
+    BEST_SECONDS, MOVES, MOVES_SECONDS, Sample, Trial, Way, measure, sample, table_of_moves,
+    table_of_starts, trial, ways, written,
+)
+from benchmarks.table1 import (
+    FLEETS, REFERENCE, SIDE_KM, FleetPlan, Timed, example, fleet_problem, table_of_fleets,
+    table_of_times, with_fleet,
+)
+from model.decode import load_policy
+from model.planner import PlanCheckError
+from model.problem import MS_PER_HOUR, Customer, Problem, VehicleType
+from model.solution import Solution
+
+
+def made_up(problem: str, size: int, way: Way, cost: float) -> Trial:
+    """Return a trial that never was."""
+    return Trial(problem, "cvrp", size, way.start, way.seconds, way.without, way.seconds, cost, 0)
+
+
+def test_sample_is_the_same_every_time_and_for_fewer() -> None:
+    more, fewer = sample((4,), 2), sample((4,), 1)
+    assert [one.name for one in fewer] == [one.name for one in more if one.index == 0]
+    for one, other in zip(fewer, more[::2], strict=True):
+        assert np.array_equal(one.problem.coordinates, other.problem.coordinates)
+
+
+def test_every_way_is_tried_once() -> None:
+    chosen = ways((MOVES_SECONDS, 1.0))
+    assert len(chosen) == len(set(chosen)) == 5 + len(MOVES)
+    assert Way("insertion", BEST_SECONDS) in chosen
+
+
+def test_every_problem_is_planned_by_every_way(tmp_path: Path) -> None:
+    samples = sample((5,), 1, ("cvrp", "drone"))
+    chosen = [Way("insertion", 0.05), Way("policy", 0.05), Way("insertion", 0.05, MOVES[0])]
+    policy = load_policy(Settings().weights_dir / DEFAULT_POLICY)
+    path = tmp_path / "new" / "ablation.csv"
+    trials = written(path, measure(samples, policy, chosen))
+    assert [(one.problem, one.way) for one in trials] == [
+        (one.name, way) for one in samples for way in chosen]
+    with path.open(encoding="utf-8", newline="") as file:
+        assert [float(row["cost"]) for row in csv.DictReader(file)] == [
+            one.cost for one in trials]
+
+
+def test_plan_that_breaks_a_rule_is_refused(
+    tiny_problem: Callable[..., Problem], truck: VehicleType
+) -> None:
+    lone = tiny_problem(Customer("a", (1000,)), truck=truck)
+    with pytest.raises(PlanCheckError, match="tiny"):
+        trial(Sample("tiny", 1, 0, lone), Way("insertion", 1.0), [Solution((), ())], 1.0)
+
+
+def test_starts_are_compared_with_the_best_plan_of_all() -> None:
+    short, long = Way("policy", 0.1), Way("insertion", BEST_SECONDS)
+    lines = table_of_starts([made_up("x", 50, short, 121.0), made_up("x", 50, long, 100.0),
+                             made_up("y", 100, short, 90.0), made_up("y", 100, long, 99.0)])
+    assert lines == [
+        "| % | problems | insertion, 3 s | policy, 0.1 s |",
+        "| --- | ---: | ---: | ---: |",
+        "| cvrp | 2 | 4.88 | 10.00 |",
+        "| 50 customers | 1 | 0.00 | 21.00 |",
+        "| 100 customers | 1 | 10.00 | 0.00 |",
+        "| all | 2 | 4.88 | 10.00 |",
+    ]
+
+
+def test_moves_are_compared_with_all_of_them() -> None:
+    trials = [made_up(name, 50, Way("insertion", MOVES_SECONDS, move), cost)
+              for name, costs in {"x": (100, 101, 100, 99), "y": (10, 10.1, 10, 9.9)}.items()
+              for move, cost in zip(("", *MOVES), costs, strict=True)]
+    assert table_of_moves(trials)[-1] == "| all | 2 | +1.00 ± 0.00 | +0.00 ± 0.00 | -1.00 ± 0.00 |"
+
+
+def test_table_1_is_that_of_the_paper() -> None:
+    problem = example()
+    assert (problem.num_customers, problem.vehicle_types[0].count) == (100, 4)
+    lines = table_of_times([Timed(1.0, 1, "policy", 1.0 + cost / 1e6, cost * REFERENCE)
+                            for cost in (1.0, 1.01, 1.5)])
+    assert lines[2:] == [
+        "| 1 | 1 | policy | 3 | 710.53 | 717.64 | 1065.80 | 1.00 | 1.000 |"]
+
+
+@pytest.mark.parametrize("fleet", FLEETS)
+def test_fleets_have_the_same_customers_and_hours(fleet: str) -> None:
+    drawn = fleet_problem(np.random.default_rng(1), 25)
+    problem = with_fleet(drawn, fleet, 6.5)
+    assert problem.customers is drawn.customers
+    assert tuple(kind.capacity[0] // 1000 for kind in problem.vehicle_types) == FLEETS[fleet]
+    assert {kind.max_working_duration for kind in problem.vehicle_types} == {6.5 * MS_PER_HOUR}
+    assert problem.coordinates[0] == pytest.approx((32, 38))
+    assert problem.coordinates.max() <= SIDE_KM
+    reserved = [customer.served_by for customer in problem.customers]
+    assert (reserved.count("drone"), reserved.count("truck")) == (2, 2)
+
+
+def test_fleets_are_compared_by_mean_cost() -> None:
+    plans = [FleetPlan(25, "150", hours, 0.9, cost, 0, (0.5, 1.0))
+             for hours, cost in ((8.0, 10.0), (4.0, 13.0), (8.0, 11.0))]
+    assert table_of_fleets(plans) == [
+        "| customers | capacity | 4 h | 8 h | left out | load, % | longest, s |",
+        "| ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
+        "| 25 | 150 | 13.0 | 10.5 | 0 | 75.0 | 0.900 |",
+    ]
