@@ -9,7 +9,7 @@ mean of their ratios. Each plan is checked and is a row of a CSV.
 import csv
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields
+from dataclasses import astuple, dataclass, fields, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -24,13 +24,14 @@ from model.instance import pack
 from model.planner import PlanCheckError, Start
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
+from model.search.world import ALL_MOVES
 from model.solution import Solution
 from training.instances import VARIANTS, generate
 
 STARTS: tuple[Start, ...] = ("insertion", "policy")
 
 MOVES = ("tails", "splits", "types")
-"""Families of moves that the search can do without, as `SearchConfig.without` names them."""
+"""Families of moves that the search can do without, as `Moves` names them."""
 
 MOVES_SECONDS = 0.3
 """Time for each plan with fewer moves."""
@@ -103,14 +104,20 @@ def ways(limits: Iterable[float]) -> list[Way]:
 def plans(problem: Problem, policy: Policy, way: Way, turns: int | None = None) -> list[Solution]:
     """Plan a problem; return the policy's plan too if the search began with it."""
     deadline = time.perf_counter() + way.seconds
-    instance = pack([problem])
+    instance = pack([problem], neighbours=way.start == "policy")
     first = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     if way.start == "policy":
         scene = prepare(policy, problem, instance)
         first = extract(problem, instance, decode(policy, scene, DecodeConfig()).actions)
-    config = SearchConfig(turns=turns, without=frozenset({way.without} - {""}))
-    improved = improve(problem, instance, first, config, deadline).solution
+    improved = improve(problem, instance, first, search_config(way, turns),
+                       deadline).solution
     return [first, improved] if way.start == "policy" else [improved]
+
+
+def search_config(way: Way, turns: int | None = None) -> SearchConfig:
+    """Return how to search."""
+    moves = replace(ALL_MOVES, **{way.without: False}) if way.without else ALL_MOVES
+    return SearchConfig(turns=turns, moves=moves)
 
 
 def measure(samples: Sequence[Sample], policy: Policy, chosen: Sequence[Way]) -> Iterator[Trial]:

@@ -9,11 +9,11 @@ from functools import partial
 
 import numpy as np
 
-from model.instance import Instance
+from model.instance import TYPE_DRONES, Instance
 from model.problem import Problem
 from model.search.anneal import anneal, begin_anew
 from model.search.layout import World
-from model.search.state import V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher, follow
+from model.search.state import I_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher, follow
 from model.search.translate import first_plan, leg_cost, make_searcher, read_plan
 from model.search.world import ALL_MOVES, Moves, make_world
 from model.solution import Solution
@@ -24,11 +24,11 @@ ROUNDS = 40
 SLICE = 0.003
 """Seconds between two looks at the clock."""
 
-HEAT = (1.5, 0.1)
-"""First and last temperature."""
+HOT, COLD = 1.0, 0.1
+"""First temperature by what a customer costs, last by what a leg between customers does."""
 
-HEAT_WITH_DRONES = (0.5, 0.005)
-"""Likewise where trips are split between truck and drone, which many small changes do."""
+HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
+"""Both by a leg where trips are split between truck and drone, which many small changes do."""
 
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
@@ -36,13 +36,13 @@ FIRST_SLICE = 8
 
 @dataclass(frozen=True)
 class SearchConfig:
-    """How to search. Temperatures are shares of what a leg between customers costs at first."""
+    """How to search."""
 
     seed: int = 0
     threads: int = 1
     turns: int | None = None  # of all threads together; None: until the deadline
-    hot: float | None = None  # None: by the kind of problem
-    cold: float | None = None
+    hot: float | None = None  # first temperature by the cost of a leg; None: by the problem
+    cold: float | None = None  # last
     moves: Moves = ALL_MOVES
 
 
@@ -102,21 +102,32 @@ class _Worker:
     fresh: bool  # there was no plan to begin with
     turns: int = 0
     pace: float = 0.0  # seconds a turn takes
-    scale: float = 0.0  # cost of a leg between customers
+    hot: float = 0.0  # first temperature
+    cold: float = 0.0  # last temperature
     first_cost: float = 0.0
 
     def run(self) -> None:
         """Search for one round."""
-        if self.scale == 0.0:
+        if self.hot == 0.0:
             begin_anew(self.world, self.searcher, self.fresh)
             self.first_cost = float(self.searcher.value[V_COST])
-            self.scale = leg_cost(self.world, self.searcher)
+            self._set_heat()
         most, end = self.limits.round_end(self.turns)
         while self.turns < most and not self.limits.should_stop():
             now = time.perf_counter()
             if now >= end:
                 return
             self._anneal(int(min(most - self.turns, self._slice(end - now))))
+
+    def _set_heat(self) -> None:
+        leg = leg_cost(self.world, self.searcher)
+        missing = float(self.searcher.count[I_MISSING]) * self.world.unassigned_cost
+        customers = self.world.num_nodes - self.world.num_depots
+        hot, cold = max(HOT * (self.first_cost - missing) / max(1, customers) / leg, 1.0), COLD
+        if (self.world.type[:, TYPE_DRONES] == 1).any():
+            hot, cold = HOT_WITH_DRONES, COLD_WITH_DRONES
+        self.hot = leg * (self.config.hot or hot)
+        self.cold = leg * (self.config.cold or cold)
 
     def _slice(self, seconds: float) -> float:
         if self.limits.turns is not None and self.limits.deadline == math.inf:
@@ -126,17 +137,16 @@ class _Worker:
         return max(1.0, min(SLICE, seconds) / self.pace)
 
     def _anneal(self, turns: int) -> None:
-        hot, cold = HEAT_WITH_DRONES if self.world.single_drones else HEAT
-        hot, cold = self.config.hot or hot, self.config.cold or cold
+        ratio = self.cold / self.hot
         value = self.searcher.value
         if self.limits.turns is None:
             share = self.limits.share()
-            value[V_TEMPERATURE] = self.scale * hot * (cold / hot) ** share
+            value[V_TEMPERATURE] = self.hot * ratio**share
             value[V_COOLING] = 1.0
         elif self.turns == 0:
             # By turns alone, so that the clock changes nothing.
-            value[V_TEMPERATURE] = self.scale * hot
-            value[V_COOLING] = (cold / hot) ** (1 / self.limits.turns)
+            value[V_TEMPERATURE] = self.hot
+            value[V_COOLING] = ratio ** (1 / self.limits.turns)
         began = time.perf_counter()
         anneal(self.world, self.searcher, turns)
         self.turns += turns
