@@ -86,14 +86,14 @@ class Trial:
         return Way(self.start, self.budget_s, self.without)
 
 
-def sample(sizes: Iterable[int], each: int, variants: Iterable[str] = VARIANTS) -> list[Sample]:
+def sample(sizes: Sequence[int], each: int, variants: Iterable[str] = VARIANTS) -> list[Sample]:
     """Return so many problems of each class and size, the same ones every time."""
     return [Sample(variant, size, index, generate(
                 np.random.default_rng((SAMPLE_SEED, number, size, index)), size, variant))
             for number, variant in enumerate(variants) for size in sizes for index in range(each)]
 
 
-def ways(limits: Iterable[float]) -> list[Way]:
+def ways(limits: Sequence[float]) -> list[Way]:
     """Return all ways to plan, each once."""
     chosen = [Way("insertion", BEST_SECONDS), Way("insertion", MOVES_SECONDS)]
     chosen += [Way(start, limit) for start in STARTS for limit in limits]
@@ -237,8 +237,8 @@ def main(
     = Path("runs/bench/ablation.csv"),
 ) -> None:
     """Print both tables in Markdown."""
-    chosen = ways(float(limit) for limit in limits.split(","))
-    samples = sample((int(size) for size in sizes.split(",")), each)
+    chosen = ways([float(limit) for limit in limits.split(",")])
+    samples = sample([int(size) for size in sizes.split(",")], each)
     loaded = load_policy(Settings().weights_dir / policy)
     trials = written(output, measure(samples, loaded, chosen))
     typer.echo("\n".join([*table_of_starts(trials), "", *table_of_moves(trials)]))

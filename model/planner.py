@@ -94,7 +94,8 @@ class Planner:
         for index, name in enumerate(self._policies, 1):
             tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
             began = time.perf_counter()
-            self.plan(small_problem(), PlanOptions(name, time_limit=60.0, search_iterations=4))
+            self.plan(small_problem(), PlanOptions(name, time_limit=60.0, search_iterations=4,
+                                                   threads=2))
             options = PlanOptions(name, "sample", num_samples=4, time_limit=0.0)
             self.plan(small_problem(), options)
             tell(f"policy {name} is warm after {time.perf_counter() - began:.1f} s")

@@ -215,6 +215,6 @@ def _share(workers: list[_Worker]) -> Searcher:
     searchers = [worker.searcher for worker in workers]
     leader = min(searchers, key=lambda searcher: float(searcher.value[V_COST]))
     for searcher in searchers:
-        if searcher.value[V_COST] > leader.value[V_COST]:
+        if searcher is not leader:
             follow(searcher, leader)
     return min(searchers, key=lambda searcher: float(searcher.value[V_BEST]))
