@@ -180,7 +180,8 @@ def _by_arrival(
 ) -> Iterator[Operation]:
     """Yield recoveries of earlier sorties, then launches, then recoveries of loops.
 
-    A loop ends sooner when its drone is launched again. `flights` fills in the meantime.
+    A drone's loop ends before it is launched again, and with it those that are back sooner.
+    `flights` fills in the meantime.
     """
     def arrival(index: int) -> tuple[int, int]:
         return flights[index].arrival, index
@@ -191,7 +192,9 @@ def _by_arrival(
     loops: list[int] = []
     for index, sortie in enumerate(sorties):
         if sortie.launch_stop == stop:
-            for loop in [loop for loop in loops if sorties[loop].drone == sortie.drone]:
+            last = max([arrival(i) for i in loops if sorties[i].drone == sortie.drone],
+                       default=(-1, -1))
+            for loop in sorted([i for i in loops if arrival(i) <= last], key=arrival):
                 loops.remove(loop)
                 yield Operation(loop, False)
             yield Operation(index, True)

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from model.check import check
 from model.problem import SpeedProfile
-from model.solution import Stop, Visit
+from model.solution import Solution, Stop, Visit
 from model.timing import (
     Operation,
     RouteDecision,
@@ -152,6 +153,18 @@ def test_drone_is_recovered_before_it_is_launched_again(tiny_problem, customers,
     trip = one_trip(problem, TripDecision((0, 1, 2, 0), sorties))
     assert trip.sorties[0].recovery_time == 13 * MINUTE
     assert trip.sorties[1].launch_time == 14 * MINUTE
+
+
+def test_loop_that_is_back_sooner_ends_before_another_drone_is_launched_again(
+    tiny_problem, customers, truck, drones
+):
+    instant = replace(drones, count=2, launch_duration=0, recovery_duration=0)
+    problem = tiny_problem(*customers, truck=replace(truck, drones=instant))
+    sorties = (SortieDecision((2,), 1, 1, 1), SortieDecision((3,), 1, 1, 0),
+               SortieDecision((4,), 1, 1, 0))
+    route = schedule(problem, RouteDecision(0, 0, (TripDecision((0, 1, 0), sorties),)))
+    assert [sortie.recovery_start for sortie in route.trips[0].sorties] == list(minutes(9, 11, 22))
+    assert check(problem, Solution((route,), ())).is_feasible
 
 
 def test_order_of_operations_is_a_choice(tiny_problem, customers, truck, drones):
