@@ -186,7 +186,8 @@ def embed(duration: IntArray | FloatArray) -> FloatArray:
 
 
 def _whole_ms(duration_ms: FloatArray) -> IntArray:
-    return np.ceil(duration_ms - FLOAT_NOISE_MS).astype(np.int64)
+    noise = np.maximum(FLOAT_NOISE_MS, 2 * np.spacing(duration_ms))
+    return np.ceil(duration_ms - noise).astype(np.int64)
 
 
 def _whole_mm(distance_m: FloatArray) -> IntArray:
