@@ -18,8 +18,8 @@ from numba import config, njit
 SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", "simulator",
            "tokens", "features", *(f"search/{part}" for part in (
                "layout", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
-               "ruin", "state", "retype", "scan", "insertion", "exchange", "resplit", "anneal",
-               "savings", "translate")))
+               "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit",
+               "anneal", "savings", "translate", "sharing")))
 """Files with compiled functions, and those whose constants are compiled into them."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])

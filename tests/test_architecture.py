@@ -22,8 +22,8 @@ FORBIDDEN = {
 
 SEARCH = tuple(f"search/{name}" for name in (
     "layout", "world", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
-    "ruin", "state", "retype", "scan", "insertion", "exchange", "resplit", "savings", "translate",
-    "anneal", "improve",
+    "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit", "savings",
+    "translate", "sharing", "anneal", "improve",
 ))
 MODEL_ORDER = (
     "compiled", "problem", "solution", "timing", "metrics", "rules", "check", "attempt", "explain",

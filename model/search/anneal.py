@@ -29,8 +29,9 @@ from model.search.retype import change_type, improve_types
 from model.search.rows import clear, copy_some
 from model.search.ruin import choose, remove_marked
 from model.search.state import (
-    I_ABSENT, I_ACTIVE, I_BEST_MISSING, I_MISSING, I_STAMP, I_TOUCHED, I_TURN, V_BEST, V_COOLING,
-    V_COST, V_TEMPERATURE, Searcher, adopt, copy_route, keep_aside, keep_best, list_active, touch,
+    I_ABSENT, I_ACTIVE, I_BEST_MISSING, I_CUSTOMERS, I_MISSING, I_STAMP, I_TOUCHED, I_TURN, V_BEST,
+    V_COOLING, V_COST, V_TEMPERATURE, Searcher, adopt, copy_route, keep_aside, keep_best,
+    list_active, touch,
 )
 
 MOST_MISSING = 12
@@ -42,7 +43,7 @@ ENLARGED = 0.2
 OPENING = 0.03
 """How often the first customer inserted is given a route of its own."""
 
-RESPLITS = 5
+RESPLITS = 30
 """Trips with one drone planned anew from their order each turn."""
 
 RETYPED = 0.1
@@ -180,8 +181,8 @@ def ruin(world: World, searcher: Searcher, first: int) -> None:
     count, now = searcher.count, searcher.now
     before = count[I_ABSENT]
     total, num_touched = choose(
-        world, now, searcher.active, count[I_ACTIVE], searcher.marked, searcher.absent, before,
-        searcher.moved, searcher.hit, count[I_TURN], searcher.rng)
+        world, now, searcher.active, count[I_ACTIVE], count[I_CUSTOMERS], searcher.marked,
+        searcher.absent, before, searcher.moved, searcher.hit, count[I_TURN], searcher.rng)
     emptied = False
     for index in range(num_touched):
         touch(searcher, searcher.moved[index])
@@ -236,7 +237,7 @@ def undo(searcher: Searcher) -> None:
         slot = searcher.touched[index]
         if now.route[slot, R_LENGTH] > 0:
             now.used[now.route[slot, R_TYPE]] -= 1
-        copy_route(before, now, slot)
+        copy_route(before, slot, now, slot)
         if now.route[slot, R_LENGTH] > 0:
             now.used[now.route[slot, R_TYPE]] += 1
             locate(now, slot)
@@ -264,7 +265,8 @@ def move_parts(world: World, searcher: Searcher, tails: bool) -> None:
     limit = -value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
     count[I_TOUCHED] = 0
     count[I_ABSENT] = count[I_MISSING]
-    changed = exchange_tails(world, searcher, limit) if tails else resplit(world, searcher)
+    changed = (exchange_tails(world, searcher, limit) if tails
+               else resplit(world, searcher, limit))
     if changed:
         if world.traded and uniform(searcher.rng) < RETYPED:
             improve_types(world, searcher)

@@ -11,7 +11,7 @@ from model.search.layout import (
     CUSTOMER, DONE, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_READY_C, F_READY_D,
     F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, FAR, FLYING, NONE, P_EARLIEST,
     P_LATEST, P_LIMIT, P_SERVICE, S_ARRIVAL, S_BLOCK, S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP,
-    S_HI, S_HOLD, S_KIND, S_LATEST, S_LEAVE, S_LO, S_NODE, S_RELEASE, START, WAITING, World,
+    S_HI, S_HOLD, S_IDLE, S_KIND, S_LATEST, S_LEAVE, S_LO, S_NODE, S_RELEASE, START, WAITING, World,
 )
 
 A_TIME, A_FREE_D, A_FREE_C, A_HI, A_LO, A_DEP, A_OLDEST, A_FLYING = range(8)
@@ -61,24 +61,24 @@ def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
 
 
 @inlined
-def fly_out(world: World, k: int, sortie: IntArray, node: int, acc: IntArray) -> bool:
+def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArray, node: int,
+            acc: IntArray) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
-    flights = world.type[k, TYPE_DRONE_TRAVEL]
-    own = world.type[k, TYPE_DRONE_SERVICE]
-    d = acc[A_FREE_D] + world.type[k, TYPE_LAUNCH]
-    c = acc[A_FREE_C] + world.type[k, TYPE_LAUNCH]
+    own, arrivals = columns[TYPE_DRONE_SERVICE], (F_NODE + len(sortie)) // 2
+    d = acc[A_FREE_D] + columns[TYPE_LAUNCH]
+    c = acc[A_FREE_C] + columns[TYPE_LAUNCH]
     acc[A_FREE_D], acc[A_FREE_C] = d, c
     sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C] = d, c
     sortie[F_TAKEOFF] = max(acc[A_TIME] + d, c)
     for index in range(sortie[F_COUNT]):
         customer = sortie[F_NODE + index]
-        flight = world.leg[flights, node, customer, 0]
-        place = world.place[customer]
+        flight = legs[node, customer, 0]
+        place = places[customer]
         d, c = d + flight, c + flight
         arrival = max(acc[A_TIME] + d, c)
         if flight >= UNREACHABLE or c > place[P_LIMIT]:
             return False
-        sortie[F_NODE + world.max_visits + index] = arrival
+        sortie[arrivals + index] = arrival
         acc[A_HI] = min(acc[A_HI], place[P_LIMIT] - d)
         acc[A_DEP] = min(acc[A_DEP], max(arrival, place[P_LATEST]) - d)
         service = own if own >= 0 else place[P_SERVICE]
@@ -108,11 +108,11 @@ def bound_arrival(sortie: IntArray, d: int, c: int, endurance: int, acc: IntArra
 
 
 @inlined
-def bring_home(world: World, k: int, sortie: IntArray, node: int, acc: IntArray) -> bool:
+def bring_home(legs: IntArray, columns: IntArray, sortie: IntArray, node: int,
+               acc: IntArray) -> bool:
     """Recover a sortie at `node`. In place; False if endurance forbids it."""
-    columns = world.type[k]
     last = sortie[F_NODE + sortie[F_COUNT] - 1]
-    flight = world.leg[columns[TYPE_DRONE_TRAVEL], last, node, 0]
+    flight = legs[last, node, 0]
     back_d, back_c = sortie[F_READY_D] + flight, sortie[F_READY_C] + flight
     begin_d, begin_c = max(acc[A_FREE_D], back_d), max(acc[A_FREE_C], back_c)
     if flight >= UNREACHABLE:
@@ -144,7 +144,7 @@ def is_aboard(sorties: IntArray, index: int, oldest: int) -> bool:
 
 
 @inlined
-def next_operation(world: World, k: int, sorties: IntArray, count: int, p: int, node: int,
+def next_operation(legs: IntArray, sorties: IntArray, count: int, p: int, node: int,
                    acc: IntArray) -> int:
     """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 
@@ -152,7 +152,6 @@ def next_operation(world: World, k: int, sorties: IntArray, count: int, p: int, 
     """
     chosen, earliest = -1, FAR
     free = max(acc[A_TIME] + acc[A_FREE_D], acc[A_FREE_C])
-    flights = world.type[k, TYPE_DRONE_TRAVEL]
     for index in range(acc[A_OLDEST], count):
         if sorties[index, F_LAUNCH] > p:
             break
@@ -160,7 +159,7 @@ def next_operation(world: World, k: int, sorties: IntArray, count: int, p: int, 
         if sorties[index, F_STATE] == FLYING:
             if sorties[index, F_RECOVERY] == p:
                 last = sorties[index, F_NODE + sorties[index, F_COUNT] - 1]
-                flight = world.leg[flights, last, node, 0]
+                flight = legs[last, node, 0]
                 begin = max(2 * free, 2 * (max(acc[A_TIME] + sorties[index, F_READY_D],
                                                sorties[index, F_READY_C]) + flight))
         elif (sorties[index, F_STATE] == WAITING and sorties[index, F_LAUNCH] == p
@@ -172,17 +171,21 @@ def next_operation(world: World, k: int, sorties: IntArray, count: int, p: int, 
 
 
 @inlined
-def operate(world: World, k: int, sorties: IntArray, count: int, p: int, node: int,
-            acc: IntArray) -> bool:
-    """Launch and recover all that stop `p` asks for. In place; False if not allowed."""
+def operate(places: IntArray, legs: IntArray, columns: IntArray, sorties: IntArray, count: int,
+            p: int, node: int, acc: IntArray) -> bool:
+    """Launch and recover all that stop `p` asks for. In place; False if not allowed.
+
+    `legs` (origin, to, 2) are flown; `columns` are those of the vehicle type.
+    """
+    # The whole world would be copied at each call.
     while True:
-        index = next_operation(world, k, sorties, count, p, node, acc)
+        index = next_operation(legs, sorties, count, p, node, acc)
         if index < 0:
             break
         if sorties[index, F_STATE] == FLYING:
-            if not bring_home(world, k, sorties[index], node, acc):
+            if not bring_home(legs, columns, sorties[index], node, acc):
                 return False
-        elif not fly_out(world, k, sorties[index], node, acc):
+        elif not fly_out(places, legs, columns, sorties[index], node, acc):
             return False
     for index in range(acc[A_OLDEST], count):
         if sorties[index, F_LAUNCH] > p:
@@ -195,48 +198,62 @@ def operate(world: World, k: int, sorties: IntArray, count: int, p: int, node: i
 
 
 @inlined
+def note_idle(places: IntArray, stops: IntArray, first: int, last: int) -> None:
+    """Write how long the truck waits for drones in a block, at all stops but the last. In place."""
+    idle = stops[first, S_D]
+    for p in range(first, last + 1):
+        if stops[p, S_KIND] == CUSTOMER:
+            idle -= places[stops[p, S_NODE], P_SERVICE]
+        if p < last:
+            idle -= stops[p, S_GAP]
+    for p in range(first, last):
+        stops[p, S_IDLE] = idle
+    stops[last, S_IDLE] = 0
+
+
+@inlined
 def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntArray, count: int,
                first: int, oldest: int, time: int, acc: IntArray) -> int:
     """Write the block from stop `first`, which the truck reaches at `time`. In place.
 
     `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
     """
+    columns = world.type[k]
+    flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
     d, c = origin(world, k, time)
-    acc[A_TIME], acc[A_HI], acc[A_LO] = time, FAR, NONE
-    acc[A_DEP], acc[A_OLDEST], acc[A_FLYING] = FAR, oldest, 0
-    p = first
+    acc[A_TIME], acc[A_HI], acc[A_LO], acc[A_DEP] = time, FAR, NONE, FAR
+    acc[A_OLDEST], acc[A_FLYING], p = oldest, 0, first
     while True:
         stop = stops[p]
         kind, node = stop[S_KIND], stop[S_NODE]
         stop[S_ARRIVAL], stop[S_BLOCK] = max(time + d, c), first
         if kind == CUSTOMER:
-            limit = world.place[node, P_LIMIT]
-            if c > limit:
+            place = world.place[node]
+            if c > place[P_LIMIT]:
                 return -1
-            acc[A_HI] = min(acc[A_HI], limit - d)
-            acc[A_DEP] = min(acc[A_DEP], max(stop[S_ARRIVAL], world.place[node, P_LATEST]) - d)
+            acc[A_HI] = min(acc[A_HI], place[P_LIMIT] - d)
+            acc[A_DEP] = min(acc[A_DEP], max(stop[S_ARRIVAL], place[P_LATEST]) - d)
         elif kind == START:
             c = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
         acc[A_FREE_D], acc[A_FREE_C] = d, c
         d, c = serve(world, stop, d, c)
-        if not operate(world, k, sorties, count, p, node, acc):
+        if not operate(world.place, flights, columns, sorties, count, p, node, acc):
             return -1
         d, c = max(d, acc[A_FREE_D]), max(c, acc[A_FREE_C])
         stop[S_LEAVE], stop[S_FLYING] = max(time + d, c), acc[A_FLYING]
         stop[S_LATEST], stop[S_EARLY] = FAR, NONE
         if kind == END:
-            if c > world.type[k, TYPE_LATEST]:
+            if c > columns[TYPE_LATEST]:
                 return -1
-            acc[A_HI] = min(acc[A_HI], world.type[k, TYPE_LATEST] - d)
+            acc[A_HI] = min(acc[A_HI], columns[TYPE_LATEST] - d)
         if acc[A_FLYING] == 0:
             break
         if kind == END or p + 1 >= length:
             return -1
-        leg = world.leg[world.type[k, TYPE_TRAVEL], node, stops[p + 1, S_NODE], 0]
-        stop[S_GAP] = leg
-        d, c = travel(world, k, leg, d, c)
+        stop[S_GAP] = world.leg[columns[TYPE_TRAVEL], node, stops[p + 1, S_NODE], 0]
+        d, c = travel(world, k, stop[S_GAP], d, c)
         p += 1
-    stop = stops[first]
-    stop[S_D], stop[S_C], stop[S_HI] = d, c, acc[A_HI]
-    stop[S_LO], stop[S_DEP] = acc[A_LO], acc[A_DEP]
+    stops[first, S_D], stops[first, S_C], stops[first, S_HI] = d, c, acc[A_HI]
+    stops[first, S_LO], stops[first, S_DEP] = acc[A_LO], acc[A_DEP]
+    note_idle(world.place, stops, first, p)
     return p

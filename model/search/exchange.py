@@ -7,14 +7,13 @@ from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_MAX_TRIPS,
     TYPE_TRAVEL,
 )
-from model.search.draw import below
 from model.search.edit import put
 from model.search.layout import (
     CUSTOMER, END, F_LAUNCH, F_RECOVERY, NOWHERE, P_DEMAND, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE,
     S_FLYING, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, W_POSITION, W_SLOT, Fleet,
     World,
 )
-from model.search.refresh import locate, refresh
+from model.search.refresh import any_customer, locate, refresh
 from model.search.rows import copy_row
 from model.search.state import Searcher, keep_aside, touch
 
@@ -186,8 +185,8 @@ def exchange_tails(world: World, searcher: Searcher, limit: float) -> bool:
 
     In place; tells whether routes were changed and keep all rules; if not, they may be broken.
     """
-    now, rng = searcher.now, searcher.rng
-    node = world.num_depots + below(rng, world.num_nodes - world.num_depots)
+    now = searcher.now
+    node = any_customer(world, now, searcher.rng)
     a, p = now.where[node, W_SLOT], now.where[node, W_POSITION]
     if a < 0 or p < 0 or now.stop[a, p, S_FLYING] > 0:
         return False

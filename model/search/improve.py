@@ -4,7 +4,7 @@ import math
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -13,7 +13,10 @@ from model.instance import TYPE_DRONES, Instance
 from model.problem import Problem
 from model.search.anneal import anneal, begin_anew
 from model.search.layout import World
-from model.search.state import I_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher, follow
+from model.search.sharing import Crew
+from model.search.state import (
+    I_CUSTOMERS, I_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher,
+)
 from model.search.translate import first_plan, leg_cost, make_searcher, read_plan
 from model.search.world import ALL_MOVES, Moves, make_world
 from model.solution import Solution
@@ -21,14 +24,33 @@ from model.solution import Solution
 ROUNDS = 40
 """How often threads share their routes."""
 
+SHORTEST_ROUND = 0.005
+"""Seconds that threads search for at least before they share their routes."""
+
 SLICE = 0.003
 """Seconds between two looks at the clock."""
 
 HOT, COLD = 1.0, 0.1
 """First temperature by what a customer costs, last by what a leg between customers does."""
 
+FULL_HEAT = 2600
+"""Turns for each customer from which on the first temperature is reached; less, by their root."""
+
+LEAST_HEAT = 0.3
+"""Share of the first temperature that is reached even in the shortest search."""
+
+LEAST_HOT = 1.0
+"""The first temperature is at least this by a leg."""
+
 HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
 """Both by a leg where trips are split between truck and drone, which many small changes do."""
+
+HOT_FROM_TRUCKS = 0.2
+"""The same where the search began with trucks alone."""
+
+BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
+"""Number of customers from which on a plan with single drones begins with one by trucks alone, and
+the share of the time that this takes."""
 
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
@@ -82,13 +104,32 @@ class _Limits:
         """Return after how many turns and when the round ends that begins after `turns`."""
         if self.turns is not None:
             return min(self.turns, turns + math.ceil(self.turns / ROUNDS)), self.deadline
-        now = time.perf_counter()
-        return math.inf, min(self.deadline, now + (self.deadline - self.began) / ROUNDS)
+        length = max(SHORTEST_ROUND, (self.deadline - self.began) / ROUNDS)
+        return math.inf, min(self.deadline, time.perf_counter() + length)
 
     def over(self, turns: int) -> bool:
         """Tell whether the search ends after `turns`."""
         return (self.should_stop() or time.perf_counter() >= self.deadline
                 or (self.turns is not None and turns >= self.turns))
+
+
+@dataclass(frozen=True)
+class _Costs:
+    """What the temperature goes by."""
+
+    first: float  # of the routes that the search began with
+    customer: float  # of a customer served, on average
+    leg: float  # between two customers
+    from_trucks: bool  # they were made for trucks alone
+
+    @classmethod
+    def of(cls, world: World, searcher: Searcher, from_trucks: bool) -> "_Costs":
+        """Measure the routes as they are."""
+        first = float(searcher.value[V_COST])
+        missing = int(searcher.count[I_MISSING])
+        served = max(1, int(searcher.count[I_CUSTOMERS]) - missing)
+        return cls(first, (first - missing * world.unassigned_cost) / served,
+                   leg_cost(world, searcher), from_trucks)
 
 
 @dataclass
@@ -99,19 +140,12 @@ class _Worker:
     searcher: Searcher
     config: SearchConfig
     limits: _Limits
-    fresh: bool  # there was no plan to begin with
+    costs: _Costs
     turns: int = 0
     pace: float = 0.0  # seconds a turn takes
-    hot: float = 0.0  # first temperature
-    cold: float = 0.0  # last temperature
-    first_cost: float = 0.0
 
     def run(self) -> None:
         """Search for one round."""
-        if self.hot == 0.0:
-            begin_anew(self.world, self.searcher, self.fresh)
-            self.first_cost = float(self.searcher.value[V_COST])
-            self._set_heat()
         most, end = self.limits.round_end(self.turns)
         while self.turns < most and not self.limits.should_stop():
             now = time.perf_counter()
@@ -119,15 +153,26 @@ class _Worker:
                 return
             self._anneal(int(min(most - self.turns, self._slice(end - now))))
 
-    def _set_heat(self) -> None:
-        leg = leg_cost(self.world, self.searcher)
-        missing = float(self.searcher.count[I_MISSING]) * self.world.unassigned_cost
-        customers = self.world.num_nodes - self.world.num_depots
-        hot, cold = max(HOT * (self.first_cost - missing) / max(1, customers) / leg, 1.0), COLD
+    def _heat(self) -> tuple[float, float]:
+        """Return the first and the last temperature."""
+        costs = self.costs
         if (self.world.type[:, TYPE_DRONES] == 1).any():
             hot, cold = HOT_WITH_DRONES, COLD_WITH_DRONES
-        self.hot = leg * (self.config.hot or hot)
-        self.cold = leg * (self.config.cold or cold)
+            if costs.from_trucks:
+                hot = HOT_FROM_TRUCKS
+        else:
+            hot, cold = max(LEAST_HOT, self._haste() * HOT * costs.customer / costs.leg), COLD
+        return costs.leg * (self.config.hot or hot), costs.leg * (self.config.cold or cold)
+
+    def _haste(self) -> float:
+        """Return the share of the first temperature that there is time for."""
+        if self.world.num_types > 1:
+            return 1.0  # the start by insertion is too far from good
+        turns: float = self.limits.turns or 0
+        if self.limits.turns is None and self.pace > 0.0:
+            turns = (self.limits.deadline - self.limits.began) / self.pace
+        share = turns / max(1, int(self.searcher.count[I_CUSTOMERS])) / FULL_HEAT
+        return min(1.0, max(LEAST_HEAT, math.sqrt(share)))
 
     def _slice(self, seconds: float) -> float:
         if self.limits.turns is not None and self.limits.deadline == math.inf:
@@ -137,16 +182,16 @@ class _Worker:
         return max(1.0, min(SLICE, seconds) / self.pace)
 
     def _anneal(self, turns: int) -> None:
-        ratio = self.cold / self.hot
         value = self.searcher.value
         if self.limits.turns is None:
-            share = self.limits.share()
-            value[V_TEMPERATURE] = self.hot * ratio**share
+            hot, cold = self._heat()
+            value[V_TEMPERATURE] = hot * (cold / hot) ** self.limits.share()
             value[V_COOLING] = 1.0
         elif self.turns == 0:
             # By turns alone, so that the clock changes nothing.
-            value[V_TEMPERATURE] = self.hot
-            value[V_COOLING] = ratio ** (1 / self.limits.turns)
+            hot, cold = self._heat()
+            value[V_TEMPERATURE] = hot
+            value[V_COOLING] = (cold / hot) ** (1 / self.limits.turns)
         began = time.perf_counter()
         anneal(self.world, self.searcher, turns)
         self.turns += turns
@@ -190,31 +235,43 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     limits = _Limits(time.perf_counter(), math.inf if deadline is None else deadline,
                      None if config.turns is None else config.turns // config.threads, should_stop)
     world = make_world(problem, instance, config.moves)
+    by_truck = (not solution.routes and world.single_drones
+                and problem.num_customers >= BY_TRUCK_FROM)
+    if by_truck:
+        solution = _plan_by_truck(problem, instance, config, limits)
     fresh = not solution.routes
     if fresh:
         solution = first_plan(problem, world)
-    seeds = np.random.SeedSequence(config.seed).spawn(config.threads)
-    workers = [_Worker(world, make_searcher(problem, world, solution, seed), config, limits,
-                       fresh)
-               for seed in seeds]
+    seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
+    whole = make_searcher(problem, world, solution, seeds[0])
+    begin_anew(world, whole, fresh)
+    costs = _Costs.of(world, whole, by_truck)
+    crew = Crew(world, problem.coordinates, whole, seeds[1:])
+    workers = [_Worker(world, whole, config, limits, costs) for _ in range(config.threads)]
     with ThreadPoolExecutor(config.threads) as pool:
         while True:
+            for worker, part in zip(workers, crew.spread(), strict=True):
+                worker.searcher = part
             list(pool.map(_Worker.run, workers))
-            best = _share(workers)
-            on_progress(Progress(float(best.value[V_BEST]), sum(w.turns for w in workers),
-                                 partial(read_plan, world, best)))
+            crew.gather()
+            on_progress(Progress(float(whole.value[V_BEST]), sum(w.turns for w in workers),
+                                 partial(read_plan, world, whole)))
             if limits.over(workers[0].turns):
                 break
-    return Improved(read_plan(world, best), float(best.value[V_BEST]),
-                    min(worker.first_cost for worker in workers),
+    return Improved(read_plan(world, whole), float(whole.value[V_BEST]), costs.first,
                     sum(worker.turns for worker in workers))
 
 
-def _share(workers: list[_Worker]) -> Searcher:
-    """Let all threads go on from the cheapest routes; return that with the best. In place."""
-    searchers = [worker.searcher for worker in workers]
-    leader = min(searchers, key=lambda searcher: float(searcher.value[V_COST]))
-    for searcher in searchers:
-        if searcher is not leader:
-            follow(searcher, leader)
-    return min(searchers, key=lambda searcher: float(searcher.value[V_BEST]))
+def _plan_by_truck(problem: Problem, instance: Instance, config: SearchConfig,
+                   limits: _Limits) -> Solution:
+    """Return a plan without flights, to which the drones' then are added.
+
+    The order of the customers is found sooner so; whom no truck can serve is left out.
+    """
+    turns = None if config.turns is None else math.ceil(config.turns * BY_TRUCK_SHARE)
+    deadline = limits.began + (limits.deadline - limits.began) * BY_TRUCK_SHARE
+    by_truck = replace(config, turns=turns,
+                       moves=replace(config.moves, loops=False, crossings=False))
+    found = improve(problem, instance, Solution((), ()), by_truck,
+                    None if math.isinf(deadline) else deadline, limits.should_stop)
+    return found.solution

@@ -2,9 +2,9 @@
 
 from model.compiled import inlined
 from model.instance import (
-    MAX_DIMENSIONS, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT,
-    TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_ENDURANCE, TYPE_MAX_TRIPS,
-    TYPE_PAYLOAD, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+    MAX_DIMENSIONS, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES,
+    TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_MAX_TRIPS,
+    TYPE_PAYLOAD, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
 )
 from model.problem import UNREACHABLE, FloatArray, IntArray, UIntArray
 from model.search.draw import uniform
@@ -14,13 +14,18 @@ from model.search.edit import (
 )
 from model.search.evaluate import INFEASIBLE, price_move
 from model.search.layout import (
-    CUSTOMER, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_SIMPLE, MODE_TIMED, NOWHERE,
-    P_DEMAND, P_EARLIEST, P_LIMIT, P_SERVICE, R_CUM, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE,
-    R_WORKING, S_ARRIVAL, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START,
-    T_FIRST, T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_TIMED, NOWHERE, P_DEMAND, P_EARLIEST,
+    P_LIMIT, P_SERVICE, R_CUM, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, S_ARRIVAL,
+    S_FLYING, S_GAP, S_IDLE, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, T_FIRST,
+    T_LAST, W_SLOT, Fleet, World,
 )
+from model.search.refresh import stop_beside
 from model.search.rows import copy_row
-from model.search.scan import BLINK, fits, scan_beside, scan_simple, scan_stops
+from model.search.scan import fits, is_simple, scan_beside, scan_simple
+from model.search.splitting import more_trips_fit, part_fits
+
+MORE_TRIPS = 0.2
+"""How often a customer who can go on a trip as it is may begin or split one."""
 
 MAX_SPAN = 8
 """How many stops after its launch a sortie is recovered at most."""
@@ -38,9 +43,10 @@ def next_stop(world: World, k: int, back: IntArray, leg: IntArray, stops: IntArr
     for p in range(first, last + 1):
         here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
         cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate
-        if timed and stops[p, S_FLYING] == 0:
+        if timed:
+            # While drones fly, the truck may have time before they are back.
             longer = back[here, 0] + leg[there, 0] + place[P_SERVICE] - stops[p, S_GAP]
-            cost += max(0, longer - spare) * per_time
+            cost += max(0, longer - spare - stops[p, S_IDLE]) * per_time
         if cost >= best:
             continue
         arrival = stops[p, S_LEAVE] + back[here, 0]
@@ -51,24 +57,38 @@ def next_stop(world: World, k: int, back: IntArray, leg: IntArray, stops: IntArr
 
 
 @inlined
+def take_if_cheaper(world: World, fleet: Fleet, node: int, best: float, move: IntArray,
+                    trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
+    """Let `move` be the insertion in `trial` if that costs less than `best`, but for a blink.
+
+    In place; returns the best cost so far.
+    """
+    cost = price_move(world, fleet, trial, node, acc)
+    if cost < best and uniform(rng) >= world.blink:
+        best = cost
+        copy_row(trial, move)
+    return best
+
+
+@inlined
+def idle_time(route: IntArray) -> int:
+    """Return how much of the time that a route works is waiting, which a change may use up."""
+    return route[R_WORKING] + route[R_OFFSET] - route[R_CUM]
+
+
+@inlined
 def try_stops(world: World, fleet: Fleet, slot: int, first: int, last: int, node: int,
               best: float, move: IntArray, trial: IntArray, rng: UIntArray,
               acc: IntArray) -> float:
-    """Try a customer behind each stop from `first` to `last`. Returns the best cost so far.
+    """Try a customer behind each stop from `first` to `last` where more than distance counts.
 
-    In place: `move` takes the insertion if it is the best.
+    In place: `move` takes the insertion if it is the best. Returns the best cost so far.
     """
     k = fleet.route[slot, R_TYPE]
     m = world.type[k, TYPE_TRAVEL]
     back, leg, stops = world.back[m, node], world.leg[m, node], fleet.stop[slot]
     place = world.place[node]
-    if world.mode[k] & MODE_SIMPLE and fleet.route[slot, R_SORTIES] == 0:
-        best, p = scan_stops(back, leg, stops, first, last, place, world.rate[k, RATE_KM], best,
-                             rng)
-        if p >= 0:
-            move[M_KIND], move[M_SLOT], move[M_FIRST] = AT_STOP, slot, p
-        return best
-    spare = fleet.route[slot, R_WORKING] - fleet.route[slot, R_CUM]
+    spare = idle_time(fleet.route[slot])
     trial[M_KIND], trial[M_SLOT] = AT_STOP, slot
     p = first
     while True:
@@ -76,10 +96,7 @@ def try_stops(world: World, fleet: Fleet, slot: int, first: int, last: int, node
         if p < 0:
             return best
         trial[M_FIRST] = p
-        cost = price_move(world, fleet, trial, node, acc)
-        if cost < best and uniform(rng) >= BLINK:
-            best = cost
-            copy_row(trial, move)
+        best = take_if_cheaper(world, fleet, node, best, move, trial, rng, acc)
         p += 1
 
 
@@ -128,22 +145,25 @@ def try_sorties(world: World, fleet: Fleet, slot: int, launch: int, node: int, b
     trial[M_KIND], trial[M_SLOT], trial[M_FIRST] = BY_SORTIE, slot, launch
     first = launch if world.loops else launch + 1
     last = min(last, launch + MAX_SPAN) if world.crossings else launch
+    begun = (stops[launch, S_ARRIVAL] + columns[TYPE_RECOVERY] - idle_time(fleet.route[slot])
+             + (columns[TYPE_LAUNCH] if launch > 0 else 0))
+    per_time, per_distance = world.rate[k, RATE_HOUR], world.rate[k, RATE_DRONE_KM]
     for recovery in range(first, last + 1):
         home = world.leg[flights, node, stops[recovery, S_NODE]]
         away = stops[recovery, S_ARRIVAL] - stops[launch, S_LEAVE]
         if columns[TYPE_WAITING_COUNTS] and away > columns[TYPE_ENDURANCE]:
             break
-        if (home[0] >= UNREACHABLE or out[0] + service + home[0] > columns[TYPE_ENDURANCE]
-                or (out[1] + home[1]) * world.rate[k, RATE_DRONE_KM] >= best):
+        flight = out[0] + service + home[0]
+        # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
+        longer = max(0, begun + flight - stops[recovery, S_LEAVE])
+        if (home[0] >= UNREACHABLE or flight > columns[TYPE_ENDURANCE]
+                or (out[1] + home[1]) * per_distance + longer * per_time >= best):
             continue
         drone = free_drone(world, fleet, slot, launch, recovery)
         if drone < 0:
             continue
         trial[M_LAST], trial[M_DRONE] = recovery, drone
-        cost = price_move(world, fleet, trial, node, acc)
-        if cost < best and uniform(rng) >= BLINK:
-            best = cost
-            copy_row(trial, move)
+        best = take_if_cheaper(world, fleet, node, best, move, trial, rng, acc)
     return best
 
 
@@ -174,31 +194,8 @@ def try_joining(world: World, fleet: Fleet, slot: int, node: int, best: float, m
         for place in range(sorties[s, F_COUNT] + 1):
             trial[M_KIND], trial[M_SLOT], trial[M_FIRST] = ON_SORTIE, slot, place
             trial[M_SORTIE] = s
-            cost = price_move(world, fleet, trial, node, acc)
-            if cost < best and uniform(rng) >= BLINK:
-                best = cost
-                copy_row(trial, move)
+            best = take_if_cheaper(world, fleet, node, best, move, trial, rng, acc)
     return best
-
-
-@inlined
-def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: bool) -> bool:
-    """Tell whether a customer's demand fits on top of a trip's up to stop `p`, or of the rest."""
-    stops, sorties = fleet.stop[slot], fleet.sortie[slot]
-    trip = fleet.trip[slot, stops[p, S_TRIP]]
-    first, last = (trip[T_FIRST], p) if front else (p + 1, trip[T_LAST])
-    for dimension in range(MAX_DIMENSIONS):
-        load = world.place[node, P_DEMAND + dimension]
-        for q in range(first, last + 1):
-            if stops[q, S_KIND] == CUSTOMER:
-                load += world.place[stops[q, S_NODE], P_DEMAND + dimension]
-        for s in range(fleet.route[slot, R_SORTIES]):
-            if first <= sorties[s, F_LAUNCH] <= last:
-                for visit in range(sorties[s, F_COUNT]):
-                    load += world.place[sorties[s, F_NODE + visit], P_DEMAND + dimension]
-        if load > world.type[fleet.route[slot, R_TYPE], TYPE_CAPACITY + dimension]:
-            return False
-    return True
 
 
 @inlined
@@ -216,10 +213,7 @@ def try_flight_trips(world: World, fleet: Fleet, slot: int, node: int, best: flo
     for p in range(-1, route[R_LENGTH]):
         if p < 0 or stops[p, S_KIND] == END:
             trial[M_FIRST] = p
-            cost = price_move(world, fleet, trial, node, acc)
-            if cost < best and uniform(rng) >= BLINK:
-                best = cost
-                copy_row(trial, move)
+            best = take_if_cheaper(world, fleet, node, best, move, trial, rng, acc)
     return best
 
 
@@ -232,6 +226,7 @@ def try_trips(world: World, fleet: Fleet, slot: int, node: int, best: float, mov
     m, depot = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_DEPOT]
     rate = world.rate[k, RATE_KM]
     out, home = world.back[m, node, depot, 1], world.leg[m, node, depot, 1]
+    simple = is_simple(world, fleet, slot)
     trial[M_SLOT] = slot
     for p in range(-1, route[R_LENGTH]):
         kind = NEW_TRIP
@@ -253,9 +248,10 @@ def try_trips(world: World, fleet: Fleet, slot: int, node: int, best: float, mov
         if bound >= best or (p >= 0 and stops[p, S_LEAVE] > world.place[node, P_LIMIT]):
             continue
         trial[M_KIND], trial[M_FIRST] = kind, p
-        cost = price_move(world, fleet, trial, node, acc)
-        if cost < best and uniform(rng) >= BLINK:
-            best = cost
+        if not simple:
+            best = take_if_cheaper(world, fleet, node, best, move, trial, rng, acc)
+        elif more_trips_fit(world, fleet, slot, p, node, kind) and uniform(rng) >= world.blink:
+            best = bound
             copy_row(trial, move)
     return best
 
@@ -269,7 +265,7 @@ def try_new_route(world: World, fleet: Fleet, alone: FloatArray, node: int, best
             continue
         for by_drone in range(2 if world.loops else 1):
             cost = alone[k, by_drone, node]
-            if cost < best and uniform(rng) >= BLINK:
+            if cost < best and uniform(rng) >= world.blink:
                 best = cost
                 move[M_KIND], move[M_TYPE] = NEW_ROUTE + by_drone, k
     return best
@@ -281,7 +277,7 @@ def try_trip(world: World, fleet: Fleet, slot: int, index: int, node: int, best:
     """Try a customer on a trip that `scan_simple` left out, or by a sortie. As `try_stops`."""
     k = fleet.route[slot, R_TYPE]
     first, last = fleet.trip[slot, index, T_FIRST], fleet.trip[slot, index, T_LAST]
-    simple = world.mode[k] & MODE_SIMPLE and fleet.route[slot, R_SORTIES] == 0
+    simple = is_simple(world, fleet, slot)
     if world.can[k, 0, node] and not simple:
         best = try_stops(world, fleet, slot, first, last - 1, node, best, move, trial, rng, acc)
     if world.can[k, 1, node]:
@@ -302,34 +298,26 @@ def find_place(world: World, fleet: Fleet, alone: FloatArray, active: IntArray, 
     best = scan_simple(world, fleet, active, num_active, node, best, enlarge, move, rng)
     if not world.general:
         return best
+    more_trips = best == INFEASIBLE or uniform(rng) < MORE_TRIPS
     for index in range(num_active):
         slot = active[index]
         k = fleet.route[slot, R_TYPE]
         by_truck, by_drone = world.can[k, 0, node], world.can[k, 1, node]
         if not (by_truck or by_drone):
             continue
-        simple = world.mode[k] & MODE_SIMPLE and fleet.route[slot, R_SORTIES] == 0
+        simple = is_simple(world, fleet, slot)
         if by_drone or not simple:
             for trip in range(fleet.route[slot, R_TRIPS]):
                 if fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
                     best = try_trip(world, fleet, slot, trip, node, best, move, trial, rng, acc)
         if world.visits[k] > 1 and by_drone:
             best = try_joining(world, fleet, slot, node, best, move, trial, rng, acc)
-        if fleet.route[slot, R_TRIPS] < world.type[k, TYPE_MAX_TRIPS]:
+        if more_trips and fleet.route[slot, R_TRIPS] < world.type[k, TYPE_MAX_TRIPS]:
             if by_truck:
                 best = try_trips(world, fleet, slot, node, best, move, trial, rng, acc)
             if by_drone:
                 best = try_flight_trips(world, fleet, slot, node, best, move, trial, rng, acc)
     return best
-
-
-@inlined
-def stop_beside(fleet: Fleet, node: int) -> int:
-    """Return the stop at a customer, or the one from where a drone flies there."""
-    p = fleet.where[node, W_POSITION]
-    if p < 0:
-        p = fleet.sortie[fleet.where[node, W_SLOT], fleet.where[node, W_SORTIE], F_LAUNCH]
-    return p
 
 
 @inlined
@@ -347,7 +335,7 @@ def find_beside(world: World, fleet: Fleet, alone: FloatArray, node: int, enlarg
             continue
         k = fleet.route[slot, R_TYPE]
         by_truck, by_drone = world.can[k, 0, node], world.can[k, 1, node]
-        simple = world.mode[k] & MODE_SIMPLE and fleet.route[slot, R_SORTIES] == 0
+        simple = is_simple(world, fleet, slot)
         if not (by_drone or (by_truck and not simple)):
             continue
         p = stop_beside(fleet, other)

@@ -3,7 +3,7 @@
 A route is a row of stops: each trip begins with a START at the depot and ends with an END there,
 customers of the truck between. Sorties name the stops where they begin and end by position in the
 route and are sorted by them. All else in the arrays follows from these and is written by
-`routes.refresh`.
+`refresh.refresh`.
 
 Times inside a block of stops hang on the truck's arrival `t` as `max(t + d, c)`: `d` is the longest
 path of durations from there, `c` what windows and releases hold up. Such pairs add up and take
@@ -24,8 +24,8 @@ FAR = 2**58
 
 (S_NODE, S_KIND, S_RELEASE, S_LEAVE, S_LATEST, S_LEG, S_GAP, S_FLYING, S_TRIP, S_EARLY, S_REST,
  S_END, S_CUM, S_DEPART, S_ARRIVAL, S_BEFORE, S_BLOCK, S_LAST, S_D, S_C, S_HI, S_LO, S_DEP,
- S_HOLD) = range(24)
-STOP_COLUMNS = 24
+ S_HOLD, S_IDLE) = range(25)
+STOP_COLUMNS = 25
 SEQUENCE_COLUMNS = 3
 """The first columns of a stop, which are chosen; the others follow."""
 LEAN_COLUMNS = 9
@@ -40,19 +40,17 @@ WAITING, FLYING, DONE = range(3)
 T_FIRST, T_LAST, T_RELEASE, T_DISTANCE, T_LOAD = range(5)
 TRIP_COLUMNS = 8
 
-(R_TYPE, R_LENGTH, R_TRIPS, R_SORTIES, R_END, R_CUM, R_WORKING, R_AIR, R_OFFSET,
- R_STAMP) = range(10)
-ROUTE_COLUMNS = 10
+(R_TYPE, R_LENGTH, R_TRIPS, R_SORTIES, R_END, R_CUM, R_WORKING, R_OFFSET, R_STAMP) = range(9)
+ROUTE_COLUMNS = 9
 
 W_SLOT, W_POSITION, W_SORTIE = range(3)
-NOWHERE = -1
+NOWHERE, ELSEWHERE = -1, -2
+"""Slot of a customer who is left out; of one whom another thread deals with."""
 
-MODE_TIMED, MODE_PRICED, MODE_SETTLED, MODE_PROFILE, MODE_RELEASE, MODE_SIMPLE, MODE_LEAN = (
-    1, 2, 4, 8, 16, 32, 64)
+MODE_TIMED, MODE_PRICED, MODE_SETTLED, MODE_PROFILE, MODE_SIMPLE, MODE_LEAN = 1, 2, 4, 8, 16, 32
 """Flags of a type: working time costs or is limited; lateness or waiting cost, or speed changes;
-trips must be held back to know the cost; speed changes; parcels are released late; an insertion's
-cost is that of its distance; as that, with one trip and no drones."""
-
+trips must be held back to know the cost; speed changes; an insertion's cost is that of its distance
+alone; as that, with one trip of any distance, no releases and no drones."""
 
 
 class World(NamedTuple):
@@ -70,6 +68,7 @@ class World(NamedTuple):
     traded: bool  # vehicles may drive each other's routes
     scan_all: bool  # else insertion looks beside neighbours only
     must_serve: bool  # leaving a customer out costs more than any route for one
+    blink: float  # how often a better place for a customer is overlooked
     unassigned_cost: float
     place: IntArray  # (node, 8) P_ columns, demand in three dimensions
     price: FloatArray  # (node, 2) cost per ms of lateness and of waiting

@@ -2,17 +2,21 @@
 
 from model.compiled import inlined
 from model.instance import TYPE_MAX_WORKING, TYPE_PROFILE
-from model.problem import FULL_SPEED, IntArray
+from model.problem import FULL_SPEED, IntArray, UIntArray
+from model.search.draw import below
 from model.search.layout import (
     CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, FAR, MODE_LEAN, MODE_PROFILE, MODE_SETTLED,
     NONE, P_LATEST, P_SERVICE, R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE,
     R_WORKING, S_ARRIVAL, S_BEFORE, S_DEP, S_GAP, S_HOLD, S_KIND, S_LAST, S_LEAVE, S_NODE,
-    S_RELEASE, START, T_FIRST, W_POSITION, W_SLOT, W_SORTIE, NOWHERE, Fleet, World,
+    S_RELEASE, START, T_FIRST, W_POSITION, W_SLOT, W_SORTIE, ELSEWHERE, NOWHERE, Fleet, World,
 )
 from model.search.lean import refresh_lean
 from model.search.routes import (
     drive_forward, first_departure, load_trips, look_back, open_up, price_route,
 )
+
+MOST_DRAWS = 64
+"""Draws after which a search for one of few customers ends."""
 
 
 @inlined
@@ -148,13 +152,36 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
     fleet.cost[slot] = price_route(world, route, stops, trips, sorties)
     if mode & MODE_SETTLED:
         clear_holds(route, stops, trips)
-        load_trips(world, route, stops, trips, sorties)
         drive_forward(world, route, stops, sorties, acc)
     if mode & MODE_PROFILE:
         open_up(route, stops)
     else:
         look_back(world, route, stops)
     return True
+
+
+@inlined
+def any_customer(world: World, fleet: Fleet, rng: UIntArray) -> int:
+    """Return a random customer whom this thread deals with, served or left out.
+
+    Whoever comes last if this thread deals with too few to be found.
+    """
+    number = world.num_nodes - world.num_depots
+    node = world.num_depots
+    for _ in range(MOST_DRAWS):
+        node = world.num_depots + below(rng, number)
+        if fleet.where[node, W_SLOT] != ELSEWHERE:
+            break
+    return node
+
+
+@inlined
+def stop_beside(fleet: Fleet, node: int) -> int:
+    """Return the stop at a customer, or the one from where a drone flies there."""
+    p = fleet.where[node, W_POSITION]
+    if p < 0:
+        p = fleet.sortie[fleet.where[node, W_SLOT], fleet.where[node, W_SORTIE], F_LAUNCH]
+    return p
 
 
 @inlined

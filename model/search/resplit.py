@@ -21,10 +21,11 @@ from model.search.draw import below, uniform
 from model.search.edit import add_sortie, put
 from model.search.exchange import append
 from model.search.layout import (
-    CUSTOMER, END, F_COUNT, F_LAUNCH, F_NODE, NOWHERE, P_SERVICE, R_LENGTH, R_SORTIES, R_TYPE,
-    S_NODE, S_TRIP, START, T_FIRST, T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, P_SERVICE, R_CUM,
+    R_LENGTH, R_OFFSET, R_SORTIES, R_TYPE, R_WORKING, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST,
+    W_SLOT, Fleet, World,
 )
-from model.search.refresh import locate, refresh
+from model.search.refresh import any_customer, locate, refresh, stop_beside
 from model.search.state import Searcher, keep_aside, touch
 
 L_NODE, L_DRIVE, L_DISTANCE, L_GROUNDED, L_BEFORE, L_FLIGHT = range(6)
@@ -36,54 +37,107 @@ NO_FLIGHT = 0
 LONGEST_OPERATION = 12
 """Stops from the beginning of an operation to its end at most."""
 
+WINDOW = 12
+"""Stops before, and behind, a random one that are planned anew."""
+
+SAME = 1e-12
+"""Costs that differ by a smaller share are the same."""
+
 SWAP, MOVE, REVERSE, KEEP = range(4)
+KINDS = (SWAP, SWAP, MOVE, MOVE, MOVE, REVERSE, REVERSE, KEEP)
+"""Changes of the order, those that pay more often."""
+
+NEIGHBOURLY, NEIGHBOURS = 0.8, 8
+"""How often a place is brought beside one of so many near neighbours, not just anywhere."""
 
 
 @inlined
-def line_up(fleet: Fleet, slot: int, index: int, line: IntArray) -> int:
-    """Write a trip's places in the order they are left for; return how many.
+def flown_over(fleet: Fleet, slot: int, p: int) -> bool:
+    """Tell whether a drone is launched before stop `p` and recovered behind it."""
+    over = False
+    for s in range(fleet.route[slot, R_SORTIES]):
+        over = over or fleet.sortie[slot, s, F_LAUNCH] < p < fleet.sortie[slot, s, F_RECOVERY]
+    return over
 
-    0 if a sortie serves several customers.
+
+@inlined
+def window(fleet: Fleet, slot: int, p: int) -> tuple[int, int]:
+    """Return the stops around `p` between which all that is launched is recovered."""
+    trip = fleet.trip[slot, fleet.stop[slot, p, S_TRIP]]
+    first, last = max(trip[T_FIRST], p - WINDOW), min(trip[T_LAST], p + WINDOW)
+    while flown_over(fleet, slot, first):
+        first -= 1
+    while flown_over(fleet, slot, last):
+        last += 1
+    return first, last
+
+
+@inlined
+def line_up(fleet: Fleet, slot: int, first: int, last: int, line: IntArray) -> tuple[int, bool]:
+    """Write the places of stops `first` to `last` in the order they are left for.
+
+    And the operations as they are. Returns how many places there are, 0 if a sortie serves several
+    customers, and whether all that the drone does is such operations.
     """
     stops, sorties = fleet.stop[slot], fleet.sortie[slot]
-    first, last = fleet.trip[slot, index, T_FIRST], fleet.trip[slot, index, T_LAST]
-    length = 0
+    length = begin = s = 0
+    landing, flown, exact = first, NO_FLIGHT, True
+    while s < fleet.route[slot, R_SORTIES] and sorties[s, F_LAUNCH] < first:
+        s += 1
     for p in range(first, last + 1):
         line[length, L_NODE] = stops[p, S_NODE]
+        if p == landing:
+            line[length, L_BEFORE], line[length, L_FLIGHT] = begin, flown
+            begin, flown, landing = length, NO_FLIGHT, p + 1
         length += 1
-        for s in range(fleet.route[slot, R_SORTIES]):
-            if sorties[s, F_LAUNCH] == p:
-                if sorties[s, F_COUNT] > 1:
-                    return 0
-                line[length, L_NODE] = sorties[s, F_NODE]
-                length += 1
-    return length
+        while p < last and s < fleet.route[slot, R_SORTIES] and sorties[s, F_LAUNCH] == p:
+            if sorties[s, F_COUNT] > 1:
+                return 0, False
+            if sorties[s, F_RECOVERY] > p:
+                exact = exact and length == begin + 1
+                flown, landing = length, sorties[s, F_RECOVERY]
+            line[length, L_NODE] = sorties[s, F_NODE]
+            length += 1
+            s += 1
+    return length, exact
 
 
 @inlined
-def shuffle(searcher: Searcher, length: int) -> None:
+def place_near(world: World, searcher: Searcher, count: int, one: int) -> int:
+    """Return a random place in the line, most often that of a near neighbour of place `one`."""
+    line, rng = searcher.line, searcher.rng
+    if uniform(rng) < NEIGHBOURLY:
+        wanted = world.near[line[one, L_NODE], below(rng, min(NEIGHBOURS, world.near.shape[1]))]
+        for place in range(1, count + 1):
+            if line[place, L_NODE] == wanted:
+                return place
+    return 1 + below(rng, count)
+
+
+@inlined
+def shuffle(world: World, searcher: Searcher, length: int) -> None:
     """Change the order of the customers in the line a little. In place."""
     line, rng = searcher.line, searcher.rng
     count = length - 2
-    kind = below(rng, 4)
-    if kind == KEEP or count < 2:
-        return
+    kind = KINDS[below(rng, len(KINDS))]
     one = 1 + below(rng, count)
-    other = 1 + below(rng, count)
-    if count > LONGEST_OPERATION and uniform(rng) < 0.8:
-        other = max(1, min(count, one + below(rng, 2 * LONGEST_OPERATION + 1) - LONGEST_OPERATION))
-    if kind == SWAP:
-        line[one, L_NODE], line[other, L_NODE] = line[other, L_NODE], line[one, L_NODE]
-    elif kind == MOVE:
+    other = place_near(world, searcher, count, one)
+    if kind == KEEP or other == one:
+        return
+    if kind == MOVE:
         node, step = line[one, L_NODE], 1 if other > one else -1
         for position in range(one, other, step):
             line[position, L_NODE] = line[position + step, L_NODE]
         line[other, L_NODE] = node
-    else:
-        low, high = min(one, other), max(one, other)
-        while low < high:
-            line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
-            low, high = low + 1, high - 1
+        return
+    # Either way the neighbour comes beside place `one`, or the other way round.
+    low, high = (one + 1, other) if other > one else (other, one - 1)
+    if kind == SWAP:
+        line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
+        return
+    while low < high:
+        line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
+        low, high = low + 1, high - 1
 
 
 @inlined
@@ -94,8 +148,7 @@ def measure(world: World, k: int, line: IntArray, length: int) -> None:
     for j in range(1, length):
         before, node = line[j - 1, L_NODE], line[j, L_NODE]
         leg = legs[before, node]
-        service = world.place[before, P_SERVICE] if j > 1 else 0
-        line[j, L_DRIVE] = line[j - 1, L_DRIVE] + service + leg[0]
+        line[j, L_DRIVE] = line[j - 1, L_DRIVE] + world.place[before, P_SERVICE] + leg[0]
         line[j, L_DISTANCE] = line[j - 1, L_DISTANCE] + leg[1]
         line[j, L_GROUNDED] = line[j - 1, L_GROUNDED]
         if j < length - 1 and not world.can[k, 0, node]:
@@ -103,8 +156,7 @@ def measure(world: World, k: int, line: IntArray, length: int) -> None:
 
 
 @inlined
-def operation_cost(world: World, k: int, line: IntArray, length: int, i: int, j: int,
-                   flown: int) -> float:
+def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: int) -> float:
     """Return what it costs to go from place `i` to `j` while the drone serves place `flown`."""
     columns, rate = world.type[k], world.rate[k]
     node, customer, to = line[i, L_NODE], line[flown, L_NODE], line[j, L_NODE]
@@ -119,7 +171,7 @@ def operation_cost(world: World, k: int, line: IntArray, length: int, i: int, j:
              + legs[before, behind, 0] - legs[before, customer, 0] - legs[customer, behind, 0])
     distance = (line[j, L_DISTANCE] - line[i, L_DISTANCE] + legs[before, behind, 1]
                 - legs[before, customer, 1] - legs[customer, behind, 1])
-    here = world.place[node, P_SERVICE] if i > 0 else 0
+    here = world.place[node, P_SERVICE]
     airborne = max(flight, drive - here + max(0, here - columns[TYPE_LAUNCH]))
     counted = airborne if columns[TYPE_WAITING_COUNTS] else flight
     if counted > columns[TYPE_ENDURANCE]:
@@ -152,12 +204,12 @@ def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, 
     rate = world.rate[k]
     legs = world.leg[world.type[k, TYPE_TRAVEL]]
     here, loops = line[i, L_NODE], 0.0
-    service = world.place[here, P_SERVICE] if i > 0 else 0
+    service = world.place[here, P_SERVICE]
     for j in range(i + 1, min(length, i + LONGEST_OPERATION + 1)):
         to = line[j, L_NODE]
         lands = j == length - 1 or world.can[k, 0, to]
         grounded = line[j - 1, L_GROUNDED] - line[i, L_GROUNDED]
-        if lands and grounded <= j - 1 - i:
+        if lands:
             leg = legs[here, to]
             total = (cost[i] + loops + (leg[0] + service) * rate[RATE_HOUR]
                      + leg[1] * rate[RATE_KM])
@@ -168,7 +220,7 @@ def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, 
                 customer = line[flown, L_NODE]
                 if not world.can[k, 1, customer] or (grounded == 1 and world.can[k, 0, customer]):
                     continue
-                total = cost[i] + operation_cost(world, k, line, length, i, j, flown)
+                total = cost[i] + operation_cost(world, k, line, i, j, flown)
                 if total < cost[j]:
                     cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, flown
         if loops < math.inf:
@@ -191,22 +243,44 @@ def split(world: World, k: int, line: IntArray, cost: FloatArray, length: int) -
 
 
 @inlined
-def write_trip(route: IntArray, stops: IntArray, sorties: IntArray, line: IntArray,
-               length: int) -> None:
-    """Append the trip that the operations make. In place; turns L_BEFORE round."""
+def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
+    """Return what the operations that are noted in the line cost."""
+    rate, legs = world.rate[k], world.leg[world.type[k, TYPE_TRAVEL]]
+    cost, j = 0.0, length - 1
+    while j > 0:
+        i, flown = line[j, L_BEFORE], line[j, L_FLIGHT]
+        if flown != NO_FLIGHT:
+            cost += operation_cost(world, k, line, i, j, flown)
+        else:
+            here = line[i, L_NODE]
+            leg, service = legs[here, line[j, L_NODE]], world.place[here, P_SERVICE]
+            cost += (leg[0] + service) * rate[RATE_HOUR] + leg[1] * rate[RATE_KM]
+            for place in range(i + 1, j):
+                cost += loop_cost(world, k, here, line[place, L_NODE])
+        j = i
+    return cost
+
+
+@inlined
+def write_operations(route: IntArray, stops: IntArray, sorties: IntArray, line: IntArray,
+                     length: int, kind: int) -> None:
+    """Append the stops that the operations make, but for the last. In place; turns L_BEFORE round.
+
+    `kind` is that of the first stop.
+    """
     j, behind = length - 1, NOWHERE
     while j > 0:
         before = line[j, L_BEFORE]
         line[j, L_BEFORE] = behind
         behind, j = j, before
     line[0, L_BEFORE] = behind
-    put(stops, route[R_LENGTH], line[0, L_NODE], START)
+    put(stops, route[R_LENGTH], line[0, L_NODE], kind)
     i = 0
     while i < length - 1:
         j, p = line[i, L_BEFORE], route[R_LENGTH]
         flown = line[j, L_FLIGHT]
         if flown != NO_FLIGHT:
-            add_sortie(route, sorties, p, p + flown_stops(i, j), 0, line[flown, L_NODE])
+            add_sortie(route, sorties, p, p + j - i - 1, 0, line[flown, L_NODE])
         for place in range(i + 1, j):
             if flown == NO_FLIGHT:
                 add_sortie(route, sorties, p, p, 0, line[place, L_NODE])
@@ -214,49 +288,58 @@ def write_trip(route: IntArray, stops: IntArray, sorties: IntArray, line: IntArr
                 route[R_LENGTH] += 1
                 put(stops, route[R_LENGTH], line[place, L_NODE], CUSTOMER)
         route[R_LENGTH] += 1
-        put(stops, route[R_LENGTH], line[j, L_NODE], END if j == length - 1 else CUSTOMER)
+        if j < length - 1:
+            put(stops, route[R_LENGTH], line[j, L_NODE], CUSTOMER)
         i = j
-    route[R_LENGTH] += 1
 
 
 @inlined
-def flown_stops(i: int, j: int) -> int:
-    """Return how many stops the truck makes in an operation with a flight."""
-    return j - i - 1
+def is_worth(world: World, k: int, route: IntArray, before: float, after: float,
+             limit: float) -> bool:
+    """Tell whether operations that cost so much before and after may cost less than `limit` more.
+
+    Where windows make the truck wait, or count themselves, that says nothing.
+    """
+    if world.mode[k] & MODE_PRICED or route[R_WORKING] + route[R_OFFSET] > route[R_CUM]:
+        return True
+    return after < before + limit and abs(after - before) > SAME * before
 
 
 @inlined
-def resplit(world: World, searcher: Searcher) -> bool:
-    """Plan a random trip with one drone anew from a changed order of its customers.
+def resplit(world: World, searcher: Searcher, limit: float) -> bool:
+    """Plan part of a trip with one drone anew from a changed order of its customers.
 
     In place; tells whether the route was changed and keeps all rules; if not, it may be broken.
+    Nothing is changed that would cost more than `limit`.
     """
-    now = searcher.now
-    node = world.num_depots + below(searcher.rng, world.num_nodes - world.num_depots)
-    where = now.where[node]
-    slot, p = where[W_SLOT], where[W_POSITION]
+    now, line = searcher.now, searcher.line
+    node = any_customer(world, now, searcher.rng)
+    slot = now.where[node, W_SLOT]
     if slot < 0 or world.type[now.route[slot, R_TYPE], TYPE_DRONES] != 1:
         return False
-    if p < 0:
-        p = now.sortie[slot, where[W_SORTIE], F_LAUNCH]
-    k, index = now.route[slot, R_TYPE], now.stop[slot, p, S_TRIP]
-    length = line_up(now, slot, index, searcher.line)
+    k = now.route[slot, R_TYPE]
+    first, last = window(now, slot, stop_beside(now, node))
+    length, exact = line_up(now, slot, first, last, line)
     if length < 4:
         return False
-    shuffle(searcher, length)
-    measure(world, k, searcher.line, length)
-    if not split(world, k, searcher.line, searcher.line_cost, length):
+    measure(world, k, line, length)
+    before = present_cost(world, k, line, length) if exact else math.inf
+    shuffle(world, searcher, length)
+    measure(world, k, line, length)
+    if (not split(world, k, line, searcher.line_cost, length)
+            or (exact and not is_worth(world, k, now.route[slot], before,
+                                       searcher.line_cost[length - 1], limit))):
         return False
     touch(searcher, slot)
     spare = len(now.route) - 2
-    first, last = now.trip[slot, index, T_FIRST], now.trip[slot, index, T_LAST]
     keep_aside(now, slot, spare)
     route = now.route[slot]
     end = route[R_LENGTH]
     route[R_LENGTH] = route[R_SORTIES] = 0
     append(now, spare, 0, first, slot)
-    write_trip(route, now.stop[slot], now.sortie[slot], searcher.line, length)
-    append(now, spare, last + 1, end, slot)
+    write_operations(route, now.stop[slot], now.sortie[slot], line, length,
+                     now.stop[spare, first, S_KIND])
+    append(now, spare, last, end, slot)
     done = refresh(world, now, slot, searcher.acc)
     locate(now, slot)
     return done

@@ -12,9 +12,9 @@ from model.search.layout import (
     CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_STATE, F_TAKEOFF, FAR,
     MODE_PRICED, NONE, P_DEMAND, P_EARLIEST, P_LATEST, P_RELEASE, R_CUM, R_END, R_LENGTH, R_OFFSET,
     R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_CUM, S_D, S_DEP,
-    S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO,
-    S_NODE, S_RELEASE, S_REST, S_TRIP, START, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, T_RELEASE,
-    WAITING, World,
+    S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_IDLE, S_KIND, S_LAST, S_LATEST, S_LEAVE,
+    S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, START, T_DISTANCE, T_FIRST, T_LAST, T_LOAD,
+    T_RELEASE, WAITING, World,
 )
 from model.search.rows import clear
 
@@ -91,7 +91,7 @@ def drive_forward(world: World, route: IntArray, stops: IntArray, sorties: IntAr
                 s += 1
         else:
             plain_block(world, k, stop, time)
-            stop[S_FLYING], stop[S_BLOCK] = 0, p
+            stop[S_FLYING], stop[S_BLOCK], stop[S_IDLE] = 0, p, 0
         if time > stop[S_HI] or time < stop[S_LO]:
             return False
         stop[S_ARRIVAL], stop[S_BEFORE], stop[S_LAST] = time, cum, last

@@ -5,10 +5,10 @@ from model.problem import BoolArray, IntArray, UIntArray
 from model.search.draw import below, uniform
 from model.search.edit import close_ranks, keep_sorties
 from model.search.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, NOWHERE, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, S_KIND,
-    S_NODE, S_TRIP, T_FIRST, T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    CUSTOMER, F_COUNT, F_NODE, NOWHERE, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, S_KIND, S_NODE,
+    S_TRIP, T_FIRST, T_LAST, W_POSITION, W_SLOT, Fleet, World,
 )
-from model.search.refresh import refresh
+from model.search.refresh import any_customer, refresh, stop_beside
 
 AVERAGE_REMOVED = 10
 LONGEST_STRING = 10
@@ -24,7 +24,7 @@ FLIGHT_ONLY = 0.5
 
 
 @inlined
-def mark(fleet: Fleet, marked: BoolArray, absent: IntArray, num_absent: int, node: int) -> int:
+def mark(marked: BoolArray, absent: IntArray, num_absent: int, node: int) -> int:
     """Mark a customer for removal. In place; return how many there are."""
     if marked[node]:
         return num_absent
@@ -53,20 +53,17 @@ def mark_string(fleet: Fleet, slot: int, index: int, p: int, size: int, marked: 
         gap = 1 + below(rng, size - 1)
     for offset in range(span):
         if offset < gap or offset >= gap + spared:
-            num_absent = mark(fleet, marked, absent, num_absent, stops[begin + offset, S_NODE])
+            num_absent = mark(marked, absent, num_absent, stops[begin + offset, S_NODE])
     return num_absent
 
 
 @inlined
-def mark_around(world: World, fleet: Fleet, customer: int, longest: float, marked: BoolArray,
-                absent: IntArray, num_absent: int, rng: UIntArray) -> int:
+def mark_around(fleet: Fleet, customer: int, longest: float, marked: BoolArray, absent: IntArray,
+                num_absent: int, rng: UIntArray) -> int:
     """Mark a string around a customer, or the customer alone if a drone serves it. As `mark`."""
-    where = fleet.where[customer]
-    slot, p = where[W_SLOT], where[W_POSITION]
-    by_drone = p < 0
-    if by_drone:
-        num_absent = mark(fleet, marked, absent, num_absent, customer)
-        p = fleet.sortie[slot, where[W_SORTIE], F_LAUNCH]
+    slot, p = fleet.where[customer, W_SLOT], stop_beside(fleet, customer)
+    if fleet.where[customer, W_POSITION] < 0:
+        num_absent = mark(marked, absent, num_absent, customer)
     index = fleet.stop[slot, p, S_TRIP]
     first, last = fleet.trip[slot, index, T_FIRST], fleet.trip[slot, index, T_LAST]
     stops_there = last - first - 1
@@ -80,9 +77,9 @@ def mark_around(world: World, fleet: Fleet, customer: int, longest: float, marke
 
 
 @inlined
-def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, marked: BoolArray,
-           absent: IntArray, num_absent: int, touched: IntArray, hit: IntArray, turn: int,
-           rng: UIntArray) -> tuple[int, int]:
+def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_customers: int,
+           marked: BoolArray, absent: IntArray, num_absent: int, touched: IntArray, hit: IntArray,
+           turn: int, rng: UIntArray) -> tuple[int, int]:
     """Mark strings near a random customer, at most one a trip.
 
     In place; returns how many customers are marked and how many routes are listed in `touched`.
@@ -90,34 +87,28 @@ def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, marked
     num_touched = trips = 0
     for index in range(num_active):
         trips += fleet.route[active[index], R_TRIPS]
-    served = world.num_nodes - world.num_depots - num_absent
-    longest = min(float(LONGEST_STRING), served / max(1, trips))
+    longest = min(float(LONGEST_STRING), (num_customers - num_absent) / max(1, trips))
     strings = 1 + int(uniform(rng) * (4 * AVERAGE_REMOVED / (1 + longest) - 1))
-    customer = world.num_depots + below(rng, world.num_nodes - world.num_depots)
+    customer = any_customer(world, fleet, rng)
     if num_absent > 0 and uniform(rng) < MAKE_ROOM:
         customer = absent[below(rng, num_absent)]
     rank = -1
     while strings > 0 and customer >= 0:
         slot = fleet.where[customer, W_SLOT]
         if slot >= 0 and not marked[customer]:
-            p = fleet.where[customer, W_POSITION]
-            if p < 0:
-                p = fleet.sortie[slot, fleet.where[customer, W_SORTIE], F_LAUNCH]
-            trip = fleet.stop[slot, p, S_TRIP]
+            trip = fleet.stop[slot, stop_beside(fleet, customer), S_TRIP]
+            before = num_absent
             if fleet.where[customer, W_POSITION] < 0 and uniform(rng) < FLIGHT_ONLY:
-                if not listed(touched, num_touched, slot):
-                    touched[num_touched] = slot
-                    num_touched += 1
-                num_absent = mark(fleet, marked, absent, num_absent, customer)
-                strings -= 1
+                num_absent = mark(marked, absent, num_absent, customer)
             elif hit[slot, trip] != turn:
+                hit[slot, trip] = turn
+                num_absent = mark_around(fleet, customer, longest, marked, absent, num_absent,
+                                         rng)
+            if num_absent > before:
+                strings -= 1
                 if not listed(touched, num_touched, slot):
                     touched[num_touched] = slot
                     num_touched += 1
-                hit[slot, trip] = turn
-                num_absent = mark_around(world, fleet, customer, longest, marked, absent,
-                                         num_absent, rng)
-                strings -= 1
         rank += 1
         if rank == 0:
             seed = customer
@@ -140,10 +131,10 @@ def mark_all(fleet: Fleet, slot: int, marked: BoolArray, absent: IntArray,
     """Mark all customers of a route. As `mark`."""
     for p in range(fleet.route[slot, R_LENGTH]):
         if fleet.stop[slot, p, S_KIND] == CUSTOMER:
-            num_absent = mark(fleet, marked, absent, num_absent, fleet.stop[slot, p, S_NODE])
+            num_absent = mark(marked, absent, num_absent, fleet.stop[slot, p, S_NODE])
     for s in range(fleet.route[slot, R_SORTIES]):
         for visit in range(fleet.sortie[slot, s, F_COUNT]):
-            num_absent = mark(fleet, marked, absent, num_absent,
+            num_absent = mark(marked, absent, num_absent,
                               fleet.sortie[slot, s, F_NODE + visit])
     return num_absent
 

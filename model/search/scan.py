@@ -1,20 +1,23 @@
 """The cheapest stop for a customer where only the distance of the detour counts."""
 
 from model.compiled import inlined
-from model.instance import MAX_DIMENSIONS, RATE_KM, TYPE_CAPACITY, TYPE_TRAVEL
+from model.instance import MAX_DIMENSIONS, RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE, TYPE_TRAVEL
 from model.problem import IntArray, UIntArray
 from model.search.draw import uniform
 from model.search.edit import AT_STOP, M_FIRST, M_KIND, M_SLOT, M_TYPE
 from model.search.layout import (
-    MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_SERVICE, R_SORTIES, R_TRIPS, R_TYPE,
-    S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, W_POSITION,
-    W_SLOT, Fleet, World,
+    MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, R_SORTIES, R_TRIPS,
+    R_TYPE, S_GAP, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST, T_LOAD,
+    W_POSITION, W_SLOT, Fleet, World,
 )
 from model.search.retype import larger_type, route_cost
 
-BLINK = 0.01
-"""How often a better place is overlooked."""
 
+@inlined
+def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
+    """Tell whether an insertion into a route costs its detour alone."""
+    return (world.mode[fleet.route[slot, R_TYPE]] & MODE_SIMPLE > 0
+            and fleet.route[slot, R_SORTIES] == 0)
 
 
 @inlined
@@ -29,18 +32,21 @@ def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntAr
 
 @inlined
 def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last: int,
-               place: IntArray, rate: float, best: float, rng: UIntArray) -> tuple[float, int]:
+               place: IntArray, spare: int, rate: float, best: float, blink: float,
+               rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
 
-    Where cost is that of the detour. `back` and `leg` are the legs to and from the customer,
-    (node, 2). Returns its cost and the stop, or `best` and -1 if none costs less.
+    Where cost is that of the detour, which is at most `spare`. `back` and `leg` are the legs to and
+    from the customer, (node, 2); a better place is overlooked with probability `blink`. Returns its
+    cost and the stop, or `best` and -1 if none costs less.
     """
     chosen = -1
     earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
     for p in range(first, last + 1):
         here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
-        cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate
-        if cost >= best:
+        detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
+        cost = detour * rate
+        if cost >= best or detour > spare:
             continue
         arrival = stops[p, S_LEAVE] + back[here, 0]
         if arrival > limit:
@@ -48,9 +54,53 @@ def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last:
                 break
             continue
         arrival = max(arrival, earliest) + service + leg[there, 0]
-        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= BLINK:
+        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
+
+
+@inlined
+def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, start: int,
+                 first: int, last: int, node: int, spare: int, rate: float, best: float,
+                 rng: UIntArray) -> tuple[float, int]:
+    """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
+    chosen, place = -1, world.place[node]
+    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    leave = place[P_RELEASE]
+    if leave > stops[start, S_LATEST]:
+        return best, chosen
+    for p in range(start, last + 1):
+        if p > start:
+            arrival = leave + stops[p - 1, S_GAP]
+            if arrival > stops[p, S_LATEST]:
+                break
+            here = world.place[stops[p, S_NODE]]
+            leave = max(arrival, here[P_EARLIEST]) + here[P_SERVICE]
+        if leave > limit:
+            break
+        detour = back[stops[p, S_NODE], 1] + leg[stops[p + 1, S_NODE], 1] - stops[p, S_LEG]
+        cost = detour * rate
+        arrival = leave + back[stops[p, S_NODE], 0]
+        if p < first or cost >= best or detour > spare or arrival > limit:
+            continue
+        arrival = max(arrival, earliest) + service + leg[stops[p + 1, S_NODE], 0]
+        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= world.blink:
+            chosen, best = p, cost
+    return best, chosen
+
+
+@inlined
+def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, last: int, node: int,
+              rate: float, best: float, rng: UIntArray) -> tuple[float, int]:
+    """Find the cheapest place for a customer on a trip. As `scan_stops`."""
+    k, trip, stops = fleet.route[slot, R_TYPE], fleet.trip[slot, index], fleet.stop[slot]
+    m = world.type[k, TYPE_TRAVEL]
+    back, leg, place = world.back[m, node], world.leg[m, node], world.place[node]
+    spare = world.type[k, TYPE_MAX_DISTANCE] - trip[T_DISTANCE]
+    if place[P_RELEASE] > stops[trip[T_FIRST], S_LEAVE]:
+        return scan_delayed(world, back, leg, stops, trip[T_FIRST], first, last, node, spare, rate,
+                            best, rng)
+    return scan_stops(back, leg, stops, first, last, place, spare, rate, best, world.blink, rng)
 
 
 @inlined
@@ -69,24 +119,20 @@ def exchanged(world: World, fleet: Fleet, slot: int, node: int,
 def scan_simple(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
                 best: float, enlarge: bool, move: IntArray, rng: UIntArray) -> float:
     """Find the cheapest stop among the routes where only distance counts. As `try_stops`."""
-    place = world.place[node]
     for index in range(num_active):
         slot = active[index]
         k = fleet.route[slot, R_TYPE]
-        if (not world.mode[k] & MODE_SIMPLE or fleet.route[slot, R_SORTIES] > 0
-                or not world.can[k, 0, node]):
+        if not (is_simple(world, fleet, slot) and world.can[k, 0, node]):
             continue
-        m = world.type[k, TYPE_TRAVEL]
         for trip in range(fleet.route[slot, R_TRIPS]):
             by, base = k, 0.0
             if not fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
                 by, base = exchanged(world, fleet, slot, node, enlarge)
                 if by < 0 or base >= best:
                     continue
-            cost, p = scan_stops(
-                world.back[m, node], world.leg[m, node], fleet.stop[slot],
-                fleet.trip[slot, trip, T_FIRST], fleet.trip[slot, trip, T_LAST] - 1, place,
-                world.rate[by, RATE_KM], best - base, rng)
+            cost, p = scan_trip(
+                world, fleet, slot, trip, fleet.trip[slot, trip, T_FIRST],
+                fleet.trip[slot, trip, T_LAST] - 1, node, world.rate[by, RATE_KM], best - base, rng)
             if p >= 0:
                 best = cost + base
                 move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
@@ -97,26 +143,23 @@ def scan_simple(world: World, fleet: Fleet, active: IntArray, num_active: int, n
 def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
                 move: IntArray, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where only distance counts. As `try_stops`."""
-    place = world.place[node]
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
         slot = fleet.where[other, W_SLOT]
         if slot < 0:
             continue
         k = fleet.route[slot, R_TYPE]
-        if (not world.mode[k] & MODE_SIMPLE or fleet.route[slot, R_SORTIES] > 0
-                or not world.can[k, 0, node]):
+        if not (is_simple(world, fleet, slot) and world.can[k, 0, node]):
             continue
         p = fleet.where[other, W_POSITION]
+        trip = fleet.stop[slot, p, S_TRIP]
         by, base = k, 0.0
-        if not fits(world.place, node, fleet.trip[slot], fleet.stop[slot, p, S_TRIP],
-                    world.type[k]):
+        if not fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
             by, base = exchanged(world, fleet, slot, node, enlarge)
             if by < 0 or base >= best:
                 continue
-        m = world.type[k, TYPE_TRAVEL]
-        cost, p = scan_stops(world.back[m, node], world.leg[m, node], fleet.stop[slot], p - 1, p,
-                             place, world.rate[by, RATE_KM], best - base, rng)
+        cost, p = scan_trip(world, fleet, slot, trip, p - 1, p, node, world.rate[by, RATE_KM],
+                            best - base, rng)
         if p >= 0:
             best = cost + base
             move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by

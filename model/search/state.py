@@ -2,14 +2,14 @@
 
 from typing import NamedTuple
 
-
-from model.compiled import compiled, inlined
+from model.compiled import inlined
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
 from model.search.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, Fleet
 from model.search.refresh import locate
 from model.search.rows import copy_row, copy_rows, copy_some
 
-I_ACTIVE, I_MISSING, I_ABSENT, I_TOUCHED, I_TURN, I_STAMP, I_BEST_MISSING = range(7)
+(I_ACTIVE, I_MISSING, I_ABSENT, I_TOUCHED, I_TURN, I_STAMP, I_BEST_MISSING,
+ I_CUSTOMERS) = range(8)
 V_COST, V_BEST, V_TEMPERATURE, V_COOLING = range(4)
 
 
@@ -41,14 +41,14 @@ class Searcher(NamedTuple):
 
 
 @inlined
-def copy_route(source: Fleet, target: Fleet, slot: int) -> None:
-    """Copy a route between fleets. In place."""
+def copy_route(source: Fleet, slot: int, target: Fleet, to: int) -> None:
+    """Copy a route between fleets, from a slot to a slot. In place."""
     route = source.route[slot]
-    copy_row(route, target.route[slot])
-    target.cost[slot] = source.cost[slot]
-    copy_rows(source.stop[slot], target.stop[slot], route[R_LENGTH])
-    copy_rows(source.trip[slot], target.trip[slot], route[R_TRIPS])
-    copy_rows(source.sortie[slot], target.sortie[slot], route[R_SORTIES])
+    copy_row(route, target.route[to])
+    target.cost[to] = source.cost[slot]
+    copy_rows(source.stop[slot], target.stop[to], route[R_LENGTH])
+    copy_rows(source.trip[slot], target.trip[to], route[R_TRIPS])
+    copy_rows(source.sortie[slot], target.sortie[to], route[R_SORTIES])
 
 
 @inlined
@@ -68,7 +68,7 @@ def touch(searcher: Searcher, slot: int) -> None:
     for index in range(searcher.count[I_TOUCHED]):
         if searcher.touched[index] == slot:
             return
-    copy_route(searcher.now, searcher.before, slot)
+    copy_route(searcher.now, slot, searcher.before, slot)
     searcher.touched[searcher.count[I_TOUCHED]] = slot
     searcher.count[I_TOUCHED] += 1
 
@@ -88,7 +88,7 @@ def keep_best(searcher: Searcher) -> None:
     now, best = searcher.now, searcher.best
     for slot in range(len(searcher.active)):
         if now.route[slot, R_STAMP] != best.route[slot, R_STAMP]:
-            copy_route(now, best, slot)
+            copy_route(now, slot, best, slot)
     copy_row(now.used, best.used)
     missing = searcher.count[I_MISSING]
     searcher.count[I_BEST_MISSING] = missing
@@ -103,7 +103,7 @@ def adopt(searcher: Searcher, other: Fleet, missing: IntArray, num_missing: int,
     now = searcher.now
     searcher.count[I_STAMP] += 1
     for slot in range(len(searcher.active)):
-        copy_route(other, now, slot)
+        copy_route(other, slot, now, slot)
         now.route[slot, R_STAMP] = searcher.count[I_STAMP]
     copy_row(other.used, now.used)
     for node in range(len(now.where)):
@@ -114,9 +114,3 @@ def adopt(searcher: Searcher, other: Fleet, missing: IntArray, num_missing: int,
     searcher.count[I_MISSING] = num_missing
     copy_some(missing, searcher.missing, num_missing)
     searcher.value[V_COST] = cost
-
-
-@compiled
-def follow(searcher: Searcher, leader: Searcher) -> None:
-    """Go on from another thread's routes. In place."""
-    adopt(searcher, leader.now, leader.missing, leader.count[I_MISSING], leader.value[V_COST])

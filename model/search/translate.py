@@ -4,22 +4,25 @@ import numpy as np
 
 from model.compiled import compiled
 from model.instance import (
-    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_MAX_TRIPS, TYPE_RECOVERY,
+    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_SERVICE, TYPE_MAX_TRIPS,
+    TYPE_RECOVERY,
 )
 from model.problem import FloatArray, IntArray, Problem
 from model.search.edit import MOVE_COLUMNS, begin_route
 from model.search.evaluate import INFEASIBLE
 from model.search.layout import (
     CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, NONE,
-    NOWHERE, P_DEMAND, P_EARLIEST, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_ARRIVAL, S_GAP,
-    S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, START, T_FIRST, T_LAST, W_SLOT, Fleet, World,
-    empty_fleet,
+    NOWHERE, P_DEMAND, P_EARLIEST, P_SERVICE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE,
+    S_ARRIVAL, S_GAP, S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, START, T_FIRST, T_LAST,
+    W_SLOT, Fleet, World, empty_fleet,
 )
 from model.search.refresh import clear_holds, locate, refresh, settle
 from model.search.resplit import LINE_COLUMNS
 from model.search.routes import drive_forward, load_trips
 from model.search.savings import savings_routes
-from model.search.state import I_MISSING, I_STAMP, V_COST, Searcher, keep_best, list_active
+from model.search.state import (
+    I_BEST_MISSING, I_CUSTOMERS, I_MISSING, I_STAMP, V_COST, Searcher, keep_best, list_active,
+)
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
 SPARE_SLOTS = 8
@@ -30,12 +33,22 @@ STOPS_OPENED = 4
 def make_searcher(problem: Problem, world: World, solution: Solution,
                   seed: np.random.SeedSequence) -> Searcher:
     """Begin a search from a plan; routes that it can't read are left to be planned anew."""
-    slots, stops, trips, sorties = _sizes(problem, world, solution)
+    alone = np.full(world.can.shape, INFEASIBLE)
+    searcher = empty_searcher(world, _sizes(problem, world, solution), alone, seed)
+    alone_costs(world, searcher.now, searcher.acc, alone)
+    for slot, route in enumerate(solution.routes):
+        write_route(searcher.now, slot, route)
+    begin(world, searcher, len(solution.routes))
+    return searcher
+
+
+def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
+                   seed: np.random.SeedSequence) -> Searcher:
+    """Make room for a search: for so many routes, and stops, trips and sorties of one."""
+    slots, stops, trips, sorties = sizes
     now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
     nodes = world.num_nodes
-    alone = np.full(world.can.shape, INFEASIBLE)
-    alone_costs(world, now, _row(8), alone)
-    searcher = Searcher(
+    return Searcher(
         now=now, before=before, best=best, count=_row(8), value=np.zeros(4),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
@@ -44,10 +57,6 @@ def make_searcher(problem: Problem, world: World, solution: Solution,
         line=np.zeros((nodes + 2, LINE_COLUMNS), np.int64), line_cost=np.zeros(nodes + 2),
         moved=_row(max(slots, stops) + 2), move=_row(MOVE_COLUMNS), trial=_row(MOVE_COLUMNS),
         acc=_row(8), alone=alone)
-    for slot, route in enumerate(solution.routes):
-        write_route(now, slot, route)
-    begin(world, searcher, len(solution.routes))
-    return searcher
 
 
 def _row(length: int) -> IntArray:
@@ -100,7 +109,7 @@ def alone_costs(world: World, fleet: Fleet, acc: IntArray, alone: FloatArray) ->
             for node in range(world.num_depots, world.num_nodes):
                 if world.can[k, by_drone, node]:
                     begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k,
-                                world.type[k, 2], node, by_drone == 1)
+                                world.type[k, TYPE_DEPOT], node, by_drone == 1)
                     if refresh(world, fleet, slot, acc):
                         alone[k, by_drone, node] = fleet.cost[slot]
 
@@ -124,7 +133,7 @@ def begin(world: World, searcher: Searcher, num_routes: int) -> None:
         if now.where[node, W_SLOT] == NOWHERE:
             searcher.missing[count[I_MISSING]] = node
             count[I_MISSING] += 1
-    count[I_STAMP] = 1
+    count[I_STAMP], count[I_CUSTOMERS] = 1, world.num_nodes - world.num_depots
     searcher.value[V_COST] = cost + count[I_MISSING] * world.unassigned_cost
     list_active(searcher)
     keep_best(searcher)
@@ -184,7 +193,7 @@ def read_plan(world: World, searcher: Searcher) -> Solution:
             k = int(best.route[slot, R_TYPE])
             routes.append(Route(k, numbers[k], _trips(world, best, slot)))
             numbers[k] += 1
-    missing = searcher.best_missing[: searcher.count[6]]
+    missing = searcher.best_missing[: searcher.count[I_BEST_MISSING]]
     return Solution(tuple(routes), tuple(sorted(int(node) for node in missing)))
 
 
@@ -224,12 +233,12 @@ def _stop(world: World, row: list[int]) -> Stop:
 
 def _sortie(world: World, k: int, row: list[int], first: int, stops: list[list[int]]) -> Sortie:
     kind = world.type[k]
-    own = int(kind[16])
+    own = int(kind[TYPE_DRONE_SERVICE])
     visits = []
     for index in range(row[F_COUNT]):
         node, arrival = row[F_NODE + index], row[F_NODE + world.max_visits + index]
         begin = max(arrival, int(world.place[node, P_EARLIEST]))
-        service = own if own >= 0 else int(world.place[node, 2])
+        service = own if own >= 0 else int(world.place[node, P_SERVICE])
         visits.append(Visit(node, arrival, begin, begin + service))
     return Sortie(row[F_DRONE], row[F_LAUNCH] - first, row[F_RECOVERY] - first, tuple(visits),
                   row[F_TAKEOFF], row[F_BEGIN], row[F_BEGIN] + int(kind[TYPE_RECOVERY]))

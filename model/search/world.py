@@ -14,8 +14,8 @@ from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
 from model.search.layout import (
-    FAR, MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_RELEASE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED,
-    P_DEMAND, World,
+    FAR, MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED,
+    P_DEMAND, P_LIMIT, World,
 )
 
 NEAR_RUIN = 128
@@ -26,6 +26,10 @@ NEAR_INSERTION = 40
 
 SCAN_ALL_BELOW = 400
 """Number of customers from which insertions are tried beside neighbours only."""
+
+LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
+"""How often a better place is overlooked: the last by the number of customers squared, within the
+first two. Small problems have so few places that little else would differ from turn to turn."""
 
 MOST_VISITS = 8
 """Customers on a sortie that the search puts there at most."""
@@ -51,7 +55,10 @@ ALL_MOVES = Moves()
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -> World:
     """Lay out a problem for the search."""
-    columns, rates = instance.type[0], instance.rate[0]
+    columns, rates, can_fly = instance.type[0], instance.rate[0], instance.can_fly[0]
+    if not (moves.loops or moves.crossings):
+        columns, can_fly = columns.copy(), np.zeros_like(can_fly)
+        columns[:, TYPE_DRONES] = 0
     place = _places(instance)
     travel = np.stack([instance.duration[0], instance.distance[0]], axis=-1)
     back = travel
@@ -62,7 +69,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
                        for kind in problem.vehicle_types], np.int64)
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
     rate = rates / np.array([1.0, MM_PER_KM, MS_PER_HOUR, MM_PER_KM, MS_PER_HOUR])
-    mode = _modes(instance, place)
+    mode = _modes(instance, columns, place)
     swap = _swaps(problem, mode)
     return World(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
@@ -72,14 +79,20 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
         loops=moves.loops, crossings=moves.crossings, general=not bool((mode & MODE_LEAN).all()),
         traded=moves.types and bool(swap.any()),
         scan_all=problem.num_customers < SCAN_ALL_BELOW,
-        must_serve=_must_serve(problem), unassigned_cost=float(problem.unassigned_cost),
+        must_serve=_must_serve(problem), blink=_blink(problem.num_customers),
+        unassigned_cost=float(problem.unassigned_cost),
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
         type=columns, rate=rate, mode=mode, visits=visits,
-        can=np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1)),
+        can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
         swap=swap, leg=travel, back=back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
         near=near, fit=_fit(problem, place, near),
     )
+
+
+def _blink(num_customers: int) -> float:
+    """Return how often a better place is overlooked."""
+    return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / max(1, num_customers) ** 2))
 
 
 def _symmetric(matrices: IntArray) -> bool:
@@ -99,20 +112,21 @@ def _places(instance: Instance) -> IntArray:
     return place
 
 
-def _modes(instance: Instance, place: IntArray) -> IntArray:
-    columns, rates = instance.type[0], instance.rate[0]
+def _modes(instance: Instance, columns: IntArray, place: IntArray) -> IntArray:
+    rates = instance.rate[0]
     late, early = (instance.late_early[0] > 0).any(axis=0)
-    soft = bool((place[:, 1] == FAR).any()) and bool(late)
+    soft = bool((place[:, P_LIMIT] == FAR).any()) and bool(late)
     timed = (rates[:, RATE_HOUR] > 0) | (columns[:, TYPE_MAX_WORKING] < UNLIMITED)
     profile = columns[:, TYPE_PROFILE] != NO_PROFILE
     settled = np.logical_or(early, profile & timed)
     priced = np.logical_or(soft, settled | profile)
     release = bool((instance.node[0, :, NODE_RELEASE] > 0).any())
-    simple = ~(timed | priced | release | (columns[:, TYPE_MAX_DISTANCE] < UNLIMITED))
-    lean = simple & (columns[:, TYPE_MAX_TRIPS] == 1) & (columns[:, TYPE_DRONES] == 0)
+    simple = ~(timed | priced)
+    lean = (simple & ~(release | (columns[:, TYPE_MAX_DISTANCE] < UNLIMITED))
+            & (columns[:, TYPE_MAX_TRIPS] == 1) & (columns[:, TYPE_DRONES] == 0))
     mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
-                      + MODE_PROFILE * profile + MODE_RELEASE * release
-                      + MODE_SIMPLE * simple + MODE_LEAN * lean).astype(np.int64)
+                      + MODE_PROFILE * profile + MODE_SIMPLE * simple
+                      + MODE_LEAN * lean).astype(np.int64)
     return mode
 
 

@@ -1,0 +1,210 @@
+"""Routes shared between threads: a region for each, or the cheapest of all for everyone."""
+
+import numpy as np
+
+from model.compiled import compiled
+from model.instance import TYPE_COUNT
+from model.problem import FloatArray, IntArray
+from model.search.layout import (
+    ELSEWHERE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, W_SLOT, World,
+)
+from model.search.refresh import locate
+from model.search.rows import copy_some
+from model.search.state import (
+    I_ACTIVE, I_BEST_MISSING, I_CUSTOMERS, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher, copy_route,
+    keep_best, list_active,
+)
+from model.search.translate import empty_searcher
+
+DIVIDED_FROM = 200
+"""Number of customers from which on each thread has a region of its own."""
+
+FEWEST_ROUTES = 3
+"""Routes for each thread without which there are no regions."""
+
+ROUNDING = 1e-9
+"""Costs that differ by less are the same."""
+
+
+class Crew:
+    """Searches of several threads, and the routes of all together."""
+
+    def __init__(self, world: World, place: FloatArray, whole: Searcher,
+                 seeds: list[np.random.SeedSequence]) -> None:
+        """Make room for a search by each seed; `place` (node, 2) in any unit.
+
+        One search alone goes on from the whole.
+        """
+        sizes = (len(whole.active), *(table.shape[1] for table in
+                                      (whole.now.stop, whole.now.trip, whole.now.sortie)))
+        self.whole = whole
+        self._world = world
+        self._place = place
+        self._rooms = [whole] if len(seeds) == 1 else [
+            empty_searcher(world, sizes, whole.alone, seed) for seed in seeds]
+        self._parts = self._rooms
+        self._divided = False
+        self._rng = np.random.default_rng(seeds[0])
+
+    def spread(self) -> list[Searcher]:
+        """Return searches that go on from the routes of all, a region each if there are enough."""
+        whole, threads = self.whole, len(self._rooms)
+        if threads == 1:
+            return self._rooms
+        routes = int(whole.count[I_ACTIVE])
+        self._divided = (whole.count[I_CUSTOMERS] >= DIVIDED_FROM
+                         and routes >= FEWEST_ROUTES * threads)
+        if self._divided:
+            self._divide()
+            return self._parts
+        self._parts = self._rooms
+        everyone = np.zeros(len(whole.active), np.int64)
+        spare = self._world.type[:, TYPE_COUNT] - whole.now.used
+        for part in self._parts:
+            take_part(self._world, whole, part, everyone, 0,
+                      whole.missing[: whole.count[I_MISSING]], spare)
+        return self._parts
+
+    def _divide(self) -> None:
+        """Give each part the routes of a region, and a share of vehicles and slots left over."""
+        whole, threads = self.whole, len(self._rooms)
+        owner = regions(self._place, whole, threads, self._rng)
+        missing = whole.missing[: whole.count[I_MISSING]]
+        beside = whole.now.where[self._world.near[missing], W_SLOT]
+        nearest = np.take_along_axis(beside, (beside >= 0).argmax(axis=1)[:, None], axis=1)[:, 0]
+        heir = np.where(nearest >= 0, owner[nearest], 0)
+        spare = self._world.type[:, TYPE_COUNT] - whole.now.used
+        routes = np.bincount(owner[whole.active[: whole.count[I_ACTIVE]]], minlength=threads)
+        free = (len(whole.active) - routes.sum()) // threads
+        self._parts = [room._replace(active=room.active[: routes[number] + free])
+                       for number, room in enumerate(self._rooms)]
+        for number, part in enumerate(self._parts):
+            take_part(self._world, whole, part, owner, number, missing[heir == number],
+                      (spare + number) // threads)
+
+    def gather(self) -> None:
+        """Put together what the searches found since they were spread."""
+        if len(self._rooms) == 1:
+            return
+        whole = self.whole
+        chosen = self._parts
+        best = self._parts
+        if not self._divided:
+            chosen = [min(self._parts, key=lambda part: float(part.value[V_COST]))]
+            best = [min(self._parts, key=lambda part: float(part.value[V_BEST]))]
+        whole.now.route[:, R_LENGTH] = 0
+        whole.now.used[:] = 0
+        whole.count[I_MISSING] = filled = 0
+        whole.value[V_COST] = sum(float(part.value[V_COST]) for part in chosen)
+        for part in chosen:
+            filled = add_routes(whole, part, filled)
+        cost = sum(float(part.value[V_BEST]) for part in best)
+        if cost < float(whole.value[V_BEST]) - ROUNDING:
+            whole.best.route[:, R_LENGTH] = 0
+            whole.count[I_BEST_MISSING] = filled = 0
+            whole.value[V_BEST] = cost
+            for part in best:
+                filled = add_best(whole, part, filled)
+
+
+def regions(place: FloatArray, whole: Searcher, threads: int,
+            rng: np.random.Generator) -> IntArray:
+    """Return (slot,) the number of the thread whose region a route is in.
+
+    Regions are sectors around the depot or stripes of about as many customers, drawn anew each
+    time, so that no border stays.
+    """
+    slot = whole.now.where[:, W_SLOT]
+    served = np.flatnonzero(slot >= 0)
+    slots = len(whole.active)
+    customers = np.bincount(slot[served], minlength=slots)
+    centre = np.stack([np.bincount(slot[served], weights=place[served, axis], minlength=slots)
+                       for axis in range(2)], axis=1) / np.maximum(customers, 1)[:, None]
+    angle = rng.uniform(0, 2 * np.pi)
+    if rng.random() < 0.5:
+        east, north = (centre - place[0]).T
+        key = (np.arctan2(north, east) - angle) % (2 * np.pi)
+    else:
+        key = centre @ np.array([np.cos(angle), np.sin(angle)])
+    order = np.argsort(key, kind="stable")
+    middle = np.cumsum(customers[order]) - customers[order] / 2
+    owner = np.empty(slots, np.int64)
+    owner[order] = np.minimum(middle * threads // max(1, len(served)), threads - 1)
+    return owner
+
+
+@compiled
+def take_part(world: World, whole: Searcher, part: Searcher, owner: IntArray, number: int,
+              missing: IntArray, spare: IntArray) -> None:
+    """Go on from the routes that thread `number` owns, and the customers missing. In place.
+
+    `spare` (type,) vehicles may be used besides.
+    """
+    now, count = part.now, part.count
+    count[I_STAMP] += 1
+    for node in range(len(now.where)):
+        now.where[node, W_SLOT] = ELSEWHERE
+    cost, filled = 0.0, 0
+    for index in range(whole.count[I_ACTIVE]):
+        slot = whole.active[index]
+        if owner[slot] == number:
+            copy_route(whole.now, slot, now, filled)
+            locate(now, filled)
+            cost += now.cost[filled]
+            filled += 1
+    for slot in range(len(part.active)):
+        if slot >= filled:
+            now.route[slot, R_LENGTH] = now.route[slot, R_SORTIES] = now.route[slot, R_TRIPS] = 0
+            now.cost[slot] = 0.0
+        now.route[slot, R_STAMP] = count[I_STAMP]
+    for k in range(world.num_types):
+        now.used[k] = world.type[k, TYPE_COUNT] - spare[k]
+    list_active(part)
+    for node in missing:
+        now.where[node, W_SLOT] = NOWHERE
+    count[I_MISSING] = len(missing)
+    copy_some(missing, part.missing, len(missing))
+    count[I_CUSTOMERS] = 0
+    for node in range(world.num_depots, world.num_nodes):
+        if now.where[node, W_SLOT] != ELSEWHERE:
+            count[I_CUSTOMERS] += 1
+    part.value[V_COST] = cost + len(missing) * world.unassigned_cost
+    keep_best(part)
+
+
+@compiled
+def add_routes(whole: Searcher, part: Searcher, filled: int) -> int:
+    """Copy a part's routes behind the `filled` first slots, and who is missing.
+
+    In place; returns how many slots are filled.
+    """
+    now, count = whole.now, whole.count
+    for index in range(part.count[I_ACTIVE]):
+        copy_route(part.now, part.active[index], now, filled)
+        now.used[now.route[filled, R_TYPE]] += 1
+        locate(now, filled)
+        filled += 1
+    for index in range(part.count[I_MISSING]):
+        node = part.missing[index]
+        now.where[node, W_SLOT] = NOWHERE
+        whole.missing[count[I_MISSING]] = node
+        count[I_MISSING] += 1
+    list_active(whole)
+    return filled
+
+
+@compiled
+def add_best(whole: Searcher, part: Searcher, filled: int) -> int:
+    """Copy a part's best routes behind the `filled` first slots, and who is missing.
+
+    In place; returns how many slots are filled.
+    """
+    count = whole.count
+    for slot in range(len(part.active)):
+        if part.best.route[slot, R_LENGTH] > 0:
+            copy_route(part.best, slot, whole.best, filled)
+            filled += 1
+    for index in range(part.count[I_BEST_MISSING]):
+        whole.best_missing[count[I_BEST_MISSING]] = part.best_missing[index]
+        count[I_BEST_MISSING] += 1
+    return filled

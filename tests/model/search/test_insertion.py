@@ -1,0 +1,114 @@
+"""A customer goes where that costs least, on a trip as it is or a trip more; all were tried."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from model.check import check
+from model.instance import pack
+from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel, VehicleType
+from model.search.anneal import begin_anew
+from model.search.improve import SearchConfig, improve
+from model.search.state import I_MISSING, V_COST
+from model.search.translate import make_searcher
+from model.search.world import make_world
+from model.solution import Route, Solution
+from model.timing import RouteDecision, TripDecision, schedule
+
+MINUTE = 60_000
+CUSTOMERS = 7
+SEEDS = 40  # some of which let neither a blink nor a dear route of its own spoil the insertion
+
+Trips = tuple[tuple[int, ...], ...]
+
+
+def problem_with_trips(seed: int) -> Problem:
+    """Return a problem where distance alone costs, with several trips, windows and releases."""
+    rng = np.random.default_rng(seed)
+    place = rng.integers(-6, 7, (CUSTOMERS + 1, 2))
+    legs = np.abs(place[:, None] - place).sum(axis=2)
+    travel = Travel((2 * MINUTE * legs).astype(np.int64), (MM_PER_KM * legs).astype(np.int64))
+    customers = tuple(
+        Customer(str(index), (int(rng.integers(1, 4)) * 1000,), int(rng.integers(0, 3)) * MINUTE,
+                 latest=int(rng.integers(60, 240)) * MINUTE if rng.random() < 0.5 else UNLIMITED,
+                 release_time=int(rng.integers(0, 50)) * MINUTE)
+        for index in range(CUSTOMERS))
+    truck = VehicleType(
+        "truck", 2, (6000,), 0, fixed_cost=60.0, cost_per_km=1.0, max_trips=4,
+        reload_duration=2 * MINUTE, latest=int(rng.integers(250, 400)) * MINUTE,
+        max_trip_distance=int(rng.integers(24, 40)) * MM_PER_KM if seed % 2 else None)
+    return Problem((Depot("hub"),), customers, (truck,), (travel,), place.astype(np.float64),
+                   unassigned_cost=1000.0)
+
+
+def trips_of(route: Route) -> Trips:
+    """Return the customers of each trip."""
+    return tuple(tuple(stop.node for stop in trip.stops[1:-1]) for trip in route.trips)
+
+
+def with_customer(trips: Trips, node: int) -> Iterator[Trips]:
+    """Yield all ways to put a customer on a trip, on one of its own, or where one is split."""
+    for index in range(len(trips) + 1):
+        yield (*trips[:index], (node,), *trips[index:])
+    for index, trip in enumerate(trips):
+        before, behind = trips[:index], trips[index + 1:]
+        for cut in range(len(trip) + 1):
+            front, rear = trip[:cut], trip[cut:]
+            yield (*before, (*front, node, *rear), *behind)
+            if front and rear:
+                yield (*before, (*front, node), rear, *behind)
+                yield (*before, front, (node, *rear), *behind)
+
+
+def cost_of(problem: Problem, trips_by_route: list[Trips]) -> float:
+    """Return the cost of a plan of trips by vehicle; infinite if it breaks a rule."""
+    routes = tuple(
+        schedule(problem, RouteDecision(0, number, tuple(TripDecision((0, *trip, 0))
+                                                         for trip in trips)))
+        for number, trips in enumerate(trips_by_route))
+    evaluation = check(problem, Solution(routes, ()))
+    return evaluation.cost.total if evaluation.is_feasible else math.inf
+
+
+def least_cost(problem: Problem, plan: Solution, node: int) -> float:
+    """Return the least cost of a plan with one customer more."""
+    routes = [trips_of(route) for route in plan.routes]
+    ways = [[*routes[:index], way, *routes[index + 1:]]
+            for index, route in enumerate(routes) for way in with_customer(route, node)]
+    if len(routes) < problem.vehicle_types[0].count:
+        ways.append([*routes, ((node,),)])
+    return min(cost_of(problem, way) for way in ways)
+
+
+def inserted_cost(problem: Problem, plan: Solution, seed: int) -> float:
+    """Return the cost after the search inserted who is missing; infinite if it couldn't."""
+    world = make_world(problem, pack([problem]))
+    searcher = make_searcher(problem, world, plan, np.random.SeedSequence(seed))
+    begin_anew(world, searcher, False)
+    return math.inf if searcher.count[I_MISSING] else float(searcher.value[V_COST])
+
+
+def without(plan: Solution, problem: Problem, node: int) -> Solution:
+    """Return a plan without a customer."""
+    routes: list[Route] = []
+    for route in plan.routes:
+        left = [[at for at in trip if at != node] for trip in trips_of(route)]
+        trips = tuple(TripDecision((0, *trip, 0)) for trip in left if trip)
+        if trips:
+            routes.append(schedule(problem, RouteDecision(0, len(routes), trips)))
+    return Solution(tuple(routes), (node,))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_customer_goes_where_that_costs_least(seed: int) -> None:
+    problem = problem_with_trips(seed)
+    nobody = Solution((), tuple(range(1, CUSTOMERS + 1)))
+    plan = improve(problem, pack([problem]), nobody, SearchConfig(turns=20)).solution
+    served = [node for route in plan.routes for trip in trips_of(route) for node in trip]
+    for node in served:
+        rest = without(plan, problem, node)
+        expected = least_cost(problem, rest, node)
+        found = min(inserted_cost(problem, rest, seed) for seed in range(SEEDS))
+        assert found == pytest.approx(expected)
