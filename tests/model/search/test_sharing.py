@@ -1,0 +1,43 @@
+"""Threads that share routes by regions plan legally, and the same every time."""
+
+import numpy as np
+import pytest
+
+from model.check import check
+from model.instance import pack
+from model.search.anneal import begin_anew
+from model.search.improve import SearchConfig, improve
+from model.search.layout import W_SLOT
+from model.search.sharing import DIVIDED_FROM, regions
+from model.search.translate import make_searcher
+from model.search.world import make_world
+from model.solution import Solution
+from training.instances import generate
+
+
+@pytest.mark.parametrize(("variant", "threads"), [
+    ("vrptw", 2), ("hetero", 3), ("drone", 2), ("multitrip", 4)])
+def test_regions_are_searched_side_by_side(variant: str, threads: int) -> None:
+    problem = generate(np.random.default_rng(3), DIVIDED_FROM + 10, variant)
+    config = SearchConfig(seed=5, threads=threads, turns=40 * threads)
+    found, again = (improve(problem, pack([problem]), Solution((), ()), config) for _ in range(2))
+    evaluation = check(problem, found.solution)
+    assert evaluation.violations == ()
+    assert evaluation.cost.total <= found.cost * (1 + 1e-9)
+    assert found.cost < found.first_cost
+    assert found.solution == again.solution
+
+
+@pytest.mark.parametrize("threads", [2, 5])
+def test_regions_have_about_as_many_customers(threads: int) -> None:
+    problem = generate(np.random.default_rng(0), 300, "cvrp")
+    world = make_world(problem, pack([problem]))
+    whole = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    begin_anew(world, whole, False)
+    slot = whole.now.where[1:, W_SLOT]
+    slot = slot[slot >= 0]
+    longest = np.bincount(slot).max()
+    for seed in range(20):
+        owner = regions(problem.coordinates, whole, threads, np.random.default_rng(seed))
+        shares = np.bincount(owner[slot], minlength=threads)
+        assert abs(shares - len(slot) / threads).max() <= longest
