@@ -18,8 +18,9 @@ from benchmarks.published import Published
 Solve = Callable[[Published, float, int], PeerAnswer | None]
 """Plans an instance within seconds from a seed; None if it can't plan such instances."""
 
-WARM_SECONDS = 0.1
-"""Limit of the first call for each set, which doesn't count: code is loaded and compiled in it."""
+WARM_SECONDS, WARM_CALLS = 0.1, 3
+"""Limit and number of the first calls for each set, which don't count: code is loaded and compiled
+in them. What one has compiled may leave it no time for what comes behind."""
 
 WARM_PATIENCE = 900.0
 """Seconds after which a solver that isn't warm is given up."""
@@ -131,7 +132,8 @@ def _serve(solver: Solver, pipe: Connection) -> None:
         except EOFError:
             return
         if instance.set_name not in warm:
-            solver.solve(instance, min(seconds, WARM_SECONDS), seed)
+            for _ in range(WARM_CALLS):
+                solver.solve(instance, min(seconds, WARM_SECONDS), seed)
             warm.add(instance.set_name)
         pipe.send("warm")
         pipe.send(solver.solve(instance, seconds, seed))
