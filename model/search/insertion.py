@@ -15,11 +15,10 @@ from model.search.edit import (
 from model.search.evaluate import INFEASIBLE, price_move
 from model.search.layout import (
     END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_TIMED, NOWHERE, P_DEMAND, P_EARLIEST,
-    P_LIMIT, P_SERVICE, R_CUM, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, S_ARRIVAL,
-    S_FLYING, S_GAP, S_IDLE, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, T_FIRST,
-    T_LAST, W_SLOT, Fleet, World,
+    P_LIMIT, P_SERVICE, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, S_ARRIVAL, S_FLYING, S_GAP, S_IDLE,
+    S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, T_FIRST, T_LAST, W_SLOT, Fleet, World,
 )
-from model.search.refresh import stop_beside
+from model.search.refresh import idle_time, stop_beside
 from model.search.rows import copy_row
 from model.search.scan import fits, is_simple, scan_beside, scan_simple
 from model.search.splitting import more_trips_fit, part_fits
@@ -68,12 +67,6 @@ def take_if_cheaper(world: World, fleet: Fleet, node: int, best: float, move: In
         best = cost
         copy_row(trial, move)
     return best
-
-
-@inlined
-def idle_time(route: IntArray) -> int:
-    """Return how much of the time that a route works is waiting, which a change may use up."""
-    return route[R_WORKING] + route[R_OFFSET] - route[R_CUM]
 
 
 @inlined

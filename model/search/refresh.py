@@ -161,6 +161,12 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
 
 
 @inlined
+def idle_time(route: IntArray) -> int:
+    """Return how much of the time that a route works is waiting, which a change may use up."""
+    return route[R_WORKING] + route[R_OFFSET] - route[R_CUM]
+
+
+@inlined
 def any_customer(world: World, fleet: Fleet, rng: UIntArray) -> int:
     """Return a random customer whom this thread deals with, served or left out.
 

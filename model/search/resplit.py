@@ -21,11 +21,10 @@ from model.search.draw import below, uniform
 from model.search.edit import add_sortie, put
 from model.search.exchange import append
 from model.search.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, P_SERVICE, R_CUM,
-    R_LENGTH, R_OFFSET, R_SORTIES, R_TYPE, R_WORKING, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST,
-    W_SLOT, Fleet, World,
+    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, P_SERVICE, R_LENGTH,
+    R_SORTIES, R_TYPE, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST, W_SLOT, Fleet, World,
 )
-from model.search.refresh import any_customer, locate, refresh, stop_beside
+from model.search.refresh import any_customer, idle_time, locate, refresh, stop_beside
 from model.search.state import Searcher, keep_aside, touch
 
 L_NODE, L_DRIVE, L_DISTANCE, L_GROUNDED, L_BEFORE, L_FLIGHT = range(6)
@@ -300,7 +299,7 @@ def is_worth(world: World, k: int, route: IntArray, before: float, after: float,
 
     Where windows make the truck wait, or count themselves, that says nothing.
     """
-    if world.mode[k] & MODE_PRICED or route[R_WORKING] + route[R_OFFSET] > route[R_CUM]:
+    if world.mode[k] & MODE_PRICED or idle_time(route) > 0:
         return True
     return after < before + limit and abs(after - before) > SAME * before
 
