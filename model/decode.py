@@ -46,6 +46,7 @@ class Policy:
     encoder: ort.InferenceSession
     step: ort.InferenceSession
     hidden_size: int
+    num_features: int  # of the action features, the first that it was trained with
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +87,8 @@ def load_policy(folder: Path) -> Policy:
                          for part in ("encoder", "step"))
     except (OSError, ValueError, *ORT_ERRORS) as error:
         raise ValueError(f"policy folder: {str(folder)!r} is not usable: {error}") from error
-    return Policy(folder.name, encoder, step, hidden_size=int(card["hidden_size"]))
+    feature, = (entry for entry in step.get_inputs() if entry.name == "feature")
+    return Policy(folder.name, encoder, step, int(card["hidden_size"]), int(feature.shape[2]))
 
 
 def prepare(policy: Policy, problem: Problem, instance: Instance) -> Scene:
@@ -145,7 +147,7 @@ def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Genera
         most = step(instance, scene.scale, state, scene.tokens.type, 0, rows, rows, choice, seen)
         if most == 0:
             break
-        logits, hidden = policy.step.run(None, step_inputs(scene, seen, most, hidden))
+        logits, hidden = policy.step.run(None, step_inputs(policy, scene, seen, most, hidden))
         if rng is not None:
             logits = disturbed(logits, temperature, rng.standard_exponential(logits.shape,
                                                                              np.float32))
@@ -165,14 +167,14 @@ def disturbed(logits: Float32Array, temperature: float, noise: Float32Array) -> 
     return logits / temperature - np.log(np.maximum(noise, np.finfo(np.float32).tiny))
 
 
-def step_inputs(scene: Scene, seen: Observation, most: int,
+def step_inputs(policy: Policy, scene: Scene, seen: Observation, most: int,
                 hidden: Float32Array) -> dict[str, IntArray | Float32Array | BoolArray]:
     """Return the inputs of `step.onnx`, padded to `most` candidates."""
     return {
         "memory": scene.memory,
         "here": seen.here,
         "candidate": np.ascontiguousarray(seen.token[:, :most]),
-        "feature": np.ascontiguousarray(seen.feature[:, :most]),
+        "feature": np.ascontiguousarray(seen.feature[:, :most, : policy.num_features]),
         "allowed": np.arange(most) < seen.count[:, None],
         "glob": seen.glob,
         "hidden": hidden,

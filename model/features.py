@@ -14,7 +14,8 @@ from model.instance import (
     TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_TRAVEL, Instance,
 )
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
+from model.prospects import Unit, describe_neighbours, ratio, slack
 from model.schedule import COUNT_TRIPS, Setting, setting_of
 from model.simulator import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, OUTLOOK_ARRIVAL, OUTLOOK_END, OUTLOOK_START, RETURN, apply,
@@ -26,20 +27,9 @@ from model.transition import (
     V_NODE, V_SERVICE_END, V_TYPE, State,
 )
 
-NUM_ACTION_FEATURES = 23
-
-NUM_COMPANY = 3
-"""How many unserved neighbours of a candidate are looked at."""
+NUM_ACTION_FEATURES = 28
 NUM_STATE_FEATURES = 14
 NUM_GLOBAL_FEATURES = NUM_STATE_FEATURES + NUM_TYPE_FEATURES
-
-
-class Unit(NamedTuple):
-    """The units of one problem that steps need: ms, ms, cost."""
-
-    time: float
-    near: float
-    cost: float
 
 
 class Observation(NamedTuple):
@@ -50,6 +40,9 @@ class Observation(NamedTuple):
     the shift, way home from there, slack of distance, of working duration, detour against going
     home now, excess over the nearest candidate, share of the endurance, delay for release, way to
     the nearest unserved customer, to the third nearest, the former's excess over the way from here.
+    Of the nearest unserved ones in time: how soon one is served next (a drone recovered), its slack
+    (the truck's waiting), the share lost by this action, the detour by one before (by air: that the
+    truck would make instead), how soon this one could be served after another.
     """
 
     count: IntArray  # type: ignore[assignment]  # (rollout,)
@@ -76,18 +69,6 @@ def empty_observation(rows: int, num_nodes: int, num_types: int) -> Observation:
 
 
 @compiled
-def _ratio(value: float, scale: float) -> float:
-    """Squash a length of any size to 0..1, half at `scale`."""
-    return value / (value + scale) if value > 0 else 0.0
-
-
-@compiled
-def _slack(limit: int, used: int, scale: float) -> float:
-    """Squash what a limit leaves to 0..1, half at `scale`; 1 where there is no limit."""
-    return 1.0 if limit >= UNLIMITED else _ratio(float(limit - used), scale)
-
-
-@compiled
 def _share(used: int, limit: int) -> float:
     """Return how much of a limit is used, 2 at most; 0 where there is no limit."""
     return 0.0 if limit >= UNLIMITED else min(used / max(1, limit), 2.0)
@@ -101,40 +82,19 @@ def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, veh
     arrival, end = outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_END]
     waiting = outlook[OUTLOOK_START] - arrival
     late = max(0, arrival - columns[NODE_LATEST])
-    feature[7] = _ratio(waiting, unit.time)
-    feature[8] = _slack(columns[NODE_LATEST], arrival, unit.time)
+    feature[7] = ratio(waiting, unit.time)
+    feature[8] = slack(columns[NODE_LATEST], arrival, unit.time)
     window_cost = late * late_early[node, 0] + waiting * late_early[node, 1]
-    feature[9] = _ratio(window_cost / MS_PER_HOUR, unit.cost)
+    feature[9] = ratio(window_cost / MS_PER_HOUR, unit.cost)
     for dimension in range(MAX_DIMENSIONS):
         demand = columns[NODE_DEMAND + dimension]
         if demand > 0:
             feature[10] = max(feature[10], demand / vehicle[V_LOAD + dimension])
             feature[11] = max(feature[11], demand / setting.type[TYPE_CAPACITY + dimension])
-    feature[12] = _slack(setting.type[TYPE_LATEST], end, unit.time)
+    feature[12] = slack(setting.type[TYPE_LATEST], end, unit.time)
     departure = vehicle[V_DEPARTURE_BEST] if begun else vehicle[V_NEXT_START]
-    feature[15] = _slack(setting.type[TYPE_MAX_WORKING], end - departure, unit.time)
-    feature[19] = _ratio(columns[NODE_RELEASE] - vehicle[V_NEXT_START], unit.time)
-
-
-@compiled
-def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, here: int,
-                      node: int, unit: Unit, feature: Float32Array) -> None:
-    """Describe how close a candidate's unserved neighbours are. In place."""
-    found = 0
-    feature[20] = feature[21] = feature[22] = 1.0
-    for rank in range(neighbours.shape[1]):
-        other = neighbours[node, rank]
-        if other < 0 or found == NUM_COMPANY:
-            return
-        if served[other]:
-            continue
-        found += 1
-        way = drive[node, other]
-        feature[21] = _ratio(way, unit.near)
-        if found == 1:
-            feature[20] = feature[21]
-            excess = (way - drive[here, node]) / unit.near
-            feature[22] = max(min(excess / 3.0, 1.0), -1.0)
+    feature[15] = slack(setting.type[TYPE_MAX_WORKING], end - departure, unit.time)
+    feature[19] = ratio(columns[NODE_RELEASE] - vehicle[V_NEXT_START], unit.time)
 
 
 @compiled
@@ -142,7 +102,7 @@ def _describe_leg(unit: Unit, duration: int, distance: int, km: float, hour: flo
                   feature: Float32Array) -> None:
     """Describe the way to a place. In place."""
     feature[4] = min(duration / unit.time, 5.0)
-    feature[5] = _ratio(duration, unit.near)
+    feature[5] = ratio(duration, unit.near)
     cost = distance / MM_PER_KM * km + duration / MS_PER_HOUR * hour
     feature[6] = min(cost / unit.cost, 5.0)
 
@@ -181,7 +141,7 @@ def _describe_open(columns: IntArray, fixed: float, used: int, unserved: float, 
                    feature: Float32Array) -> None:
     """Describe opening a vehicle of a type. In place."""
     left = columns[TYPE_COUNT] - used
-    feature[6] = _ratio(fixed, unit.cost)
+    feature[6] = ratio(fixed, unit.cost)
     feature[10] = left / (left + 4.0)
     feature[11] = min(columns[TYPE_CAPACITY] / max(1.0, unserved), 2.0)
     feature[14] = columns[TYPE_DRONES] > 0
@@ -233,9 +193,9 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     glob[6] = vehicle[V_LOAD] / capacity
     glob[7] = max(min((reserve - unserved) / capacity, 2.0), -2.0)
     glob[8] = min(trips_left, 4) / 4
-    glob[9] = _slack(columns[TYPE_LATEST], clock, scale.time[b])
+    glob[9] = slack(columns[TYPE_LATEST], clock, scale.time[b])
     working = clock - vehicle[V_DEPARTURE_BEST] if state.log.count[r, COUNT_TRIPS] else 0
-    glob[10] = _slack(columns[TYPE_MAX_WORKING], working, scale.time[b])
+    glob[10] = slack(columns[TYPE_MAX_WORKING], working, scale.time[b])
     glob[11] = vehicle[V_FLYING] / max(1, columns[TYPE_DRONES])
     glob[12] = columns[TYPE_DRONES] > vehicle[V_FLYING]
     glob[13] = min(vehicle[V_LOAD] / max(1.0, unserved), 2.0)
@@ -295,14 +255,14 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
         feature[13] = min(way_home / unit.time, 5.0)
         if kind == DRIVE:
             used = vehicle[V_DISTANCE] + distance[here, node] + distance[node, home]
-            feature[14] = _slack(setting.type[TYPE_MAX_DISTANCE], used, distance[home, node])
+            feature[14] = slack(setting.type[TYPE_MAX_DISTANCE], used, distance[home, node])
             detour = (drive[node] + way_home - drive[home]) / unit.time
             feature[16] = max(min(detour, 5.0), -5.0)
-            feature[17] = _ratio(drive[node] - nearest, unit.near)
+            feature[17] = ratio(drive[node] - nearest, unit.near)
         _describe_customer(setting, unit, late_early, vehicle, trips > 0, node,
                            seen.outlook[r, index], feature)
-        _describe_company(setting.drive, instance.neighbour[b], state.served[r], here, node, unit,
-                          feature)
+        describe_neighbours(setting, instance.neighbour[b], state.served[r], vehicle[V_LOAD], here,
+                            node, seen.outlook[r, index], unit, kind == LAUNCH, feature)
 
 
 @compiled

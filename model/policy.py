@@ -2,14 +2,24 @@
 
 from typing import Protocol
 
+import torch
 from torch import Tensor
 
 MASKED = -1e9
 """Logit of what is not a candidate; finite, so that it exports and never gives NaN."""
 
 
+def take(memory: Tensor, token: Tensor) -> Tensor:
+    """Return the rows of tokens: (*problem, token, width) and (*problem, ...) to (..., width)."""
+    if memory.dim() == 2:
+        return memory[token]
+    offset = torch.arange(len(memory), device=token.device) * memory.shape[1]
+    flat = token + offset.view(-1, *(1,) * (token.dim() - 1))
+    return memory.flatten(0, 1).index_select(0, flat.flatten()).view(*token.shape, -1)
+
+
 class PolicyNetwork(Protocol):
-    """A policy. Token indices run over all tokens of all problems of a batch."""
+    """A policy. `*problem` is nothing for one problem, or one axis of several side by side."""
 
     hidden_size: int  # 0 for a policy that remembers nothing between decisions
 
@@ -38,38 +48,41 @@ class PolicyNetwork(Protocol):
         Parameters
         ----------
         memory
-            (token, memory width) of all problems.
+            (*problem, token, memory width).
         here
-            (rollout,) token.
+            (*problem, rollout) token.
         hidden
-            (rollout, hidden_size), zero before the first decision.
+            (*problem, rollout, hidden_size), zero before the first decision.
         """
 
     def remember(self, memory: Tensor, here: Tensor) -> Tensor:
-        """Take note of whole rollouts: (rollout, step) to (rollout, step, hidden_size)."""
+        """Take note of whole rollouts.
+
+        (*problem, rollout, step) to (*problem, rollout, step, hidden_size).
+        """
 
     def score(self, memory: Tensor, here: Tensor, candidate: Tensor, feature: Tensor,
               allowed: Tensor, glob: Tensor, hidden: Tensor) -> Tensor:
-        """Score the candidates of each rollout.
+        """Score the candidates of each decision.
 
         Parameters
         ----------
         memory
-            (token, memory width).
+            (*problem, token, memory width).
         here
-            (rollout,) token of the present place.
+            (*problem, decision) token of the present place.
         candidate
-            (rollout, candidate) token.
+            (*problem, decision, candidate) token.
         feature
-            (rollout, candidate, NUM_ACTION_FEATURES).
+            (*problem, decision, candidate, NUM_ACTION_FEATURES).
         allowed
-            (rollout, candidate) True = a candidate, False = padding.
+            (*problem, decision, candidate) True = a candidate, False = padding.
         glob
-            (rollout, NUM_GLOBAL_FEATURES).
+            (*problem, decision, NUM_GLOBAL_FEATURES).
         hidden
-            (rollout, hidden_size) after `advance`.
+            (*problem, decision, hidden_size) after `advance`.
 
         Returns
         -------
-        (rollout, candidate) logits, MASKED where not allowed.
+        (*problem, decision, candidate) logits, MASKED where not allowed.
         """

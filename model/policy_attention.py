@@ -13,7 +13,7 @@ from torch import Tensor, nn
 from torch.nn.functional import pad, silu
 
 from model.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
-from model.policy import MASKED
+from model.policy import MASKED, take
 from model.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 
 
@@ -21,11 +21,12 @@ from model.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 class AttentionConfig:
     """Sizes of the network."""
 
-    width: int = 128
-    num_heads: int = 8
-    num_layers: int = 5
-    inner: int = 256  # width of the feed-forward gate
-    action_width: int = 64  # width of the network over action features
+    width: int = 96
+    num_heads: int = 6
+    num_layers: int = 3
+    inner: int = 192  # width of the feed-forward gate
+    glimpse_heads: int = 4
+    action_width: int = 48  # width of the network over action features
     clip: float = 10.0
 
 
@@ -57,6 +58,44 @@ class EncoderLayer(nn.Module):
         return x + self.down(silu(gate) * up)
 
 
+class _Slots:
+    """The slots that hold a candidate, so that none is computed for padding but in an export."""
+
+    def __init__(self, candidate: Tensor, allowed: Tensor) -> None:
+        self.candidate = candidate
+        self.allowed = allowed
+        self.is_whole = torch.compiler.is_exporting()
+        if not self.is_whole:
+            self.slot = allowed.flatten().nonzero()[:, 0]
+            self.decision = self.slot // allowed.shape[-1]
+
+    def pick(self, x: Tensor) -> Tensor:
+        """(*problem, decision, candidate, width) to (slot, width)."""
+        return x if self.is_whole else x[self.allowed]
+
+    def of_token(self, x: Tensor) -> Tensor:
+        """(*problem, token, width) to (slot, width) of the candidate in each slot."""
+        if self.is_whole:
+            return take(x, self.candidate)
+        token = self.candidate.reshape(-1)[self.slot]
+        if x.dim() > 2:
+            token = token + self.decision // self.allowed.shape[-2] * x.shape[-2]
+        return x.flatten(0, -2).index_select(0, token)
+
+    def of_decision(self, x: Tensor) -> Tensor:
+        """(*problem, decision, width) to (slot, width) of the decision of each."""
+        if self.is_whole:
+            return x.unsqueeze(-2)
+        return x.flatten(0, -2).index_select(0, self.decision)
+
+    def fill(self, x: Tensor) -> Tensor:
+        """(slot, width) to (*problem, decision, candidate, width), 0 where there is none."""
+        if self.is_whole:
+            return x
+        whole = x.new_zeros(self.allowed.numel(), x.shape[-1])
+        return whole.index_copy(0, self.slot, x).unflatten(0, self.allowed.shape)
+
+
 class AttentionPolicy(nn.Module):
     """Transformer encoder and attention pointer, a `PolicyNetwork`."""
 
@@ -77,11 +116,11 @@ class AttentionPolicy(nn.Module):
                                    nn.Linear(width, width))
         self.action = nn.Linear(NUM_ACTION_FEATURES, config.action_width)
         self.action_query = nn.Linear(width, config.action_width, bias=False)
-        self.glimpse_bias = nn.Linear(config.action_width, config.num_heads, bias=False)
+        self.glimpse_bias = nn.Linear(config.action_width, config.glimpse_heads,
+                                      bias=False)
         self.glimpse_output = nn.Linear(width, width, bias=False)
-        self.action_score = nn.Sequential(
-            nn.SiLU(), nn.Linear(config.action_width, config.action_width), nn.SiLU(),
-            nn.Linear(config.action_width, 1, bias=False))
+        self.action_mix = nn.Linear(config.action_width, config.action_width)
+        self.action_score = nn.Linear(config.action_width, 1, bias=False)
 
     def encode(self, node: Tensor, kind: Tensor, pair: Tensor, token_mask: Tensor) -> Tensor:
         """Return (problem, node + type, 4 * width + action_width).
@@ -104,25 +143,40 @@ class AttentionPolicy(nn.Module):
         return hidden
 
     def remember(self, memory: Tensor, here: Tensor) -> Tensor:
-        """Return nothing remembered, (rollout, step, 0)."""
+        """Return nothing remembered, of no size."""
         return memory.new_zeros(*here.shape, 0)
 
     def score(self, memory: Tensor, here: Tensor, candidate: Tensor, feature: Tensor,
               allowed: Tensor, glob: Tensor, hidden: Tensor) -> Tensor:
-        """Attend to the candidates, then score them by dot product and action network."""
-        width, heads = self.config.width, self.config.num_heads
-        query = memory[:, :width].index_select(0, here) + self.globe(glob)
-        seen = memory[:, width:].index_select(0, candidate.flatten()).unflatten(0, candidate.shape)
-        key, value, pointer, share = seen.split([width, width, width, self.config.action_width],
-                                                dim=2)
-        action = share + self.action(feature)
-        similarity = (query[:, None] * key).unflatten(2, (heads, -1)).sum(dim=3)
-        similarity = similarity / math.sqrt(width // heads) + self.glimpse_bias(silu(action))
-        similarity = similarity.masked_fill(~allowed[..., None], MASKED)
-        weight = torch.softmax(similarity, dim=1).to(value.dtype)
-        mixed = (weight[..., None] * value.unflatten(2, (heads, -1))).sum(dim=1).flatten(1)
-        query = query + self.glimpse_output(mixed)
-        dot = (query[:, None] * pointer).sum(dim=2) / math.sqrt(width)
-        extra = self.action_score(action + self.action_query(query)[:, None])[..., 0]
+        """Attend to the candidates, then score them by dot product and action network.
+
+        Products run over all tokens, of which the candidates' are picked: that is cheaper than to
+        gather keys and values for each candidate.
+        """
+        width, share_width = self.config.width, self.config.action_width
+        place, key, value, pointer, share = memory.split([width] * 4 + [share_width], dim=-1)
+        query = take(place, here) + self.globe(glob)
+        slots = _Slots(candidate, allowed)
+        action = torch.relu(slots.of_token(share) + self.action(slots.pick(feature)))
+        glimpsed = self._glimpse(query, key, value, candidate,
+                                 slots.fill(self.glimpse_bias(action)), allowed)
+        query = query + self.glimpse_output(glimpsed)
+        dot = (query @ pointer.transpose(-1, -2)).gather(-1, candidate) / math.sqrt(width)
+        asked = slots.of_decision(self.action_query(query))
+        extra = slots.fill(self.action_score(torch.relu(self.action_mix(action) + asked)))[..., 0]
         logits = self.config.clip * torch.tanh((dot + extra) / self.config.clip * 2)
         return logits.masked_fill(~allowed, MASKED)
+
+    def _glimpse(self, query: Tensor, key: Tensor, value: Tensor, candidate: Tensor,
+                 bias: Tensor, allowed: Tensor) -> Tensor:
+        """Attend to the candidates' tokens, (*problem, decision, width)."""
+        heads = self.config.glimpse_heads
+        query, key, value = (part.unflatten(-1, (heads, -1)).transpose(-2, -3)
+                             for part in (query, key, value))
+        similarity = query @ key.transpose(-1, -2) / math.sqrt(query.shape[-1])
+        index = candidate.unsqueeze(-3).expand(*similarity.shape[:-1], -1)
+        picked = similarity.gather(-1, index) + bias.movedim(-1, -3)
+        weight = torch.softmax(picked.masked_fill(~allowed.unsqueeze(-3), MASKED), dim=-1)
+        # A customer may be a candidate twice: to drive to and to fly to.
+        on_token = torch.zeros_like(similarity).scatter_add(-1, index, weight.to(similarity.dtype))
+        return (on_token @ value).transpose(-2, -3).flatten(-2)

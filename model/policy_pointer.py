@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 import torch
 from torch import Tensor, nn
+from torch.nn.functional import linear
 
 from model.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
-from model.policy import MASKED
+from model.policy import MASKED, take
 from model.tokens import NUM_NODE_FEATURES, NUM_TYPE_FEATURES
 
 @dataclass(frozen=True)
@@ -54,36 +55,40 @@ class PointerPolicy(nn.Module):
 
     def advance(self, memory: Tensor, here: Tensor, hidden: Tensor) -> Tensor:
         """Let the LSTM read the present place; `hidden` holds its output and its cell."""
-        output, cell = hidden.chunk(2, dim=1)
+        output, cell = hidden.chunk(2, dim=-1)
         weight_in, weight_hidden, bias_in, bias_hidden = self.lstm.all_weights[0]
-        gates = (torch.relu(memory[here]) @ weight_in.T + bias_in
+        gates = (torch.relu(take(memory, here)) @ weight_in.T + bias_in
                  + output @ weight_hidden.T + bias_hidden)
-        enter, forget, new, out = gates.chunk(4, dim=1)
+        enter, forget, new, out = gates.chunk(4, dim=-1)
         cell = torch.sigmoid(forget) * cell + torch.sigmoid(enter) * torch.tanh(new)
-        return torch.cat([torch.sigmoid(out) * torch.tanh(cell), cell], dim=1)
+        return torch.cat([torch.sigmoid(out) * torch.tanh(cell), cell], dim=-1)
 
     def remember(self, memory: Tensor, here: Tensor) -> Tensor:
-        """Let the LSTM read whole rollouts at once: (rollout, step) to (rollout, step, hidden)."""
-        output, _ = self.lstm(torch.relu(memory[here]))
-        return torch.cat([output, torch.zeros_like(output)], dim=2)
+        """Let the LSTM read whole rollouts at once, with nothing in the place of its cell."""
+        place = torch.relu(take(memory, here))
+        output = self.lstm(place.flatten(0, -3))[0].view_as(place)
+        return torch.cat([output, torch.zeros_like(output)], dim=-1)
 
     def score(self, memory: Tensor, here: Tensor, candidate: Tensor, feature: Tensor,
               allowed: Tensor, glob: Tensor, hidden: Tensor) -> Tensor:
         """Fuse local and global state, attend to a context, point from it."""
-        output = hidden[:, : self.config.width]
-        local = torch.relu(memory[candidate] + feature @ self.step_convolution.weight[:, :, 0].T)
-        globe = self.global_weight * torch.relu(
-            self.global_convolution(glob[:, :, None])[:, :, 0])
+        output = hidden[..., : self.config.width]
+        local = torch.relu(take(memory, candidate)
+                           + feature @ self.step_convolution.weight[:, :, 0].T)
+        globe = self.global_weight * torch.relu(linear(
+            glob, self.global_convolution.weight[:, :, 0], self.global_convolution.bias))
         # The fused state of a candidate is local * local_weight + globe. Its linear maps are taken
         # apart, so that what all candidates share is computed once.
         shared = self.attention_local(globe) + self.attention_hidden(output)
         similarity = self.attention_score(torch.tanh(
-            local @ (self.attention_local.weight * self.local_weight).T + shared[:, None]))[..., 0]
-        weight = torch.softmax(similarity.masked_fill(~allowed, MASKED), dim=1)
-        context = (weight[:, None] @ local)[:, 0] * self.local_weight + globe
+            local @ (self.attention_local.weight * self.local_weight).T
+            + shared.unsqueeze(-2)))[..., 0]
+        weight = torch.softmax(similarity.masked_fill(~allowed, MASKED), dim=-1)
+        context = (weight.unsqueeze(-2) @ local).squeeze(-2) * self.local_weight + globe
         shared = self.pointer_local(globe) + self.pointer_context(context)
         logits = self.pointer_score(torch.tanh(
-            local @ (self.pointer_local.weight * self.local_weight).T + shared[:, None]))[..., 0]
+            local @ (self.pointer_local.weight * self.local_weight).T
+            + shared.unsqueeze(-2)))[..., 0]
         return logits.masked_fill(~allowed, MASKED)
 
 

@@ -28,14 +28,14 @@ SEARCH = tuple(f"search/{name}" for name in (
 MODEL_ORDER = (
     "compiled", "problem", "solution", "timing", "metrics", "rules", "check", "attempt", "explain",
     "travel", "airspace", "instance", "schedule", "cost", "transition", "simulator", "tokens",
-    "features", "extract", *SEARCH, "policy", "policy_pointer", "policy_attention", "decode",
-    "planner",
+    "prospects", "features", "extract", *SEARCH, "policy", "policy_pointer", "policy_attention",
+    "decode", "planner",
 )
 """Each file of `model` imports only files to the left of its name."""
 
 CHECKER = ("timing", "metrics", "rules", "check", "attempt", "explain")
 SIMULATION = ("compiled", "instance", "schedule", "cost", "transition", "simulator", "tokens",
-              "features", "extract")
+              "prospects", "features", "extract")
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
 

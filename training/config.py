@@ -20,9 +20,9 @@ class TrainConfig:
     decay: tuple[int, int] = (10**9, 10**9)  # steps between which the rate falls to a hundredth
     critic_rate: float = 1e-3
     gradient_clip: float = 1.0
-    entropy_weight: float = 0.0
-    unassigned_weight: float = 0.2  # of the true penalty, lest one drop outweigh a whole plan
-    max_candidates: int = 200_000  # in one chunk of the gradient pass
+    kept: float = 0.2  # share of the decisions that the gradient is computed from
+    unassigned_weight: float = 0.4  # of the true penalty, lest one drop outweigh a whole plan
+    max_candidates: int = 60_000  # in one chunk of the gradient pass
 
     def learning_rate_at(self, step: int) -> float:
         """Return the rate of a step: warm-up, constant, linear decay."""

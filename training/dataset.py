@@ -7,48 +7,57 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from model.problem import IntArray
+
+GROUP = 64
+"""Problems side by side in a chunk, with about equally many candidates each."""
+ALIKE = 0.6
+"""Least share of a chunk's most candidates that a group's largest decision of a rank has."""
+
 
 @dataclass(frozen=True, eq=False)
 class Decisions:
     """Decisions of a set of rollouts on one device; candidates are flattened."""
 
-    rollout: Tensor  # (decision,)
+    rollout: Tensor  # (decision,) among those of all problems
     step: Tensor  # (decision,) within its rollout
     count: Tensor  # (decision,) candidates
     here: Tensor  # (decision,) token of the place
     glob: Tensor  # (decision, feature)
     candidate: Tensor  # (candidate,) token
     feature: Tensor  # (candidate, feature)
+    choice: Tensor  # (decision,) index of the chosen candidate
+    surprise: Tensor  # (decision,) length of the gradient of log probability by logits
+    entropy: Tensor  # (decision,) nats
 
 
 @dataclass
 class Record:
     """What rollouts decided, step after step."""
 
-    seen: list[Decisions] = field(default_factory=list)
-    choice: list[Tensor] = field(default_factory=list)  # (decision,) index of the candidate
+    steps: list[Decisions] = field(default_factory=list)
 
 
 @dataclass(frozen=True, eq=False)
 class Chunk:
-    """Decisions of similar size, padded to the largest."""
+    """Decisions of similar size of some problems, padded to the most decisions and candidates."""
 
-    rollout: Tensor  # (decision,)
-    step: Tensor  # (decision,)
-    here: Tensor  # (decision,)
-    choice: Tensor  # (decision,)
-    glob: Tensor  # (decision, feature)
-    candidate: Tensor  # (decision, candidate) token
-    feature: Tensor  # (decision, candidate, feature)
-    allowed: Tensor  # (decision, candidate)
+    problem: Tensor  # (problem,)
+    rollout: Tensor  # (problem, decision)
+    step: Tensor  # (problem, decision)
+    here: Tensor  # (problem, decision)
+    choice: Tensor  # (problem, decision)
+    weight: Tensor  # (problem, decision) 0 for padding
+    glob: Tensor  # (problem, decision, feature)
+    candidate: Tensor  # (problem, decision, candidate) token
+    feature: Tensor  # (problem, decision, candidate, feature)
+    allowed: Tensor  # (problem, decision, candidate)
 
 
-def join(record: Record) -> tuple[Decisions, Tensor]:
-    """Join all steps: the decisions and their choices."""
-    parts = record.seen
-    joined = Decisions(*(torch.cat([getattr(part, name) for part in parts])
-                         for name in Decisions.__dataclass_fields__))
-    return joined, torch.cat(record.choice)
+def join(record: Record) -> Decisions:
+    """Join all steps."""
+    return Decisions(*(torch.cat([getattr(part, name) for part in record.steps])
+                       for name in Decisions.__dataclass_fields__))
 
 
 def paths(decisions: Decisions, num_rollouts: int) -> Tensor:
@@ -58,28 +67,63 @@ def paths(decisions: Decisions, num_rollouts: int) -> Tensor:
     return path
 
 
-def chunks(decisions: Decisions, choice: Tensor, max_candidates: int) -> Iterator[Chunk]:
-    """Yield all decisions with a choice to learn from, `max_candidates` at most in each chunk.
+def chunks(decisions: Decisions, weight: Tensor, num_rollouts: int,
+           max_candidates: int) -> Iterator[Chunk]:
+    """Yield all decisions of some weight, `max_candidates` at most in each chunk.
 
-    Decisions with one candidate alone teach nothing and are left out.
+    Parameters
+    ----------
+    decisions
+        Those of `num_rollouts` rollouts of each problem.
+    weight
+        (decision,); those of none are left out, like those with one candidate alone.
+    num_rollouts
+        Rollouts of each problem.
+    max_candidates
+        Bound of a chunk's padded candidates.
     """
-    order = torch.argsort(decisions.count)
-    first = torch.cumsum(decisions.count, 0) - decisions.count
-    sizes = decisions.count[order].cpu().numpy()
-    begin = int(np.searchsorted(sizes, 2))
-    while begin < len(sizes):
-        alike = int(np.searchsorted(sizes, 1.2 * sizes[begin] + 2, side="right"))
-        end = min(alike, begin + max(1, max_candidates // int(sizes[alike - 1])))
-        yield pad(decisions, choice, order[begin:end], first[order[begin:end]],
-                  int(sizes[end - 1]))
+    count = decisions.count.cpu().numpy()
+    kept = np.flatnonzero((count > 1) & (weight.cpu().numpy() > 0))
+    problem = decisions.rollout.cpu().numpy()[kept] // num_rollouts
+    kept = kept[np.lexsort((-count[kept], problem))]
+    problems, begin, size = np.unique(np.sort(problem), return_index=True, return_counts=True)
+    order = np.argsort([count[kept[first:first + number]].sum()
+                        for first, number in zip(begin, size, strict=True)])
+    first_candidate = torch.cumsum(decisions.count, 0) - decisions.count
+    for part in range(0, len(order), GROUP):
+        rows = order[part:part + GROUP]
+        ranks = np.arange(size[rows].max())
+        ranked = np.where(ranks < size[rows, None],
+                          kept[np.minimum(begin[rows, None] + ranks, len(kept) - 1)], -1)
+        for index in _bands(ranked, np.where(ranked < 0, 0, count[ranked]).max(axis=0),
+                            max_candidates):
+            yield _pad(decisions, weight, first_candidate, problems[rows], index)
+
+
+def _bands(ranked: IntArray, most: IntArray, max_candidates: int) -> Iterator[IntArray]:
+    """Cut (problem, rank) where candidates, `most` (rank,) of falling size, get fewer."""
+    begin = 0
+    while begin < len(most):
+        alike = int(np.searchsorted(-most, -ALIKE * most[begin], side="right"))
+        room = max(1, max_candidates // (len(ranked) * int(most[begin])))
+        end = min(alike, begin + room)
+        yield ranked[:, begin:end]
         begin = end
 
 
-def pad(decisions: Decisions, choice: Tensor, index: Tensor, first: Tensor, most: int) -> Chunk:
-    """Pad the candidates of the decisions `index`, that begin at `first`, to `most`."""
-    offset = torch.arange(most, device=index.device)
-    allowed = offset < decisions.count[index][:, None]
-    flat = torch.where(allowed, first[:, None] + offset, 0)
-    feature = decisions.feature[flat] * allowed[..., None]
-    return Chunk(decisions.rollout[index], decisions.step[index], decisions.here[index],
-                 choice[index], decisions.glob[index], decisions.candidate[flat], feature, allowed)
+def _pad(decisions: Decisions, weight: Tensor, first_candidate: Tensor, problems: IntArray,
+         ranked: IntArray) -> Chunk:
+    """Pad the decisions `ranked` (problem, decision), -1 where there is none."""
+    device = weight.device
+    index = torch.from_numpy(ranked).to(device)
+    is_real = index >= 0
+    index = index.clamp_min(0)
+    count = torch.where(is_real, decisions.count[index], 0)
+    offset = torch.arange(int(count.max()), device=device)
+    allowed = offset < count[..., None]
+    flat = torch.where(allowed, first_candidate[index][..., None] + offset, 0)
+    return Chunk(
+        torch.from_numpy(problems).to(device), decisions.rollout[index], decisions.step[index],
+        decisions.here[index], decisions.choice[index] * is_real, weight[index] * is_real,
+        decisions.glob[index], decisions.candidate[flat] * allowed, decisions.feature[flat],
+        allowed)

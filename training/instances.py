@@ -30,8 +30,8 @@ VARIANTS: dict[str, Callable[[np.random.Generator, int, InstanceConfig], Problem
     "mixed": mixed,
 }
 
-SHARES = {"cvrp": 0.06, "vrptw": 0.13, "soft": 0.07, "hetero": 0.1, "multitrip": 0.1,
-          "drone": 0.12, "table1": 0.3, "mixed": 0.12}
+SHARES = {"cvrp": 0.06, "vrptw": 0.3, "soft": 0.05, "hetero": 0.08, "multitrip": 0.09,
+          "drone": 0.13, "table1": 0.19, "mixed": 0.1}
 """How often training draws each variant."""
 
 CUMULATIVE_SHARES = np.cumsum([SHARES[name] for name in VARIANTS])

@@ -15,6 +15,10 @@ from training.dataset import Chunk, Decisions, chunks, paths
 from training.rollout import Batch, Outcome
 
 
+LEAST_SPREAD = 0.002
+"""Relative differences between rollouts below which they count for little."""
+
+
 @dataclass(frozen=True)
 class Loss:
     """What one step saw."""
@@ -39,9 +43,15 @@ def training_costs(batch: Batch, outcome: Outcome, num_rollouts: int,
 
 
 def shared_advantage(costs: Tensor, value: Tensor) -> Tensor:
-    """Compare each rollout with the mean of its problem's rollouts."""
-    mean = costs.mean(dim=1, keepdim=True)
-    return (costs - mean) / mean.clamp_min(1e-6)
+    """Compare the logarithm of each rollout's cost with the mean of its problem's rollouts.
+
+    So the geometric mean of costs is what falls, and a rollout that leaves customers out does not
+    drown the others. Differences are divided by the root of their standard deviation: halfway
+    between all problems counting the same and counting by how much their rollouts differ.
+    """
+    logarithm = costs.clamp_min(1e-6).log()
+    relative = logarithm - logarithm.mean(dim=1, keepdim=True)
+    return relative / (relative.std(dim=1, keepdim=True) + LEAST_SPREAD).sqrt()
 
 
 def critic_advantage(costs: Tensor, value: Tensor) -> Tensor:
@@ -56,9 +66,45 @@ BASELINES: dict[str, Callable[[Tensor, Tensor], Tensor]] = {
 }
 
 
-def policy_gradient(policy: PolicyNetwork, batch: Batch, decisions: Decisions, choice: Tensor,
-                    advantage: Tensor, max_candidates: int, entropy_weight: float,
-                    autocast: bool) -> Loss:
+def draw_weights(decisions: Decisions, advantage: Tensor, kept: float,
+                 generator: torch.Generator) -> Tensor:
+    """Draw the decisions that the gradient is estimated from, and how much each of them counts.
+
+    A decision is drawn with a probability proportional to the length of its part of the gradient
+    (by logits), 1 at most, so certain ones are mostly left out, and counts by the inverse, so the
+    estimate is unbiased.
+
+    Parameters
+    ----------
+    decisions
+        Recorded decisions.
+    advantage
+        (rollout,).
+    kept
+        Share of the decisions with a choice that is drawn, in expectation.
+    generator
+        Random numbers.
+
+    Returns
+    -------
+    (decision,) weights, 0 for those not drawn.
+    """
+    length = advantage[decisions.rollout].abs() * decisions.surprise * (decisions.count > 1)
+    wanted = kept * float((decisions.count > 1).sum())
+    low, high = 0.0, float(length.max()) / max(kept, 1e-6) + 1e-9
+    for _ in range(30):
+        middle = (low + high) / 2
+        if float((length / middle).clamp_max(1.0).sum()) > wanted:
+            low = middle
+        else:
+            high = middle
+    probability = (length / high).clamp_max(1.0)
+    draw = torch.rand(len(length), generator=generator, device=length.device)
+    return torch.where(draw < probability, 1 / probability.clamp_min(1e-9), 0.0)
+
+
+def policy_gradient(policy: PolicyNetwork, batch: Batch, decisions: Decisions, weight: Tensor,
+                    advantage: Tensor, max_candidates: int, autocast: bool) -> Loss:
     """Add the REINFORCE gradient of recorded rollouts to the policy's gradients. In place.
 
     Probabilities are computed anew for all decisions at once, given the recorded actions; chunk by
@@ -71,49 +117,56 @@ def policy_gradient(policy: PolicyNetwork, batch: Batch, decisions: Decisions, c
     batch
         Their problems.
     decisions
-        What each decision saw.
-    choice
-        (decision,) what it chose.
+        What each decision saw and chose.
+    weight
+        (decision,) how much each counts; those of no weight are not computed.
     advantage
         (rollout,) cost above the baseline, in standard deviations.
     max_candidates
         Size of a chunk.
-    entropy_weight
-        Weight of the entropy bonus.
     autocast
         Run the network in bfloat16 where that is safe.
     """
     device = advantage.device
-    num_rollouts = len(advantage)
+    num_rollouts = len(advantage) // batch.num_problems
     with torch.autocast(device.type, torch.bfloat16, enabled=autocast):
-        memory = policy.encode(*batch.encoder_inputs(device)).flatten(0, 1).float()
-        memory_leaf = memory.detach().requires_grad_()
-        hidden = policy.remember(memory_leaf, paths(decisions, num_rollouts))
-    hidden_leaf = hidden.detach().requires_grad_()
-    total, entropy = advantage.new_zeros(()), advantage.new_zeros(())
-    for chunk in chunks(decisions, choice, max_candidates):
-        log_probability = _log_probability(policy, memory_leaf, hidden_leaf, chunk, autocast)
-        chosen = log_probability.gather(1, chunk.choice[:, None])[:, 0]
-        probability = log_probability.exp()
-        uncertainty = -(probability * log_probability).masked_fill(~chunk.allowed, 0.0).sum()
-        loss = (advantage[chunk.rollout] * chosen).sum() - entropy_weight * uncertainty
-        (loss / num_rollouts).backward()
+        memory = policy.encode(*batch.encoder_inputs(device)).float()
+        path = paths(decisions, len(advantage)).unflatten(0, (batch.num_problems, num_rollouts))
+        hidden = policy.remember(memory, path).flatten(0, 1)
+    memory_gradient, hidden_gradient = torch.zeros_like(memory), torch.zeros_like(hidden)
+    total, computed = advantage.new_zeros(()), 0
+    for chunk in chunks(decisions, weight, num_rollouts, max_candidates):
+        # Leaves of the chunk's size alone: gradients of the whole memory would be added up anew
+        # for each chunk.
+        own_memory = memory.detach()[chunk.problem].requires_grad_()
+        own_hidden = hidden.detach()[chunk.rollout, chunk.step].requires_grad_()
+        chosen = _log_probability(policy, own_memory, own_hidden, chunk, autocast)
+        loss = (advantage[chunk.rollout] * chunk.weight * chosen).sum()
+        (loss / len(advantage)).backward()
+        memory_gradient.index_add_(0, chunk.problem, _gradient(own_memory))
+        hidden_gradient.index_put_((chunk.rollout, chunk.step), _gradient(own_hidden),
+                                   accumulate=True)
         total += loss.detach()
-        entropy += uncertainty.detach()
-    if hidden.requires_grad and hidden_leaf.grad is not None and policy.hidden_size:
-        hidden.backward(hidden_leaf.grad)
-    if memory_leaf.grad is not None:
-        memory.backward(memory_leaf.grad)
-    count = len(decisions.count)
-    return Loss(float(total) / num_rollouts, float(entropy) / count, count)
+        computed += int((chunk.weight > 0).sum())
+    if hidden.requires_grad:
+        torch.autograd.backward([memory, hidden], [memory_gradient, hidden_gradient])
+    else:
+        memory.backward(memory_gradient)
+    return Loss(float(total) / len(advantage), float(decisions.entropy.mean()), computed)
+
+
+def _gradient(leaf: Tensor) -> Tensor:
+    """Return the gradient of a leaf, 0 if nothing depends on it."""
+    return torch.zeros_like(leaf) if leaf.grad is None else leaf.grad
 
 
 def _log_probability(policy: PolicyNetwork, memory: Tensor, hidden: Tensor, chunk: Chunk,
                      autocast: bool) -> Tensor:
+    """Return the log-probabilities of what was chosen, (problem, decision)."""
     with torch.autocast(memory.device.type, torch.bfloat16, enabled=autocast):
         logits = policy.score(memory, chunk.here, chunk.candidate, chunk.feature, chunk.allowed,
-                              chunk.glob, hidden[chunk.rollout, chunk.step])
-    return torch.log_softmax(logits.float(), dim=1)
+                              chunk.glob, hidden)
+    return torch.log_softmax(logits.float(), dim=2).gather(2, chunk.choice[..., None])[..., 0]
 
 
 def critic_step(critic: Critic, optimizer: torch.optim.Optimizer, inputs: tuple[Tensor, ...],

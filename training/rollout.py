@@ -14,10 +14,10 @@ from model.policy import PolicyNetwork
 from model.problem import FloatArray, IntArray, Problem
 from model.simulator import max_steps, reset
 from model.tokens import Scales, Tokens, scales, tokens
-from training.dataset import Decisions, Record, pad
+from training.dataset import Decisions, Record
 
 Chooser = Callable[[Tensor], Tensor]
-"""From logits (rollout, candidate) to the index of the chosen candidate (rollout,)."""
+"""From logits (..., candidate) to the index of the chosen candidate (...)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,11 +33,6 @@ class Batch:
     def num_problems(self) -> int:
         """Problems in the batch."""
         return len(self.instance.size)
-
-    @property
-    def num_tokens(self) -> int:
-        """Tokens of each problem, padding included."""
-        return self.tokens.mask.shape[1]
 
     def encoder_inputs(self, device: torch.device) -> tuple[Tensor, ...]:
         """Return node, type and pair features and the token mask as tensors."""
@@ -72,7 +67,7 @@ def make_batch(problems: Sequence[Problem], names: Sequence[str],
 
 def greedy(logits: Tensor) -> Tensor:
     """Choose the likeliest candidates."""
-    return logits.argmax(dim=1)
+    return logits.argmax(dim=-1)
 
 
 def sampler(generator: torch.Generator) -> Chooser:
@@ -80,21 +75,22 @@ def sampler(generator: torch.Generator) -> Chooser:
     def choose(logits: Tensor) -> Tensor:
         noise = torch.empty_like(logits).exponential_(generator=generator)
         # Noise may be exactly zero, whose logarithm would let even what is masked win.
-        return (logits - torch.log(noise.clamp_min(torch.finfo(noise.dtype).tiny))).argmax(dim=1)
+        return (logits - torch.log(noise.clamp_min(torch.finfo(noise.dtype).tiny))).argmax(dim=-1)
     return choose
 
 
 class Simulation:
-    """Rollouts of a batch in the simulator, run by several threads."""
+    """Rollouts of a batch in the simulator, `num_rollouts` of each problem, by several threads."""
 
-    def __init__(self, batch: Batch, rollouts: IntArray, num_threads: int) -> None:
+    def __init__(self, batch: Batch, num_rollouts: int, num_threads: int) -> None:
         self.batch = batch
-        self.num_rollouts = len(rollouts)
-        self.offset = rollouts * batch.num_tokens
-        self.state = reset(batch.instance, rollouts, num_threads)
+        self.num_rows = batch.num_problems * num_rollouts
+        self.shape = (batch.num_problems, num_rollouts)
+        self.state = reset(batch.instance, np.repeat(np.arange(batch.num_problems), num_rollouts),
+                           num_threads)
         self.seen: Observation = empty_observation(
-            self.num_rollouts, batch.instance.node.shape[1], batch.instance.type.shape[1])
-        bounds = np.linspace(0, self.num_rollouts, num_threads + 1).astype(int).tolist()
+            self.num_rows, batch.instance.node.shape[1], batch.instance.type.shape[1])
+        bounds = np.linspace(0, self.num_rows, num_threads + 1).astype(int).tolist()
         self._parts = list(zip(bounds, bounds[1:], range(num_threads), strict=False))
         self._pool = ThreadPoolExecutor(num_threads)
 
@@ -105,22 +101,37 @@ class Simulation:
         """
         def part(first: int, behind: int, thread: int) -> int:
             return int(step(self.batch.instance, self.batch.scale, self.state,
-                            self.batch.tokens.type, first, behind, self.num_rollouts + thread,
+                            self.batch.tokens.type, first, behind, self.num_rows + thread,
                             choice, self.seen))
         return max(self._pool.map(part, *zip(*self._parts, strict=True)))
 
-    def decisions(self, number: int, most: int, device: torch.device) -> Decisions:
-        """Return what the rollouts that go on have seen at step `number`, on a device."""
+    def inputs(self, most: int, device: torch.device) -> tuple[Tensor, ...]:
+        """Return here, candidate, feature, allowed and glob for `score`, (problem, rollout, ...).
+
+        Rollouts that have ended have no candidate.
+        """
+        seen = self.seen
+        arrays = (seen.here, seen.token[:, :most], seen.feature[:, :most],
+                  np.arange(most) < seen.count[:, None], seen.glob)
+        return tuple(torch.from_numpy(array).to(device).unflatten(0, self.shape)
+                     for array in arrays)
+
+    def decisions(self, number: int, most: int, logits: Tensor, chosen: Tensor) -> Decisions:
+        """Return what the rollouts that go on have seen at step `number` and have chosen."""
         seen = self.seen
         rows = np.flatnonzero(seen.count)
-        count, offset = seen.count[rows], self.offset[rows]
-        width = seen.token.shape[1]
-        flat = (np.arange(most) + (rows * width)[:, None])[np.arange(most) < count[:, None]]
-        candidate = seen.token.reshape(-1)[flat] + np.repeat(offset, count)
-        feature = seen.feature.reshape(-1, seen.feature.shape[2])[flat]
-        arrays = (rows, np.full(len(rows), number), count, seen.here[rows] + offset,
-                  seen.glob[rows], candidate, feature)
-        return Decisions(*(torch.from_numpy(array).to(device) for array in arrays))
+        count = seen.count[rows]
+        is_real = np.arange(most) < count[:, None]
+        arrays = (rows, np.full(len(rows), number), count, seen.here[rows], seen.glob[rows],
+                  seen.token[rows, :most][is_real], seen.feature[rows, :most][is_real])
+        alive, *tensors = (torch.from_numpy(array).to(logits.device) for array in arrays)
+        choice = chosen.flatten()[alive]
+        log_probability = torch.log_softmax(logits.flatten(0, 1)[alive], dim=1)
+        probability = log_probability.exp()
+        of_chosen = probability.gather(1, choice[:, None])[:, 0]
+        surprise = (1 - 2 * of_chosen + (probability ** 2).sum(dim=1)).clamp_min(0).sqrt()
+        entropy = -(probability * log_probability).sum(dim=1)
+        return Decisions(*(alive, *tensors, choice, surprise, entropy))
 
     def close(self) -> None:
         """Let go of the threads. In place."""
@@ -128,29 +139,24 @@ class Simulation:
 
 
 @torch.no_grad()
-def roll_out(policy: PolicyNetwork, batch: Batch, rollouts: IntArray, choose: Chooser,
+def roll_out(policy: PolicyNetwork, batch: Batch, num_rollouts: int, choose: Chooser,
              device: torch.device, num_threads: int = 2) -> Outcome:
-    """Plan with a policy; `rollouts` (rollout,) names the problem of each."""
-    simulation = Simulation(batch, rollouts, num_threads)
-    memory = policy.encode(*batch.encoder_inputs(device)).flatten(0, 1).float()
-    hidden = memory.new_zeros(len(rollouts), policy.hidden_size)
-    choice = np.zeros(len(rollouts), np.int64)
+    """Plan each problem of a batch `num_rollouts` times with a policy."""
+    simulation = Simulation(batch, num_rollouts, num_threads)
+    memory = policy.encode(*batch.encoder_inputs(device)).float()
+    hidden = memory.new_zeros(*simulation.shape, policy.hidden_size)
+    choice = np.zeros(simulation.num_rows, np.int64)
     record = Record()
     for number in range(max_steps(batch.instance)):
         most = simulation.step(choice)
         if most == 0:
             break
-        seen = simulation.decisions(number, most, device)
-        first = torch.cumsum(seen.count, 0) - seen.count
-        now = pad(seen, seen.count, torch.arange(len(seen.count), device=device), first, most)
-        after = policy.advance(memory, now.here, hidden[now.rollout])
-        hidden[now.rollout] = after
-        chosen = choose(policy.score(memory, now.here, now.candidate, now.feature, now.allowed,
-                                     now.glob, after).float())
-        record.seen.append(seen)
-        record.choice.append(chosen)
-        choice[simulation.seen.count > 0] = chosen.cpu().numpy()
+        here, candidate, feature, allowed, glob = simulation.inputs(most, device)
+        hidden = policy.advance(memory, here, hidden)
+        logits = policy.score(memory, here, candidate, feature, allowed, glob, hidden).float()
+        chosen = choose(logits)
+        record.steps.append(simulation.decisions(number, most, logits, chosen))
+        choice = chosen.flatten().cpu().numpy()
     simulation.close()
-    state = simulation.state
-    return Outcome(state.cost[: len(rollouts)].copy(),
-                   state.num_unserved[: len(rollouts)].copy(), record)
+    state, rows = simulation.state, simulation.num_rows
+    return Outcome(state.cost[:rows].copy(), state.num_unserved[:rows].copy(), record)

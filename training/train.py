@@ -24,7 +24,9 @@ from model.policy_pointer import Critic
 from training.config import TrainConfig
 from training.dataset import join
 from training.instances import generate, sample_variant, validation_set
-from training.learn import BASELINES, critic_step, policy_gradient, training_costs
+from training.learn import (
+    BASELINES, critic_step, draw_weights, policy_gradient, training_costs,
+)
 from training.policies import POLICIES
 from training.rollout import Batch, greedy, make_batch, roll_out, sampler
 from training.rules import nearest_neighbour
@@ -118,7 +120,7 @@ class Run:
     def __init__(self, config: TrainConfig, device: torch.device, rank: int) -> None:
         self.config = config
         self.device = device
-        self.num_threads = os.cpu_count() or 1
+        self.num_threads = len(os.sched_getaffinity(0))
         self.policy = POLICIES[config.policy]().to(device)
         self.critic = Critic().to(device)
         self.optimizer = torch.optim.AdamW(self.policy.parameters(), lr=config.learning_rate,
@@ -151,11 +153,10 @@ class Run:
         rng = np.random.default_rng((config.seed, self.rank, self.step))
         generator = torch.Generator(self.device).manual_seed(int(rng.integers(2**62)))
         batch = self.draw_batch(rng)
-        rollouts = np.repeat(np.arange(batch.num_problems), config.num_rollouts)
         with torch.autocast(self.device.type, torch.bfloat16,
                             enabled=self.device.type in BF16_DEVICES):
-            outcome = roll_out(self.policy, batch, rollouts, sampler(generator), self.device,
-                               self.num_threads)
+            outcome = roll_out(self.policy, batch, config.num_rollouts, sampler(generator),
+                               self.device, self.num_threads)
         rolled = time.monotonic()
         costs = torch.from_numpy(training_costs(
             batch, outcome, config.num_rollouts, config.unassigned_weight)).float().to(self.device)
@@ -166,9 +167,10 @@ class Run:
         self.spread = 0.95 * self.spread + 0.05 * float(advantage.std())
         advantage = (advantage / self.spread).clamp(-4, 4)
         self.optimizer.zero_grad()
-        loss = policy_gradient(
-            self.policy, batch, *join(outcome.record), advantage, config.max_candidates,
-            config.entropy_weight, self.device.type in BF16_DEVICES)
+        decisions = join(outcome.record)
+        weight = draw_weights(decisions, advantage, config.kept, generator)
+        loss = policy_gradient(self.policy, batch, decisions, weight, advantage,
+                               config.max_candidates, self.device.type in BF16_DEVICES)
         norm = self.move(world)
         self.step += 1
         ended = time.monotonic()
@@ -232,7 +234,7 @@ def validate(run: Run, batches: list[tuple[Batch, np.ndarray]]) -> dict[str, flo
     """
     ratios: dict[str, list[float]] = {}
     for batch, reference in batches:
-        outcome = roll_out(run.policy, batch, np.arange(batch.num_problems), greedy, run.device,
+        outcome = roll_out(run.policy, batch, 1, greedy, run.device,
                            run.num_threads)
         size = int(batch.instance.size[0, 1])
         for name, cost, nearest in zip(batch.names, outcome.cost.sum(axis=1), reference,
@@ -270,7 +272,7 @@ def main(
     folder: Annotated[Path, typer.Option(help="where checkpoint and logs go")],
     policy: str = "pointer", baseline: str = "critic", minutes: float = 60.0,
     device: str = "cpu", seed: int = 0, learning_rate: float = 1e-3, num_problems: int = 64,
-    num_rollouts: int = 8, entropy_weight: float = 0.0, max_candidates: int = 200_000,
+    num_rollouts: int = 8, kept: float = 0.2, max_candidates: int = 60_000,
     size_mix: Annotated[float, typer.Option(help="share of batches at smaller sizes")] = 0.3,
     max_steps: Annotated[int | None, typer.Option(help="stop at this step")] = None,
     sizes: Annotated[str, typer.Option(help="curriculum, first step:customers")] = "0:20,4000:50",
@@ -282,7 +284,7 @@ def main(
     config = TrainConfig(
         policy=policy, baseline=baseline, seed=seed, sizes=curriculum,  # type: ignore[arg-type]
         num_problems=num_problems, num_rollouts=num_rollouts, learning_rate=learning_rate,
-        decay=(first, last), entropy_weight=entropy_weight, max_candidates=max_candidates,
+        decay=(first, last), kept=kept, max_candidates=max_candidates,
         size_mix=size_mix)
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: STOP.set())

@@ -14,6 +14,7 @@ TOLERANCE = 1e-5
 SIGNED = {
     16,  # the detour may be a short cut where the triangle inequality fails
     22,  # the way to the next customer may be shorter than the way from here
+    26,  # as 16
 }
 SIGNED_STATE = {7}  # the capacity left may fall short of the demand left
 
@@ -113,7 +114,7 @@ def test_company_is_the_unserved_customers_nearby(tiny_problem, customers, truck
     for action in (encode_action(OPEN, 0), encode_action(DRIVE, 2)):
         apply(instance, state, 0, action)
     features.observe(instance, scale, state, types, 0, 1, 1, seen)
-    of_node = {int(code) // 4: seen.feature[0, index, 20:] for index, code
+    of_node = {int(code) // 4: seen.feature[0, index, 20:23] for index, code
                in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == DRIVE}
     # From 2 km: customer 1 has 4 km (3 away) next and nobody third but 8 km (7 away).
     np.testing.assert_allclose(of_node[1], [3 / 5, 7 / 9, (3 - 1) / 2 / 3], rtol=1e-6)

@@ -10,10 +10,10 @@ from torch import Tensor
 from model.policy import PolicyNetwork
 from model.policy_attention import AttentionConfig, AttentionPolicy
 from model.policy_pointer import Critic, PointerConfig, PointerPolicy
-from training.dataset import chunks, join, paths
+from training.dataset import Decisions, chunks, join, paths
 from training.instances import VARIANTS, generate
 from training.learn import (
-    critic_advantage, critic_step, policy_gradient, shared_advantage, training_costs,
+    critic_advantage, critic_step, draw_weights, policy_gradient, shared_advantage, training_costs,
 )
 from training.policies import AnyPolicy
 from training.rollout import Batch, Outcome, make_batch, roll_out, sampler
@@ -48,50 +48,90 @@ def play(policy: PolicyNetwork, batch: Batch, scored: list[Tensor] | None = None
     def choose(logits: Tensor) -> Tensor:
         choice = draw(logits)
         if scored is not None:
-            log_probability = torch.log_softmax(logits, dim=1)
-            scored.append(log_probability.gather(1, choice[:, None])[:, 0])
+            log_probability = torch.log_softmax(logits, dim=2)
+            scored.append(log_probability.gather(2, choice[..., None]).flatten())
         return choice
 
-    rollouts = np.repeat(np.arange(batch.num_problems), NUM_ROLLOUTS)
-    return roll_out(policy, batch, rollouts, choose, CPU, 2)
+    return roll_out(policy, batch, NUM_ROLLOUTS, choose, CPU, 2)
+
+
+def all_of(decisions: Decisions) -> Tensor:
+    """Weigh every decision the same."""
+    return torch.ones(len(decisions.count))
+
+
+def gradient_of(policy: AnyPolicy, batch: Batch, decisions: Decisions, weight: Tensor,
+                advantage: Tensor, max_candidates: int = 10_000) -> dict[str, Tensor]:
+    """Return the gradient by name of the parameter."""
+    policy.zero_grad()
+    policy_gradient(policy, batch, decisions, weight, advantage, max_candidates, False)
+    return {name: parameter.grad.clone() for name, parameter in policy.named_parameters()
+            if parameter.grad is not None}
 
 
 @torch.no_grad()
 def test_probabilities_computed_anew_are_those_of_the_rollout(
         policy: AnyPolicy, batch: Batch) -> None:
     scored: list[Tensor] = []
-    decisions, choice = join(play(policy, batch, scored).record)
-    expected = torch.cat(scored)
-    memory = policy.encode(*batch.encoder_inputs(CPU)).flatten(0, 1).detach()
-    hidden = policy.remember(memory, paths(decisions, batch.num_problems * NUM_ROLLOUTS))
-    by_decision = {(int(r), int(s)): float(p) for r, s, p
-                   in zip(decisions.rollout, decisions.step, expected, strict=True)}
-    seen = 0
-    for chunk in chunks(decisions, choice, 500):
-        logits = policy.score(memory, chunk.here, chunk.candidate, chunk.feature, chunk.allowed,
-                              chunk.glob, hidden[chunk.rollout, chunk.step])
-        chosen = torch.log_softmax(logits, dim=1).gather(1, chunk.choice[:, None])[:, 0]
-        for r, s, p in zip(chunk.rollout, chunk.step, chosen, strict=True):
-            assert float(p) == pytest.approx(by_decision.pop((int(r), int(s))), abs=1e-4)
-            seen += 1
-    assert seen > 100
-    assert all(probability == 0.0 for probability in by_decision.values())  # no choice there
+    decisions = join(play(policy, batch, scored).record)
+    memory = policy.encode(*batch.encoder_inputs(CPU))
+    path = paths(decisions, batch.num_problems * NUM_ROLLOUTS)
+    hidden = policy.remember(memory, path.unflatten(0, (-1, NUM_ROLLOUTS))).flatten(0, 1)
+    seen = set()
+    for chunk in chunks(decisions, all_of(decisions), NUM_ROLLOUTS, 500):
+        logits = policy.score(memory[chunk.problem], chunk.here, chunk.candidate, chunk.feature,
+                              chunk.allowed, chunk.glob, hidden[chunk.rollout, chunk.step])
+        chosen = torch.log_softmax(logits, dim=2).gather(2, chunk.choice[..., None])[..., 0]
+        for r, s, p in zip(*(x[chunk.weight > 0].tolist() for x in (
+                chunk.rollout, chunk.step, chosen)), strict=True):
+            assert p == pytest.approx(float(scored[s][r]), abs=1e-4)
+            seen.add((r, s))
+    with_choice = decisions.count > 1
+    assert seen == set(zip(decisions.rollout[with_choice].tolist(),
+                           decisions.step[with_choice].tolist(), strict=True))
+    assert len(seen) > 100
 
 
 def test_size_of_chunks_does_not_change_the_gradient(policy: AnyPolicy, batch: Batch) -> None:
-    decisions, choice = join(play(policy, batch).record)
+    decisions = join(play(policy, batch).record)
     advantage = torch.linspace(-1, 1, batch.num_problems * NUM_ROLLOUTS)
-    gradients = []
-    for max_candidates in (200, 100_000):
-        policy.zero_grad()
-        policy_gradient(policy, batch, decisions, choice, advantage, max_candidates, 0.1, False)
-        gradients.append({name: parameter.grad.clone()
-                          for name, parameter in policy.named_parameters()
-                          if parameter.grad is not None})
-    assert gradients[0].keys() == gradients[1].keys()
-    for name, gradient in gradients[0].items():
-        torch.testing.assert_close(gradient, gradients[1][name], rtol=1e-3, atol=1e-5)
-    assert any(bool(gradient.abs().max() > 1e-4) for gradient in gradients[0].values())
+    parted, whole = (gradient_of(policy, batch, decisions, all_of(decisions), advantage, size)
+                     for size in (200, 100_000))
+    assert parted.keys() == whole.keys()
+    for name, gradient in parted.items():
+        torch.testing.assert_close(gradient, whole[name], rtol=1e-3, atol=1e-5)
+    assert any(bool(gradient.abs().max() > 1e-4) for gradient in parted.values())
+
+
+def test_a_part_of_the_decisions_estimates_the_gradient(policy: AnyPolicy, batch: Batch) -> None:
+    decisions = join(play(policy, batch).record)
+    advantage = torch.linspace(-1, 1, batch.num_problems * NUM_ROLLOUTS)
+    generator = torch.Generator().manual_seed(3)
+    drawn = [draw_weights(decisions, advantage, 0.5, generator) for _ in range(40)]
+    with_choice = int((decisions.count > 1).sum())
+    assert np.mean([int((w > 0).sum()) for w in drawn]) == pytest.approx(0.5 * with_choice, rel=0.1)
+
+    def flat_gradient(weight: Tensor) -> Tensor:
+        gradients = gradient_of(policy, batch, decisions, weight, advantage)
+        return torch.cat([gradient.flatten() for gradient in gradients.values()])
+
+    exact = flat_gradient(all_of(decisions))
+    errors = [flat_gradient(weight) - exact for weight in drawn]
+    one, mean = torch.stack(errors).norm(dim=1).mean(), torch.stack(errors).mean(dim=0).norm()
+    assert mean < 0.3 * one  # 1 / sqrt(40) without bias
+
+
+def test_surprise_is_the_length_of_the_gradient_by_logits(batch: Batch) -> None:
+    torch.manual_seed(5)
+    policy = POLICIES["attention"]()
+    scored: list[Tensor] = []
+    decisions = join(play(policy, batch, scored).record)
+    assert (decisions.surprise[decisions.count == 1] < 1e-3).all()
+    assert (decisions.entropy[decisions.count == 1] < 1e-6).all()
+    assert ((decisions.surprise >= 0) & (decisions.surprise <= 2 ** 0.5)).all()
+    chosen = torch.stack([scored[int(s)][int(r)] for r, s in
+                          zip(decisions.rollout, decisions.step, strict=True)]).exp()
+    assert (decisions.surprise >= 1 - chosen - 1e-5).all()
 
 
 def test_a_step_along_the_gradient_makes_cheap_rollouts_likelier(
@@ -99,21 +139,24 @@ def test_a_step_along_the_gradient_makes_cheap_rollouts_likelier(
     outcome = play(policy, batch)
     costs = torch.from_numpy(training_costs(batch, outcome, NUM_ROLLOUTS, 0.2)).float()
     advantage = shared_advantage(costs, costs[:, 0]).flatten()
-    decisions, choice = join(outcome.record)
-    before = policy_gradient(policy, batch, decisions, choice, advantage, 10_000, 0.0, False)
+    decisions = join(outcome.record)
+    weight = all_of(decisions)
+    before = policy_gradient(policy, batch, decisions, weight, advantage, 10_000, False)
     with torch.no_grad():
         for parameter in policy.parameters():
             if parameter.grad is not None:
                 parameter.sub_(1e-3 * parameter.grad)
     policy.zero_grad()
-    after = policy_gradient(policy, batch, decisions, choice, advantage, 10_000, 0.0, False)
+    after = policy_gradient(policy, batch, decisions, weight, advantage, 10_000, False)
     assert after.policy < before.policy
 
 
-def test_shared_advantage_has_no_mean_and_orders_by_cost() -> None:
-    costs = torch.tensor([[1.0, 2.0, 3.0], [10.0, 10.0, 10.0]])
-    advantage = shared_advantage(costs, torch.zeros(2))
-    torch.testing.assert_close(advantage, torch.tensor([[-0.5, 0.0, 0.5], [0.0, 0.0, 0.0]]))
+def test_shared_advantage_has_no_mean_and_grows_with_the_root_of_the_spread() -> None:
+    logarithms = torch.tensor([[2.0, 2.0, 2.0], [1.9, 2.0, 2.1], [1.6, 2.0, 2.4]])
+    same, near, far = shared_advantage(logarithms.exp(), torch.zeros(3))
+    torch.testing.assert_close(same, torch.zeros(3))
+    torch.testing.assert_close(near, torch.tensor([-1.0, 0.0, 1.0]) * near[2])
+    assert float(far[2] / near[2]) == pytest.approx(2.0, rel=0.02)  # 4 times the spread
 
 
 def test_critic_advantage_compares_with_the_estimate() -> None:
