@@ -38,8 +38,10 @@ lint: .venv/testing ## Check style and types
 	$(BIN)/ruff check
 	$(BIN)/mypy
 
-train: .venv/testing ## Train a policy in runs/pointer, from where it stopped (MINUTES=60)
-	$(BIN)/python -m training.train --folder runs/pointer --minutes $(MINUTES)
+train: .venv/testing ## Train a policy in runs/attention, from where it stopped (MINUTES=60)
+	OMP_NUM_THREADS=1 $(BIN)/python -m training.train --folder runs/attention --policy attention \
+		--baseline shared --sizes 0:20,500:50,7000:100 --size-mix 1.0 --num-rollouts 16 \
+		--learning-rate 0.0005 --minutes $(MINUTES)
 
 bench: .venv/benching ## Run other solvers and Tandem side by side (DATA=../shared/data; hours)
 	$(BIN)/python -m benchmarks.versus --data $(DATA) --output runs/bench/versus.csv

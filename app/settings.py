@@ -6,7 +6,7 @@ from pathlib import Path
 from pydantic import Field
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
-DEFAULT_POLICY = "pointer"
+DEFAULT_POLICY = "attention"
 """Policy that plans when a request names none."""
 
 MAX_THREADS = 64
@@ -24,7 +24,7 @@ class Settings(BaseSettings):
         WEIGHTS_DIR, description="Folder with one sub-folder of exported weights per policy."
     )
     policies: tuple[str, ...] = Field(
-        (DEFAULT_POLICY,), min_length=1, description="Policies to load, as a JSON list."
+        (DEFAULT_POLICY, "pointer"), min_length=1, description="Policies to load, as a JSON list."
     )
     max_body_bytes: int = Field(
         32 * 2**20, ge=1, description="Largest accepted request body in bytes."

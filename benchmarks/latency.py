@@ -28,7 +28,7 @@ from app.convert import to_problem
 from app.reading import read_request
 from app.replies import plan_reply
 from app.service import plan_options
-from app.settings import Settings
+from app.settings import DEFAULT_POLICY, Settings
 from model.check import check
 from model.decode import DecodeConfig, decode, load_policy, prepare
 from model.extract import extract
@@ -128,7 +128,7 @@ def by_phase(request: dict[str, Any], runs: int) -> Clock:
 
 
 def main(runs: Annotated[int, typer.Option(help="requests of each kind")] = 50,
-         policy: str = "pointer") -> None:
+         policy: str = DEFAULT_POLICY) -> None:
     """Print medians in milliseconds."""
     base = json.loads(EXAMPLE.read_text())
     table = Table(title=f"examples/table1.json, {os.cpu_count()} cores, median of {runs}, ms")

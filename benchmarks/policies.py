@@ -16,7 +16,7 @@ import numpy as np
 import torch
 import typer
 
-from app.settings import Settings
+from app.settings import DEFAULT_POLICY, Settings
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem
 from training.export import export
@@ -80,7 +80,7 @@ def table(outcomes: Sequence[Outcome]) -> list[list[str]]:
     return rows
 
 
-def main(policy: str = "pointer", samples: int = 128, size: int = 200,
+def main(policy: str = DEFAULT_POLICY, samples: int = 128, size: int = 200,
          output: Annotated[Path, typer.Option(help="CSV of every plan")]
          = Path("runs/policies.csv")) -> None:
     """Print the table in Markdown."""

@@ -24,6 +24,9 @@ DECODING_SHARE = 0.1
 SECONDS_PER_CUSTOMER = 6e-5
 """Kept back for checking a plan and writing it down."""
 
+WARM_LIMIT = 3600.0
+"""Time limit of the plan that everything is compiled for, which no compiler should need."""
+
 
 class Listener(NamedTuple):
     """What a caller may say and hear while a plan is improved."""
@@ -94,8 +97,8 @@ class Planner:
         for index, name in enumerate(self._policies, 1):
             tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
             began = time.perf_counter()
-            self.plan(small_problem(), PlanOptions(name, time_limit=60.0, search_iterations=4,
-                                                   threads=2))
+            self.plan(small_problem(), PlanOptions(name, time_limit=WARM_LIMIT,
+                                                   search_iterations=4, threads=2))
             options = PlanOptions(name, "sample", num_samples=4, time_limit=0.0)
             self.plan(small_problem(), options)
             tell(f"policy {name} is warm after {time.perf_counter() - began:.1f} s")

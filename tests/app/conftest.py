@@ -14,7 +14,7 @@ import pytest
 import uvicorn
 
 from app.main import create_app
-from app.settings import Settings
+from app.settings import DEFAULT_POLICY, Settings
 from model.check import check
 from model.planner import Elapsed, Planner, PlanOptions, PlanResult
 from model.problem import Problem
@@ -27,7 +27,7 @@ APP_DIR = Path(__file__).parents[2] / "app"
 class FirstFitPlanner:
     """Serves each customer, in order, in the first place where no rule breaks."""
 
-    policies = ("pointer",)
+    policies = (DEFAULT_POLICY,)
 
     def warm(self, progress: Callable[[str], None] | None = None) -> None:
         if progress is not None:

@@ -13,7 +13,7 @@ import pytest
 from app.main import create_app
 from app.schemas_request import OptionsInput
 from app.service import PlanService, ReceivedBody, answer, plan_options
-from app.settings import Settings
+from app.settings import DEFAULT_POLICY, Settings
 from model.planner import PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 
@@ -24,7 +24,7 @@ Serve = Callable[[Planner], httpx.Client]
 class SlowPlanner:
     """Warms up until told to stop."""
 
-    policies = ("pointer",)
+    policies = (DEFAULT_POLICY,)
 
     def __init__(self) -> None:
         self.started = threading.Event()
@@ -47,7 +47,7 @@ class BrokenPlanner:
 class WrongPlanner:
     """Makes plans that break rules, or crashes."""
 
-    policies = ("pointer",)
+    policies = (DEFAULT_POLICY,)
 
     def __init__(self, error: Exception) -> None:
         self._error = error
