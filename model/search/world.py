@@ -28,8 +28,9 @@ SCAN_ALL_BELOW = 400
 """Number of customers from which insertions are tried beside neighbours only."""
 
 LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
-"""How often a better place is overlooked: the last by the number of customers squared, within the
-first two. Small problems have so few places that little else would differ from turn to turn."""
+"""How often a better place is overlooked: the last by the number of customers squared and that on a
+sortie, within the first two. Small problems have so few places that little else would differ from
+turn to turn."""
 
 MOST_VISITS = 8
 """Customers on a sortie that the search puts there at most."""
@@ -68,18 +69,19 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
     visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
                        for kind in problem.vehicle_types], np.int64)
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
+    most_visits = max(1, int(visits.max()))
     rate = rates / np.array([1.0, MM_PER_KM, MS_PER_HOUR, MM_PER_KM, MS_PER_HOUR])
     mode = _modes(instance, columns, place)
     swap = _swaps(problem, mode)
     return World(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
-        num_types=len(problem.vehicle_types), max_visits=max(1, int(visits.max())),
+        num_types=len(problem.vehicle_types), max_visits=most_visits,
         tails=moves.tails,
         single_drones=moves.splits and bool((columns[:, TYPE_DRONES] == 1).any()),
         loops=moves.loops, crossings=moves.crossings, general=not bool((mode & MODE_LEAN).all()),
         traded=moves.types and bool(swap.any()),
         scan_all=problem.num_customers < SCAN_ALL_BELOW,
-        must_serve=_must_serve(problem), blink=_blink(problem.num_customers),
+        must_serve=_must_serve(problem), blink=_blink(problem.num_customers, most_visits),
         unassigned_cost=float(problem.unassigned_cost),
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
         type=columns, rate=rate, mode=mode, visits=visits,
@@ -90,9 +92,9 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
     )
 
 
-def _blink(num_customers: int) -> float:
-    """Return how often a better place is overlooked."""
-    return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / max(1, num_customers) ** 2))
+def _blink(num_customers: int, most_visits: int) -> float:
+    """Return how often a better place is overlooked; sorties of several offer many more places."""
+    return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / (most_visits * max(1, num_customers) ** 2)))
 
 
 def _symmetric(matrices: IntArray) -> bool:
