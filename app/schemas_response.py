@@ -144,9 +144,9 @@ class SolverReply(_Reply):
     policy: str = Field(description="Policy that was asked for.")
     decoding: str = Field(description="How its decisions were taken.")
     seed: int = Field(description="Seed of all random draws.")
-    start: Literal["policy", "insertion"] = Field(
-        description="What the search began with: the policy's plan, or one made by insertion where "
-        "the policy would take too much of `time_limit`."
+    start: Literal["policy", "insertion", "given"] = Field(
+        description="What the search began with: the policy's plan, one made by insertion where "
+        "the policy would take too much of `time_limit`, or one given with the request."
     )
     decoded_cost: float = Field(description="Cost of the plan that the search began with.")
     final_cost: float = Field(description="Cost of this plan.")

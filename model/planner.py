@@ -16,7 +16,7 @@ from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleTy
 from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.solution import Solution
 
-Start = Literal["policy", "insertion"]
+Start = Literal["policy", "insertion", "given"]
 
 DECODING_SHARE = 0.1
 """Most of the time limit that the policy may take; else the search plans from nothing."""
@@ -104,7 +104,7 @@ class Planner:
             tell(f"policy {name} is warm after {time.perf_counter() - began:.1f} s")
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
-             listener: Listener = ALONE) -> PlanResult:
+             listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
         """Plan a problem.
 
         Parameters
@@ -116,14 +116,16 @@ class Planner:
         received_at
             When the time limit began to run, on `time.perf_counter`; None: now.
         listener
-            Whether to stop improving, and whom to tell of improvements.
+            Whether to stop improving, and whom to tell of the first plan and of improvements.
+        start
+            A plan without violations to improve, in place of the policy's.
 
         Raises
         ------
         ValueError
             If the policy is not loaded.
         PlanCheckError
-            If the plan fails the independent check.
+            If the plan, or `start`, fails the independent check.
         """
         if options.policy not in self._policies:
             raise ValueError(f"policy: {options.policy!r} is not one of {', '.join(self.policies)}")
@@ -132,27 +134,30 @@ class Planner:
         if options.time_limit > 0:
             deadline = (began if received_at is None else received_at) + options.time_limit
         searches = options.search_iterations != 0 and deadline is not None
-        first: _Judged | None = None
+        by_policy = start is None and (not searches
+                                       or policy_begins(problem.num_customers, options))
+        instance = pack([problem], neighbours=by_policy)
         decoded = began
         whole = True  # the clock cut no samples
-        by_policy = not searches or policy_begins(problem.num_customers, options)
-        instance = pack([problem], neighbours=by_policy)
         if by_policy:
-            solution = self._decode(problem, instance, options, deadline)
+            start = self._decode(problem, instance, options, deadline)
             decoded = time.perf_counter()
             whole = deadline is None or decoded < deadline
-            first = _judged(problem, solution)
-        if first is not None and not searches:
-            return _result(first, first.cost, options, None, whole,
-                           Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
+        first = None if start is None else _judged(problem, start)
+        how: Start = "policy" if by_policy else "insertion" if first is None else "given"
+        if first is not None:
+            _tell(listener, first)
+            if not searches:
+                return _result(first, how, first.cost, options, None, whole,
+                               Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
         improved = _improve(problem, instance, first, options, deadline, listener)
         searched = time.perf_counter()
         last = _judged(problem, improved.solution)
         if first is not None and first.cost <= last.cost:
             last = first
         elapsed = Elapsed(decoded - began, searched - decoded, time.perf_counter() - searched)
-        return _result(last, None if first is None else first.cost, options, improved, whole,
-                       elapsed)
+        return _result(last, how, improved.first_cost if first is None else first.cost, options,
+                       improved, whole, elapsed)
 
     def _decode(self, problem: Problem, instance: Instance, options: PlanOptions,
                 deadline: float | None) -> Solution:
@@ -191,6 +196,10 @@ def _judged(problem: Problem, solution: Solution) -> _Judged:
     return _Judged(solution, evaluation)
 
 
+def _tell(listener: Listener, first: _Judged) -> None:
+    listener.on_progress(Progress(first.cost, 0, lambda: first.solution))
+
+
 def _improve(problem: Problem, instance: Instance, first: _Judged | None, options: PlanOptions,
              deadline: float | None, listener: Listener) -> Improved:
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
@@ -201,11 +210,8 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
                    deadline, listener.should_stop, listener.on_progress)
 
 
-def _result(last: _Judged, first_cost: float | None, options: PlanOptions,
+def _result(last: _Judged, start: Start, first_cost: float, options: PlanOptions,
             improved: Improved | None, whole: bool, elapsed: Elapsed) -> PlanResult:
-    start: Start = "insertion" if first_cost is None else "policy"
-    if first_cost is None:
-        first_cost = last.cost if improved is None else improved.first_cost
     return PlanResult(
         last.solution, last.evaluation, start, decoded_cost=first_cost, final_cost=last.cost,
         search_iterations=0 if improved is None else improved.turns, threads=options.threads,

@@ -27,6 +27,9 @@ ROUNDS = 40
 SHORTEST_ROUND = 0.005
 """Seconds that threads search for at least before they share their routes."""
 
+LONGEST_ROUND = 0.5
+"""Seconds after which they share them at the latest, and the caller hears of the best."""
+
 SLICE = 0.003
 """Seconds between two looks at the clock."""
 
@@ -104,7 +107,8 @@ class _Limits:
         """Return after how many turns and when the round ends that begins after `turns`."""
         if self.turns is not None:
             return min(self.turns, turns + math.ceil(self.turns / ROUNDS)), self.deadline
-        length = max(SHORTEST_ROUND, (self.deadline - self.began) / ROUNDS)
+        length = (self.deadline - self.began) / ROUNDS
+        length = min(LONGEST_ROUND, max(SHORTEST_ROUND, length))
         return math.inf, min(self.deadline, time.perf_counter() + length)
 
     def over(self, turns: int) -> bool:
@@ -219,7 +223,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     should_stop
         Asked every few milliseconds, from several threads.
     on_progress
-        Told of the best routes so far, about `ROUNDS` times.
+        Told of the best routes so far, `ROUNDS` times or each `LONGEST_ROUND`.
 
     Returns
     -------

@@ -15,6 +15,7 @@ from model.planner import (
 from model.problem import Problem
 from model.rules import Violation
 from model.search.improve import Progress
+from model.solution import Solution
 from training.instances import VARIANTS, generate
 from training.variants import InstanceConfig
 
@@ -201,3 +202,26 @@ def test_warming_tells_its_progress(planner: Planner) -> None:
     told: list[str] = []
     planner.warm(told.append)
     assert [POLICIES[0] in line for line in told[:2]] == [True, True]
+
+
+def test_a_given_plan_is_improved_in_place_of_the_policys(planner: Planner) -> None:
+    problem = generate(np.random.default_rng(4), 20, "drone")
+    options = PlanOptions(POLICIES[0], time_limit=60.0, search_iterations=0)
+    given = planner.plan(problem, options).solution
+    kept = planner.plan(problem, options, start=given)
+    assert (kept.start, kept.solution) == ("given", given)
+    better = planner.plan(problem, replace(options, search_iterations=400), start=given)
+    assert better.start == "given"
+    assert better.decoded_cost == kept.final_cost
+    assert better.final_cost < kept.final_cost
+
+
+def test_listener_hears_of_the_first_plan_before_the_search(planner: Planner) -> None:
+    problem = generate(np.random.default_rng(5), 20, "vrptw")
+    told: list[tuple[Progress, Solution]] = []
+    options = PlanOptions(POLICIES[0], time_limit=60.0, search_iterations=50)
+    listener = Listener(on_progress=lambda progress: told.append((progress, progress.plan())))
+    result = planner.plan(problem, options, listener=listener)
+    first, plan = told[0]
+    assert (first.cost, first.turns) == (result.decoded_cost, 0)
+    assert check(problem, plan).cost.total == result.decoded_cost
