@@ -6,10 +6,9 @@ family of moves less. Costs, those of customers left out included, are compared 
 mean of their ratios. Each plan is checked and is a row of a CSV.
 """
 
-import csv
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields, replace
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -17,6 +16,7 @@ import numpy as np
 import typer
 
 from app.settings import DEFAULT_POLICY, Settings
+from benchmarks.rows import append_rows, read_rows
 from model.check import check
 from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.extract import extract
@@ -120,13 +120,16 @@ def search_config(way: Way, turns: int | None = None) -> SearchConfig:
     return SearchConfig(turns=turns, moves=moves)
 
 
-def measure(samples: Sequence[Sample], policy: Policy, chosen: Sequence[Way]) -> Iterator[Trial]:
-    """Yield the plan of each problem by each way."""
+def measure(samples: Sequence[Sample], policy: Policy, chosen: Sequence[Way],
+            known: Collection[tuple[str, Way]] = ()) -> Iterator[Trial]:
+    """Yield the plan of each problem by each way, but those `known`."""
     for one in samples[::max(1, len(samples) // len(VARIANTS))]:
         for way in chosen:
             plans(one.problem, policy, way, turns=20)  # so that all code is compiled
     for number, one in enumerate(samples, start=1):
         for way in chosen:
+            if (one.name, way) in known:
+                continue
             began = time.perf_counter()
             found = plans(one.problem, policy, way)
             seconds = time.perf_counter() - began
@@ -148,20 +151,6 @@ def trial(one: Sample, way: Way, found: Iterable[Solution], seconds: float) -> T
         raise PlanCheckError(f"{one.name}, {way}: {evaluation.violations[0].message}")
     return Trial(one.name, one.variant, one.size, way.start, way.seconds, way.without,
                  round(seconds, 4), evaluation.cost.total, len(solution.unassigned))
-
-
-def written(path: Path, trials: Iterable[Trial]) -> list[Trial]:
-    """Return the trials, each written to a CSV as soon as it is there."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    kept = []
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(field.name for field in fields(Trial))
-        for row in trials:
-            writer.writerow(astuple(row))
-            file.flush()
-            kept.append(row)
-    return kept
 
 
 def groups(trials: Sequence[Trial]) -> dict[str, list[Trial]]:
@@ -240,7 +229,9 @@ def main(
     chosen = ways([float(limit) for limit in limits.split(",")])
     samples = sample([int(size) for size in sizes.split(",")], each)
     loaded = load_policy(Settings().weights_dir / policy)
-    trials = written(output, measure(samples, loaded, chosen))
+    known = {(trial.problem, trial.way) for trial in read_rows(output, Trial)}
+    append_rows(output, Trial, measure(samples, loaded, chosen, known))
+    trials = read_rows(output, Trial)
     typer.echo("\n".join([*table_of_starts(trials), "", *table_of_moves(trials)]))
 
 

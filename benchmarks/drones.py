@@ -4,20 +4,20 @@ The search plans from nothing, each set under its own rules. Each run is a row o
 soon as it is there; runs that have a row are not repeated. A table of all rows follows.
 """
 
-import csv
 import math
 import statistics
 import time
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import typer
 
 from benchmarks.results import gap_percent
+from benchmarks.rows import append_rows, read_rows
 from benchmarks.truck_drone import LOADERS
 from benchmarks.truck_drone_rules import TruckDroneInstance, broken_rules
 from benchmarks.versus import machine
@@ -164,36 +164,6 @@ def measure(planned: Sequence[Run]) -> Iterator[DroneResult]:
         yield row
 
 
-def read_rows(path: Path) -> list[DroneResult]:
-    """Return the rows of a CSV; none if there is no file."""
-    if not path.exists():
-        return []
-    with path.open(encoding="utf-8", newline="") as file:
-        return [_row(texts) for texts in csv.DictReader(file)]
-
-
-def _row(texts: dict[str, str]) -> DroneResult:
-    values: dict[str, Any] = {}
-    for field in fields(DroneResult):
-        kind: Any = field.type
-        text = texts[field.name]
-        values[field.name] = text == "True" if kind is bool else kind(text)
-    return DroneResult(**values)
-
-
-def append_rows(path: Path, rows: Iterable[DroneResult]) -> None:
-    """Write each row to a CSV as soon as it is there, after those that it has."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    is_new = not path.exists()
-    with path.open("a", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        if is_new:
-            writer.writerow(field.name for field in fields(DroneResult))
-        for row in rows:
-            writer.writerow(astuple(row))
-            file.flush()
-
-
 def table(rows: Iterable[DroneResult]) -> list[str]:
     """Return the Markdown table, a line for each set, size, kind of reference and budget."""
     groups: dict[tuple[str, int, str, float, int], list[DroneResult]] = {}
@@ -255,12 +225,12 @@ def main(
     read = [instance for name in folders
             for instance in LOADERS[name](data / "truck_drone" / name)
             if largest is None or instance.size <= largest]
-    known = {row.key for row in read_rows(output)}
+    known = {row.key for row in read_rows(output, DroneResult)}
     planned = [Run(instance, threads, float(budget), seed)
                for budget in seconds.split(",") for seed in range(1, seeds + 1)
                for instance in sample(read, most)]
-    append_rows(output, measure([run for run in planned if run.key not in known]))
-    text = "\n".join(table(read_rows(output)))
+    append_rows(output, DroneResult, measure([run for run in planned if run.key not in known]))
+    text = "\n".join(table(read_rows(output, DroneResult)))
     typer.echo(text)
     if markdown is not None:
         markdown.write_text(text + "\n", encoding="utf-8")

@@ -13,7 +13,8 @@ from typing import Annotated
 import typer
 
 from benchmarks.plots import draw_anytime, draw_by_size
-from benchmarks.results import Result, read_results
+from benchmarks.results import Result
+from benchmarks.rows import read_rows
 from benchmarks.workers import SOLVERS
 
 BEGIN, END = "<!-- versus: begin -->", "<!-- versus: end -->"
@@ -148,7 +149,7 @@ def main(
 ) -> None:
     """Write the page and its plots."""
     try:
-        write(read_results(results), output)
+        write(read_rows(results, Result), output)
     except ValueError as error:
         raise typer.BadParameter(str(error)) from error
 

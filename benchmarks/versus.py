@@ -20,7 +20,8 @@ import typer
 
 from benchmarks.peers import PeerAnswer, judge
 from benchmarks.published import CONVENTIONS, Published, published_set, to_problem
-from benchmarks.results import Result, append_results, gap_percent, read_results
+from benchmarks.results import Result, gap_percent
+from benchmarks.rows import append_rows, read_rows
 from benchmarks.workers import SOLVERS, NoPlanError, Worker, require_installed
 
 QUICK = ("R101", "RC207", "R1_2_6", "X157-HD", "R205R0.25", "X-n200-k36")
@@ -140,13 +141,13 @@ def main(
         require_installed(names)
         limits = QUICK_BUDGETS if quick else tuple(float(text) for text in budgets.split(","))
         instances = _instances(data, sets.split(","), QUICK if quick else ())
-        known = {row.key for row in read_results(output)} if output.exists() else set()
+        known = {row.key for row in read_rows(output, Result)}
     except ValueError as error:
         raise typer.BadParameter(str(error)) from error
     planned = [run for run in runs(instances, names, limits, 1 if quick else seeds)
                if run.key not in known]
     typer.echo(f"{len(known)} runs are in {output}, up to {len(planned)} are to come")
-    append_results(output, measure(planned))
+    append_rows(output, Result, measure(planned))
 
 
 if __name__ == "__main__":

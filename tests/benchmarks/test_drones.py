@@ -9,7 +9,8 @@ import pytest
 import typer
 
 from benchmarks import drones
-from benchmarks.drones import DroneResult, Run, append_rows, judge, plan, read_rows, result, table
+from benchmarks.drones import DroneResult, Run, judge, plan, result, table
+from benchmarks.rows import append_rows, read_rows
 from benchmarks.truck_drone_rules import LOOPS, TruckDroneInstance
 from model.problem import Customer, DroneType, Problem, VehicleType
 from model.solution import Solution
@@ -94,11 +95,11 @@ def test_search_keeps_to_the_rules_of_the_set(instance: TruckDroneInstance) -> N
 
 def test_rows_come_back_from_the_file_as_they_were(tmp_path: Path) -> None:
     path = tmp_path / "new" / "drones.csv"
-    assert read_rows(path) == []
+    assert read_rows(path, DroneResult) == []
     first, second = row(), row(instance="other", feasible=False, seed=2, cost=4.25)
-    append_rows(path, [first])
-    append_rows(path, [second])
-    assert read_rows(path) == [first, second]
+    append_rows(path, DroneResult, [first])
+    append_rows(path, DroneResult, [second])
+    assert read_rows(path, DroneResult) == [first, second]
 
 
 def test_table_has_a_line_for_each_group() -> None:
@@ -131,8 +132,8 @@ def test_runs_that_have_a_row_are_not_repeated(
     output, markdown = tmp_path / "drones.csv", tmp_path / "drones.md"
     for seeds in (1, 2, 2):
         drones.main(tmp_path, output, "made_up", "0.05", seeds=seeds, markdown=markdown)
-        assert [one.seed for one in read_rows(output)] == list(range(1, seeds + 1))
-    assert markdown.read_text("utf-8").splitlines() == table(read_rows(output))
+        assert [one.seed for one in read_rows(output, DroneResult)] == list(range(1, seeds + 1))
+    assert markdown.read_text("utf-8").splitlines() == table(read_rows(output, DroneResult))
 
 
 def test_unknown_sets_are_refused(tmp_path: Path) -> None:

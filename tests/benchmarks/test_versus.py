@@ -14,7 +14,8 @@ from benchmarks import peer_hgs, peer_ortools, peer_pyvrp, peer_vroom, peer_vrpc
 from benchmarks.peers import PeerAnswer, PeerRoute, better, judge, useful_counts
 from benchmarks.published import NO_LIMIT, Published, PublishedVehicle, to_problem
 from benchmarks.report import BEGIN, END, table, write
-from benchmarks.results import COLUMNS, Result, append_results, read_results
+from benchmarks.results import Result
+from benchmarks.rows import append_rows, columns, read_rows
 from benchmarks.versus import in_turn, runs
 from benchmarks.workers import SOLVERS, NoPlanError, Solver, Worker, require_installed
 
@@ -230,7 +231,7 @@ def measure(folder: Path, **options: object) -> list[Result]:
     chosen = {"data": folder, "sets": "solomon", "budgets": "0.1", "seeds": 1, "solvers": "good",
               "output": output, **options}
     versus.main(**chosen)
-    return read_results(output)
+    return read_rows(output, Result)
 
 
 def test_measurement_goes_on_where_it_stopped(
@@ -259,20 +260,20 @@ def test_wrong_options_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 def test_results_survive_their_file(tmp_path: Path) -> None:
     path = tmp_path / "new" / "versus.csv"
     results = [row("pyvrp", 1.5), row("hgs", math.nan, cost=math.nan, version="")]
-    append_results(path, results[:1])
-    append_results(path, results[1:])
-    assert str(read_results(path)) == str(results)
-    assert path.read_text(encoding="utf-8").count(",".join(COLUMNS)) == 1
+    append_rows(path, Result, results[:1])
+    append_rows(path, Result, results[1:])
+    assert str(read_rows(path, Result)) == str(results)
+    assert path.read_text(encoding="utf-8").count(",".join(columns(Result))) == 1
 
 
 def test_file_that_holds_no_results_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "versus.csv"
     path.write_text("a,b\n1,2\n", encoding="utf-8")
     with pytest.raises(ValueError, match="columns"):
-        read_results(path)
-    path.write_text(",".join(COLUMNS) + "\nsolomon,R101\n", encoding="utf-8")
+        read_rows(path, Result)
+    path.write_text(",".join(columns(Result)) + "\nsolomon,R101\n", encoding="utf-8")
     with pytest.raises(ValueError, match="line 2"):
-        read_results(path)
+        read_rows(path, Result)
 
 
 def test_table_shows_gaps_spread_failures_and_overruns() -> None:
