@@ -1,7 +1,7 @@
 """Recorded decisions, flattened over candidates, and their padding into tensors for the network."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import torch
@@ -31,13 +31,6 @@ class Decisions:
     entropy: Tensor  # (decision,) nats
 
 
-@dataclass
-class Record:
-    """What rollouts decided, step after step."""
-
-    steps: list[Decisions] = field(default_factory=list)
-
-
 @dataclass(frozen=True, eq=False)
 class Chunk:
     """Decisions of similar size of some problems, padded to the most decisions and candidates."""
@@ -54,9 +47,9 @@ class Chunk:
     allowed: Tensor  # (problem, decision, candidate)
 
 
-def join(record: Record) -> Decisions:
-    """Join all steps."""
-    return Decisions(*(torch.cat([getattr(part, name) for part in record.steps])
+def join(steps: Sequence[Decisions]) -> Decisions:
+    """Join the decisions of all steps."""
+    return Decisions(*(torch.cat([getattr(part, name) for part in steps])
                        for name in Decisions.__dataclass_fields__))
 
 

@@ -14,7 +14,7 @@ from model.policy import PolicyNetwork
 from model.problem import FloatArray, IntArray, Problem
 from model.simulator import max_steps, reset
 from model.tokens import Scales, Tokens, scales, tokens
-from training.dataset import Decisions, Record
+from training.dataset import Decisions
 
 Chooser = Callable[[Tensor], Tensor]
 """From logits (..., candidate) to the index of the chosen candidate (...)."""
@@ -47,7 +47,7 @@ class Outcome:
 
     cost: FloatArray  # (rollout, 6) by term
     num_unserved: IntArray  # (rollout,)
-    record: Record
+    record: list[Decisions]  # step by step
 
 
 def make_batch(problems: Sequence[Problem], names: Sequence[str],
@@ -146,7 +146,7 @@ def roll_out(policy: PolicyNetwork, batch: Batch, num_rollouts: int, choose: Cho
     memory = policy.encode(*batch.encoder_inputs(device)).float()
     hidden = memory.new_zeros(*simulation.shape, policy.hidden_size)
     choice = np.zeros(simulation.num_rows, np.int64)
-    record = Record()
+    record = []
     for number in range(max_steps(batch.instance)):
         most = simulation.step(choice)
         if most == 0:
@@ -155,7 +155,7 @@ def roll_out(policy: PolicyNetwork, batch: Batch, num_rollouts: int, choose: Cho
         hidden = policy.advance(memory, here, hidden)
         logits = policy.score(memory, here, candidate, feature, allowed, glob, hidden).float()
         chosen = choose(logits)
-        record.steps.append(simulation.decisions(number, most, logits, chosen))
+        record.append(simulation.decisions(number, most, logits, chosen))
         choice = chosen.flatten().cpu().numpy()
     simulation.close()
     state, rows = simulation.state, simulation.num_rows
