@@ -18,7 +18,7 @@ from model.search.state import (
     I_CUSTOMERS, I_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher,
 )
 from model.search.translate import first_plan, leg_cost, make_searcher, read_plan
-from model.search.world import ALL_MOVES, Moves, make_world
+from model.search.world import ALL_MOVES, Moves, has_single_drones, make_world
 from model.solution import Solution
 
 ROUNDS = 40
@@ -238,11 +238,11 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
         raise ValueError("deadline, turns: None, None is not allowed")
     limits = _Limits(time.perf_counter(), math.inf if deadline is None else deadline,
                      None if config.turns is None else config.turns // config.threads, should_stop)
-    world = make_world(problem, instance, config.moves)
-    by_truck = (not solution.routes and world.single_drones
-                and problem.num_customers >= BY_TRUCK_FROM)
+    by_truck = (not solution.routes and problem.num_customers >= BY_TRUCK_FROM
+                and has_single_drones(problem, config.moves))
     if by_truck:
         solution = _plan_by_truck(problem, instance, config, limits)
+    world = make_world(problem, instance, config.moves)
     fresh = not solution.routes
     if fresh:
         solution = first_plan(problem, world)

@@ -77,7 +77,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
         tails=moves.tails,
-        single_drones=moves.splits and bool((columns[:, TYPE_DRONES] == 1).any()),
+        single_drones=has_single_drones(problem, moves),
         loops=moves.loops, crossings=moves.crossings, general=not bool((mode & MODE_LEAN).all()),
         traded=moves.types and bool(swap.any()),
         scan_all=problem.num_customers < SCAN_ALL_BELOW,
@@ -90,6 +90,12 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
         near=near, fit=_fit(problem, place, near),
     )
+
+
+def has_single_drones(problem: Problem, moves: Moves) -> bool:
+    """Tell whether trips with one drone may be split anew."""
+    return moves.splits and (moves.loops or moves.crossings) and any(
+        kind.drones is not None and kind.drones.count == 1 for kind in problem.vehicle_types)
 
 
 def _blink(num_customers: int, most_visits: int) -> float:
