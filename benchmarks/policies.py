@@ -1,35 +1,39 @@
-"""Policies on the fixed validation set, beside the nearest neighbour.
+"""Policies on the fixed validation set, beside rules of thumb.
 
 `python -m benchmarks.policies` writes a CSV of every plan and prints a table of each class: the
 geometric mean of costs relative to the nearest feasible neighbour's plan of the same problem, and
 in brackets how many customers were left out. Every plan is checked.
 """
 
-import csv
-import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-import torch
 import typer
 
-from app.settings import DEFAULT_POLICY, Settings
+from app.settings import Settings
+from benchmarks.rows import append_rows, read_rows
+from model.check import check
+from model.instance import pack
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem
-from training.export import export
+from model.search.improve import SearchConfig, improve
+from model.solution import Solution
 from training.instances import validation_set
-from training.policies import POLICIES
 from training.rollout import make_batch
 from training.rules import nearest_neighbour
+
+Method = Callable[[Problem], Solution]
 
 
 @dataclass(frozen=True)
 class Outcome:
     """One plan of one problem."""
 
+    problem: int  # its place in the validation set
     name: str
     method: str
     cost: float
@@ -37,31 +41,47 @@ class Outcome:
     nearest_cost: float
 
 
-def untrained(name: str) -> Planner:
-    """Return a planner with the named network at its first random weights."""
-    torch.manual_seed(0)
-    with tempfile.TemporaryDirectory() as folder:
-        export(POLICIES[name](), Path(folder) / name, {})
-        return load_planner(Path(folder), [name])
+def cheapest_insertion(problem: Problem) -> Solution:
+    """Plan as the search begins where it is given nothing."""
+    return improve(problem, pack([problem], neighbours=False), Solution((), ()),
+                   SearchConfig(turns=0)).solution
 
 
-def plan_all(problems: Sequence[tuple[str, Problem]], policy: str, samples: int) -> list[Outcome]:
-    """Plan each problem by every method."""
-    trained = load_planner(Settings().weights_dir, [policy])
-    methods = {
-        f"{policy}, untrained": (untrained(policy), PlanOptions(policy, time_limit=0.0)),
-        f"{policy}, greedy": (trained, PlanOptions(policy, time_limit=0.0)),
-        f"{policy}, {samples} samples": (
-            trained, PlanOptions(policy, "sample", samples, time_limit=0.0)),
-    }
-    outcomes = []
-    for name, problem in problems:
+def by_policy(planner: Planner, options: PlanOptions, problem: Problem) -> Solution:
+    """Plan by a policy alone."""
+    return planner.plan(problem, options).solution
+
+
+def methods(policies: Sequence[str], samples: int) -> dict[str, Method]:
+    """Return all ways to plan by their names in the table."""
+    planner = load_planner(Settings().weights_dir, policies)
+    chosen: dict[str, Method] = {"cheapest insertion": cheapest_insertion}
+    for name in policies:
+        greedy = PlanOptions(name, time_limit=0.0)
+        drawn = PlanOptions(name, "sample", samples, time_limit=0.0)
+        chosen[f"{name}, greedy"] = partial(by_policy, planner, greedy)
+        chosen[f"{name}, {samples} samples"] = partial(by_policy, planner, drawn)
+    return chosen
+
+
+def plan_all(problems: Sequence[tuple[str, Problem]],
+             ways: Mapping[str, Method]) -> Iterator[Outcome]:
+    """Plan each problem by every method.
+
+    Raises
+    ------
+    ValueError
+        If a plan breaks a rule.
+    """
+    for number, (name, problem) in enumerate(problems):
         nearest = float(nearest_neighbour(make_batch([problem], [name]))[0])
-        for method, (planner, options) in methods.items():
-            result = planner.plan(problem, options)
-            outcomes.append(Outcome(name, method, result.final_cost,
-                                    len(result.solution.unassigned), nearest))
-    return outcomes
+        for method, plan in ways.items():
+            solution = plan(problem)
+            evaluation = check(problem, solution)
+            if evaluation.violations:
+                raise ValueError(f"{name}, {method}: {evaluation.violations[0].message}")
+            yield Outcome(number, name, method, evaluation.cost.total, len(solution.unassigned),
+                          nearest)
 
 
 def table(outcomes: Sequence[Outcome]) -> list[list[str]]:
@@ -80,18 +100,15 @@ def table(outcomes: Sequence[Outcome]) -> list[list[str]]:
     return rows
 
 
-def main(policy: str = DEFAULT_POLICY, samples: int = 128, size: int = 200,
-         output: Annotated[Path, typer.Option(help="CSV of every plan")]
+def main(policies: Annotated[str, typer.Option(help="comma-separated")] = "pointer,attention",
+         samples: int = 128, size: int = 200,
+         output: Annotated[Path, typer.Option(help="CSV of every plan, made anew")]
          = Path("runs/policies.csv")) -> None:
     """Print the table in Markdown."""
-    outcomes = plan_all(validation_set(size), policy, samples)
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with output.open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["problem", "method", "cost", "unassigned", "nearest_cost"])
-        writer.writerows((o.name, o.method, o.cost, o.unassigned, o.nearest_cost)
-                         for o in outcomes)
-    header, *rows = table(outcomes)
+    output.unlink(missing_ok=True)
+    ways = methods(policies.split(","), samples)
+    append_rows(output, Outcome, plan_all(validation_set(size), ways))
+    header, *rows = table(read_rows(output, Outcome))
     print("| " + " | ".join(header) + " |\n|" + " --- |" * len(header))
     for row in rows:
         print("| " + " | ".join(row) + " |")

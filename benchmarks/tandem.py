@@ -14,8 +14,15 @@ VERSION = "0.2.0"
 
 
 @lru_cache(maxsize=1)
-def _problem(instance: Published) -> Problem:
+def problem_of(instance: Published) -> Problem:
+    """Return the instance as the planner takes it, which is made before the clock runs."""
     return to_problem(instance)
+
+
+def plan_to_answer(solution: Solution, seconds: float) -> PeerAnswer:
+    """Return a plan as other solvers state theirs."""
+    routes = [(route.vehicle_type, _trips(route)) for route in solution.routes]
+    return PeerAnswer(routes, seconds, VERSION)
 
 
 def _trips(route: Route) -> list[list[int]]:
@@ -24,10 +31,9 @@ def _trips(route: Route) -> list[list[int]]:
 
 def solve(instance: Published, seconds: float, seed: int, threads: int) -> PeerAnswer:
     """Plan an instance within `seconds`, all of the search's preparations included."""
-    problem = _problem(instance)
+    problem = problem_of(instance)
     nothing = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
     improved = improve(problem, pack([problem], neighbours=False), nothing,
                        SearchConfig(seed, threads), began + seconds)
-    routes = [(route.vehicle_type, _trips(route)) for route in improved.solution.routes]
-    return PeerAnswer(routes, time.perf_counter() - began, VERSION)
+    return plan_to_answer(improved.solution, time.perf_counter() - began)

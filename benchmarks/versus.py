@@ -18,6 +18,7 @@ from typing import Annotated
 
 import typer
 
+from benchmarks.instances import uniform_set
 from benchmarks.peers import PeerAnswer, judge
 from benchmarks.published import CONVENTIONS, Published, published_set, to_problem
 from benchmarks.results import Result, gap_percent
@@ -28,6 +29,12 @@ QUICK = ("R101", "RC207", "R1_2_6", "X157-HD", "R205R0.25", "X-n200-k36")
 """Instances of a quick look."""
 
 QUICK_BUDGETS = (0.1, 1.0)
+
+UNIFORM = {"uniform_50": 50, "uniform_100": 100}
+"""Sets of `vrptw_uniform.jsonl` by their number of customers."""
+
+COMPARED = tuple(name for name in SOLVERS if name not in ("attention", "pointer"))
+"""Solvers that are measured unless others are asked for."""
 
 
 @dataclass(frozen=True)
@@ -118,7 +125,8 @@ def measure(planned: Sequence[Run]) -> Iterator[Result]:
 
 def _instances(data: Path, sets: Sequence[str], names: Sequence[str]) -> list[Published]:
     """Return the instances of sets in turn, those named or, if none are, all."""
-    read = [published_set(data, name) for name in sets]
+    read = [uniform_set(data / "vrptw_uniform.jsonl", UNIFORM[name]) if name in UNIFORM
+            else published_set(data, name) for name in sets]
     return in_turn([[instance for instance in group if not names or instance.name in names]
                     for group in read])
 
@@ -126,10 +134,12 @@ def _instances(data: Path, sets: Sequence[str], names: Sequence[str]) -> list[Pu
 def main(
     data: Annotated[Path, typer.Option(help="folder of the published sets")]
     = Path("../shared/data"),
-    sets: Annotated[str, typer.Option(help="comma-separated")] = ",".join(CONVENTIONS),
+    sets: Annotated[str, typer.Option(help="comma-separated; also " + ", ".join(UNIFORM))]
+    = ",".join(CONVENTIONS),
     budgets: Annotated[str, typer.Option(help="seconds, comma-separated")] = "0.1,1,10",
     seeds: Annotated[int, typer.Option(help="runs of each solver that has seeds", min=1)] = 3,
-    solvers: Annotated[str, typer.Option(help="comma-separated")] = ",".join(SOLVERS),
+    solvers: Annotated[str, typer.Option(help="comma-separated, of " + ", ".join(SOLVERS))]
+    = ",".join(COMPARED),
     output: Annotated[Path, typer.Option(help="CSV to write to, or to go on with")]
     = Path("runs/bench/versus.csv"),
     quick: Annotated[bool, typer.Option(

@@ -48,9 +48,15 @@ def _tandem(instance: Published, seconds: float, seed: int, threads: int) -> Pee
     return import_module("benchmarks.tandem").solve(instance, seconds, seed, threads)
 
 
+def _policy(instance: Published, seconds: float, seed: int, name: str) -> PeerAnswer | None:
+    return import_module("benchmarks.by_policy").solve(instance, seconds, seed, name)
+
+
 SOLVERS = {
     "tandem": Solver(partial(_tandem, threads=1), "benchmarks.tandem"),
     "tandem2": Solver(partial(_tandem, threads=2), "benchmarks.tandem", threads=2),
+    "attention": Solver(partial(_policy, name="attention"), "benchmarks.by_policy"),
+    "pointer": Solver(partial(_policy, name="pointer"), "benchmarks.by_policy"),
     "pyvrp": Solver(peer_pyvrp.solve, "pyvrp"),
     "hgs": Solver(peer_hgs.solve, "hygese"),
     "vroom": Solver(peer_vroom.solve, "vroom", has_seed=False),

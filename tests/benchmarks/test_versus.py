@@ -306,3 +306,12 @@ def test_page_without_a_part_of_its_own_is_refused(tmp_path: Path) -> None:
     page.write_text(f"# Mine\n\n{END}\n", encoding="utf-8")
     with pytest.raises(ValueError, match="has no part between"):
         write([row("tandem", 1.0)], page)
+
+
+@pytest.mark.parametrize("seconds", [0.0, 1.0])
+@pytest.mark.parametrize("policy", ["attention", "pointer"])
+def test_policies_alone_plan_published_instances(tiny: Published, policy: str,
+                                                 seconds: float) -> None:
+    found = SOLVERS[policy].solve(tiny, seconds, 1)
+    assert found is not None
+    assert judge(to_problem(tiny), found.routes).counts

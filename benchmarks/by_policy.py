@@ -1,0 +1,39 @@
+"""A policy alone as one of the solvers compared, without any search."""
+
+import time
+from functools import lru_cache
+
+from app.settings import Settings
+from benchmarks.peers import PeerAnswer
+from benchmarks.published import Published
+from benchmarks.tandem import plan_to_answer, problem_of
+from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
+from model.extract import extract
+from model.instance import pack
+
+SECONDS_PER_DECISION = 1.2e-4
+"""For one sample at 100 customers; further ones beside it cost a sixth of that each."""
+
+
+@lru_cache
+def _policy(name: str) -> Policy:
+    return load_policy(Settings().weights_dir / name)
+
+
+def config(instance: Published, seconds: float, seed: int) -> DecodeConfig:
+    """Return how many plans to draw in about `seconds`; a single one is the greedy plan."""
+    single = SECONDS_PER_DECISION * instance.num_customers * (1 + instance.num_customers / 300)
+    samples = int(6 * (seconds / single - 1))
+    return DecodeConfig("sample", samples, seed=seed) if samples > 1 else DecodeConfig()
+
+
+def solve(instance: Published, seconds: float, seed: int, policy: str) -> PeerAnswer:
+    """Plan an instance by a policy in about `seconds`, but at least greedily."""
+    problem = problem_of(instance)
+    loaded = _policy(policy)
+    began = time.perf_counter()
+    packed = pack([problem])
+    scene = prepare(loaded, problem, packed)
+    decoded = decode(loaded, scene, config(instance, seconds, seed))
+    solution = extract(problem, packed, decoded.actions)
+    return plan_to_answer(solution, time.perf_counter() - began)
