@@ -4,7 +4,7 @@ import json
 import os
 import time
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -23,9 +23,13 @@ ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.Inva
 
 NO_ACTION = -1
 
-BLOCK = 64
+BLOCK = 16
 """Samples planned side by side, in one thread. Blocks run on all cores; each has its own random
 numbers, so the plan doesn't depend on their number, and memory is bounded."""
+
+SYMMETRIES = tuple((swapped, x, y) for swapped in (False, True) for x in (1, -1) for y in (1, -1))
+"""Ways to lay the same plane before the policy: axes swapped or not, and their signs. Blocks of
+samples take turns at them, since a policy errs differently on each."""
 
 
 @dataclass(frozen=True)
@@ -95,9 +99,16 @@ def prepare(policy: Policy, problem: Problem, instance: Instance) -> Scene:
     """Run the encoder."""
     scale = scales(instance)
     seen = tokens(instance, scale, problem.coordinates[None])
-    memory, = policy.encoder.run(None, {"node": seen.node, "type": seen.type,
-                                        "pair": seen.pair})
-    return Scene(instance, scale, seen, memory)
+    return Scene(instance, scale, seen, encode(policy, seen, 0))
+
+
+def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
+    """Return what the encoder makes of a problem laid out by one of the `SYMMETRIES`."""
+    swapped, x, y = SYMMETRIES[symmetry]
+    node = seen.node.copy()
+    node[..., :2] = (node[..., 1::-1] if swapped else node[..., :2]) * np.array([x, y], np.float32)
+    memory, = policy.encoder.run(None, {"node": node, "type": seen.type, "pair": seen.pair})
+    return memory
 
 
 def decode(policy: Policy, scene: Scene, config: DecodeConfig,
@@ -126,7 +137,10 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
     def plan_block(first: int, seed: np.random.SeedSequence) -> Decoded | None:
         if first > 0 and deadline is not None and time.perf_counter() >= deadline:
             return None
-        return _decode_block(policy, scene, min(BLOCK, config.num_samples - first),
+        symmetry = first // BLOCK % len(SYMMETRIES)
+        seen = scene if symmetry == 0 else replace(
+            scene, memory=encode(policy, scene.tokens, symmetry))
+        return _decode_block(policy, seen, min(BLOCK, config.num_samples - first),
                              np.random.default_rng(seed), config.temperature)
 
     with ThreadPoolExecutor(min(len(firsts), os.cpu_count() or 1)) as pool:
@@ -136,7 +150,10 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
 
 def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Generator | None,
                   temperature: float) -> Decoded:
-    """Plan `rows` rollouts side by side; sampled if there is an `rng`, else greedy."""
+    """Plan `rows` rollouts side by side; sampled if there is an `rng`, else greedy.
+
+    Of several samples the first is the greedy plan.
+    """
     instance = scene.instance
     state = reset(instance, np.zeros(rows, np.int64))
     seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
@@ -149,8 +166,10 @@ def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Genera
             break
         logits, hidden = policy.step.run(None, step_inputs(policy, scene, seen, most, hidden))
         if rng is not None:
-            logits = disturbed(logits, temperature, rng.standard_exponential(logits.shape,
-                                                                             np.float32))
+            noise = rng.standard_exponential(logits.shape, np.float32)
+            if rows > 1:
+                noise[0] = 1.0
+            logits = disturbed(logits, temperature, noise)
         logits.argmax(axis=1, out=choice)
         actions.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
     cost = state.cost[:rows].sum(axis=1)

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 
 from model.check import check
 from model.decode import (
-    BLOCK, DecodeConfig, Policy, decode, disturbed, load_policy, prepare,
+    BLOCK, SYMMETRIES, DecodeConfig, Policy, decode, disturbed, encode, load_policy, prepare,
 )
 from model.extract import extract
 from model.instance import pack
@@ -108,3 +109,19 @@ assert "onnxruntime" in sys.modules
                    if name != "ORT_DISABLE_TELEMETRY"}
     subprocess.run([sys.executable, "-c", program], check=True, env=environment,
                    cwd=WEIGHTS.parents[1])
+
+
+def test_best_sample_is_never_worse_than_the_greedy_plan(policy: Policy) -> None:
+    for seed in range(5):
+        problem = generate(np.random.default_rng(seed), 20, "mixed")
+        greedy = plan(policy, problem, DecodeConfig())[1]
+        assert plan(policy, problem, DecodeConfig("sample", 2, temperature=50.0))[1] <= greedy
+
+
+def test_symmetries_show_the_same_plane_in_eight_ways(policy: Policy, problem: Problem) -> None:
+    seen = prepare(policy, problem, pack([problem])).tokens
+    memories = [encode(policy, seen, symmetry) for symmetry in range(len(SYMMETRIES))]
+    assert len({memory.tobytes() for memory in memories}) == 8
+    swapped = problem.coordinates[:, ::-1] * [1, -1]
+    same = prepare(policy, replace(problem, coordinates=swapped), pack([problem])).memory
+    assert np.array_equal(same, memories[SYMMETRIES.index((True, 1, -1))])
