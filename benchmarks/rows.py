@@ -38,7 +38,8 @@ def _row(texts: list[str], kind: type[Row], place: str) -> Row:
     values: list[Any] = []
     try:
         for field, text in zip(fields(kind), texts, strict=True):
-            type_: Any = field.type
+            # Of a `Literal`, too, the text is the value.
+            type_: Any = field.type if isinstance(field.type, type) else str
             values.append(text == "True" if type_ is bool else type_(text))
     except ValueError as error:
         raise ValueError(f"{place}: {error}") from error

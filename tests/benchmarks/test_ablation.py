@@ -1,6 +1,7 @@
 """Tests of `benchmarks.ablation` and `benchmarks.table1`."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from benchmarks.ablation import (
     BEST_SECONDS, MOVES, MOVES_SECONDS, Sample, Trial, Way, measure, sample, table_of_moves,
     table_of_starts, trial, ways,
 )
+from benchmarks.rows import append_rows, read_rows
 from benchmarks.table1 import (
     FLEETS, REFERENCE, SIDE_KM, FleetPlan, Timed, example, fleet_problem, table_of_fleets,
     table_of_times, with_fleet,
@@ -108,3 +110,9 @@ def test_fleets_are_compared_by_mean_cost() -> None:
         "| ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
         "| 25 | 150 | 13.0 | 10.5 | 0 | 75.0 | 0.900 |",
     ]
+
+
+def test_trials_come_back_from_the_file_as_they_were(tmp_path: Path) -> None:
+    trials = [made_up("one", 20, Way("policy", 0.1, MOVES[0]), 3.25)]
+    append_rows(tmp_path / "ablation.csv", Trial, trials)
+    assert read_rows(tmp_path / "ablation.csv", Trial) == trials
