@@ -238,8 +238,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
         raise ValueError("deadline, turns: None, None is not allowed")
     limits = _Limits(time.perf_counter(), math.inf if deadline is None else deadline,
                      None if config.turns is None else config.turns // config.threads, should_stop)
-    by_truck = (not solution.routes and problem.num_customers >= BY_TRUCK_FROM
-                and has_single_drones(problem, config.moves))
+    by_truck = not solution.routes and trucks_come_first(problem, config.moves)
     if by_truck:
         solution = _plan_by_truck(problem, instance, config, limits)
     world = make_world(problem, instance, config.moves)
@@ -264,6 +263,11 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
                 break
     return Improved(read_plan(world, whole), float(whole.value[V_BEST]), costs.first,
                     sum(worker.turns for worker in workers))
+
+
+def trucks_come_first(problem: Problem, moves: Moves = ALL_MOVES) -> bool:
+    """Tell whether a search that is given no plan begins with one by trucks alone."""
+    return problem.num_customers >= BY_TRUCK_FROM and has_single_drones(problem, moves)
 
 
 def _plan_by_truck(problem: Problem, instance: Instance, config: SearchConfig,

@@ -225,3 +225,12 @@ def test_listener_hears_of_the_first_plan_before_the_search(planner: Planner) ->
     first, plan = told[0]
     assert (first.cost, first.turns) == (result.decoded_cost, 0)
     assert check(problem, plan).cost.total == result.decoded_cost
+
+
+def test_trucks_alone_begin_where_they_have_one_drone(planner: Planner) -> None:
+    problem = generate(np.random.default_rng(8), 40, "table1")
+    options = PlanOptions(POLICIES[0], time_limit=60.0, search_iterations=20)
+    assert all(kind.drones and kind.drones.count == 1 for kind in problem.vehicle_types)
+    assert plan_checked(planner, problem, options).start == "insertion"
+    decoded = plan_checked(planner, problem, replace(options, time_limit=0.0))
+    assert decoded.start == "policy"
