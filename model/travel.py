@@ -4,7 +4,7 @@ Distances are rounded to the nearest millimetre and durations up to the next mil
 once, from the exact float values.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +26,10 @@ EARTH_RADIUS_M = 6_371_008.8
 
 FLOAT_NOISE_MS = 5e-7
 """A duration less than this above a whole millisecond is that millisecond."""
+
+ROWS = 256
+"""Rows of a matrix that are worked out at a time: of thousands of nodes, the whole of every
+intermediate result would take gigabytes."""
 
 _EMBEDDING_RANK = 10
 _EMBEDDING_ITERATIONS = 12
@@ -76,7 +80,9 @@ def local_coordinates(lon_lat: FloatArray) -> FloatArray:
 def planar_distances(points_m: FloatArray) -> FloatArray:
     """Return the (node, node) straight-line distances in metres."""
     x, y = points_m.T
-    distances: FloatArray = np.hypot(x[:, None] - x, y[:, None] - y)
+    distances = np.empty((len(x), len(x)))
+    for rows in _row_blocks(distances):
+        distances[rows] = np.hypot(x[rows, None] - x, y[rows, None] - y)
     return distances
 
 
@@ -84,10 +90,13 @@ def great_circle_distances(lon_lat: FloatArray) -> FloatArray:
     """Return the (node, node) distances in metres on the sphere, by the haversine formula."""
     _require_lon_lat(lon_lat)
     longitude, latitude = np.radians(lon_lat).T
-    haversine = np.sin((latitude[:, None] - latitude) / 2) ** 2
     cosine = np.cos(latitude)
-    haversine += cosine[:, None] * cosine * np.sin((longitude[:, None] - longitude) / 2) ** 2
-    distances: FloatArray = 2 * EARTH_RADIUS_M * np.arcsin(np.sqrt(np.minimum(haversine, 1.0)))
+    distances = np.empty((len(longitude), len(longitude)))
+    for rows in _row_blocks(distances):
+        haversine = np.sin((latitude[rows, None] - latitude) / 2) ** 2
+        haversine += (cosine[rows, None] * cosine
+                      * np.sin((longitude[rows, None] - longitude) / 2) ** 2)
+        distances[rows] = 2 * EARTH_RADIUS_M * np.arcsin(np.sqrt(np.minimum(haversine, 1.0)))
     return distances
 
 
@@ -95,7 +104,8 @@ def truck_travel(distances_m: FloatArray, speed_kmh: float) -> Travel:
     """Drive the distances at one speed (the fastest, where a speed profile applies)."""
     _require_speed(speed_kmh)
     _require_lengths("distances", distances_m)
-    return Travel(_whole_ms(distances_m * 3600.0 / speed_kmh), _whole_mm(distances_m))
+    return Travel(_whole(distances_m, lambda rows: _ceiled(rows * 3600.0 / speed_kmh)),
+                  _whole_mm(distances_m))
 
 
 def matrix_travel(durations_s: FloatArray, distances_m: FloatArray) -> Travel:
@@ -185,13 +195,31 @@ def embed(duration: IntArray | FloatArray) -> FloatArray:
     return coordinates
 
 
-def _whole_ms(duration_ms: FloatArray) -> IntArray:
+def _row_blocks(matrix: FloatArray) -> Iterator[slice]:
+    """Yield the rows of a matrix, some at a time."""
+    return (slice(first, first + ROWS) for first in range(0, len(matrix), ROWS))
+
+
+def _whole(matrix: FloatArray, rounded: Callable[[FloatArray], FloatArray]) -> IntArray:
+    """Return what `rounded` makes of a matrix, row block by row block."""
+    result = np.empty(matrix.shape, np.int64)
+    for rows in _row_blocks(matrix):
+        result[rows] = rounded(matrix[rows])
+    return result
+
+
+def _ceiled(duration_ms: FloatArray) -> FloatArray:
     noise = np.maximum(FLOAT_NOISE_MS, 2 * np.spacing(duration_ms))
-    return np.ceil(duration_ms - noise).astype(np.int64)
+    whole: FloatArray = np.ceil(duration_ms - noise)
+    return whole
+
+
+def _whole_ms(duration_ms: FloatArray) -> IntArray:
+    return _whole(duration_ms, _ceiled)
 
 
 def _whole_mm(distance_m: FloatArray) -> IntArray:
-    return np.rint(distance_m * 1000.0).astype(np.int64)
+    return _whole(distance_m, lambda rows: np.rint(rows * 1000.0))
 
 
 def _require_speed(speed: float) -> None:
@@ -200,8 +228,9 @@ def _require_speed(speed: float) -> None:
 
 
 def _require_lengths(name: str, matrix: FloatArray) -> None:
-    if not (matrix >= 0).all() or np.isinf(matrix).any():
-        raise ValueError(f"{name}: every entry must be finite and not negative")
+    for rows in _row_blocks(matrix):
+        if not (matrix[rows] >= 0).all() or np.isinf(matrix[rows]).any():
+            raise ValueError(f"{name}: every entry must be finite and not negative")
 
 
 def _require_lon_lat(lon_lat: FloatArray) -> None:

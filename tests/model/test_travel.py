@@ -5,6 +5,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from model import travel
 from model.problem import FULL_SPEED, MAX_QUANTITY, UNREACHABLE, SpeedProfile
 from model.travel import (
     EARTH_RADIUS_M,
@@ -191,3 +192,14 @@ def test_embedding_of_any_matrix_is_finite(num_nodes: int, seed: int) -> None:
     coordinates = embed(duration)
     assert coordinates.shape == (num_nodes, 2)
     assert np.isfinite(coordinates).all()
+
+
+def test_matrices_of_many_rows_are_those_of_few(monkeypatch: pytest.MonkeyPatch) -> None:
+    points = np.random.default_rng(0).random((20, 2)) * 1e4
+    whole = truck_travel(planar_distances(points), 37.0)
+    around = great_circle_distances(points / 1e3)
+    monkeypatch.setattr(travel, "ROWS", 7)
+    parts = truck_travel(planar_distances(points), 37.0)
+    assert np.array_equal(parts.duration, whole.duration)
+    assert np.array_equal(parts.distance, whole.distance)
+    assert np.array_equal(great_circle_distances(points / 1e3), around)
