@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from model.metrics import RouteMetrics, flight_legs, measure_route, measure_trip
+from model.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
+from model.past_rules import begins_with, past_violations
 from model.problem import UNREACHABLE, DroneType, Problem, VehicleType
 from model.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
 from model.solution import Cost, Route, Solution, Sortie, Trip
-from model.timing import read_decision, schedule_trip
+from model.timing import read_decision, resume_trip, schedule_trip
 
 
 @dataclass(frozen=True)
@@ -29,32 +31,51 @@ class Evaluation:
         return not self.violations
 
 
-def check(problem: Problem, solution: Solution) -> Evaluation:
-    """Judge a plan."""
+def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN) -> Evaluation:
+    """Judge a plan, and whether it begins with what has happened."""
     violations = [*_assignment_violations(problem, solution), *_fleet_violations(problem, solution)]
+    if past is not EVERYTHING_OPEN:
+        violations += past_violations(problem, solution, past)
     metrics: list[RouteMetrics] = []
     costs = [Cost(unassigned=len(solution.unassigned) * problem.unassigned_cost)]
     makespan = 0
     for index, route in enumerate(solution.routes):
-        path = f"routes[{index}]"
-        unreadable = list(_unreadable(problem, route, path))
-        if unreadable:
-            violations += unreadable
-            metrics.append(RouteMetrics())
-            continue
-        vehicle_type = problem.vehicle_types[route.vehicle_type]
-        trips = [_time(problem, vehicle_type, trip, f"{path}.trips[{number}]")
-                 for number, trip in enumerate(route.trips)]
-        timed = Route(route.vehicle_type, route.vehicle, tuple([trip.trip for trip in trips]))
-        measured, cost = measure_route(problem, timed, tuple([trip.metrics for trip in trips]))
-        for stated, trip in zip(route.trips, trips, strict=True):
-            violations += _mismatches(stated, trip.trip, trip.path)
-            violations += trip_violations(problem, vehicle_type, trip)
-        violations += route_violations(vehicle_type, trips, measured, path)
-        metrics.append(measured)
-        costs.append(cost)
-        makespan = max(makespan, timed.trips[-1].stops[-1].departure)
+        judged = judge_route(problem, route, f"routes[{index}]", past)
+        violations += judged.violations
+        metrics.append(judged.metrics)
+        costs.append(judged.cost)
+        makespan = max(makespan, judged.end)
     return Evaluation(tuple(violations), _total(costs), tuple(metrics), makespan)
+
+
+@dataclass(frozen=True)
+class JudgedRoute:
+    """A route on its own; one that can't be read has empty metrics and costs nothing."""
+
+    violations: list[Violation]
+    metrics: RouteMetrics
+    cost: Cost
+    end: int  # ms, the last return
+
+
+def judge_route(problem: Problem, route: Route, path: str,
+                past: Past = EVERYTHING_OPEN) -> JudgedRoute:
+    """Judge a route by the rules that concern it alone."""
+    violations = list(_unreadable(problem, route, path))
+    if violations:
+        return JudgedRoute(violations, RouteMetrics(), Cost(), 0)
+    vehicle_type = problem.vehicle_types[route.vehicle_type]
+    known = past.trips.get(Vehicle(route.vehicle_type, route.vehicle), ())
+    trips = [_time(problem, vehicle_type, trip, f"{path}.trips[{number}]",
+                   known[number] if number < len(known) else None, past.now)
+             for number, trip in enumerate(route.trips)]
+    timed = Route(route.vehicle_type, route.vehicle, tuple([trip.trip for trip in trips]))
+    measured, cost = measure_route(problem, timed, tuple([trip.metrics for trip in trips]))
+    for stated, trip in zip(route.trips, trips, strict=True):
+        violations += _mismatches(stated, trip.trip, trip.path)
+        violations += trip_violations(problem, vehicle_type, trip)
+    violations += route_violations(vehicle_type, trips, measured, path)
+    return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure)
 
 
 def _total(costs: list[Cost]) -> Cost:
@@ -68,11 +89,15 @@ def _total(costs: list[Cost]) -> Cost:
     )
 
 
-def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str) -> TimedTrip:
-    """Recompute a trip from the choices it states."""
+def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
+          known: KnownTrip | None, now: int) -> TimedTrip:
+    """Recompute a trip from the choices it states, and what is known of it."""
     drones = vehicle_type.drones
     decision = read_decision(stated, 0 if drones is None else drones.launch_duration)
-    trip = schedule_trip(problem, vehicle_type, decision, 0)
+    if known is not None and begins_with(stated, known):
+        trip = resume_trip(problem, vehicle_type, decision, known, now)
+    else:
+        trip = schedule_trip(problem, vehicle_type, decision, 0)
     return TimedTrip(decision, trip, measure_trip(problem, vehicle_type, trip), path)
 
 

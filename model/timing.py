@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from model.past import KnownStop, KnownTrip
 from model.problem import FULL_SPEED, DroneType, Problem, SpeedProfile, VehicleType
 from model.solution import Route, Sortie, Stop, Trip, Visit
 
@@ -171,8 +172,18 @@ def _fly(problem: Problem, drones: DroneType, decision: TripDecision, sortie: So
         time = start + (customer.service_duration if service is None else service)
         visits.append(Visit(following, arrival, start, time))
         node = following
-    arrival = time + duration.item(node, decision.nodes[sortie.recovery_stop])
-    return _Flight(launch_time, tuple(visits), arrival)
+    return _flight(problem, drones, decision, sortie, launch_time, tuple(visits))
+
+
+def _flight(problem: Problem, drones: DroneType, decision: TripDecision, sortie: SortieDecision,
+            launch_time: int, visits: tuple[Visit, ...]) -> _Flight:
+    """Return the flight of a sortie whose visits are timed, so that it is known when it is back."""
+    node, time = decision.nodes[sortie.launch_stop], launch_time
+    if visits:
+        node, time = visits[-1].node, visits[-1].departure
+    home = problem.travel[drones.travel].duration.item(
+        node, decision.nodes[sortie.recovery_stop])
+    return _Flight(launch_time, visits, time + home)
 
 
 def _by_arrival(
@@ -205,20 +216,31 @@ def _by_arrival(
 
 
 def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: int, time: int,
-             flights: dict[int, _Flight]) -> int:
-    """Launch and recover at a stop from `time` on, in place; return when all is done."""
+             flights: dict[int, _Flight], known: KnownTrip | None = None, now: int = 0) -> int:
+    """Launch and recover at a stop from `time` on, in place; return when all is done.
+
+    What is known stays, and nothing else begins before `now`.
+    """
     operations: Iterable[Operation]
     if decision.operations is None:
         operations = _by_arrival(decision.sorties, stop, flights)
     else:
         operations = decision.operations[stop]
+    facts, earliest = ((), time) if known is None else (known.sorties, now)
     for index, is_launch in operations:
-        if is_launch:
-            time += drones.launch_duration
-            flights[index] = _fly(problem, drones, decision, decision.sorties[index], time)
+        fact = facts[index] if index < len(facts) else None
+        sortie = decision.sorties[index]
+        if is_launch and fact is not None:
+            time = fact.launch_time
+            flights[index] = _flight(problem, drones, decision, sortie, time, fact.visits)
+        elif is_launch:
+            time = max(time, earliest) + drones.launch_duration
+            flights[index] = _fly(problem, drones, decision, sortie, time)
         else:
             flight = flights[index]
-            flight.recovery_start = max(time, flight.arrival)
+            begun = None if fact is None else fact.recovery_start
+            flight.recovery_start = (max(time, flight.arrival, earliest) if begun is None
+                                     else begun)
             time = flight.recovery_start + drones.recovery_duration
     return time
 
@@ -263,6 +285,48 @@ def schedule_trip(
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
     return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
+
+
+def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
+                known: KnownTrip, now: int) -> Trip:
+    """Return a trip that is under way with its times.
+
+    What is known stays, its sorties being the first of the decision; all else follows as soon as
+    possible from `now` on.
+    """
+    duration = problem.travel[vehicle_type.travel].duration
+    drones = vehicle_type.drones
+    flights: dict[int, _Flight] = {}
+    stops: list[Stop] = []
+    for index, node in enumerate(decision.nodes):
+        fact = known.stops[index] if index < len(known.stops) else None
+        if fact is not None:
+            arrival = fact.arrival
+        else:
+            leg = duration.item(stops[-1].node, node)
+            arrival = max(now, leg_end(stops[-1].departure, leg, vehicle_type.speed_profile))
+        service_start, departure = _resume_service(problem, node, arrival, fact, now)
+        if drones is not None and decision.sorties:
+            departure = max(departure, _operate(problem, drones, decision, index, arrival, flights,
+                                                known, now))
+        departure = max(departure, now)
+        if fact is not None and fact.departure is not None:
+            departure = fact.departure
+        stops.append(Stop(node, arrival, service_start, departure))
+    if drones is None or not decision.sorties:
+        return Trip(tuple(stops))
+    return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
+
+
+def _resume_service(problem: Problem, node: int, arrival: int, fact: KnownStop | None,
+                    now: int) -> tuple[int, int]:
+    """Return when service at a stop begins and ends; at depots, the arrival."""
+    if node < problem.num_depots:
+        return arrival, arrival
+    customer = problem.customer_at(node)
+    begun = None if fact is None else fact.service_start
+    start = max(arrival, customer.earliest, now) if begun is None else begun
+    return start, start + customer.service_duration
 
 
 def schedule(problem: Problem, decision: RouteDecision) -> Route:

@@ -1,0 +1,187 @@
+"""What of a plan has happened by an instant: facts that a new plan has to begin with.
+
+What has departed stays as it is, to the millisecond. A truck that is driving arrives when the plan
+says and serves that stop; a drone that was launched flies its sortie to the end. All else is free.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Literal, NamedTuple
+
+from model.problem import UNREACHABLE, DroneType, Problem
+from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+
+
+class Vehicle(NamedTuple):
+    """One vehicle of the fleet."""
+
+    type: int  # index into Problem.vehicle_types
+    number: int  # 0-based, within its type
+
+
+class KnownStop(NamedTuple):
+    """What is known of a stop in ms; None: that is yet to come."""
+
+    node: int
+    arrival: int
+    service_start: int | None
+    departure: int | None
+
+
+class KnownSortie(NamedTuple):
+    """A flight that was launched."""
+
+    drone: int
+    launch_stop: int
+    visits: tuple[Visit, ...]
+    launch_time: int
+    recovery_node: int
+    recovery_stop: int | None  # None: one of those yet to come
+    recovery_start: int | None  # None: still in the air
+
+
+@dataclass(frozen=True)
+class KnownTrip:
+    """The beginning of a trip.
+
+    `rest` tells what may follow: nothing since it is over, the way home alone, or stops and flights
+    to deliver what is aboard.
+    """
+
+    stops: tuple[KnownStop, ...]
+    sorties: tuple[KnownSortie, ...]  # the first ones of the trip
+    aboard: frozenset[int]  # customers whose parcels were loaded
+    rest: Literal["nothing", "home", "anything"]
+
+
+@dataclass(frozen=True)
+class Past:
+    """What a new plan has to keep to."""
+
+    now: int = 0  # ms; nothing new happens before
+    trips: Mapping[Vehicle, tuple[KnownTrip, ...]] = field(default_factory=dict)
+    unavailable: frozenset[Vehicle] = frozenset()  # do nothing more
+    pinned: Mapping[int, Vehicle] = field(default_factory=dict)  # customer -> who alone may serve
+    returned: Mapping[int, int] = field(default_factory=dict)  # customer -> parcel is back then
+
+    def under_way(self, vehicle: Vehicle) -> KnownTrip | None:
+        """Return the trip that a vehicle is on and may add to."""
+        trips = self.trips.get(vehicle, ())
+        return trips[-1] if trips and trips[-1].rest == "anything" else None
+
+    def carriers(self) -> dict[int, Vehicle]:
+        """Return who has the parcels that are on their way, customers served by now included."""
+        return {node: vehicle for vehicle in self.trips
+                if (trip := self.under_way(vehicle)) is not None
+                for node in trip.aboard if node not in self.returned}
+
+
+EVERYTHING_OPEN = Past()
+
+
+def known_trips(problem: Problem, plan: Solution, now: int,
+                unavailable: frozenset[Vehicle]) -> dict[Vehicle, tuple[KnownTrip, ...]]:
+    """Return what each vehicle has done by `now`, for those that have done anything.
+
+    `plan` may name customers who are no more, by negative nodes, where nothing has happened yet.
+    An unavailable vehicle has served those whose service has begun, by itself or a drone.
+    """
+    known = {}
+    for route in plan.routes:
+        drones = problem.vehicle_types[route.vehicle_type].drones
+        launch_duration = 0 if drones is None else drones.launch_duration
+        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        trips = tuple(_known_trips(problem, route, launch_duration, now, vehicle in unavailable))
+        if trips:
+            known[vehicle] = trips
+    return known
+
+
+def _known_trips(problem: Problem, route: Route, launch_duration: int, now: int,
+                 is_unavailable: bool) -> Iterator[KnownTrip]:
+    for trip in route.trips:
+        known = _known_trip(problem, trip, launch_duration, now)
+        if known is None:
+            return
+        if is_unavailable and known.rest != "nothing":
+            known = _cut_short(problem, route.vehicle_type, known, now)
+            if not known.sorties and all(s.node < problem.num_depots for s in known.stops):
+                return
+        yield known
+
+
+def _known_trip(problem: Problem, trip: Trip, launch_duration: int, now: int) -> KnownTrip | None:
+    """Return what has happened on a trip; None if it has not begun."""
+    left = 0
+    while left < len(trip.stops) and trip.stops[left].departure <= now:
+        left += 1
+    launched = [sortie for sortie in trip.sorties if sortie.launch_time - launch_duration <= now]
+    if not left and not launched:
+        return None
+    first = problem.num_depots
+    stops = [KnownStop(stop.node, stop.arrival,
+                       stop.service_start if stop.node >= first else stop.arrival, stop.departure)
+             for stop in trip.stops[:left]]
+    is_over = left == len(trip.stops)
+    if not is_over:
+        stops.append(_bound_for(problem, trip.stops[left], now))
+    nodes = [stop.node for stop in trip.stops[1:-1]]
+    nodes += [visit.node for sortie in trip.sorties for visit in sortie.visits]
+    sorties = tuple(_known_sortie(sortie, trip, len(stops), now) for sortie in launched)
+    return KnownTrip(tuple(stops), sorties, frozenset(node for node in nodes if node >= 0),
+                     "nothing" if is_over else "anything")
+
+
+def _bound_for(problem: Problem, stop: Stop, now: int) -> KnownStop:
+    """Return the stop where a truck is or will be next."""
+    begun = stop.arrival if stop.node < problem.num_depots else (
+        stop.service_start if stop.service_start <= now else None)
+    return KnownStop(stop.node, stop.arrival, begun, None)
+
+
+def _known_sortie(sortie: Sortie, trip: Trip, known_stops: int, now: int) -> KnownSortie:
+    stop = sortie.recovery_stop
+    return KnownSortie(sortie.drone, sortie.launch_stop, sortie.visits, sortie.launch_time,
+                       trip.stops[stop].node, stop if stop < known_stops else None,
+                       sortie.recovery_start if sortie.recovery_start <= now else None)
+
+
+def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> KnownTrip:
+    """Return what a vehicle has done that breaks down: the rest of its trip is the way home.
+
+    Its drones in the air that have served anyone come down at the depot, or at the last stop that
+    they can fly to; a flight that ends nowhere is as if it had not been.
+    """
+    vehicle_type = problem.vehicle_types[kind]
+    stops, last = known.stops, known.stops[-1]
+    is_home = len(stops) > 1 and last.node < problem.num_depots and last.arrival <= now
+    is_serving = last.node >= problem.num_depots and last.service_start is not None
+    if len(stops) > 1 and last.departure is None and not (is_home or is_serving):
+        stops = stops[:-1]
+    nodes = [stop.node for stop in stops] + ([] if is_home else [vehicle_type.depot])
+    landed = [_landed(problem, vehicle_type.drones, sortie, nodes, len(stops), now)
+              for sortie in known.sorties]
+    return KnownTrip(stops, tuple(sortie for sortie in landed if sortie is not None),
+                     known.aboard, "nothing" if is_home else "home")
+
+
+def _landed(problem: Problem, drones: DroneType | None, sortie: KnownSortie, nodes: list[int],
+            known_stops: int, now: int) -> KnownSortie | None:
+    """Return a flight whose truck goes no further than the stops at `nodes`.
+
+    It ends at the last one that can be flown to; None if there is none, or it has served nobody.
+    """
+    stop = sortie.recovery_stop
+    if sortie.recovery_start is not None and stop is not None and stop < known_stops:
+        return sortie
+    visits = tuple(visit for visit in sortie.visits if visit.service_start <= now)
+    if drones is None or not visits:
+        return None
+    flight = problem.travel[drones.travel].duration
+    landings = [index for index in range(sortie.launch_stop, len(nodes))
+                if flight.item(visits[-1].node, nodes[index]) < UNREACHABLE]
+    if not landings:
+        return None
+    landing = landings[-1]
+    return sortie._replace(visits=visits, recovery_node=nodes[landing], recovery_start=None,
+                           recovery_stop=landing if landing < known_stops else None)

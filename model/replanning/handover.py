@@ -1,0 +1,251 @@
+"""Plans of what is left, to and from plans of the whole problem."""
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import count
+
+from model.past import Past, Vehicle
+from model.problem import Problem
+from model.replanning.amend import customers_of, repaired_route, without
+from model.replanning.kept import Kept
+from model.replanning.remainder import Remainder
+from model.solution import Route, Solution, Trip
+from model.timing import (
+    RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
+)
+
+
+def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
+              left: Remainder) -> Solution:
+    """Return what is left of a plan of the whole, as a plan of what is left.
+
+    Customers for whom a rule is broken are left out.
+    """
+    number = len(left.nodes) - len(left.anchors)
+    here = {node: index for index, node in enumerate(left.nodes[:number])}
+    decisions = [
+        _rest_of_trip(left, kind, way_on.planned, here) for kind, worker in left.workers.items()
+        if worker.is_under_way and (way_on := kept[worker.vehicle].way_on) is not None]
+    used: Counter[int] = Counter()
+    for route in plan.routes:
+        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        kind = left.later(vehicle)
+        if kind is None or used[kind] >= left.problem.vehicle_types[kind].count:
+            continue
+        trips = [_moved(trip, here) for trip in _trips_left(problem, route, kept.get(vehicle))]
+        trips = _anchored(left, kind, [trip for trip in trips if customers_of(trip)])
+        if trips:
+            decisions.append(RouteDecision(kind, used[kind], tuple(trips)))
+            used[kind] += 1
+    return _scheduled(left, decisions)
+
+
+def _anchored(left: Remainder, kind: int, trips: list[TripDecision]) -> list[TripDecision]:
+    """Return as many trips as a type may make, the first to its anchor if it has one."""
+    vehicle_type = left.problem.vehicle_types[kind]
+    if kind in left.anchors:
+        first = TripDecision((vehicle_type.depot, left.anchors[kind], vehicle_type.depot))
+        trips = [first, *trips]
+    return trips[:vehicle_type.max_trips]
+
+
+def _trips_left(problem: Problem, route: Route, kept: Kept | None) -> list[TripDecision]:
+    """Return the decisions of the trips that have not begun."""
+    kind = problem.vehicle_types[route.vehicle_type]
+    trips = route.trips[0 if kept is None else len(kept.route.trips):]
+    number, launch_duration = ((0, 0) if kind.drones is None
+                               else (kind.drones.count, kind.drones.launch_duration))
+    decisions = []
+    for trip in trips:
+        flown = tuple(sortie for sortie in trip.sorties if sortie.drone < number)
+        decision = read_decision(Trip(trip.stops, flown), launch_duration)
+        nodes = (kind.depot, *decision.nodes[1:-1], kind.depot)
+        decisions.append(replace(decision, nodes=nodes))
+    return decisions
+
+
+def _moved(decision: TripDecision, here: Mapping[int, int]) -> TripDecision:
+    """Return a trip with other nodes, without customers who have none."""
+    decision = without(decision, {node for node in customers_of(decision) if node not in here})
+    inner = tuple(here[node] for node in decision.nodes[1:-1])
+    sorties = tuple(replace(sortie, nodes=tuple(here[node] for node in sortie.nodes))
+                    for sortie in decision.sorties)
+    return TripDecision((decision.nodes[0], *inner, decision.nodes[-1]), sorties,
+                        decision.operations, decision.start)
+
+
+def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
+                  here: Mapping[int, int]) -> RouteDecision:
+    """Return how a vehicle goes on from its anchor with the trip that it is on."""
+    depot = left.problem.vehicle_types[kind].depot
+    rest = _moved(planned, here)
+    sorties = tuple(replace(sortie, launch_stop=sortie.launch_stop + 1,
+                            recovery_stop=sortie.recovery_stop + 1) for sortie in rest.sorties)
+    operations = None if rest.operations is None else ((), *rest.operations)
+    trip = TripDecision((depot, left.anchors[kind], *rest.nodes[1:-1], depot), sorties, operations)
+    return RouteDecision(kind, 0, (trip,))
+
+
+def _scheduled(left: Remainder, decisions: Iterable[RouteDecision]) -> Solution:
+    """Return a plan of what is left without the customers for whom rules are broken."""
+    routes = [_mended(left, decision) for decision in decisions]
+    return _complete(left.problem, tuple(route for route in routes if route is not None))
+
+
+def _mended(left: Remainder, decision: RouteDecision) -> Route | None:
+    """Return a route without the customers for whom it breaks rules; None if nobody is left."""
+    if not decision.trips:
+        return None
+    return repaired_route(left.problem, decision, set(left.anchors.values()),
+                          [partial(_timed, left.problem), partial(_timed_at_once, left.problem)])
+
+
+def _timed(problem: Problem, decision: RouteDecision) -> Route:
+    """Return a route whose trips begin when they state, if they can by then."""
+    kind = problem.vehicle_types[decision.vehicle_type]
+    trips: list[Trip] = []
+    ready = kind.earliest
+    for trip in decision.trips:
+        start = max(ready, latest_release(problem, trip), trip.start or 0)
+        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready))
+        ready = trips[-1].stops[-1].departure + kind.reload_duration
+    return Route(decision.vehicle_type, decision.vehicle, tuple(trips))
+
+
+def _timed_at_once(problem: Problem, decision: RouteDecision) -> Route:
+    """Return a route whose trips begin as soon as possible."""
+    trips = tuple(replace(trip, start=None) for trip in decision.trips)
+    return _timed(problem, replace(decision, trips=trips))
+
+
+def _complete(problem: Problem, routes: tuple[Route, ...]) -> Solution:
+    """Return a plan whose other customers are left out."""
+    served = {node for route in routes for trip in route.trips for node in _served(trip)}
+    nodes = range(problem.num_depots, problem.num_nodes)
+    return Solution(routes, tuple(node for node in nodes if node not in served))
+
+
+def _served(trip: Trip) -> list[int]:
+    return [*(stop.node for stop in trip.stops[1:-1]),
+            *(visit.node for sortie in trip.sorties for visit in sortie.visits)]
+
+
+def with_anchors(left: Remainder, plan: Solution) -> Solution:
+    """Return a plan of what is left in which every vehicle under way goes on from its anchor.
+
+    Where one was left out, it comes first and those whom that makes late are left out.
+    """
+    routes = {route.vehicle_type: route for route in plan.routes}
+    missing = [kind for kind, node in left.anchors.items()
+               if kind not in routes or node not in _customers(routes[kind])]
+    if not missing:
+        return plan
+    mended = []
+    for kind in missing:
+        later = [_decision(left.problem, kind, trip)
+                 for trip in (routes[kind].trips if kind in routes else ())]
+        decision = RouteDecision(kind, 0, tuple(_anchored(left, kind, later)))
+        mended.append(_mended(left, decision))
+    others = [route for route in plan.routes if route.vehicle_type not in missing]
+    return _complete(left.problem,
+                     (*others, *(route for route in mended if route is not None)))
+
+
+def _decision(problem: Problem, kind: int, trip: Trip) -> TripDecision:
+    drones = problem.vehicle_types[kind].drones
+    return read_decision(trip, 0 if drones is None else drones.launch_duration)
+
+
+def settled(problem: Problem, kept: Mapping[Vehicle, Kept]) -> Solution:
+    """Return the plan in which vehicles do what they do in any case, and go home."""
+    return _complete(problem, tuple(route.route for route in kept.values()))
+
+
+def take_back(problem: Problem, past: Past, before: Solution, kept: Mapping[Vehicle, Kept],
+              left: Remainder, plan: Solution) -> Solution:
+    """Return a plan of the whole from a plan of what is left, in which no anchor is left out.
+
+    Vehicles that have begun to work come first, in the order of `kept`. Others keep their numbers
+    in `before`, the plan given, where they serve the same customers.
+    """
+    trips = {vehicle: route.route.trips for vehicle, route in kept.items()}
+    others = []
+    # The rest of a trip before later ones.
+    for route in sorted(plan.routes, key=lambda route: not _is_under_way(left, route)):
+        worker = left.workers.get(route.vehicle_type)
+        mine = route.trips if _is_under_way(left, route) else _without_anchor(left, route)
+        if worker is None:
+            others.append(Route(left.kinds[route.vehicle_type], 0,
+                                tuple(_whole(trip, left.nodes) for trip in mine)))
+        elif worker.is_under_way:
+            *done, last = trips[worker.vehicle]
+            trips[worker.vehicle] = (*done, _joined(last, mine[0], left.nodes))
+        elif mine:
+            trips[worker.vehicle] = (*trips.get(worker.vehicle, ()),
+                                     *(_whole(trip, left.nodes) for trip in mine))
+    known = [Route(*vehicle, done) for vehicle, done in trips.items()]
+    taken = {*trips, *(worker.vehicle for worker in left.workers.values()), *past.unavailable}
+    return _complete(problem, (*known, *_numbered(before, taken, others)))
+
+
+def _is_under_way(left: Remainder, route: Route) -> bool:
+    worker = left.workers.get(route.vehicle_type)
+    return worker is not None and worker.is_under_way
+
+
+def _without_anchor(left: Remainder, route: Route) -> tuple[Trip, ...]:
+    """Return a route's trips but for the one to an anchor at the depot, where nobody is served."""
+    anchor = left.anchors.get(route.vehicle_type)
+    return tuple(trip for trip in route.trips if trip.stops[1].node != anchor)
+
+
+def _whole(trip: Trip, nodes: Sequence[int], offset: int = 0) -> Trip:
+    """Return a trip with other nodes, its sorties at stops `offset` later."""
+    stops = tuple(replace(stop, node=nodes[stop.node]) for stop in trip.stops)
+    sorties = tuple(
+        replace(sortie, launch_stop=sortie.launch_stop + offset,
+                recovery_stop=sortie.recovery_stop + offset,
+                visits=tuple(replace(visit, node=nodes[visit.node]) for visit in sortie.visits))
+        for sortie in trip.sorties)
+    return Trip(stops, sorties)
+
+
+def _joined(begun: Trip, rest: Trip, nodes: Sequence[int]) -> Trip:
+    """Return a trip that goes on at its last stop but the depot as another from its anchor."""
+    position = len(begun.stops) - 2
+    rest = _whole(rest, nodes, position - 1)
+    here = replace(begun.stops[position], departure=rest.stops[1].departure)
+    return Trip((*begun.stops[:position], here, *rest.stops[2:]),
+                (*begun.sorties, *rest.sorties))
+
+
+def _numbered(before: Solution, taken: set[Vehicle], routes: Sequence[Route]) -> list[Route]:
+    """Return routes with vehicles that are free, those that served most of the same customers."""
+    servant = {node: Vehicle(route.vehicle_type, route.vehicle)
+               for route in before.routes for node in _customers(route)}
+    shared = sorted(
+        (-overlap, vehicle.number, index) for index, route in enumerate(routes)
+        for vehicle, overlap in Counter(
+            servant[node] for node in _customers(route) if node in servant).items()
+        if vehicle.type == route.vehicle_type)
+    chosen: dict[int, Vehicle] = {}
+    used = set(taken)
+    for _, number, index in shared:
+        vehicle = Vehicle(routes[index].vehicle_type, number)
+        if index not in chosen and vehicle not in used:
+            chosen[index] = vehicle
+            used.add(vehicle)
+    numbered = []
+    for index, route in enumerate(routes):
+        vehicle = chosen.get(index) or next(
+            vehicle for number in count()
+            if (vehicle := Vehicle(route.vehicle_type, number)) not in used)
+        used.add(vehicle)
+        numbered.append(replace(route, vehicle=vehicle.number))
+    return numbered
+
+
+def _customers(route: Route) -> set[int]:
+    return {node for trip in route.trips for node in _served(trip)}

@@ -1,0 +1,188 @@
+"""What vehicles under way do in any case: the beginning of a new plan, up to the way home."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from model.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
+from model.problem import UNREACHABLE, Problem, VehicleType
+from model.replanning.amend import customers_of, repaired, without
+from model.solution import Route, Solution, Sortie, Stop, Trip
+from model.timing import RouteDecision, TripDecision, read_decision, resume_trip
+
+
+@dataclass(frozen=True)
+class WayOn:
+    """How a vehicle may go on with the trip that it is on."""
+
+    position: int  # stop of the trip
+    ready: int  # ms; the truck's next launch or departure there is no sooner
+    service_left: int  # ms, of the truck there from `ready` on
+    aboard: tuple[int, ...]  # customers whose parcels can be delivered
+    planned: TripDecision  # by the plan given; its first stop is that at `position`
+    planned_end: int  # ms
+
+
+@dataclass(frozen=True)
+class Kept:
+    """One vehicle's route as far as it is settled, then the way home."""
+
+    vehicle: Vehicle
+    decision: RouteDecision
+    route: Route  # timed
+    way_on: WayOn | None = None  # from the last stop of the last trip
+
+    @property
+    def served(self) -> set[int]:
+        """Customers who are served in any case."""
+        return {node for trip in self.decision.trips for node in customers_of(trip)}
+
+    @property
+    def end(self) -> int:
+        """When the vehicle is home if it does no more."""
+        return self.route.trips[-1].stops[-1].departure
+
+
+def kept_routes(problem: Problem, plan: Solution, past: Past) -> dict[Vehicle, Kept]:
+    """Return what each vehicle does in any case that has done anything by now, in the plan's order.
+
+    A truck whose drone is in the air meets it where that was planned, and serves the stops up to
+    there, as long as that breaks no rules.
+    """
+    planned = {Vehicle(route.vehicle_type, route.vehicle): route for route in plan.routes}
+    return {vehicle: _kept(problem, planned[vehicle], vehicle, past)
+            for vehicle in planned if vehicle in past.trips}
+
+
+def retimed(problem: Problem, decision: RouteDecision, known: tuple[KnownTrip, ...],
+            now: int) -> Route:
+    """Return a route of trips that have all begun with its times."""
+    kind = problem.vehicle_types[decision.vehicle_type]
+    trips = tuple(resume_trip(problem, kind, trip, facts, now)
+                  for trip, facts in zip(decision.trips, known, strict=True))
+    return Route(decision.vehicle_type, decision.vehicle, trips)
+
+
+def _kept(problem: Problem, route: Route, vehicle: Vehicle, past: Past) -> Kept:
+    known = past.trips[vehicle]
+    kind = problem.vehicle_types[vehicle.type]
+    launch_duration = 0 if kind.drones is None else kind.drones.launch_duration
+    trips = [read_decision(_settled(kind, trip, facts), launch_duration)
+             for trip, facts in zip(route.trips[:len(known)], known, strict=True)]
+    decision = RouteDecision(*vehicle, tuple(trips))
+    if known[-1].rest != "anything":
+        return Kept(vehicle, decision, retimed(problem, decision, known, past.now))
+    planned = route.trips[len(known) - 1]
+    return _continued(problem, decision, planned, meeting_stop(planned, known[-1]), past)
+
+
+def meeting_stop(trip: Trip, known: KnownTrip) -> int:
+    """Return the stop where a truck has all drones aboard that were launched."""
+    bound = len(known.stops) - 1
+    met = {sortie.recovery_node for sortie in known.sorties if sortie.recovery_stop is None}
+    return max([bound, *(index for index, stop in enumerate(trip.stops)
+                         if index > bound and stop.node in met)])
+
+
+def _settled(kind: VehicleType, trip: Trip, known: KnownTrip) -> Trip:
+    """Return the part of a trip that is settled, with the times that tell its order."""
+    stops = [Stop(stop.node, stop.arrival, 0, 0) for stop in known.stops]
+    if known.rest != "anything":
+        sorties = tuple(_as_sortie(sortie, len(stops)) for sortie in known.sorties)
+        if known.rest == "home":
+            stops.append(Stop(kind.depot, 0, 0, 0))
+        return Trip(tuple(stops), sorties)
+    meeting, bound = meeting_stop(trip, known), len(known.stops) - 1
+    stops = list(trip.stops[:meeting + 1])
+    if meeting < len(trip.stops) - 1:
+        stops.append(trip.stops[-1])
+    launched = {_identity(sortie) for sortie in known.sorties}
+    begun = [sortie for sortie in trip.sorties if _identity(sortie) in launched]
+    number = 0 if kind.drones is None else kind.drones.count
+    planned = [sortie for sortie in trip.sorties if _identity(sortie) not in launched
+               and bound <= sortie.launch_stop and sortie.recovery_stop <= meeting
+               and (sortie.launch_stop < meeting or meeting == len(trip.stops) - 1)
+               and sortie.drone < number]
+    return Trip(tuple(stops), (*begun, *planned))
+
+
+def _identity(sortie: Sortie | KnownSortie) -> tuple[int, int, int]:
+    return sortie.drone, sortie.launch_stop, sortie.launch_time
+
+
+def _as_sortie(known: KnownSortie, home: int) -> Sortie:
+    begun = UNREACHABLE if known.recovery_start is None else known.recovery_start
+    stop = home if known.recovery_stop is None else known.recovery_stop
+    return Sortie(known.drone, known.launch_stop, stop, known.visits, known.launch_time, begun,
+                  begun)
+
+
+def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting: int,
+               past: Past) -> Kept:
+    """Return what a vehicle does that is under way, and how the plan has it go on."""
+    vehicle = Vehicle(decision.vehicle_type, decision.vehicle)
+    known = past.trips[vehicle]
+    fixed = set(_fixed_nodes(known[-1]))
+    last = without(decision.trips[-1], {-1})
+    decision = replace(decision, trips=(*decision.trips[:-1], last))
+    if set(customers_of(last)) - fixed:
+        everyone = fixed.union(*(customers_of(trip) for trip in decision.trips[:-1]))
+        decision = repaired(problem, decision, everyone,
+                            [lambda tried: retimed(problem, tried, known, past.now)],
+                            past) or decision
+    route = retimed(problem, decision, known, past.now)
+    kept = Kept(vehicle, decision, route)
+    if meeting == len(planned.stops) - 1:
+        return kept
+    position = len(decision.trips[-1].nodes) - 2
+    served = set(customers_of(decision.trips[-1]))
+    aboard = tuple(sorted(known[-1].aboard - served))
+    if not aboard:
+        return kept
+    ready, service_left = _free_from(problem, route.trips[-1], position, past.now)
+    rest = _rest(problem, vehicle, planned, meeting, served)
+    planned_end = max(kept.end, _planned_end(problem, vehicle, ready, service_left, rest))
+    return replace(kept, way_on=WayOn(position, ready, service_left, aboard, rest, planned_end))
+
+
+def _planned_end(problem: Problem, vehicle: Vehicle, ready: int, service_left: int,
+                 rest: TripDecision) -> int:
+    """Return when a trip is over that goes on as planned."""
+    kind = problem.vehicle_types[vehicle.type]
+    node, begun = rest.nodes[0], ready + service_left
+    if node >= problem.num_depots:
+        begun -= problem.customer_at(node).service_duration
+    known = KnownTrip((KnownStop(node, ready, begun, None),), (), frozenset(), "anything")
+    return resume_trip(problem, kind, rest, known, ready).stops[-1].departure
+
+
+def _fixed_nodes(known: KnownTrip) -> Iterator[int]:
+    """Yield whom a vehicle under way serves in any case: drones in the air are met there."""
+    yield from (stop.node for stop in known.stops)
+    for sortie in known.sorties:
+        yield from (visit.node for visit in sortie.visits)
+        yield sortie.recovery_node
+
+
+def _free_from(problem: Problem, trip: Trip, position: int, now: int) -> tuple[int, int]:
+    """Return when all drones are aboard at a stop, and how long the truck serves from then on."""
+    stop = trip.stops[position]
+    ends = [sortie.recovery_time for sortie in trip.sorties if sortie.recovery_stop == position]
+    ends += [sortie.launch_time for sortie in trip.sorties if sortie.launch_stop == position]
+    ready = max([stop.arrival, now, *ends])
+    if stop.node < problem.num_depots:
+        return ready, 0
+    service_end = stop.service_start + problem.customer_at(stop.node).service_duration
+    return ready, max(0, service_end - ready)
+
+
+def _rest(problem: Problem, vehicle: Vehicle, planned: Trip, meeting: int,
+          served: set[int]) -> TripDecision:
+    """Return how the plan goes on from a stop, but for those who are served before or no more."""
+    drones = problem.vehicle_types[vehicle.type].drones
+    sorties = tuple(
+        replace(sortie, launch_stop=sortie.launch_stop - meeting,
+                recovery_stop=sortie.recovery_stop - meeting)
+        for sortie in planned.sorties if drones is not None and sortie.launch_stop >= meeting)
+    trip = Trip(planned.stops[meeting:], sorties)
+    decision = read_decision(trip, 0 if drones is None else drones.launch_duration)
+    return without(decision, {-1, *served})

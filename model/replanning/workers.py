@@ -1,0 +1,164 @@
+"""Vehicles that have begun to work, or have customers of their own: each becomes a type.
+
+One that can still deliver what it carries becomes two: for the trip that it is on, and for later
+ones, which begin once that would be over by the plan given. Where work goes on from a place and an
+instant, not from the depot as soon as the search likes, that is its anchor.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from model.metrics import first_departure
+from model.past import Past, Vehicle
+from model.problem import MAX_QUANTITY, Problem, VehicleType
+from model.replanning.amend import customers_of
+from model.replanning.kept import Kept, WayOn
+
+MAX_OWN_TYPES = 500
+"""Types that vehicles may become; memory grows by them."""
+
+
+class TooManyTypesError(ValueError):
+    """More vehicles are under way than can be planned for."""
+
+
+@dataclass(frozen=True)
+class Anchor:
+    """The place where a vehicle goes on with its work, and when."""
+
+    node: int  # of the problem as a whole
+    time: int  # ms
+    service: int = 0  # ms
+    driven: int = 0  # mm on this trip so far, if that is limited
+    load: tuple[int, ...] = ()  # what else on this trip takes room
+
+
+@dataclass(frozen=True)
+class Worker:
+    """What one vehicle, and no other, does from now on."""
+
+    vehicle: Vehicle
+    kind: VehicleType
+    anchor: Anchor | None = None
+    aboard: tuple[int, ...] = ()  # if any, nobody else is served
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether this is the rest of the trip that it is on."""
+        return bool(self.aboard)
+
+
+def vehicle_name(problem: Problem, vehicle: Vehicle) -> str:
+    """Return the name of a vehicle, such as `truck-1`."""
+    return f"{problem.vehicle_types[vehicle.type].id}-{vehicle.number + 1}"
+
+
+def find_workers(problem: Problem, past: Past,
+                 kept: Mapping[Vehicle, Kept]) -> tuple[list[Worker], dict[int, int]]:
+    """Return who becomes a type of its own, and which parcels come back to the depot when.
+
+    The latter are those aboard vehicles that can't deliver them.
+    """
+    workers, returned = [], dict(past.returned)
+    for vehicle, route in kept.items():
+        home_by = _home_by(problem.vehicle_types[vehicle.type], route)
+        way_on = route.way_on
+        if way_on is not None and _can_go_on(problem, route, home_by):
+            home = min(way_on.planned_end, home_by)
+            later = _later(problem, past, route, home, home_by)
+            workers.append(_rest_of_trip(problem, route, way_on,
+                                         home_by if later is None else home))
+        else:
+            later = _later(problem, past, route, route.end, home_by)
+            for node in past.trips[vehicle][-1].aboard - route.served:
+                returned.setdefault(node, min(route.end, MAX_QUANTITY))
+        if later is not None:
+            workers.append(later)
+    workers += _with_customers(problem, past, kept)
+    if len(workers) > MAX_OWN_TYPES:
+        raise TooManyTypesError(f"{len(workers)} routes are under way or have customers pinned "
+                                f"to them, and at most {MAX_OWN_TYPES} are allowed")
+    return workers, returned
+
+
+def _with_customers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[Worker]:
+    """Return the vehicles that have done nothing yet, and have customers pinned to them."""
+    workers = []
+    for vehicle in dict.fromkeys(past.pinned.values()):
+        kind = problem.vehicle_types[vehicle.type]
+        earliest = max(kind.earliest, past.now)
+        if vehicle not in kept and vehicle not in past.unavailable and earliest <= kind.latest:
+            workers.append(Worker(vehicle, replace(kind, id=vehicle_name(problem, vehicle),
+                                                   count=1, earliest=earliest)))
+    return workers
+
+
+def _home_by(kind: VehicleType, route: Kept) -> int:
+    """Return when a vehicle has to be home that has begun to work."""
+    latest = min(kind.latest, MAX_QUANTITY - 1)
+    if kind.max_working_duration is None:
+        return latest
+    return min(latest, first_departure(route.route.trips[0]) + kind.max_working_duration)
+
+
+def _driven(problem: Problem, route: Kept) -> tuple[int, int]:
+    """Return how far a vehicle has driven on its last trip, and the way home."""
+    kind = problem.vehicle_types[route.vehicle.type]
+    distance = problem.travel[kind.travel].distance
+    nodes = route.decision.trips[-1].nodes
+    return sum(map(distance.item, nodes[:-2], nodes[1:-1])), distance.item(*nodes[-2:])
+
+
+def _load(problem: Problem, nodes: list[int] | tuple[int, ...]) -> tuple[int, ...]:
+    """Return the demand of customers together."""
+    demands = [problem.customer_at(node).demand for node in nodes]
+    return tuple(map(sum, zip((0,) * problem.num_dimensions, *demands, strict=True)))
+
+
+def _can_go_on(problem: Problem, route: Kept, home_by: int) -> bool:
+    """Tell whether a vehicle can deliver some of what it carries."""
+    kind = problem.vehicle_types[route.vehicle.type]
+    limit = kind.max_trip_distance
+    load = _load(problem, customers_of(route.decision.trips[-1]))
+    return (route.end <= home_by
+            and all(a <= b for a, b in zip(load, kind.capacity, strict=True))
+            and (limit is None or sum(_driven(problem, route)) <= limit))
+
+
+def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> Worker:
+    """Return what a vehicle can do on the trip that it is on."""
+    kind = problem.vehicle_types[route.vehicle.type]
+    nodes = route.decision.trips[-1].nodes
+    load = _load(problem, customers_of(route.decision.trips[-1]))
+    # The heavier an anchor, the sooner the search puts it in its place.
+    spare = zip(kind.capacity, load, _load(problem, way_on.aboard), strict=True)
+    anchor = Anchor(
+        nodes[way_on.position], way_on.ready, way_on.service_left,
+        0 if kind.max_trip_distance is None else _driven(problem, route)[0],
+        tuple(min(room, max(taken, room - carried)) for room, taken, carried in spare))
+    own = _own_type(problem, route, way_on.ready, home_by, 1)
+    return Worker(route.vehicle, own, anchor, way_on.aboard)
+
+
+def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int) -> Worker | None:
+    """Return what trips a vehicle can begin that is back at `home`; None if there are none."""
+    kind = problem.vehicle_types[route.vehicle.type]
+    ready = max(past.now, home + kind.reload_duration)
+    trips_left = kind.max_trips - len(route.route.trips)
+    if route.vehicle in past.unavailable or trips_left < 1 or ready > home_by:
+        return None
+    weighs = all(any(customer.demand) for customer in problem.customers)
+    if not kind.cost_per_hour or not weighs or not any(kind.capacity):
+        return Worker(route.vehicle, _own_type(problem, route, ready, home_by, trips_left))
+    # A trip to nobody that is full keeps the clock running, as it costs.
+    begin = ready - kind.reload_duration
+    anchor = Anchor(kind.depot, begin, load=kind.capacity)
+    return Worker(route.vehicle, _own_type(problem, route, begin, home_by, trips_left + 1), anchor)
+
+
+def _own_type(problem: Problem, route: Kept, earliest: int, home_by: int,
+              trips: int) -> VehicleType:
+    """Return a vehicle that has begun to work as a type of its own."""
+    kind = problem.vehicle_types[route.vehicle.type]
+    return replace(kind, id=vehicle_name(problem, route.vehicle), count=1, fixed_cost=0.0,
+                   earliest=earliest, latest=home_by, max_working_duration=None, max_trips=trips)

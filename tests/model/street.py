@@ -1,0 +1,51 @@
+"""Plans on a street, and their times in minutes."""
+
+from dataclasses import replace
+
+from model.past import Vehicle
+from model.problem import Problem
+from model.solution import Route, Solution, Trip
+from model.timing import RouteDecision, TripDecision, schedule
+
+MINUTE = 60_000
+ONE, TWO = Vehicle(0, 0), Vehicle(0, 1)
+A, B, C, D = 1, 2, 3, 4
+
+
+def planned(problem: Problem, *routes: tuple[tuple[int, ...], ...]) -> Solution:
+    """Return the plan in which trucks 1, 2, … visit these nodes, a tuple a trip."""
+    decisions = [RouteDecision(0, number, tuple(TripDecision((0, *trip, 0)) for trip in trips))
+                 for number, trips in enumerate(routes)]
+    return solution_of(problem, *decisions)
+
+
+def solution_of(problem: Problem, *decisions: RouteDecision) -> Solution:
+    """Return the plan of these decisions; who isn't in them is left out."""
+    routes = tuple(schedule(problem, decision) for decision in decisions)
+    nodes = range(problem.num_depots, problem.num_nodes)
+    return Solution(routes, tuple(node for node in nodes if node not in served(*routes)))
+
+
+def served(*routes: Route) -> set[int]:
+    """Return whom routes serve."""
+    return {node for route in routes for trip in route.trips
+            for node in (*(stop.node for stop in trip.stops[1:-1]),
+                         *(visit.node for sortie in trip.sorties for visit in sortie.visits))}
+
+
+def minutes(trip: Trip) -> list[tuple[int, float, float]]:
+    """Return a trip's stops: node, arrival and departure in minutes."""
+    return [(stop.node, stop.arrival / MINUTE, stop.departure / MINUTE) for stop in trip.stops]
+
+
+def route_of(solution: Solution, vehicle: Vehicle) -> Route:
+    """Return a vehicle's route."""
+    return next(route for route in solution.routes
+                if (route.vehicle_type, route.vehicle) == vehicle)
+
+
+def with_customer(problem: Problem, node: int, **changes: object) -> Problem:
+    """Return a problem in which one customer is another."""
+    customers = list(problem.customers)
+    customers[node - 1] = replace(customers[node - 1], **changes)
+    return replace(problem, customers=tuple(customers))
