@@ -1,0 +1,193 @@
+"""Who asks: a key with the scope that an endpoint needs, or anybody where access is open."""
+
+import asyncio
+import logging
+import time
+from dataclasses import dataclass
+from typing import Annotated
+
+from fastapi import Request, Security
+from fastapi.security import (
+    APIKeyHeader, HTTPAuthorizationCredentials, HTTPBearer, SecurityScopes,
+)
+from sqlalchemy.exc import SQLAlchemyError
+
+from app.access.keys import LAST_USED_STEP, SCOPES, Keys, KeyStore, Scope, StoredKey, find_key
+from app.access.limits import Limits, client_address
+from app.errors import RequestError
+
+logger = logging.getLogger(__name__)
+
+REFRESH_SECONDS = 1.0
+"""Age from which on the keys in memory are read again: how long a revoked key may go on working."""
+
+STALE_SECONDS = 60.0
+"""Age up to which keys in memory are trusted while the database can't be read."""
+
+PATIENCE = 0.5
+"""Seconds that requests wait for keys to be read, before they make do with those in memory."""
+
+BEARER = HTTPBearer(auto_error=False, description="An API key: `Authorization: Bearer tdm_...`.")
+KEY_HEADER = APIKeyHeader(name="X-API-Key", auto_error=False,
+                          description="An API key, for clients that can't set `Authorization`.")
+
+
+@dataclass(frozen=True)
+class Principal:
+    """Who asks, and what they may do."""
+
+    key_id: str
+    scopes: frozenset[Scope]
+
+
+ANYBODY = Principal("anonymous", frozenset(SCOPES))
+"""Whoever asks where access is open."""
+
+
+class UnauthorizedError(RequestError):
+    """There is no valid key; which of all reasons it is, isn't told."""
+
+    status = 401
+    name = "unauthorized"
+    title = "A valid API key is needed"
+    refusal = "access"
+
+    def __init__(self) -> None:
+        super().__init__("Send a valid API key as 'Authorization: Bearer <key>' or as "
+                         "'X-API-Key: <key>'.")
+        self.headers = {"WWW-Authenticate": 'Bearer realm="tandem"'}
+
+
+class ForbiddenError(RequestError):
+    """The key is valid, but not for this."""
+
+    status = 403
+    name = "forbidden"
+    title = "The API key may not do this"
+    refusal = "access"
+
+
+class KeysUnreadableError(RequestError):
+    """The database with the keys has not answered for long."""
+
+    status = 503
+    name = "keys-unreadable"
+    title = "API keys can't be checked now"
+    refusal = "access"
+
+
+class Guard:
+    """Lets requests in by their key.
+
+    Parameters
+    ----------
+    store
+        The keys; None where access is open.
+    limits
+        How often anybody may ask, and fail.
+    """
+
+    def __init__(self, store: KeyStore | None, limits: Limits) -> None:
+        self._store = store
+        self._limits = limits
+        self._keys: Keys = {}
+        self._read_at = -float("inf")
+        self._tried_at = -float("inf")
+        self._reading: asyncio.Task[None] | None = None
+        self._noted: dict[str, float] = {}
+
+    async def admit(self, request: Request, presented: str, needed: frozenset[Scope]) -> Principal:
+        """Return who sent `request`.
+
+        Parameters
+        ----------
+        presented
+            The key that came with it; empty if none did.
+        needed
+            Scopes that the key must have.
+
+        Raises
+        ------
+        UnauthorizedError
+            If no valid key came with it.
+        ForbiddenError
+            If the key lacks one of the scopes in `needed`.
+        TooManyRequestsError
+            If keys were wrong too often, or the key was used too often.
+        KeysUnreadableError
+            If there is no telling which keys are valid.
+        """
+        principal = ANYBODY
+        if self._store is not None:
+            principal = await self._identify(request, presented, self._store)
+        if missing := needed - principal.scopes:
+            raise ForbiddenError(f"The key lacks the scope {' and '.join(sorted(missing))}: use a "
+                                 "key that was created with it.")
+        # Logs name the key by its id.
+        request.state.key_id = principal.key_id
+        if request.method == "POST":
+            self._limits.take(request, principal.key_id if self._store else None, needed)
+        return principal
+
+    async def _identify(self, request: Request, presented: str, store: KeyStore) -> Principal:
+        await self._refresh(store)
+        key = find_key(self._keys, presented)
+        if key is None:
+            # Only wrong keys are slowed down: whoever shares the address of somebody who guesses
+            # is let in all the same, and 256 random bits can't be guessed anyway.
+            self._limits.count_failure(client_address(request))
+            raise UnauthorizedError
+        await self._note_use(store, key)
+        return Principal(key.id, key.scopes)
+
+    async def _refresh(self, store: KeyStore) -> None:
+        """Read the keys again if that is due, once for all that wait. In place."""
+        now = time.monotonic()
+        if now - self._read_at <= REFRESH_SECONDS:
+            return
+        is_reading = self._reading is not None and not self._reading.done()
+        if not is_reading and now - self._tried_at > REFRESH_SECONDS:
+            self._tried_at = now
+            self._reading = asyncio.create_task(self._read(store))
+        if self._reading is not None:
+            await asyncio.wait({self._reading}, timeout=max(0.0, self._tried_at + PATIENCE - now))
+        if time.monotonic() - self._read_at > STALE_SECONDS:
+            raise KeysUnreadableError("The keys can't be read: try again soon.")
+
+    async def _read(self, store: KeyStore) -> None:
+        began = time.monotonic()
+        try:
+            self._keys = await asyncio.to_thread(store.load)
+            self._read_at = began
+        except SQLAlchemyError as error:
+            logger.error("keys can't be read: %s", type(error).__name__)
+
+    async def _note_use(self, store: KeyStore, key: StoredKey) -> None:
+        """Note the use of a key, unless that was done a short while ago. In place."""
+        now = time.time()
+        last = max(key.last_used_at or 0, self._noted.get(key.id, 0))
+        if now - last < LAST_USED_STEP:
+            return
+        self._noted[key.id] = now
+        try:
+            await asyncio.to_thread(store.note_use, key.id)
+        except SQLAlchemyError as error:
+            logger.warning("the use of a key can't be noted: %s", type(error).__name__)
+
+
+async def require(
+    request: Request, security: SecurityScopes,
+    bearer: Annotated[HTTPAuthorizationCredentials | None, Security(BEARER)],
+    header: Annotated[str | None, Security(KEY_HEADER)],
+) -> Principal:
+    """Return who asks; refuse whoever lacks a key with the scopes that the endpoint needs."""
+    guard: Guard = request.app.state.guard
+    stated = {key.strip() for key in (bearer.credentials if bearer else "", header or "") if key}
+    # Two keys that differ leave open who asks.
+    presented = stated.pop() if len(stated) == 1 else ""
+    return await guard.admit(request, presented, frozenset(security.scopes))  # type: ignore[arg-type]
+
+
+Plan = Annotated[Principal, Security(require, scopes=["plan"])]
+Jobs = Annotated[Principal, Security(require, scopes=["jobs"])]
+Admin = Annotated[Principal, Security(require, scopes=["admin"])]

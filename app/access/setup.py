@@ -1,0 +1,76 @@
+"""Puts access control around an application."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from ipaddress import ip_address
+from urllib.parse import urlsplit
+
+from fastapi import FastAPI
+from starlette.middleware.cors import CORSMiddleware
+
+from app.access.gate import Gate
+from app.access.guard import Guard
+from app.access.headers import SecurityHeaders
+from app.access.keys import KeyStore
+from app.access.limits import Limits, Rates
+from app.database import make_engine
+from app.settings import Settings
+
+REQUEST_HEADERS = ("Authorization", "Content-Type", "Idempotency-Key", "Last-Event-ID", "X-API-Key",
+                   "X-Request-ID")
+REPLY_HEADERS = ("Location", "RateLimit-Limit", "RateLimit-Remaining", "RateLimit-Reset",
+                 "Retry-After", "X-Request-ID")
+
+
+class ExposedError(ValueError):
+    """The service would answer the network, and nobody said that it should do so without keys."""
+
+
+def check_exposure(settings: Settings, host: str) -> None:
+    """Make sure that access is open to other machines on purpose only.
+
+    Raises
+    ------
+    ExposedError
+        If `host` is no loopback address, and the settings don't say how access is controlled.
+    """
+    if settings.access is None and not is_loopback(host):
+        raise ExposedError(
+            f"Listening on {host} lets other machines in. Set TANDEM_ACCESS=keys to let in those "
+            "with a key from 'tandem keys create', or TANDEM_ACCESS=open to let in everybody.")
+
+
+def is_loopback(host: str) -> bool:
+    """Tell whether only this machine can reach an address."""
+    try:
+        return ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+@contextmanager
+def guarding(settings: Settings) -> Iterator[Guard]:
+    """Yield the guard that the settings ask for; its database is open until the block ends."""
+    limits = Limits(Rates(settings.plans_per_minute, settings.jobs_per_minute,
+                          settings.wrong_keys_per_minute))
+    if settings.access != "keys":
+        yield Guard(None, limits)
+        return
+    engine = make_engine(settings)
+    try:
+        yield Guard(KeyStore(engine), limits)
+    finally:
+        engine.dispose()
+
+
+def control_access(app: FastAPI, settings: Settings) -> None:
+    """Put what is refused, allowed and told around the endpoints. In place."""
+    app.add_middleware(Gate, origins=settings.cors_origins, metrics=app.state.metrics)
+    if settings.cors_origins:
+        app.add_middleware(
+            CORSMiddleware, allow_origins=settings.cors_origins,
+            allow_methods=("GET", "POST", "DELETE"), allow_headers=REQUEST_HEADERS,
+            expose_headers=REPLY_HEADERS)
+    tiles = urlsplit(settings.tile_url or "")
+    app.add_middleware(SecurityHeaders,
+                       image_origin=f"{tiles.scheme}://{tiles.netloc}" if tiles.netloc else "")

@@ -1,0 +1,73 @@
+"""The service's own database: one SQLite file, or PostgreSQL by a setting."""
+
+from typing import Any
+
+from sqlalchemy import URL, Engine, MetaData, create_engine, event, make_url, text
+from sqlalchemy.exc import ArgumentError
+
+from app.settings import Settings
+
+FILE_NAME = "tandem.db"
+
+BUSY_SECONDS = 10
+"""How long a write to SQLite waits for another process's."""
+
+CONNECT_SECONDS = 5
+"""How long PostgreSQL may take to accept a connection."""
+
+_SCHEMA_LOCK = 7_236_101
+"""Key of PostgreSQL's advisory lock for making tables; any number, the same everywhere."""
+
+
+def database_url(settings: Settings) -> URL:
+    """Return the URL that the settings state, or that of a file in the data folder.
+
+    Raises
+    ------
+    ValueError
+        If the URL can't be read.
+    """
+    if settings.database_url is None:
+        return URL.create("sqlite", database=str(settings.data_dir / FILE_NAME))
+    try:
+        url = make_url(settings.database_url.get_secret_value())
+    except ArgumentError:
+        # Without the cause, which repeats the URL and so the password.
+        raise ValueError("TANDEM_DATABASE_URL: this is no database URL") from None
+    if url.drivername in ("postgres", "postgresql"):
+        url = url.set(drivername="postgresql+psycopg")
+    return url
+
+
+def make_engine(settings: Settings) -> Engine:
+    """Return a pool of connections to the database; makes the data folder if it is needed."""
+    url = database_url(settings)
+    if settings.database_url is None:
+        # The database holds customers' addresses, so no other user may read it.
+        settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if url.get_backend_name() == "sqlite":
+        engine = create_engine(url)
+        event.listen(engine, "connect", _set_up_sqlite)
+        return engine
+    return create_engine(url, pool_pre_ping=True,
+                         connect_args={"connect_timeout": CONNECT_SECONDS})
+
+
+def create_tables(engine: Engine, tables: MetaData) -> None:
+    """Make the tables that aren't there yet; several processes may do so at once. In place."""
+    with engine.begin() as connection:
+        if engine.dialect.name == "postgresql":
+            connection.execute(text("SELECT pg_advisory_xact_lock(:key)"), {"key": _SCHEMA_LOCK})
+        elif engine.dialect.name == "sqlite":
+            connection.exec_driver_sql("BEGIN IMMEDIATE")
+        tables.create_all(connection)
+
+
+def _set_up_sqlite(connection: Any, _: object) -> None:
+    """Let readers and a writer work side by side."""
+    cursor = connection.cursor()
+    cursor.execute(f"PRAGMA busy_timeout = {1000 * BUSY_SECONDS}")
+    cursor.execute("PRAGMA journal_mode = WAL")
+    cursor.execute("PRAGMA synchronous = NORMAL")
+    cursor.execute("PRAGMA foreign_keys = ON")
+    cursor.close()

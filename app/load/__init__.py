@@ -1,0 +1,1 @@
+"""How the service bears load: bounded plans, abandoned requests, shutdown."""

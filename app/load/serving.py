@@ -1,0 +1,49 @@
+"""Runs the service as one process, or several on one port."""
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import uvicorn
+
+from app.load.protocol import HttpProtocol
+from app.main import create_app
+from app.observe.logs import log_config
+from app.observe.metrics import MULTIPROCESS_DIR
+from app.settings import Settings
+
+HEALTHCHECK_SECONDS = 30
+"""How long a process may not answer its parent, which then starts another in its place."""
+
+
+def run_server(settings: Settings, host: str, port: int, workers: int) -> None:
+    """Answer requests until a signal ends the process."""
+    options: dict[str, Any] = {
+        "host": host,
+        "port": port,
+        "http": HttpProtocol,
+        "access_log": False,
+        "server_header": False,
+        "timeout_graceful_shutdown": settings.shutdown_seconds,
+        "log_config": log_config(settings.log_format, settings.log_level,
+                                 traced=settings.otlp_endpoint is not None),
+    }
+    if workers == 1:
+        uvicorn.run(create_app(settings), **options)
+        return
+    with _shared_by_workers(settings, workers):
+        uvicorn.run("app.main:create_app", factory=True, workers=workers,
+                    timeout_worker_healthcheck=HEALTHCHECK_SECONDS, **options)
+
+
+@contextmanager
+def _shared_by_workers(settings: Settings, workers: int) -> Iterator[None]:
+    """Have workers, which read the environment, share cores and metrics. In place."""
+    if "max_concurrent_plans" not in settings.model_fields_set:
+        slots = max(1, settings.max_concurrent_plans // workers)
+        os.environ["TANDEM_MAX_CONCURRENT_PLANS"] = str(slots)
+    with tempfile.TemporaryDirectory(prefix="tandem-metrics-") as folder:
+        os.environ.setdefault(MULTIPROCESS_DIR, folder)
+        yield

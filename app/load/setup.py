@@ -1,0 +1,31 @@
+"""Prepares an application for more load than it can bear."""
+
+import multiprocessing
+
+from anyio import CapacityLimiter
+from fastapi import FastAPI
+
+from app.load.abandoned import Turns
+from app.load.admission import Admission
+from app.load.bodies import Bodies
+from app.load.shutdown import Shutdown, ShutdownGate
+from app.settings import Settings
+
+
+def prepare_for_load(app: FastAPI, settings: Settings) -> Shutdown:
+    """Give an application its queue, its reader of bodies and its gate; return how it ends.
+
+    In place: they are `turns` and `bodies` of its state.
+    """
+    state = app.state
+    state.shutdown = Shutdown()
+    state.bodies = Bodies(settings.max_body_bytes, settings.max_body_seconds,
+                          settings.max_buffered_bytes)
+    admission = Admission(settings.max_concurrent_plans, settings.max_queued_plans,
+                          settings.max_queue_seconds)
+    # Threads of their own, so that no other endpoint's use of threads delays a plan.
+    state.turns = Turns(admission, CapacityLimiter(settings.max_concurrent_plans),
+                        state.shutdown, state.metrics,
+                        shares_port=multiprocessing.parent_process() is not None)
+    app.add_middleware(ShutdownGate, shutdown=state.shutdown)
+    return state.shutdown

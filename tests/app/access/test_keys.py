@@ -1,0 +1,138 @@
+"""Keys in the database: random, hashed, revocable."""
+
+import re
+import sqlite3
+import stat
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from sqlalchemy import Engine
+
+from app.access.keys import KeyStore, StoredKey, find_key
+from app.database import FILE_NAME, database_url, make_engine
+from app.settings import Settings
+
+
+@pytest.fixture
+def engine(tmp_path: Path) -> Engine:
+    """Return a new database."""
+    return make_engine(Settings(data_dir=tmp_path / "data"))
+
+
+@pytest.fixture
+def store(engine: Engine) -> KeyStore:
+    """Return a store without keys."""
+    return KeyStore(engine)
+
+
+def test_key_is_found_by_itself_alone(store: KeyStore) -> None:
+    ann, bob = (store.create(name, ["plan"]) for name in ("ann", "bob"))
+    keys = store.load()
+    found = find_key(keys, ann)
+    assert found is not None
+    assert (found.name, found.scopes) == ("ann", frozenset({"plan"}))
+    for wrong in ("", "tdm_", ann[:-1], ann + "0", ann.upper(), ann[:-1] + "é",
+                  ann[:17] + bob[17:], ann[:-1] + ("0" if ann[-1] != "0" else "1")):
+        assert find_key(keys, wrong) is None, wrong
+
+
+def test_keys_are_long_random_and_name_their_id(store: KeyStore) -> None:
+    keys = [store.create("x", ["plan"]) for _ in range(20)]
+    assert len(set(keys)) == 20
+    assert all(re.fullmatch(r"tdm_[0-9a-f]{12}_[0-9a-f]{64}", key) for key in keys)
+    assert {key.split("_")[1] for key in keys} == set(store.load())
+
+
+def test_database_holds_no_key(store: KeyStore, tmp_path: Path) -> None:
+    key = store.create("ann", ["plan", "jobs"])
+    secret = key.rpartition("_")[2]
+    for file in (tmp_path / "data").iterdir():
+        content = file.read_bytes()
+        assert secret.encode() not in content
+        assert bytes.fromhex(secret) not in content
+
+
+def test_data_folder_is_for_its_owner_alone(store: KeyStore, tmp_path: Path) -> None:
+    assert stat.S_IMODE((tmp_path / "data").stat().st_mode) == 0o700
+
+
+def test_revoked_key_is_listed_and_not_found(store: KeyStore) -> None:
+    key = store.create("ann", ["plan"])
+    (key_id,) = store.load()
+    assert store.revoke(key_id)
+    assert not store.revoke(key_id)
+    assert not store.revoke("unknown")
+    assert store.load()[key_id].revoked_at is not None
+    assert find_key(store.load(), key) is None
+
+
+def test_key_needs_a_scope(store: KeyStore) -> None:
+    with pytest.raises(ValueError, match="scopes"):
+        store.create("ann", [])
+
+
+def test_every_key_presented_is_hashed_and_compared_once(
+        store: KeyStore, monkeypatch: pytest.MonkeyPatch) -> None:
+    right = store.create("ann", ["plan"])
+    revoked = store.create("bob", ["plan"])
+    store.revoke(revoked.split("_")[1])
+    keys = store.load()
+    compared: list[tuple[int, int]] = []
+    compare: Callable[[bytes, bytes], bool] = bytes.__eq__
+
+    def noting(one: bytes, other: bytes) -> bool:
+        compared.append((len(one), len(other)))
+        return compare(one, other)
+
+    monkeypatch.setattr("hmac.compare_digest", noting)
+    presented = (right, revoked, right[:-1] + "x", "tdm_" + "0" * 12 + "_" + "0" * 64, "junk", "")
+    found = [find_key(keys, key) is not None for key in presented]
+    assert found == [True, False, False, False, False, False]
+    assert compared == [(32, 32)] * len(presented)
+
+
+def test_nobody_has_the_key_that_stands_in_for_unknown_ones() -> None:
+    stored = StoredKey("", "", bytes(32), frozenset({"plan"}), 0)
+    assert find_key({"": stored}, "") is None
+
+
+def test_processes_may_make_the_tables_at_once(tmp_path: Path) -> None:
+    settings = Settings(data_dir=tmp_path)
+    failures: list[Exception] = []
+
+    def start() -> None:
+        engine = make_engine(settings)
+        try:
+            KeyStore(engine).create("x", ["plan"])
+        except Exception as error:
+            failures.append(error)
+        finally:
+            engine.dispose()
+
+    threads = [threading.Thread(target=start) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert failures == []
+    with sqlite3.connect(tmp_path / FILE_NAME) as connection:
+        assert connection.execute("SELECT count(*) FROM api_keys").fetchone() == (8,)
+    connection.close()
+
+
+@pytest.mark.parametrize(("stated", "driver"), [
+    ("postgresql://a:b@host/x", "postgresql+psycopg"), ("postgres://a:b@host/x",
+                                                        "postgresql+psycopg"),
+    ("postgresql+psycopg://a:b@host/x", "postgresql+psycopg"), ("sqlite:////tmp/x.db", "sqlite")])
+def test_urls_get_the_driver_that_is_installed(stated: str, driver: str) -> None:
+    assert database_url(Settings(database_url=stated)).drivername == driver
+
+
+def test_wrong_url_is_refused_without_its_password() -> None:
+    settings = Settings(database_url="hunter2@nothing")
+    with pytest.raises(ValueError, match="TANDEM_DATABASE_URL") as caught:
+        database_url(settings)
+    assert "hunter2" not in str(caught.value)
+    assert "hunter2" not in repr(settings)

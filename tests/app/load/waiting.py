@@ -1,0 +1,84 @@
+"""A planner whose plans take as long as a test wants, served here or in a process of its own."""
+
+import os
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from subprocess import Popen
+from typing import Any
+
+import httpx
+import uvicorn
+
+from app.load.protocol import HttpProtocol
+from app.main import create_app
+from app.settings import Settings
+from model.planner import ALONE, Listener, PlanOptions, PlanResult
+from model.problem import Problem
+from tests.app.conftest import FirstFitPlanner
+from tests.conftest import free_port
+
+ROOT = Path(__file__).parents[3]
+
+
+class WaitingPlanner(FirstFitPlanner):
+    """Plans once it may go on, or is told to stop."""
+
+    def __init__(self) -> None:
+        self.go_on = threading.Event()
+        self.started = 0
+        self.stopped_at: list[float] = []
+
+    def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
+             listener: Listener = ALONE, *rest: Any, **more: Any) -> PlanResult:
+        self.started += 1
+        while not self.go_on.wait(0.002):
+            if listener.should_stop():
+                self.stopped_at.append(time.perf_counter())
+                break
+        return super().plan(problem, options, received_at)
+
+
+def until(condition: Callable[[], bool], seconds: float = 10.0) -> None:
+    """Wait until a condition holds."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline
+
+
+@contextmanager
+def process_of_its_own(**settings: str) -> Iterator[tuple[Popen[bytes], httpx.Client]]:
+    """Serve a `WaitingPlanner`, whose plans last until they are told to stop."""
+    port = free_port()
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), **settings}
+    with (Popen([sys.executable, "-m", "tests.app.load.waiting", str(port)], cwd=ROOT,
+                env=environment) as process,
+          httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=20,
+                       trust_env=False) as client):
+        try:
+            until(lambda: process.poll() is None and status_of(client, "/health/ready") == 200, 60)
+            yield process, client
+        finally:
+            process.kill()
+
+
+def status_of(client: httpx.Client, path: str) -> int | None:
+    """Return the status that a path is answered with, None if it isn't."""
+    try:
+        return client.get(path).status_code
+    except httpx.TransportError:
+        return None
+
+
+def main() -> None:
+    """Serve until told to stop."""
+    settings = Settings()
+    uvicorn.run(create_app(settings, WaitingPlanner()), port=int(sys.argv[1]), http=HttpProtocol,
+                log_level="critical", timeout_graceful_shutdown=settings.shutdown_seconds)
+
+
+if __name__ == "__main__":
+    main()
