@@ -1,0 +1,1 @@
+"""Durable jobs: long plans, comparisons and sweeps that outlive the process that works on them."""

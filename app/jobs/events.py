@@ -1,0 +1,98 @@
+"""Server-sent events of jobs, whichever process works on them."""
+
+import asyncio
+from collections import Counter
+from collections.abc import AsyncGenerator, AsyncIterator, Awaitable, Callable, Collection
+from contextlib import aclosing, suppress
+
+from pydantic_core import to_json
+from sse_starlette import ServerSentEvent
+
+from app.errors import RequestError
+from app.jobs.replies import progress, summary
+from app.jobs.store import JobRow
+
+PERIOD = 0.2
+"""Seconds between two looks at the jobs that are followed."""
+
+
+class Watcher:
+    """Looks at the rows of all jobs that are followed, once for all who follow.
+
+    Parameters
+    ----------
+    find_all
+        Returns the jobs with the given ids; a `RequestError` means that they can't be read now.
+    """
+
+    def __init__(self, find_all: Callable[[Collection[str]], Awaitable[list[JobRow]]]) -> None:
+        self._find_all = find_all
+        self._followers: Counter[str] = Counter()
+        self._latest: dict[str, JobRow | None] = {}  # None: deleted
+        self._news = asyncio.Condition()
+        self._looking: asyncio.Task[None] | None = None
+
+    async def follow(self, row: JobRow) -> AsyncGenerator[JobRow]:
+        """Yield a job now and after each change, until it is over or deleted."""
+        self._followers[row.id] += 1
+        if self._looking is None:
+            self._looking = asyncio.create_task(self._look())
+        current: JobRow | None = row
+        try:
+            while current is not None:
+                yield current
+                if current.is_over:
+                    return
+                current = await self._changed(current)
+        finally:
+            self._followers[row.id] -= 1
+            if not self._followers[row.id]:
+                del self._followers[row.id]
+                self._latest.pop(row.id, None)
+
+    async def _changed(self, row: JobRow) -> JobRow | None:
+        """Return a job once it differs from what is known of it; None if it was deleted."""
+        async with self._news:
+            while True:
+                latest = self._latest.get(row.id, row)
+                if latest is None or latest.revision > row.revision:
+                    return latest
+                await self._news.wait()
+
+    async def _look(self) -> None:
+        while self._followers:
+            ids = list(self._followers)
+            with suppress(RequestError):
+                found = {row.id: row for row in await self._find_all(ids)}
+                async with self._news:
+                    self._latest = {job_id: found.get(job_id) for job_id in ids
+                                    if job_id in self._followers}
+                    self._news.notify_all()
+            await asyncio.sleep(PERIOD)
+        self._looking = None
+
+
+async def events(watcher: Watcher, row: JobRow, seen: int) -> AsyncIterator[ServerSentEvent]:
+    """Yield the events of a job.
+
+    Their numbers are the job's revisions, the same in every process: what has changed while nobody
+    followed is told by the first event.
+
+    Parameters
+    ----------
+    watcher
+        Where to hear of changes.
+    row
+        The job.
+    seen
+        Number of the last event that the client knows; 0: none.
+    """
+    last = row
+    async with aclosing(watcher.follow(row)) as rows:
+        async for last in rows:
+            if last.revision > seen:
+                yield ServerSentEvent(to_json(progress(last, seen)).decode(), event="progress",
+                                      id=str(last.revision))
+                seen = last.revision
+    if last.is_over:
+        yield ServerSentEvent(to_json(summary(last)).decode(), event="end", id=str(last.revision))

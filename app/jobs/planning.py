@@ -1,0 +1,249 @@
+"""Plan jobs: slices of about a second that write down what a search in another thread found."""
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from pydantic_core import from_json, to_json
+
+from app.errors import RequestError
+from app.jobs.schemas import State
+from app.jobs.search import Find, Past, Search
+from app.jobs.store import JobRow, JobStore, Standing, now_ms
+from app.replanning import task_of
+from app.replies import Data
+from app.schemas_request import PlanRequest
+from app.service import plan_options
+from model.planner import PlanCheckError, Planner
+
+logger = logging.getLogger(__name__)
+
+SLICE = 1.0
+"""Seconds after which a search's finds are written down."""
+
+MAX_CRASHES = 5
+"""Attempts in a row that may end without any progress before a job is given up."""
+
+WITHHELD = "The plan found breaks a rule, so it is withheld."
+NOT_COMPUTED = "The plan could not be computed."
+POISONOUS = f"The process that planned ended unexpectedly, {MAX_CRASHES} times in a row."
+
+
+class Stopping(BaseException):
+    """This process ends: what it works on stays open, for another to go on with.
+
+    No `Exception`, which DBOS would write down as the outcome of the workflow.
+    """
+
+
+@dataclass(frozen=True)
+class Slice:
+    """What a slice came to."""
+
+    over: bool
+    iterations: int = 0
+    cost: float | None = None
+
+
+OVER = Slice(True)
+
+
+@dataclass
+class Running:
+    """A search under way in this process."""
+
+    row: JobRow
+    search: Search
+    validated: float  # seconds
+    noted: Find | None = None
+    best: Data | None = None  # reply to the best plan written down
+    is_cancelled: bool = False
+
+
+class PlanWork:
+    """The plan jobs that this process works on.
+
+    Parameters
+    ----------
+    planner
+        A warm one.
+    store
+        Where jobs are kept.
+    read
+        Returns the request of a job.
+    search_threads
+        Threads where a request states none.
+    put_back
+        Has a job begun again by any process.
+    on_plan
+        Is told the reply of each job that is done.
+    """
+
+    def __init__(self, planner: Planner, store: JobStore, read: Callable[[JobRow], PlanRequest],
+                 search_threads: int, put_back: Callable[[str], None],
+                 on_plan: Callable[[Data], None]) -> None:
+        self._planner = planner
+        self._store = store
+        self._read = read
+        self._search_threads = search_threads
+        self._put_back = put_back
+        self._on_plan = on_plan
+        self._running: dict[str, Running] = {}
+        self._stopping = threading.Event()
+
+    def advance(self, job_id: str) -> Slice:
+        """Work on a job for a slice, taking it first if need be. In place.
+
+        Raises
+        ------
+        Stopping
+            If this process ends.
+        """
+        running = self._running.get(job_id)
+        if running is None:
+            if self._stopping.is_set():
+                raise Stopping
+            running = self._begin(job_id)
+        if running is None:
+            return OVER
+        self._running[job_id] = running
+        has_ended = running.search.wait(SLICE)
+        if self._stopping.is_set():
+            self._hand_back(running)
+            raise Stopping
+        return self._end(running) if has_ended else self._note(running)
+
+    def cancel(self, job_id: str) -> None:
+        """Stop a job at once if it runs here. In place."""
+        running = self._running.get(job_id)
+        if running is not None:
+            running.is_cancelled = True
+            running.search.stop()
+
+    def drop(self, job_id: str) -> None:
+        """Let go of a job that failed. In place."""
+        running = self._running.pop(job_id, None)
+        if running is not None:
+            running.search.stop()
+
+    def stop(self) -> None:
+        """Have all jobs handed back. In place."""
+        self._stopping.set()
+        for running in list(self._running.values()):
+            running.search.stop()
+
+    @property
+    def is_idle(self) -> bool:
+        """Tell whether nothing runs."""
+        return not self._running
+
+    def _begin(self, job_id: str) -> Running | None:
+        """Take a job and start its search; None if there is nothing to search. In place."""
+        row = self._store.claim(job_id)
+        if row is None:
+            return None
+        if row.crashes > MAX_CRASHES:
+            self._fail(row, POISONOUS)
+            return None
+        if row.cancel_requested:
+            self._store.finish(job_id, row.attempt, "cancelled")
+            return None
+        began = time.perf_counter()
+        try:
+            request = self._read(row)
+            task = task_of(request)
+        except (RequestError, KeyError) as error:
+            # It was valid when it came: a policy may have been removed since.
+            self._fail(row, f"The request can't be planned any more: {error}")
+            return None
+        options = plan_options(request.options, self._search_threads)
+        kept = self._store.result(job_id)
+        past = Past(row.searched, row.search_iterations, None if kept is None else from_json(kept))
+        validated = time.perf_counter() - began
+        return Running(row, Search(self._planner, task, options, past), validated,
+                       best=past.reply)
+
+    def _note(self, running: Running) -> Slice:
+        """Write down what a search found. In place."""
+        search = running.search
+        find, reply = search.find(), None
+        if find is not None and find is not running.noted:
+            reply = search.reply_so_far(find)
+        cancel = self._store.note(running.row.id, running.row.attempt,
+                                  self._standing(running, search.progress, reply))
+        running.noted = find
+        if reply is not None and (running.best is None or cost_of(reply) < cost_of(running.best)):
+            running.best = reply
+        if cancel is None:
+            # Lost to another process, or ended. DBOS lets whoever owns the workflow go on.
+            search.stop()
+            del self._running[running.row.id]
+        if cancel:
+            self.cancel(running.row.id)
+        return self._slice(running, is_over=False)
+
+    def _end(self, running: Running) -> Slice:
+        """End a job whose search has ended. In place."""
+        row = running.row
+        try:
+            reply = self._better(running, running.search.reply())
+        except PlanCheckError as error:
+            logger.error("plan of job %s withheld: %s", row.id, error)
+            ended = self._fail(row, WITHHELD)
+        except Exception:  # whatever planning raised is this job's end, not the process's
+            logger.exception("job %s failed", row.id)
+            ended = self._fail(row, NOT_COMPUTED)
+        else:
+            state: State = "cancelled" if running.is_cancelled else "done"
+            progress = running.search.progress if running.is_cancelled else 1.0
+            running.best = reply
+            ended = self._store.finish(row.id, row.attempt, state,
+                                       self._standing(running, progress, reply))
+            self._on_plan(reply)
+        del self._running[row.id]
+        return self._slice(running, is_over=ended)
+
+    def _better(self, running: Running, reply: Data) -> Data:
+        """Return a reply, with the best plan written down if that is cheaper by a hair."""
+        best = running.best
+        if best is None or cost_of(reply) <= cost_of(best):
+            return reply
+        return best | {"solver": reply["solver"] | {"final_cost": cost_of(best)}}
+
+    def _hand_back(self, running: Running) -> None:
+        """Write down what a stopped search found, and leave the job to others. In place."""
+        row, search = running.row, running.search
+        try:
+            reply = self._better(running, search.reply()) if search.wait(SLICE) else None
+            self._store.note(row.id, row.attempt,
+                             self._standing(running, search.progress, reply))
+            if self._store.release(row.id, row.attempt):
+                self._put_back(row.id)
+        except Exception:  # the process ends: the job is begun anew from what is written down
+            logger.exception("job %s was not handed back", row.id)
+        del self._running[row.id]
+
+    def _fail(self, row: JobRow, error: str) -> bool:
+        return self._store.finish(row.id, row.attempt, "failed", error=error)
+
+    def _standing(self, running: Running, progress: float, reply: Data | None) -> Standing:
+        search = running.search
+        if reply is None:
+            return Standing(progress, search.iterations, search.searched)
+        elapsed = reply["solver"]["elapsed"]
+        elapsed["validate"] = running.validated
+        elapsed["total"] = (now_ms() - running.row.created_at) / 1000
+        return Standing(progress, search.iterations, search.searched, cost_of(reply),
+                        to_json(reply))
+
+    @staticmethod
+    def _slice(running: Running, is_over: bool) -> Slice:
+        cost = None if running.best is None else cost_of(running.best)
+        return Slice(is_over, running.search.iterations, cost)
+
+
+def cost_of(reply: Data) -> float:
+    """Return the cost of a plan by its reply."""
+    return float(reply["cost"]["total"])

@@ -1,0 +1,37 @@
+"""Jobs -> replies, as plain data (see `app.jobs.schemas`)."""
+
+from datetime import UTC, datetime
+
+from app.jobs.schemas import Data
+from app.jobs.store import JobRow
+
+
+def summary(row: JobRow) -> Data:
+    """Return a job without its result."""
+    return {
+        "id": row.id,
+        "kind": row.kind,
+        "state": row.state,
+        "created_at": _instant(row.created_at),
+        "started_at": _instant(row.started_at),
+        "finished_at": _instant(row.finished_at),
+        "expires_at": _instant(row.expires_at),
+        "progress": row.progress,
+        "cost": row.cost,
+        "search_iterations": row.search_iterations,
+        "error": row.error,
+    }
+
+
+def progress(row: JobRow, seen: int) -> Data:
+    """Return the data of an event `progress`, `seen` being the revision of the one before."""
+    return {"cost": row.cost, "search_iterations": row.search_iterations,
+            "progress": row.progress, "state": row.state,
+            "improved": row.improved_revision > seen}
+
+
+def _instant(milliseconds: int | None) -> str | None:
+    if milliseconds is None:
+        return None
+    instant = datetime.fromtimestamp(milliseconds / 1000, UTC)
+    return instant.isoformat(timespec="milliseconds").replace("+00:00", "Z")

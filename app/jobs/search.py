@@ -1,0 +1,192 @@
+"""One job's search, in a thread of its own: annealing runs on while its finds are written down."""
+
+import threading
+import time
+from dataclasses import dataclass, replace
+
+from pydantic_core import to_json
+
+from app.plan_reading import plan_to_solution
+from app.replanning import Task
+from app.replies import Data
+from model.planner import Elapsed, Listener, Planner, PlanOptions, PlanResult, Start
+from model.search.improve import Progress
+from model.solution import Solution
+
+READING_SHARE = 0.05
+"""Most of the time that reading and checking plans on the way may take."""
+
+SHORTEST_REST = 0.05
+"""Seconds of search that are worth beginning anew for."""
+
+NEARLY_OVER = 0.999
+"""Progress until the end."""
+
+
+@dataclass(frozen=True)
+class Past:
+    """What earlier processes did for a job."""
+
+    searched: float = 0.0  # seconds
+    iterations: int = 0
+    reply: Data | None = None  # to the best plan they found
+
+
+@dataclass(frozen=True)
+class Find:
+    """A plan on the way."""
+
+    solution: Solution
+    cost: float  # as the search counts it
+
+
+class Search:
+    """Plans in a thread.
+
+    Parameters
+    ----------
+    planner
+        What plans.
+    task
+        What to plan.
+    options
+        How, `time_limit` being the time for all processes together.
+    past
+        What was done already.
+    """
+
+    def __init__(self, planner: Planner, task: Task, options: PlanOptions,
+                 past: Past) -> None:
+        self._task = task
+        self._options = options
+        self._past = past
+        self._began = time.perf_counter()
+        self._stop = threading.Event()
+        self._done = threading.Event()
+        self._find: Find | None = None
+        self._first: Progress | None = None
+        self._turns = 0
+        self._next_reading = 0.0
+        self._result: PlanResult | None = None
+        self._error: Exception | None = None
+        self._thread = threading.Thread(target=self._run, args=(planner,), name="job-search",
+                                        daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Have the search end within milliseconds, or once the first plan is made. In place."""
+        self._stop.set()
+
+    def wait(self, seconds: float) -> bool:
+        """Wait for the end of the search; tell whether it has come."""
+        return self._done.wait(seconds)
+
+    @property
+    def searched(self) -> float:
+        """Seconds that all processes planned."""
+        return self._past.searched + time.perf_counter() - self._began
+
+    @property
+    def iterations(self) -> int:
+        """Iterations of all processes."""
+        return self._past.iterations + self._turns
+
+    @property
+    def progress(self) -> float:
+        """Share of the time or the iterations that is over."""
+        share = 0.0
+        if self._options.time_limit > 0:
+            share = self.searched / self._options.time_limit
+        if self._options.search_iterations:
+            share = max(share, self.iterations / self._options.search_iterations)
+        return min(share, NEARLY_OVER)
+
+    def find(self) -> Find | None:
+        """Return the best plan heard of so far."""
+        return self._find
+
+    def reply_so_far(self, find: Find) -> Data | None:
+        """Return the reply to a plan on the way; None if it breaks a rule, which the end tells."""
+        began = time.perf_counter()
+        evaluation = self._task.check(find.solution)
+        if evaluation.violations or self._first is None:
+            return None
+        now = time.perf_counter()
+        start: Start = "given" if self._task.replanning is not None else "insertion"
+        if start == "insertion" and self._first.turns == 0:
+            # Nothing but the policy's plan is there before the first turn.
+            start = "policy"
+        result = PlanResult(find.solution, evaluation, start, self._first.cost,
+                            evaluation.cost.total, self._turns, self._options.threads, False,
+                            Elapsed(0.0, now - self._began, now - began))
+        reply = self._reply(result)
+        self._rest_after(began)
+        return reply
+
+    def reply(self) -> Data:
+        """Return the reply to the plan that the search ended with.
+
+        Raises
+        ------
+        Exception
+            Whatever ended the search.
+        """
+        if self._error is not None:
+            raise self._error
+        if self._result is None:
+            raise RuntimeError("the search has not ended")
+        return self._reply(self._result)
+
+    def _run(self, planner: Planner) -> None:
+        try:
+            self._result = self._task.plan(planner, self._remaining(), self._began,
+                                           Listener(self._stop.is_set, self._hear), self._start())
+        except Exception as error:  # for `reply` to raise: nobody waits for this thread
+            self._error = error
+        finally:
+            self._done.set()
+
+    def _remaining(self) -> PlanOptions:
+        """Return the options for what is left to do."""
+        options = self._options
+        limit, turns = options.time_limit, options.search_iterations
+        if limit > 0 and self._past.searched > 0:
+            limit -= self._past.searched
+            limit = limit if limit >= SHORTEST_REST else 0.0
+        if turns:
+            turns = max(0, turns - self._past.iterations)
+        return replace(options, time_limit=limit, search_iterations=turns)
+
+    def _start(self) -> Solution | None:
+        if self._past.reply is None:
+            return None
+        return plan_to_solution(to_json(self._past.reply), self._task.problem)
+
+    def _hear(self, progress: Progress) -> None:
+        if self._first is None:
+            self._first = progress
+        self._turns = progress.turns
+        find = self._find
+        began = time.perf_counter()
+        if began >= self._next_reading and (find is None or progress.cost < find.cost):
+            self._find = Find(progress.plan(), progress.cost)
+            self._rest_after(began)
+
+    def _rest_after(self, began: float) -> None:
+        """Read no plan for a while, by how long that took since `began`. In place."""
+        now = time.perf_counter()
+        self._next_reading = max(self._next_reading, now + (now - began) / READING_SHARE)
+
+    def _reply(self, result: PlanResult) -> Data:
+        """Return the reply to a plan, earlier processes' work included."""
+        reply = self._task.reply(self._options, result)
+        past = self._past
+        if past.searched > 0:
+            solver = reply["solver"]
+            solver["deterministic"] = False
+            solver["search_iterations"] += past.iterations
+            solver["elapsed"]["search"] += past.searched
+        if past.reply is not None:
+            before = past.reply["solver"]
+            reply["solver"] |= {key: before[key] for key in ("start", "decoded_cost")}
+        return reply

@@ -1,0 +1,163 @@
+"""Starts and stops what an application needs for jobs."""
+
+import logging
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+from anyio import CapacityLimiter, to_thread
+from dbos import DBOS
+from sqlalchemy.exc import SQLAlchemyError
+
+from app.jobs.connections import connect
+from app.jobs.engine import JobEngine, is_outage
+from app.jobs.errors import JobsUnavailableError
+from app.jobs.events import Watcher
+from app.jobs.planning import PlanWork
+from app.jobs.queues import Queues
+from app.jobs.service import JobService
+from app.jobs.working import Surroundings, make_engine, make_store
+from app.observe.metrics import JobCounts
+from app.pictures.scene import Scene
+from app.schemas_request import PlanRequest
+
+logger = logging.getLogger(__name__)
+
+Result = TypeVar("Result")
+
+THREADS = 8
+"""Threads for endpoints of jobs, apart from those that plan."""
+
+RETRY = 1.0
+"""Seconds between two attempts to reach the database."""
+
+WARMTH_POLLING = 0.1
+"""Seconds between two looks whether the planner is warm."""
+
+
+class JobDesk:
+    """Where endpoints turn to about jobs.
+
+    Parameters
+    ----------
+    around
+        What jobs need of the application.
+    """
+
+    def __init__(self, around: Surroundings) -> None:
+        self._around = around
+        self._queues = Queues(connect(around.settings))
+        self._store = make_store(around, self._queues)
+        self._service = JobService(self._store, self._queues, around.reader,
+                                   around.settings.max_open_jobs, self._stop_here)
+        self._engine: JobEngine | None = None
+        self._plans: PlanWork | None = None
+        self._is_prepared = False
+        self._threads = CapacityLimiter(THREADS)
+        self._drawing = CapacityLimiter(1)
+        self._stopping = threading.Event()
+        self._starter = threading.Thread(target=self._begin, name="job-starter", daemon=True)
+        self.watcher = Watcher(lambda ids: self.ask(lambda service: service.find_all(ids)))
+
+    def start(self) -> None:
+        """Prepare the database and begin to work on jobs, in the background. In place."""
+        self._around.metrics.watch_jobs(self._count)
+        self._starter.start()
+
+    def stop(self) -> None:
+        """Hand back what is worked on, and end. In place."""
+        self._stopping.set()
+        self._starter.join()
+        if self._engine is not None:
+            self._engine.stop()
+        self._queues.engine.dispose()
+
+    async def ask(self, question: Callable[[JobService], Result]) -> Result:
+        """Ask in a thread, as the database has to be waited for.
+
+        Raises
+        ------
+        JobsUnavailableError
+            If it can't be reached.
+        RequestError
+            If the question has no answer.
+        """
+        if not self._is_prepared:
+            raise JobsUnavailableError("The database is being prepared: try again soon.")
+        try:
+            return await to_thread.run_sync(question, self._service, limiter=self._threads)
+        except SQLAlchemyError as error:
+            if not is_outage(error):
+                raise
+            logger.warning("the database can't be reached: %s", type(error).__name__)
+            raise JobsUnavailableError("The database can't be reached: try again soon.") from error
+
+    async def picture(self, job_id: str, owner: str) -> bytes:
+        """Draw a job's best plan so far as SVG, in a thread; raises as `ask` does."""
+        request, plan = await self.ask(lambda service: service.plan(job_id, owner))
+        return await to_thread.run_sync(_drawn, request, plan, limiter=self._drawing)
+
+    def _begin(self) -> None:
+        """Prepare the database, wait for the planner, work on jobs. In place."""
+        while not self._stopping.is_set() and not self._prepare():
+            self._stopping.wait(RETRY)
+        if self._around.settings.role == "api":
+            return
+        while not self._around.is_warm():
+            if self._stopping.wait(WARMTH_POLLING):
+                return
+        while not self._stopping.is_set() and not self._work():
+            self._stopping.wait(RETRY)
+
+    def _work(self) -> bool:
+        """Begin to work on jobs; tell whether that went well. In place."""
+        engine, plans = make_engine(self._around)
+        try:
+            engine.start()
+        except SQLAlchemyError as error:
+            logger.warning("jobs can't be worked on: %s", type(error).__name__)
+            return False
+        self._engine, self._plans = engine, plans
+        return True
+
+    def _prepare(self) -> bool:
+        """Make the tables; tell whether that went well. In place."""
+        try:
+            self._store.prepare()
+            DBOS.migrate(self._queues.engine.url.render_as_string(hide_password=False))
+        except SQLAlchemyError as error:
+            logger.warning("the database can't be prepared: %s", type(error).__name__)
+            return False
+        self._is_prepared = True
+        return True
+
+    def _stop_here(self, job_id: str) -> None:
+        if self._plans is not None:
+            self._plans.cancel(job_id)
+
+    def _count(self) -> JobCounts:
+        """Return the number of jobs by kind and state; none while they can't be counted."""
+        try:
+            return self._store.count_by_state() if self._is_prepared else {}
+        except SQLAlchemyError as error:
+            logger.warning("jobs can't be counted: %s", type(error).__name__)
+            return {}
+
+
+@contextmanager
+def running_jobs(around: Surroundings) -> Iterator[JobDesk]:
+    """Yield where endpoints turn to; jobs are worked on until the block ends."""
+    desk = JobDesk(around)
+    desk.start()
+    try:
+        yield desk
+    finally:
+        desk.stop()
+
+
+def _drawn(request: PlanRequest, plan: bytes) -> bytes:
+    # Imported here: the service needn't wait for matplotlib at its start.
+    from app.pictures.drawing import draw_svg
+
+    return draw_svg(Scene.replied(request, plan))

@@ -1,0 +1,51 @@
+"""The tables that jobs are kept in."""
+
+from sqlalchemy import (
+    BigInteger, Boolean, Column, Float, Index, Integer, LargeBinary, MetaData, String, Table, Text,
+)
+
+TABLES = MetaData()
+
+JOBS = Table(
+    "jobs", TABLES,
+    Column("id", String(36), primary_key=True),
+    Column("kind", String(10), nullable=False),
+    Column("owner", String(200), nullable=False),
+    Column("state", String(10), nullable=False),
+    # Of a scenario: the comparison or sweep, and the scenario's place in it.
+    Column("parent", String(36), index=True),
+    Column("position", Integer),
+    Column("fingerprint", String(64), nullable=False),
+    Column("webhook", Text),
+    # Milliseconds since 1970.
+    Column("created_at", BigInteger, nullable=False),
+    Column("started_at", BigInteger),
+    Column("finished_at", BigInteger),
+    Column("expires_at", BigInteger, index=True),
+    Column("progress", Float, nullable=False),
+    Column("cost", Float),
+    Column("search_iterations", BigInteger, nullable=False),
+    Column("searched", Float, nullable=False),  # seconds
+    Column("error", Text),
+    Column("cancel_requested", Boolean, nullable=False),
+    # Raised by each change that clients see; the second one is that of the last lower cost.
+    Column("revision", BigInteger, nullable=False),
+    Column("improved_revision", BigInteger, nullable=False),
+    # Raised when a process takes the job: what an earlier one still writes is refused.
+    Column("attempt", Integer, nullable=False),
+    Column("crashes", Integer, nullable=False),  # attempts in a row that wrote no progress
+    Index("jobs_by_owner", "owner", "created_at", "id"),
+    Index("jobs_by_state", "state"),
+)
+
+# Apart from JOBS, whose rows are written each second: SQLite writes rows as a whole.
+REQUESTS = Table(
+    "job_requests", TABLES,
+    Column("job", String(36), primary_key=True),
+    Column("body", LargeBinary, nullable=False),  # compressed JSON
+)
+RESULTS = Table(
+    "job_results", TABLES,
+    Column("job", String(36), primary_key=True),
+    Column("body", LargeBinary, nullable=False),  # compressed JSON, of the best plan so far
+)

@@ -1,0 +1,101 @@
+"""Jobs whose process is gone for good, jobs that were lost, and jobs that expired."""
+
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+
+from app.jobs.queues import Queues
+from app.jobs.store import JobRow, JobStore, now_ms
+
+logger = logging.getLogger(__name__)
+
+PATIENCE = 30.0
+"""Seconds without any sign of life, though the database answers, after which a job's process is
+held to be dead."""
+
+BATCH = 500
+"""Jobs deleted or compared at a time."""
+
+KEPT = timedelta(hours=1)
+"""How long the queues remember what they have done; the jobs' own rows tell the rest."""
+
+LOST = "The job was lost by its queue."
+
+Mark = tuple[int, int] | None
+"""What of a job changes each second while a process works on it."""
+
+
+@dataclass(frozen=True)
+class Sighting:
+    """Since when a job looks as it does, on `time.monotonic`."""
+
+    mark: Mark
+    since: float
+
+
+class Warden:
+    """Looks after jobs on behalf of all processes; each may have one.
+
+    Parameters
+    ----------
+    store
+        Where jobs are kept.
+    queues
+        Where they wait.
+    """
+
+    def __init__(self, store: JobStore, queues: Queues) -> None:
+        self._store = store
+        self._queues = queues
+        self._sightings: Mapping[str, Sighting] = {}
+
+    def look(self, now: float) -> None:
+        """Give jobs to others whose process gave no sign of life for long. In place.
+
+        Only this process's own clock counts. Wrongly held to be dead, a process does no harm: what
+        it writes is refused from then on.
+
+        Parameters
+        ----------
+        now
+            The time on `time.monotonic`.
+        """
+        taken = self._queues.taken()
+        rows = {row.id: row for row in self._store.find_all(taken)}
+        sightings = {}
+        for job_id in taken:
+            row = rows.get(job_id)
+            mark = None if row is None else (row.attempt, row.revision)
+            seen = self._sightings.get(job_id)
+            if seen is None or seen.mark != mark:
+                sightings[job_id] = Sighting(mark, now)
+            elif now - seen.since < PATIENCE:
+                sightings[job_id] = seen
+            else:
+                self._rescue(job_id, row)
+        self._sightings = sightings
+
+    def expire(self) -> None:
+        """Delete jobs that expired, and what the queues remember of old ones. In place."""
+        while ids := self._store.expired(now_ms(), BATCH):
+            self._store.forget(ids)
+        while ids := self._queues.finished_before(datetime.now(UTC) - KEPT, BATCH):
+            self._queues.forget(ids)
+
+    def reconcile(self) -> None:
+        """End jobs that no queue knows any more, which should never be. In place."""
+        ids = self._store.open_ids()
+        for begin in range(0, len(ids), BATCH):
+            batch = ids[begin:begin + BATCH]
+            for job_id in set(batch) - self._queues.alive(batch):
+                if self._store.finish(job_id, None, "failed", error=LOST):
+                    logger.error("job %s was lost by its queue", job_id)
+
+    def _rescue(self, job_id: str, row: JobRow | None) -> None:
+        """Have a job begun again by any process. In place."""
+        if row is None:
+            self._queues.drop([job_id])
+        elif row.is_over or self._store.take_over(row):
+            logger.warning("job %s is taken from a process that is gone", job_id)
+            self._queues.put_back(job_id, row.kind == "plan")

@@ -1,0 +1,134 @@
+"""Jobs whose process is gone, that were lost, or that expired."""
+
+import uuid
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+
+import pytest
+from dbos import DBOS
+
+from app.jobs.connections import connect
+from app.jobs.queues import Queues
+from app.jobs.store import JobRow, JobStore, NewJob, Standing
+from app.jobs.warden import LOST, PATIENCE, Warden
+from app.settings import Settings
+
+
+@dataclass(frozen=True)
+class Office:
+    """A database with jobs and queues."""
+
+    store: JobStore
+    queues: Queues
+
+    def warden(self) -> Warden:
+        """Return a warden."""
+        return Warden(self.store, self.queues)
+
+    def job(self) -> str:
+        """Add a job and return its id."""
+        job = NewJob(str(uuid.uuid4()), "plan", "me", "f", b"{}")
+        assert self.store.add([job], self.queues.add_job)
+        return job.id
+
+    def row(self, job: str) -> JobRow:
+        """Return a job."""
+        row = self.store.find(job)
+        assert row is not None
+        return row
+
+    def begin(self, job: str) -> JobRow:
+        """Take a job as an engine does."""
+        with self.queues.engine.begin() as connection:
+            connection.exec_driver_sql(
+                "UPDATE workflow_status SET status = 'PENDING', executor_id = 'gone' "
+                f"WHERE workflow_uuid = '{job}'")
+        row = self.store.claim(job)
+        assert row is not None
+        return row
+
+
+@pytest.fixture
+def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
+    """Return an empty database."""
+    engine = connect(Settings(data_dir=tmp_path_factory.mktemp("office"), database_url=None))
+    queues = Queues(engine)
+    store = JobStore(engine, 1000, queues.add_webhook, lambda *_: None)
+    store.prepare()
+    DBOS.migrate(str(engine.url))
+    yield Office(store, queues)
+    engine.dispose()
+
+
+def test_job_without_sign_of_life_is_given_to_others(office: Office) -> None:
+    job = office.job()
+    taken = office.begin(job)
+    warden = office.warden()
+    warden.look(100.0)
+    warden.look(100.0 + PATIENCE - 1)
+    assert office.queues.taken() == [job]
+    warden.look(100.0 + PATIENCE)
+    assert office.queues.taken() == []
+    assert office.queues.alive([job]) == {job}
+    assert office.row(job).state == "queued"
+    assert office.store.note(job, taken.attempt, Standing(0.5, 1, 1.0)) is None
+
+
+def test_job_that_goes_on_is_left_alone(office: Office) -> None:
+    job = office.job()
+    taken = office.begin(job)
+    warden = office.warden()
+    for now in range(0, 300, 20):
+        warden.look(float(now))
+        assert office.store.note(job, taken.attempt, Standing(0.5, 1, 1.0)) is False
+    assert office.queues.taken() == [job]
+
+
+def test_two_wardens_rescue_a_job_once(office: Office) -> None:
+    job = office.job()
+    office.begin(job)
+    wardens = [office.warden(), office.warden()]
+    for warden in wardens:
+        warden.look(0.0)
+    before = office.row(job).attempt
+    for warden in wardens:
+        warden.look(PATIENCE)
+    assert office.row(job).attempt == before + 1
+
+
+def test_waiting_jobs_are_never_held_to_be_dead(office: Office) -> None:
+    job = office.job()
+    warden = office.warden()
+    warden.look(0.0)
+    warden.look(10 * PATIENCE)
+    assert office.row(job).attempt == 0
+
+
+def test_job_that_no_queue_knows_fails(office: Office) -> None:
+    lost, kept = office.job(), office.job()
+    office.queues.forget([lost])
+    office.warden().reconcile()
+    assert (office.row(lost).state, office.row(lost).error) == ("failed", LOST)
+    assert office.row(kept).state == "queued"
+
+
+def test_expired_jobs_are_deleted(office: Office, monkeypatch: pytest.MonkeyPatch) -> None:
+    old, young = office.job(), office.job()
+    office.store.finish(old, None, "cancelled")
+    later = office.row(old).expires_at
+    assert later is not None
+    monkeypatch.setattr("app.jobs.warden.now_ms", lambda: later + 1)
+    office.warden().expire()
+    assert office.store.find(old) is None
+    assert office.store.find(young) is not None
+
+
+def test_queues_forget_what_ended_long_ago(office: Office) -> None:
+    job = office.job()
+    office.queues.drop([job])
+    soon = datetime.now(UTC) + timedelta(minutes=1)
+    assert office.queues.finished_before(soon - timedelta(hours=1), 10) == []
+    assert office.queues.finished_before(soon, 10) == [job]
+    office.queues.forget([job])
+    assert office.queues.finished_before(soon, 10) == []
