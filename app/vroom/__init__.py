@@ -1,0 +1,1 @@
+"""`POST /vroom`: VROOM's request in, VROOM's reply out."""

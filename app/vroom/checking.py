@@ -1,0 +1,67 @@
+"""Whether a route keeps VROOM's rules, told in VROOM's words, whatever the planner says."""
+
+from collections.abc import Iterator, Sequence
+from itertools import accumulate
+
+from app.vroom.places import Places
+from app.vroom.reply import amount_of
+from app.vroom.schemas import VroomJobInput, VroomRequest
+from app.vroom.timing import TIME_SCALE, Driver, TimedRoute
+from model.planner import PlanCheckError
+
+
+def route_faults(request: VroomRequest, places: Places, vehicle: int,
+                 jobs: Sequence[int]) -> Iterator[str]:
+    """Yield what is wrong with the route of a vehicle through `jobs`, at least one.
+
+    Parameters
+    ----------
+    vehicle
+        Index into the request's vehicles.
+    jobs
+        Indices into the request's jobs.
+    """
+    stated = request.vehicles[vehicle]
+    visited = [request.jobs[job] for job in jobs]
+    for job in visited:
+        if not set(job.skills) <= set(stated.skills):
+            yield f"Missing skill or step out of reach for vehicle {stated.id} and job {job.id}."
+    if not _fits(visited, stated.capacity or ()):
+        yield f"Route over capacity for vehicle {stated.id}."
+    if stated.max_tasks is not None and len(jobs) > stated.max_tasks:
+        yield f"Too many tasks for vehicle {stated.id}."
+    route = Driver(request, places, vehicle).drive(jobs)
+    if route is None:
+        yield f"Infeasible route for vehicle {stated.id}."
+        return
+    if (stated.max_travel_time is not None
+            and route.travels[-1] > stated.max_travel_time * TIME_SCALE):
+        yield f"Route over max_travel_time for vehicle {stated.id}."
+    if stated.max_distance is not None and route.distances[-1] > stated.max_distance:
+        yield f"Route over max_distance for vehicle {stated.id}."
+
+
+def drive(request: VroomRequest, places: Places, vehicle: int, jobs: Sequence[int]) -> TimedRoute:
+    """Return the times of a route.
+
+    Raises
+    ------
+    PlanCheckError
+        If it breaks a rule.
+    """
+    faults = list(route_faults(request, places, vehicle, jobs))
+    route = Driver(request, places, vehicle).drive(jobs)
+    if faults or route is None:
+        raise PlanCheckError(" ".join(faults))
+    return route
+
+
+def _fits(jobs: Sequence[VroomJobInput], capacity: Sequence[int]) -> bool:
+    """Tell whether the load stays within the capacity all the way."""
+    for index, most in enumerate(capacity):
+        brought, taken = ([(amount_of(job, side) or [0] * len(capacity))[index] for job in jobs]
+                          for side in ("delivery", "pickup"))
+        changes = (more - less for more, less in zip(taken, brought, strict=True))
+        if max(accumulate(changes, initial=sum(brought))) > most:
+            return False
+    return True

@@ -1,0 +1,286 @@
+"""How vehicles drive: VROOM's legs, costs and limits as the planner's matrices.
+
+The planner's costs by distance and by working time, and its limits of both, are all there is to
+say what VROOM's vehicles cost and how far they go. So the planner's "distance" is what VROOM
+charges for: travel time, metres, or the cost itself. Where nothing has a time window, the planner's
+time is free to stand for another quantity that is limited.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from app.vroom.errors import INPUT, VroomError
+from app.vroom.kinds import Kind
+from app.vroom.nodes import LONGEST, PARTS, Nodes, at_most_longest
+from app.vroom.places import Legs, Places
+from app.vroom.schemas import VroomRequest
+from app.vroom.timing import COST_SCALE, TIME_SCALE, service_of, setup_of
+from model.problem import MAX_QUANTITY, IntArray, Travel
+
+WHOLE = 10**11
+"""A limit of which legs use up shares."""
+
+
+@dataclass(frozen=True)
+class Drive:
+    """How the vehicles of a kind drive, in the planner's terms."""
+
+    travel: int  # index into `Drives.travels`
+    cost_per_km: float
+    cost_per_hour: float = 0.0
+    max_distance: int | None = None
+    max_working: int | None = None
+
+
+class Drives:
+    """Collects the matrices for a request; equal ones are built once."""
+
+    def __init__(self, request: VroomRequest, places: Places, kinds: tuple[Kind, ...],
+                 nodes: Nodes, is_timed: bool, relaxed: bool) -> None:
+        """Begin with no matrices.
+
+        Parameters
+        ----------
+        is_timed
+            Whether anything has a time window.
+        relaxed
+            Where limits and costs can't both be planned, plan the costs; else the limits.
+        """
+        self.travels: list[Travel] = []
+        self._request = request
+        self._places = places
+        self._nodes = nodes
+        self._is_timed = is_timed
+        self._relaxed = relaxed
+        self._index: dict[tuple[object, ...], int] = {}
+        self.actions = Actions(request, places, kinds, nodes, relaxed)
+        self.is_compromise = self.actions.is_compromise  # whether there was such a case
+
+    def drive(self, kind: Kind) -> Drive:
+        """Return how the vehicles of a kind drive.
+
+        Raises
+        ------
+        VroomError
+            If they are limited in what isn't known.
+        """
+        legs = self._places.legs[kind.stated.profile]
+        tariff = Tariff.of(kind, legs)
+        seconds, metres = self._limits(kind, legs, tariff)
+        if tariff.ratio is not None and metres is not None:
+            as_seconds = min(LONGEST, int(metres / tariff.ratio))
+            seconds, metres = min(as_seconds, as_seconds if seconds is None else seconds), None
+        if metres is None and (seconds is None or tariff.basis == "durations"):
+            return self._by(kind, tariff.basis, tariff.rate, seconds)
+        if seconds is None and tariff.basis == "distances":
+            return self._by(kind, "distances", tariff.rate, metres)
+        if not self._is_timed and (tariff.is_metric or seconds is None or metres is None):
+            return self._untimed(kind, tariff, seconds, metres)
+        self.is_compromise = True
+        if self._relaxed:
+            return self._by(kind, tariff.basis, tariff.rate, None)
+        return self._limited(kind, tariff, seconds, metres)
+
+    def _limits(self, kind: Kind, legs: Legs,
+                tariff: "Tariff") -> tuple[int | None, int | None]:
+        """Return the most seconds of the matrix and metres of a route, None if it can't exceed."""
+        stated = kind.stated
+        seconds, metres = None, None
+        if stated.max_travel_time is not None:
+            seconds = min(LONGEST, stated.max_travel_time * TIME_SCALE // kind.rates.time)
+            if self._longest_route(legs.durations) <= seconds:
+                seconds = None
+        if stated.max_distance is not None:
+            if not legs.distances_known:
+                raise VroomError(INPUT, f"max_distance of vehicle {stated.id} needs "
+                                        f"matrices.{stated.profile}.distances: add them.")
+            metres = min(LONGEST, stated.max_distance)
+            if self._longest_route(legs.distances) <= metres:
+                metres = None
+        return seconds, metres
+
+    def _longest_route(self, matrix: IntArray) -> int:
+        """Return what no route exceeds: the longest leg to each job and to an end."""
+        spread, depots = self._nodes.spread(matrix), len(self._nodes.depots)
+        to_jobs = spread[:, depots:].max(axis=0)[self._nodes.first_of_each_job()]
+        return int(to_jobs.sum() + spread[:, :depots].max())
+
+    def _by(self, kind: Kind, basis: str, rate: float, limit: int | None) -> Drive:
+        """Return a drive that costs `rate` per 1,000 of what the basis measures."""
+        return Drive(self._travel(kind, basis, "durations"), rate,
+                     max_distance=None if limit is None else limit * PARTS)
+
+    def _untimed(self, kind: Kind, tariff: "Tariff", seconds: int | None,
+                 metres: int | None) -> Drive:
+        """Return a drive whose working time stands for one of the limited quantities."""
+        rates = kind.rates
+        if tariff.is_metric and metres is not None:
+            return Drive(
+                self._travel(kind, "distances", "durations"),
+                rates.distance_cost * 1000 / COST_SCALE,
+                rates.time_cost * 3600 / COST_SCALE,
+                metres * PARTS, None if seconds is None else seconds * PARTS)
+        clock, limit = ("durations", seconds) if seconds is not None else ("distances", metres)
+        return Drive(self._travel(kind, tariff.basis, clock), tariff.rate,
+                     max_working=None if limit is None else limit * PARTS)
+
+    def _limited(self, kind: Kind, tariff: "Tariff", seconds: int | None,
+                 metres: int | None) -> Drive:
+        """Return a drive that keeps its limits and costs about what it should."""
+        cost = float(self._measure(kind, tariff.basis).sum()) * tariff.rate
+        limited = (self._share(kind, seconds, metres) if seconds is not None and metres is not None
+                   else self._measure(kind, "distances" if seconds is None else "durations"))
+        limit = WHOLE
+        if metres is None or seconds is None:
+            limit = (metres or seconds or 0) * PARTS
+        self.travels.append(Travel(self._durations(kind, "durations"), limited))
+        total = float(limited.sum())
+        return Drive(len(self.travels) - 1, cost / total if total else 0.0, max_distance=limit)
+
+    def _share(self, kind: Kind, seconds: int, metres: int) -> IntArray:
+        """Return which share a leg uses up of the limit of which it uses up more."""
+        legs = self._places.legs[kind.stated.profile]
+        shares = np.maximum(self._nodes.spread(legs.durations) / max(seconds, 0.5),
+                            self._nodes.spread(legs.distances) / max(metres, 0.5))
+        # What is lost by rounding down is less than the least excess, unless limits are huge.
+        is_fine = max(seconds, metres) * (len(self._nodes.jobs) + 1) < WHOLE
+        rounded = np.floor(shares * WHOLE) if is_fine else np.ceil(shares * WHOLE)
+        whole: IntArray = np.minimum(rounded, MAX_QUANTITY).astype(np.int64)
+        return whole
+
+    def _travel(self, kind: Kind, basis: str, clock: str) -> int:
+        """Return the index of matrices that measure `basis`, with times by `clock`."""
+        rates = kind.rates
+        key: tuple[object, ...] = (kind.stated.profile, basis, clock)
+        if basis == "costs":
+            key = (*key, kind.type, rates.time_cost, rates.distance_cost, rates.task_cost)
+        if self._is_timed:
+            key = (*key, kind.type, rates.time)
+        if key not in self._index:
+            self._index[key] = len(self.travels)
+            self.travels.append(Travel(self._durations(kind, clock), self._measure(kind, basis)))
+        return self._index[key]
+
+    def _durations(self, kind: Kind, clock: str) -> IntArray:
+        """Return milliseconds of legs; without windows, thousandths of what the clock measures."""
+        legs = self._places.legs[kind.stated.profile]
+        if not self._is_timed:
+            measured = legs.durations if clock == "durations" else legs.distances
+            return self._nodes.spread(measured) * PARTS
+        travel = self._nodes.spread(legs.durations) * (kind.rates.time * PARTS // TIME_SCALE)
+        travel = np.minimum(travel, MAX_QUANTITY - self.actions.longest(kind) * PARTS)
+        return travel + self.actions.beside_travel(kind) * PARTS
+
+    def _measure(self, kind: Kind, basis: str) -> IntArray:
+        legs, rates = self._places.legs[kind.stated.profile], kind.rates
+        if basis != "costs":
+            measured = legs.durations if basis == "durations" else legs.distances
+            return self._nodes.spread(measured) * PARTS
+        base = legs.durations if legs.costs is None else legs.costs
+        # Floats, since products of unreasonable entries would overflow.
+        cost = (float(rates.time_cost) * self._nodes.spread(base)
+                + float(rates.distance_cost) * self._nodes.spread(legs.distances)
+                + float(rates.task_cost * TIME_SCALE) * self.actions.spent(kind))
+        whole: IntArray = np.rint(np.minimum(cost * (PARTS / COST_SCALE), MAX_QUANTITY)).astype(
+            np.int64)
+        return whole
+
+
+@dataclass(frozen=True)
+class Tariff:
+    """What a vehicle's cost is proportional to."""
+
+    basis: str  # "durations" and "distances" of the matrix, or "costs" for all together
+    rate: float  # cost per 1,000 of that
+    is_metric: bool  # the cost is one of durations and distances alone
+    ratio: Fraction | None  # metres by second, where all legs have the same
+
+    @classmethod
+    def of(cls, kind: Kind, legs: Legs) -> "Tariff":
+        """Find what the cost of a kind is proportional to."""
+        rates = kind.rates
+        if legs.costs is not None or rates.task_cost:
+            return cls("costs", PARTS, False, None)
+        ratio = _ratio(legs) if _is_mixed(kind) else None
+        if ratio is not None:
+            cost = rates.time_cost + rates.distance_cost * ratio
+            return cls("durations", float(cost * 1000 / COST_SCALE), True, ratio)
+        if not rates.distance_cost:
+            return cls("durations", rates.time_cost * 1000 / COST_SCALE, True, None)
+        if not rates.time_cost:
+            return cls("distances", rates.distance_cost * 1000 / COST_SCALE, True, None)
+        return cls("costs", PARTS, True, None)
+
+
+def _is_mixed(kind: Kind) -> bool:
+    """Tell whether both durations and distances count, be it as costs or as limits."""
+    stated, rates = kind.stated, kind.rates
+    return (bool(rates.distance_cost or stated.max_distance is not None)
+            and bool(rates.time_cost or stated.max_travel_time is not None))
+
+
+def _ratio(legs: Legs) -> Fraction | None:
+    """Return metres by second if that is the same for all legs."""
+    seconds = at_most_longest(legs.durations)
+    metres = at_most_longest(legs.distances)
+    longest = np.unravel_index(int(seconds.argmax()), seconds.shape)
+    time, way = int(seconds[longest]), int(metres[longest])
+    if not time or not way or not (metres * time == seconds * way).all():
+        return None
+    return Fraction(way, time)
+
+
+class Actions:
+    """Setup and service of jobs as the planner times them, in seconds.
+
+    Setup is left out where the task before is at the same place. For jobs that may start at any
+    time that is exact: their setup is part of the way to them from elsewhere. For others that share
+    their place it is too when relaxed, though they may wait before it; else they are planned as if
+    their setup were always needed, so that the plan can only be early.
+    """
+
+    def __init__(self, request: VroomRequest, places: Places, kinds: tuple[Kind, ...],
+                 nodes: Nodes, relaxed: bool) -> None:
+        self._nodes = nodes
+        types = dict.fromkeys(kind.type for kind in kinds)
+        jobs = [request.jobs[job] for job in nodes.jobs]
+        self._setup = {name: np.array([setup_of(job, name) for job in jobs], np.int64)
+                       for name in types}
+        self._service = {name: np.array([service_of(job, name) for job in jobs], np.int64)
+                         for name in types}
+        used = [*places.jobs.tolist(), *dict.fromkeys(places.starts.tolist())]
+        counts = np.bincount(np.array(used, np.int64) + 1, minlength=2)
+        is_shared = counts[places.jobs[list(nodes.jobs)] + 1] > 1
+        is_open = np.array([job.time_windows is None for job in jobs], np.bool_)
+        has_setup = np.any([setup > 0 for setup in self._setup.values()], axis=0)
+        self.is_compromise = bool((is_shared & ~is_open & has_setup).any())
+        self._on_the_way = is_shared & (is_open | relaxed)
+        always = [self._always(name) for name in types]
+        self.common: IntArray = np.min(always, axis=0)  # (job,) by whatever vehicle
+
+    def _always(self, name: str) -> IntArray:
+        spent: IntArray = self._service[name] + np.where(self._on_the_way, 0, self._setup[name])
+        return spent
+
+    def longest(self, kind: Kind) -> int:
+        """Return what `beside_travel` adds to a leg at most."""
+        return int(2 * (self._setup[kind.type] + self._service[kind.type]).max(initial=0))
+
+    def beside_travel(self, kind: Kind) -> IntArray:
+        """Return (node, node) what a leg takes in addition: setup before, what is left after."""
+        depots, number = len(self._nodes.depots), len(self._nodes.origins)
+        beside = np.zeros((number, number), np.int64)
+        beside[depots:] += (self._always(kind.type) - self.common)[:, None]
+        on_the_way = np.where(self._on_the_way, self._setup[kind.type], 0)
+        beside[:, depots:] += on_the_way * self._nodes.changes_place()
+        return beside
+
+    def spent(self, kind: Kind) -> IntArray:
+        """Return (node, node) the time for setup and service that a leg leads to."""
+        depots, number = len(self._nodes.depots), len(self._nodes.origins)
+        spent = np.zeros((number, number), np.int64)
+        spent[:, depots:] = (self._service[kind.type]
+                             + self._setup[kind.type] * self._nodes.changes_place())
+        return spent

@@ -1,0 +1,221 @@
+"""Plans a VROOM request in a limited time: by VROOM's objective, one stage after another.
+
+VROOM maximises the sum of the priorities of jobs served, then their number, then minimises cost.
+The planner knows number and cost, so that unequal priorities take stages of their own; and not all
+of VROOM's rules, so that some plans are judged before they count.
+"""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from operator import attrgetter
+
+from app.vroom.checking import drive, route_faults
+from app.vroom.alternatives import bring_first, leave_out_by_priority
+from app.vroom.convert import Converter
+from app.vroom.errors import INPUT, VroomError
+from app.vroom.models import Model, Routes
+from app.vroom.places import Places
+from app.vroom.schemas import VroomJobInput, VroomRequest, Window
+from app.vroom.timing import Driver
+from model.check import check
+from model.planner import PlanCheckError, PlanOptions, PlanResult
+from model.problem import Problem
+from model.search.improve import Progress
+from model.solution import Solution
+
+LEAST_SECONDS = 0.01
+"""Shortest time limit of a stage."""
+
+FIRST_LOOK = 0.1
+"""Share of the time for learning whether all jobs can be served."""
+
+CHOOSING_JOBS = 0.7
+"""Share of the rest for choosing whom to serve, if not; the remainder is for the routes."""
+
+RELAXED = 0.85
+"""Share of the time for relaxed problems, where there are any."""
+
+PRICES = 6
+"""How many prices are tried for what makes relaxed plans break rules."""
+
+LEAST_PRICE, DEARER, CHEAPER = 0.05, 2.5, 0.6
+"""The first price above none, and what it is multiplied by where a plan breaks or keeps rules."""
+
+Tell = Callable[[Progress], None]
+Plan = Callable[[Problem, PlanOptions, Solution, Tell], PlanResult]
+"""Plans a problem from a plan to improve, and tells of plans that it finds meanwhile."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A plan for a request."""
+
+    routes: Routes
+    served: frozenset[int]  # jobs
+    value: tuple[int, int, int]  # priorities served, jobs served, and minus the cost
+
+
+class Planning:
+    """Plans one request.
+
+    Raises
+    ------
+    VroomError
+        If the request asks for what the planner can't do, or for too much.
+    """
+
+    def __init__(self, request: VroomRequest, places: Places, plan: Plan,
+                 options: PlanOptions) -> None:
+        self._plan = plan
+        self._options = options
+        self._request = request
+        self._places = places
+        self._converter = Converter(request, places)
+        self.kinds = self._converter.kinds
+        self._priorities = [job.priority for job in request.jobs]
+        self._costs: dict[tuple[int, tuple[int, ...]], int | None] = {}
+
+    def find(self, deadline: float, start: Routes) -> Found:
+        """Return the best plan found until `deadline`, on `time.perf_counter`.
+
+        Parameters
+        ----------
+        start
+            Feasible routes to begin with; may be empty.
+        """
+        slots = {index: self._reachable(job) for index, job in enumerate(self._request.jobs)}
+        model = self._converter.model(slots)
+        if start:
+            self._require_start(model, start)
+        servable = model.servable()
+        if not servable:
+            return self._judged({})
+        if servable != slots:
+            model = self._converter.model(servable)
+        if len({self._priorities[job] for job in servable}) == 1:
+            return self._improve(model, _left(deadline), start)
+        found = self._improve(model, FIRST_LOOK * _left(deadline), start)
+        if len(found.served) < len(servable):
+            everyone = leave_out_by_priority(model, self._priorities)
+            found = self._improve(everyone, CHOOSING_JOBS * _left(deadline), found.routes)
+            if not found.served:
+                return found
+            model = self._converter.model(
+                {job: windows for job, windows in servable.items() if job in found.served})
+        return self._improve(model, _left(deadline), found.routes)
+
+    def _reachable(self, job: VroomJobInput) -> list[Window | None]:
+        """Return the windows of a job in which any vehicle works."""
+        if job.time_windows is None:
+            return [None]
+        within: list[Window | None] = [window for window in sorted(job.time_windows)
+                                       if self._converter.may_start(window)]
+        return within or [job.time_windows[0]]
+
+    def _require_start(self, model: Model, start: Routes) -> None:
+        """Refuse routes to start from that break a rule as the planner sees them."""
+        loosest = replace(model, problem=model.relaxed[0]) if model.relaxed else model
+        if check(loosest.problem, loosest.solution(start, self._start_windows)).violations:
+            raise VroomError(INPUT, "The routes in steps can't be started from here: jobs with "
+                                    "setup and time_windows share a place.")
+
+    def _start_windows(self, kind: int, jobs: Sequence[int]) -> list[Window | None]:
+        """Return the window of each job of a route in which it starts."""
+        slots = Driver(self._request, self._places, self.kinds[kind].vehicles[0]).slots(jobs)
+        stated = [self._request.jobs[job].time_windows for job in jobs]
+        return [None if windows is None else sorted(windows)[slot]
+                for windows, slot in zip(stated, slots, strict=True)]
+
+    def _improve(self, model: Model, seconds: float, start: Routes) -> Found:
+        """Plan a problem, after relaxed ones if there are any; return no worse than `start`."""
+        deadline = time.perf_counter() + seconds
+        best = self._judged(start)
+        if model.relaxed:
+            best = self._relax(model, RELAXED * seconds, best)
+        return self._attempt(model, model.problem, _left(deadline), best)[0]
+
+    def _relax(self, model: Model, seconds: float, best: Found) -> Found:
+        """Plan a relaxed problem, where both ways count at a price that makes plans keep rules."""
+        (relaxed,) = model.relaxed
+        if model.surplus is None:
+            return self._attempt(model, relaxed, seconds, best)[0]
+        price = 0.0
+        for _ in range(PRICES):
+            problem = bring_first(model, price)
+            best, keeps_rules = self._attempt(model, problem, seconds / PRICES, best)
+            price = price * CHEAPER if keeps_rules else max(LEAST_PRICE, price * DEARER)
+        return best
+
+    def _attempt(self, model: Model, problem: Problem, seconds: float,
+                 best: Found) -> tuple[Found, bool]:
+        """Plan a problem of a model once.
+
+        Returns
+        -------
+        The best plan met that keeps all rules, `best` among them; and whether the last one did.
+        """
+        def meet(progress: Progress) -> None:
+            # Of a relaxed plan's forerunners one may keep the rules that it breaks itself.
+            nonlocal best
+            if model.relaxed:
+                found = self._sound(model.routes(progress.plan()))
+                best = max(best, found, key=attrgetter("value"))
+
+        given = self._given(replace(model, problem=problem), best.routes)
+        options = replace(self._options, time_limit=max(LEAST_SECONDS, seconds))
+        routes = model.routes(self._plan(problem, options, given, meet).solution)
+        found = self._sound(routes) if model.is_loose else self._judged(routes)
+        return max(best, found, key=attrgetter("value")), found.routes == routes
+
+    def _given(self, model: Model, start: Routes) -> Solution:
+        """Return routes as a plan for a model; nothing, if they break its rules.
+
+        With nothing the search begins by insertion, not by the policy.
+        """
+        given = model.solution(start, self._start_windows)
+        # What keeps the true rules may break those of a stricter problem.
+        if model.is_loose and check(model.problem, given).violations:
+            return model.solution({}, self._start_windows)
+        return given
+
+    def _judged(self, routes: Routes) -> Found:
+        """Return routes with their value.
+
+        Raises
+        ------
+        PlanCheckError
+            If one breaks a rule.
+        """
+        costs = [self._route_cost(kind, tuple(jobs))
+                 for kind, its_routes in routes.items() for jobs in its_routes]
+        if None in costs:
+            raise PlanCheckError(" ".join(
+                fault for kind, its_routes in routes.items() for jobs in its_routes
+                for fault in route_faults(self._request, self._places,
+                                          self.kinds[kind].vehicles[0], jobs)))
+        served = [job for its_routes in routes.values() for jobs in its_routes for job in jobs]
+        return Found(routes, frozenset(served),
+                     (sum(self._priorities[job] for job in served), len(served),
+                      -sum(cost for cost in costs if cost is not None)))
+
+    def _sound(self, routes: Routes) -> Found:
+        """Return those routes that keep all rules, with their value."""
+        sound = {kind: [jobs for jobs in its_routes
+                        if self._route_cost(kind, tuple(jobs)) is not None]
+                 for kind, its_routes in routes.items()}
+        return self._judged({kind: its_routes for kind, its_routes in sound.items() if its_routes})
+
+    def _route_cost(self, kind: int, jobs: tuple[int, ...]) -> int | None:
+        """Return the cost of a route, None if it breaks a rule; each is looked at once."""
+        key = (kind, jobs)
+        if key not in self._costs:
+            vehicle = self.kinds[kind].vehicles[0]
+            faults = route_faults(self._request, self._places, vehicle, jobs)
+            self._costs[key] = (None if any(faults)
+                                else drive(self._request, self._places, vehicle, jobs).cost)
+        return self._costs[key]
+
+
+def _left(deadline: float) -> float:
+    return deadline - time.perf_counter()
