@@ -1,0 +1,101 @@
+/** What the user can do to the problem and to what is shown. */
+
+import { getIn, parsePath } from './core/paths.js';
+import { indexPlan } from './core/plan.js';
+import { store } from './store.js';
+
+const MOST_UNDOS = 100;
+
+/** Replace the problem by a changed one; the former can be brought back. */
+export function edit(change) {
+  store.set((state) => {
+    const request = typeof change === 'function' ? change(state.request) : change;
+    if (request === state.request) return {};
+    return {
+      request,
+      past: [...state.past.slice(-MOST_UNDOS), state.request],
+      errors: state.errors.filter(({ keys }) => isUntouched(state.request, request, keys)),
+    };
+  });
+}
+
+/** Tell whether what an error is about is as it was, and still at the same place. */
+function isUntouched(before, after, keys) {
+  const count = (request) => getIn(request, keys.slice(0, 1))?.length;
+  return count(before) === count(after) && getIn(before, keys) === getIn(after, keys);
+}
+
+/** Bring back the problem as it was before the last edit. */
+export function undo() {
+  store.set(({ past }) =>
+    past.length ? { request: past[past.length - 1], past: past.slice(0, -1), errors: [] } : {},
+  );
+}
+
+/** Begin anew with a problem; what is still planned for another is no longer wanted. */
+export function openRequest(request) {
+  store.set((state) => ({
+    request,
+    epoch: state.epoch + 1,
+    past: state.request ? [...state.past, state.request] : [],
+    errors: [],
+    failure: null,
+    selection: null,
+    hover: null,
+    time: null,
+    playing: false,
+    plans: [],
+    shown: null,
+    besides: null,
+    sheet: null,
+    scenario: null,
+    run: { state: 'idle', points: [], message: '' },
+  }));
+}
+
+/** Select what a key names, or nothing. */
+export function select(key) {
+  store.set({ selection: key });
+}
+
+/** Mark what a key names while the pointer is on it. */
+export function hover(key) {
+  if (store.get().hover !== key) store.set({ hover: key });
+}
+
+/** Show a tab of the panel. */
+export function openTab(tab) {
+  store.set({ tab });
+}
+
+/** Show why a request failed, each error where it belongs. */
+export function showFailure(error) {
+  if (error.name === 'AbortError') return;
+  const errors = (error.errors ?? []).map((entry) => ({ ...entry, keys: parsePath(entry.path) }));
+  const title = error.title ?? 'Something went wrong in the console';
+  store.set({ failure: { title, detail: error.message }, errors });
+}
+
+/** Close the message about a failure; errors stay where they belong until mended. */
+export function closeFailure() {
+  store.set({ failure: null });
+}
+
+/** Return the entry of `plans` that is looked at. */
+export function shownPlan(state) {
+  return state.plans.find(({ number }) => number === state.shown) ?? null;
+}
+
+/** Return the entry of `plans` that stands beside it. */
+export function besidePlan(state) {
+  return state.plans.find(({ number }) => number === state.besides) ?? null;
+}
+
+const indices = new WeakMap();
+
+/** Return the index of an entry of `plans`; made once. */
+export function indexOf(entry) {
+  if (!entry) return null;
+  if (!indices.has(entry.plan)) indices.set(entry.plan, indexPlan(entry.request, entry.plan));
+  return indices.get(entry.plan);
+}

@@ -1,0 +1,121 @@
+/** Changes to a problem; each returns the changed request. */
+
+import { isInside } from './detour.js';
+import { removeIn, setIn } from './paths.js';
+
+const DECIMALS = { planar: 3, geographic: 6 };
+
+/** Return a location rounded to what a hand can place. */
+export function rounded(request, [x, y]) {
+  const digits = DECIMALS[request.coordinate_system ?? 'planar'];
+  return [Number(x.toFixed(digits)), Number(y.toFixed(digits))];
+}
+
+/** Return a name that nothing in a list has yet. */
+export function freeName(entries, stem) {
+  const taken = new Set(entries.map(({ id }) => id));
+  let number = entries.length + 1;
+  while (taken.has(`${stem}-${number}`)) number += 1;
+  return `${stem}-${number}`;
+}
+
+/** Add a customer as a brush says. */
+export function addCustomer(request, location, brush) {
+  const dimensions = request.fleet[0]?.capacity.length ?? 1;
+  const demand = Array.from({ length: dimensions }, (_, index) => brush.demand[index] ?? 0);
+  const customer = {
+    id: freeName(request.customers, 'customer'),
+    location: rounded(request, location),
+    demand,
+    service_duration: brush.service_duration,
+    served_by: brush.served_by,
+  };
+  return { ...request, customers: [...request.customers, customer] };
+}
+
+/** Add a depot. */
+export function addDepot(request, location) {
+  const depot = { id: freeName(request.depots, 'depot'), location: rounded(request, location) };
+  return { ...request, depots: [...request.depots, depot] };
+}
+
+/** Give customers a window. */
+export function giveWindow(request, ids, { earliest, latest }) {
+  const given = new Set(ids);
+  return {
+    ...request,
+    customers: request.customers.map((customer) =>
+      given.has(customer.id)
+        ? { ...customer, time_window: { ...customer.time_window, earliest, latest } }
+        : customer,
+    ),
+  };
+}
+
+/** Return the names of the customers within `[west, south, east, north]`. */
+export function customersWithin(request, [west, south, east, north]) {
+  return request.customers
+    .filter(
+      ({ location }) =>
+        location &&
+        location[0] >= west &&
+        location[0] <= east &&
+        location[1] >= south &&
+        location[1] <= north,
+    )
+    .map(({ id }) => id);
+}
+
+/** Remove a customer. */
+export function removeCustomer(request, id) {
+  return { ...request, customers: request.customers.filter((customer) => customer.id !== id) };
+}
+
+/** Move a customer. */
+export function moveCustomer(request, id, location) {
+  const position = request.customers.findIndex((customer) => customer.id === id);
+  return setIn(request, ['customers', position, 'location'], rounded(request, location));
+}
+
+/** Add a no-fly area, or replace the one at a position. */
+export function setArea(request, ring, position = request.airspace?.no_fly?.length ?? 0) {
+  const corners = ring.map((corner) => rounded(request, corner));
+  return setIn(
+    request,
+    ['airspace', 'no_fly'],
+    setIn(request.airspace?.no_fly ?? [], [position], corners),
+  );
+}
+
+/** Remove the no-fly areas at a point. */
+export function eraseAreasAt(request, point) {
+  const rings = request.airspace?.no_fly ?? [];
+  // Scaled, as being inside is judged in metres.
+  const scale = ([x, y]) => [x * 1e5, y * 1e5];
+  const kept = rings.filter((ring) => !isInside(ring.map(scale), scale(point)));
+  return kept.length === rings.length ? request : setIn(request, ['airspace', 'no_fly'], kept);
+}
+
+/** Change how many vehicles of a type there are; a type with none left goes. */
+export function addVehicles(request, typeIndex, change) {
+  const { count } = request.fleet[typeIndex];
+  if (count + change < 1) return removeIn(request, ['fleet', typeIndex]);
+  return setIn(request, ['fleet', typeIndex, 'count'], count + change);
+}
+
+/** Take the drones of all types away. */
+export function withoutDrones(request) {
+  return { ...request, fleet: request.fleet.map((type) => ({ ...type, drones: null })) };
+}
+
+/** Take all windows away, or make them soft at a cost per hour of lateness. */
+export function changeWindows(request, lateCostPerHour) {
+  return {
+    ...request,
+    customers: request.customers.map((customer) => {
+      const { time_window: window, ...rest } = customer;
+      if (!window || lateCostPerHour === null) return rest;
+      return { ...rest, time_window: { ...window, late_cost_per_hour: lateCostPerHour } };
+    }),
+  };
+}

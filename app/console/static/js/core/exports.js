@@ -1,0 +1,204 @@
+/** A plan as CSV, GeoJSON and GPX. */
+
+import { clock } from './format.js';
+
+const COLUMNS = [
+  'vehicle',
+  'trip',
+  'position',
+  'kind',
+  'id',
+  'drone',
+  'arrival',
+  'service_start',
+  'departure',
+  'arrival_s',
+  'service_start_s',
+  'departure_s',
+  'waiting_s',
+  'lateness_s',
+  'x',
+  'y',
+  'load',
+];
+
+/** Return every stop and every customer served by drone, in order of vehicle, trip and time. */
+export function stopRows(index) {
+  return index.vehicles.flatMap((vehicle) =>
+    vehicle.trips.flatMap((trip) => {
+      const visits = trip.sorties.flatMap((sortie) => sortie.visits);
+      const halts = [...trip.stops, ...visits].map((halt, position) => ({ halt, position }));
+      halts.sort(
+        (first, second) =>
+          first.halt.arrival - second.halt.arrival || first.position - second.position,
+      );
+      // A trip's last stop stays last, though a drone may still be served there.
+      return halts.map(({ halt }, position) => ({
+        vehicle: vehicle.name,
+        trip: trip.index + 1,
+        position,
+        kind: halt.kind,
+        id: halt.id,
+        drone: halt.sortie?.drone ?? '',
+        arrival: clock(halt.arrival, { precise: true }),
+        service_start: clock(halt.serviceStart, { precise: true }),
+        departure: clock(halt.departure, { precise: true }),
+        arrival_s: halt.arrival,
+        service_start_s: halt.serviceStart,
+        departure_s: halt.departure,
+        waiting_s: halt.waiting,
+        lateness_s: halt.lateness,
+        x: halt.location?.[0] ?? '',
+        y: halt.location?.[1] ?? '',
+        load: halt.load.join(' '),
+      }));
+    }),
+  );
+}
+
+/** Return the stops as CSV with a line of names. */
+export function stopsCsv(index) {
+  const lines = stopRows(index).map((row) => COLUMNS.map((name) => cell(row[name])).join(','));
+  return `${[COLUMNS.join(','), ...lines].join('\r\n')}\r\n`;
+}
+
+function cell(value) {
+  let text = String(value);
+  // Sheets would take such a text for a formula.
+  if (typeof value === 'string' && /^[=+\-@\t]/.test(text)) text = `'${text}`;
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+/** Return customers, depots, trips, flights and no-fly areas as GeoJSON. */
+export function geoJson(index, legsOf) {
+  const { request } = index;
+  const features = [
+    ...request.depots.flatMap((depot) => point(depot, { kind: 'depot', id: depot.id })),
+    ...request.customers.flatMap((customer) =>
+      point(customer, customerProperties(index, customer)),
+    ),
+    ...index.vehicles.flatMap((vehicle) =>
+      vehicle.trips.flatMap((trip) => tripFeatures(trip, legsOf)),
+    ),
+    ...(request.airspace?.no_fly ?? []).map((ring) =>
+      feature('Polygon', [closed(ring)], { kind: 'no_fly' }),
+    ),
+  ];
+  const collection = { type: 'FeatureCollection', features };
+  // GeoJSON means degrees; a plane's coordinates are told as such.
+  if (request.coordinate_system !== 'geographic') {
+    Object.assign(collection, {
+      coordinate_system: 'planar',
+      planar_unit: request.planar_unit ?? 1,
+    });
+  }
+  return collection;
+}
+
+function feature(type, coordinates, properties) {
+  return { type: 'Feature', geometry: { type, coordinates }, properties };
+}
+
+function point({ location }, properties) {
+  return location ? [feature('Point', location, properties)] : [];
+}
+
+function customerProperties(index, customer) {
+  const halt = index.halts.get(`c:${customer.id}`);
+  if (!halt) return { kind: 'customer', id: customer.id, served: false };
+  return {
+    kind: 'customer',
+    id: customer.id,
+    served: true,
+    vehicle: halt.vehicle.name,
+    trip: halt.trip.index + 1,
+    drone: halt.sortie?.drone ?? null,
+    arrival: halt.arrival,
+    service_start: halt.serviceStart,
+    departure: halt.departure,
+    lateness: halt.lateness,
+  };
+}
+
+function tripFeatures(trip, legsOf) {
+  const places = trip.stops.flatMap(({ location }) => (location ? [location] : []));
+  const common = { vehicle: trip.vehicle.name, trip: trip.index + 1 };
+  const lines =
+    places.length > 1
+      ? [
+          feature('LineString', places, {
+            kind: 'trip',
+            ...common,
+            load_rate: trip.reply.load_rate,
+            distance: trip.reply.distance,
+          }),
+        ]
+      : [];
+  const flights = trip.sorties.flatMap((sortie) => {
+    const line = legsOf(sortie).flat();
+    return line.length > 1
+      ? [
+          feature('LineString', line, {
+            kind: 'flight',
+            ...common,
+            drone: sortie.drone,
+            launch_time: sortie.reply.launch_time,
+            recovery_time: sortie.reply.recovery_time,
+          }),
+        ]
+      : [];
+  });
+  return [...lines, ...flights];
+}
+
+function closed(ring) {
+  const [first, last] = [ring[0], ring[ring.length - 1]];
+  return first[0] === last[0] && first[1] === last[1] ? ring : [...ring, first];
+}
+
+/** Return a vehicle's trips as GPX routes, its drones' flights as tracks; degrees only. */
+export function gpx(vehicle, legsOf) {
+  const routes = vehicle.trips.map(
+    (trip) => `  <rte>
+    <name>${escaped(`${vehicle.name}, trip ${trip.index + 1}`)}</name>
+${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
+  </rte>`,
+  );
+  const tracks = vehicle.trips
+    .flatMap((trip) => trip.sorties)
+    .map(
+      (sortie) => `  <trk>
+    <name>${escaped(`${sortie.drone} to ${sortie.visits.map(({ id }) => id).join(', ')}`)}</name>
+    <trkseg>
+${legsOf(sortie)
+  .flat()
+  .map(([lon, lat]) => `      <trkpt lat="${lat}" lon="${lon}"/>`)
+  .join('\n')}
+    </trkseg>
+  </trk>`,
+    );
+  return `<?xml version="1.0" encoding="UTF-8"?>
+<gpx version="1.1" creator="Tandem" xmlns="http://www.topografix.com/GPX/1/1">
+${[...routes, ...tracks].join('\n')}
+</gpx>
+`;
+}
+
+function routePoint(halt, position) {
+  const [lon, lat] = halt.location;
+  return (
+    `    <rtept lat="${lat}" lon="${lon}"><name>${escaped(`${position} ${halt.id}`)}</name>` +
+    `<desc>Arrival ${clock(halt.arrival)}, departure ${clock(halt.departure)}</desc></rtept>`
+  );
+}
+
+/** Return a text with what XML takes for its own written otherwise. */
+export function escaped(text) {
+  const names = { '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;', "'": '&#39;' };
+  return (
+    String(text)
+      .replace(/[&<>"']/g, (character) => names[character])
+      // XML has no way to write these.
+      .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f]/g, '')
+  );
+}

@@ -1,0 +1,96 @@
+/** Points `[x, y]` on a plane in metres, lines of them, and arcs for flights. */
+
+const EARTH_RADIUS_M = 6371008.8;
+const RADIANS = Math.PI / 180;
+
+/** How far an arc bows out, as a share of its length. */
+const BOW = 0.14;
+const ARC_POINTS = 14;
+
+/**
+ * Return functions between a request's coordinates and a plane in metres.
+ *
+ * Geographic coordinates are projected around their centre, which is exact enough to draw by.
+ */
+export function planeOf(request) {
+  if (request.coordinate_system !== 'geographic') {
+    const unit = request.planar_unit ?? 1;
+    return {
+      toPlane: ([x, y]) => [x * unit, y * unit],
+      fromPlane: ([x, y]) => [x / unit, y / unit],
+    };
+  }
+  const places = [...request.depots, ...request.customers].flatMap(({ location }) =>
+    location ? [location] : [],
+  );
+  const [west, south, east, north] = boundsOf(places) ?? [0, 0, 0, 0];
+  const origin = [(west + east) / 2, (south + north) / 2];
+  const perDegree = EARTH_RADIUS_M * RADIANS;
+  const shrink = Math.max(Math.cos(origin[1] * RADIANS), 1e-3);
+  return {
+    toPlane: ([lon, lat]) => [
+      (lon - origin[0]) * perDegree * shrink,
+      (lat - origin[1]) * perDegree,
+    ],
+    fromPlane: ([x, y]) => [x / perDegree / shrink + origin[0], y / perDegree + origin[1]],
+  };
+}
+
+/** Return `[west, south, east, north]` of points, null of none. */
+export function boundsOf(points) {
+  if (points.length === 0) return null;
+  const bounds = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const [x, y] of points) {
+    bounds[0] = Math.min(bounds[0], x);
+    bounds[1] = Math.min(bounds[1], y);
+    bounds[2] = Math.max(bounds[2], x);
+    bounds[3] = Math.max(bounds[3], y);
+  }
+  return bounds;
+}
+
+/** Return the distance of two points. */
+export function distance([ax, ay], [bx, by]) {
+  return Math.hypot(bx - ax, by - ay);
+}
+
+/** Return an arc from one point to another that bows out to the left of the way. */
+export function arc(from, to) {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  if (dx === 0 && dy === 0) return [from, to];
+  const middle = [(from[0] + to[0]) / 2 - dy * 2 * BOW, (from[1] + to[1]) / 2 + dx * 2 * BOW];
+  const points = [];
+  for (let index = 0; index <= ARC_POINTS; index += 1) {
+    const share = index / ARC_POINTS;
+    const [first, second, third] = [(1 - share) ** 2, 2 * share * (1 - share), share ** 2];
+    points.push([
+      first * from[0] + second * middle[0] + third * to[0],
+      first * from[1] + second * middle[1] + third * to[1],
+    ]);
+  }
+  return points;
+}
+
+/** Return the length of a line of points. */
+export function lengthOf(points) {
+  let length = 0;
+  for (let index = 1; index < points.length; index += 1) {
+    length += distance(points[index - 1], points[index]);
+  }
+  return length;
+}
+
+/** Return the point that lies a share, 0 to 1, of the way along a line of points. */
+export function pointAlong(points, share) {
+  let left = lengthOf(points) * Math.min(Math.max(share, 0), 1);
+  for (let index = 1; index < points.length; index += 1) {
+    const [from, to] = [points[index - 1], points[index]];
+    const step = distance(from, to);
+    if (left <= step && step > 0) {
+      const part = left / step;
+      return [from[0] + (to[0] - from[0]) * part, from[1] + (to[1] - from[1]) * part];
+    }
+    left -= step;
+  }
+  return points[points.length - 1];
+}

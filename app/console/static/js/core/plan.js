@@ -1,0 +1,143 @@
+/**
+ * A plan as the views need it: vehicles, trips, sorties and halts, each with a key.
+ *
+ * Keys are `c:<customer>`, `d:<vehicle>/<trip>/<stop>` for depots, `v:<vehicle>`,
+ * `t:<vehicle>/<trip>` and `s:<vehicle>/<trip>/<sortie>`; vehicles count as in the reply.
+ */
+
+/** Return the index of a plan, or null without one. */
+export function indexPlan(request, plan) {
+  if (!plan) return null;
+  const customers = new Map(request.customers.map((customer) => [customer.id, customer]));
+  const depots = new Map(request.depots.map((depot) => [depot.id, depot]));
+  const types = new Map(request.fleet.map((type) => [type.id, type]));
+  const index = { request, plan, customers, depots, types, vehicles: [], halts: new Map() };
+  index.vehicles = plan.routes.map((route, vehicle) => indexRoute(index, route, vehicle));
+  return index;
+}
+
+function indexRoute(index, route, number) {
+  const type = index.types.get(route.type);
+  const vehicle = {
+    key: `v:${number}`,
+    index: number,
+    label: String(number + 1),
+    name: route.vehicle,
+    type,
+    route,
+    trips: [],
+  };
+  vehicle.trips = route.trips.map((trip, position) => indexTrip(index, vehicle, trip, position));
+  return vehicle;
+}
+
+function indexTrip(index, vehicle, reply, number) {
+  const place = `${vehicle.index}/${number}`;
+  const several = vehicle.route.trips.length > 1;
+  const trip = {
+    key: `t:${place}`,
+    index: number,
+    vehicle,
+    reply,
+    label: several ? `${vehicle.label}.${number + 1}` : vehicle.label,
+    stops: [],
+    sorties: [],
+  };
+  trip.stops = reply.stops.map((stop, position) => {
+    const isCustomer = stop.kind === 'customer';
+    const key = isCustomer ? `c:${stop.id}` : `d:${place}/${position}`;
+    const source = isCustomer ? index.customers.get(stop.id) : index.depots.get(stop.id);
+    return remember(index, {
+      ...haltOf(key, stop, trip, source),
+      stop: position,
+      sortie: null,
+      waiting: stop.waiting,
+      load: stop.load,
+    });
+  });
+  trip.sorties = reply.sorties.map((sortie, position) => {
+    const key = `s:${place}/${position}`;
+    const entry = {
+      key,
+      trip,
+      reply: sortie,
+      drone: sortie.drone,
+      from: trip.stops[sortie.launch_stop],
+      to: trip.stops[sortie.recovery_stop],
+      visits: [],
+    };
+    entry.visits = sortie.customers.map((visit) => {
+      const source = index.customers.get(visit.id);
+      const halt = haltOf(`c:${visit.id}`, { ...visit, kind: 'customer' }, trip, source);
+      return remember(index, {
+        ...halt,
+        stop: null,
+        sortie: entry,
+        load: source.demand,
+        waiting: visit.service_start - visit.arrival,
+      });
+    });
+    return entry;
+  });
+  return trip;
+}
+
+function haltOf(key, reply, trip, source) {
+  return {
+    key,
+    kind: reply.kind,
+    id: reply.id,
+    trip,
+    vehicle: trip.vehicle,
+    source,
+    location: source?.location ?? null,
+    window: source?.time_window ?? null,
+    arrival: reply.arrival,
+    serviceStart: reply.service_start,
+    departure: reply.departure,
+    lateness: reply.lateness,
+  };
+}
+
+function remember(index, halt) {
+  index.halts.set(halt.key, halt);
+  return halt;
+}
+
+/** Return the first and last instant of a plan, `[0, 3600]` if nothing happens. */
+export function spanOf(index) {
+  const trips = index.vehicles.flatMap((vehicle) => vehicle.trips);
+  const starts = trips.flatMap((trip) => [
+    trip.stops[0].arrival,
+    ...trip.sorties.map((sortie) => sortie.reply.launch_time),
+  ]);
+  const ends = trips.map((trip) => trip.stops[trip.stops.length - 1].departure);
+  if (!trips.length) return [0, 3600];
+  const [start, end] = [Math.min(...starts), Math.max(...ends)];
+  return end > start ? [start, end] : [start, start + 60];
+}
+
+/** Return the trip or vehicle that a key belongs to, as the key's own parts. */
+export function partsOf(index, key) {
+  if (!index || !key) return {};
+  const [kind, place] = [key[0], key.slice(2)];
+  if (kind === 'c' || kind === 'd') {
+    const halt = index.halts.get(key);
+    return halt ? { vehicle: halt.vehicle, trip: halt.trip, sortie: halt.sortie, halt } : {};
+  }
+  const [vehicle, trip, sortie] = place.split('/').map(Number);
+  const found = { vehicle: index.vehicles[vehicle] };
+  if (kind !== 'v') found.trip = found.vehicle?.trips[trip];
+  if (kind === 's') found.sortie = found.trip?.sorties[sortie];
+  return found;
+}
+
+/** Tell whether what one key names is or contains what another names. */
+export function contains(index, outer, key) {
+  if (!outer || !key) return false;
+  if (outer === key) return true;
+  const [whole, part] = [partsOf(index, outer), partsOf(index, key)];
+  if (outer[0] === 'v') return whole.vehicle !== undefined && whole.vehicle === part.vehicle;
+  if (outer[0] === 't') return whole.trip !== undefined && whole.trip === part.trip;
+  return outer[0] === 's' && whole.sortie !== undefined && whole.sortie === part.sortie;
+}

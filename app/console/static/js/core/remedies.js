@@ -1,0 +1,103 @@
+/** Remedies of unassigned customers as changes of the problem. */
+
+import { getIn, setIn } from './paths.js';
+
+const NUMBER = '([\\d.,]+)';
+const SECONDS_PER_MINUTE = 60;
+const METRES_PER_KM = 1000;
+
+/** Remedies by what they say; each returns the changed request. */
+const CHANGES = [
+  [/^fits with one more vehicle$/, (request, { type }) => add(request, [...type, 'count'], 1)],
+  [
+    new RegExp(`^served if unassigned_cost were above ${NUMBER}$`),
+    (request, _, above) => ({
+      ...request,
+      unassigned_cost: Math.ceil((numberOf(above) + 0.01) * 100) / 100,
+    }),
+  ],
+  [
+    /^fits if .+ had .+$/,
+    (request, { type, customer }) =>
+      union(request, [...type, 'skills'], getIn(request, [...customer, 'skills'])),
+  ],
+  [
+    /^fits if capacity were at least /,
+    (request, { type, customer }) =>
+      raise(request, [...type, 'capacity'], getIn(request, [...customer, 'demand'])),
+  ],
+  [
+    /^fits if the drone capacity were at least /,
+    (request, { type, customer }) =>
+      raise(request, [...type, 'drones', 'capacity'], getIn(request, [...customer, 'demand'])),
+  ],
+  [
+    new RegExp(`^fits if endurance were ${NUMBER} minutes? longer$`),
+    (request, { type }, more) =>
+      add(request, [...type, 'drones', 'endurance'], numberOf(more) * SECONDS_PER_MINUTE),
+  ],
+  [
+    new RegExp(`^fits if trips could be ${NUMBER} km longer$`),
+    (request, { type }, more) =>
+      add(request, [...type, 'max_trip_distance'], numberOf(more) * METRES_PER_KM),
+  ],
+  [
+    new RegExp(`^fits if its window closed ${NUMBER} minutes? later$`),
+    (request, { customer }, more) =>
+      add(request, [...customer, 'time_window', 'latest'], numberOf(more) * SECONDS_PER_MINUTE),
+  ],
+  [
+    new RegExp(`^fits if .+'s shift ended ${NUMBER} minutes? later$`),
+    (request, { type }, more) =>
+      add(request, [...type, 'shift', 'latest'], numberOf(more) * SECONDS_PER_MINUTE),
+  ],
+  [
+    new RegExp(`^fits if .+ could work ${NUMBER} minutes? longer$`),
+    (request, { type }, more) =>
+      add(request, [...type, 'max_working_duration'], numberOf(more) * SECONDS_PER_MINUTE),
+  ],
+  [
+    /^fits if a truck may serve it$/,
+    (request, { customer }) => setIn(request, [...customer, 'served_by'], 'either'),
+  ],
+];
+
+function numberOf(text) {
+  return Number(text.replaceAll(',', ''));
+}
+
+function add(request, keys, more) {
+  return setIn(request, keys, Math.round(((getIn(request, keys) ?? 0) + more) * 1000) / 1000);
+}
+
+function union(request, keys, more) {
+  return setIn(request, keys, [...new Set([...(getIn(request, keys) ?? []), ...more])]);
+}
+
+function raise(request, keys, least) {
+  return setIn(
+    request,
+    keys,
+    getIn(request, keys).map((value, index) => Math.max(value, least[index])),
+  );
+}
+
+/**
+ * Return the request as a remedy changes it, or null if the remedy is not one that is known.
+ *
+ * @param request that the plan was made for
+ * @param id of the unassigned customer
+ * @param reason of the reply, with `vehicle_type` and `remedy`
+ */
+export function applyRemedy(request, id, reason) {
+  const places = {
+    type: ['fleet', request.fleet.findIndex((type) => type.id === reason.vehicle_type)],
+    customer: ['customers', request.customers.findIndex((customer) => customer.id === id)],
+  };
+  if (!reason.remedy || places.type[1] < 0 || places.customer[1] < 0) return null;
+  for (const [pattern, change] of CHANGES) {
+    const match = pattern.exec(reason.remedy);
+    if (match) return change(request, places, ...match.slice(1));
+  }
+  return null;
+}

@@ -1,0 +1,105 @@
+/** Fields of a form from the schemas of `/openapi.json`. */
+
+/** Units by what a description says, the first that fits. */
+const UNITS = [
+  [/\bkm\/h\b/i, 'km/h'],
+  [/per kilometre/i, 'per km'],
+  [/cost per hour/i, 'per h'],
+  [/\bdegrees\b/i, '\u00b0'],
+  [/\bmetres per\b/i, 'm'],
+  [/\bin metres\b/i, 'm'],
+  [/\bseconds?\b/i, 's'],
+];
+
+/** Longest text that an empty field can show. */
+const LONGEST_HINT = 18;
+
+const WORDS = { kmh: 'km/h', deg: '', id: 'name' };
+
+/** Return a schema with its reference followed and `null` taken out: `{schema, nullable}`. */
+export function resolve(schemas, schema) {
+  if (schema.$ref) {
+    const { $ref, ...own } = schema;
+    const found = resolve(schemas, schemas[$ref.slice($ref.lastIndexOf('/') + 1)]);
+    return { ...found, schema: { ...found.schema, ...own } };
+  }
+  if (!schema.anyOf) return { schema, nullable: false };
+  const { anyOf, ...own } = schema;
+  const kinds = anyOf.filter(({ type }) => type !== 'null');
+  const found = resolve(schemas, kinds[0]);
+  return { schema: { ...found.schema, ...own }, nullable: kinds.length < anyOf.length };
+}
+
+/** Return the kind of input that a schema asks for. */
+export function kindOf(schema) {
+  if (schema.enum) return 'choice';
+  if (schema.type === 'boolean') return 'switch';
+  if (schema.type === 'number' || schema.type === 'integer') return 'number';
+  if (schema.type === 'object') return 'object';
+  if (schema.type !== 'array') return 'text';
+  const item = schema.items ?? {};
+  if (item.$ref || item.type === 'object') return 'objects';
+  if (schema.prefixItems || item.type === 'number') return 'numbers';
+  return item.type === 'string' ? 'texts' : 'other';
+}
+
+/** Return the unit of a number, empty if its description names none. */
+export function unitOf(schema) {
+  const text = schema.description ?? '';
+  if (!['number', 'integer'].includes(schema.type)) return '';
+  return UNITS.find(([pattern]) => pattern.test(text))?.[1] ?? '';
+}
+
+/** Return a field's name in words: `max_trip_distance` becomes `Max trip distance`. */
+export function labelOf(name) {
+  const words = name
+    .split('_')
+    .map((word) => WORDS[word] ?? word)
+    .filter(Boolean)
+    .join(' ');
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+/** Return a description in plain text. */
+export function helpOf(schema) {
+  return (schema.description ?? '').replaceAll('`', '');
+}
+
+/** Return an object with what a schema demands and nothing else. */
+export function blank(schemas, schema) {
+  const found = resolve(schemas, schema).schema;
+  const required = found.required ?? [];
+  return Object.fromEntries(
+    required.map((name) => [name, blankValue(schemas, found.properties[name])]),
+  );
+}
+
+function blankValue(schemas, schema) {
+  const found = resolve(schemas, schema).schema;
+  switch (kindOf(found)) {
+    case 'object':
+      return blank(schemas, found);
+    case 'number':
+      return Math.max(found.minimum ?? 0, 0);
+    case 'numbers':
+      return Array(found.minItems ?? 1).fill(0);
+    case 'choice':
+      return found.enum[0];
+    case 'switch':
+      return false;
+    case 'text':
+      return '';
+    default:
+      return [];
+  }
+}
+
+/** Return what an empty field means, for its placeholder. */
+export function emptyMeans(schema, nullable) {
+  const stated = schema.default;
+  if (stated !== null && stated !== undefined && typeof stated !== 'object') return String(stated);
+  const byDefault = /([\d.]+) by default/.exec(schema.description ?? '');
+  if (byDefault) return byDefault[1];
+  const told = /Null: ([^.]*)\./.exec(schema.description ?? '')?.[1].replaceAll('`', '') ?? '';
+  return nullable && told.length <= LONGEST_HINT ? told : '';
+}

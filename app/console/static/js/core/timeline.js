@@ -1,0 +1,131 @@
+/** A plan as rows of bars: what each vehicle and drone does when. Times in seconds. */
+
+/** What bars mean, in the order of the legend. */
+export const ACTIVITIES = {
+  drive: 'Drive',
+  fly: 'Fly',
+  serve: 'Serve',
+  wait: 'Wait',
+  handle: 'Launch and recover',
+  reload: 'Reload',
+};
+
+/**
+ * Return one row per vehicle and per drone that flies, vehicles followed by their drones.
+ *
+ * A bar is `{kind, from, until, key}`; `key` is what it stands for (see `plan.js`).
+ */
+export function timelineRows(index) {
+  return index.vehicles.flatMap((vehicle) => [
+    { key: vehicle.key, kind: 'vehicle', label: vehicle.name, vehicle, bars: truckBars(vehicle) },
+    ...droneRows(vehicle),
+  ]);
+}
+
+function truckBars(vehicle) {
+  const reload = vehicle.type?.reload_duration ?? 0;
+  return vehicle.trips.flatMap((trip, number) => {
+    const bars = [];
+    if (number > 0 && reload > 0) {
+      const loaded = trip.stops[0].arrival;
+      bars.push({ kind: 'reload', from: loaded - reload, until: loaded, key: trip.stops[0].key });
+    }
+    trip.stops.forEach((halt, position) => {
+      const before = trip.stops[position - 1];
+      if (before) {
+        bars.push({
+          kind: 'drive',
+          from: before.departure,
+          until: halt.arrival,
+          key: trip.key,
+          to: halt.key,
+        });
+      }
+      bars.push(...stopBars(halt));
+    });
+    return bars.filter(isSeen);
+  });
+}
+
+/** Tell whether a bar is drawn: service is, however short, so that every stop can be found. */
+function isSeen(bar) {
+  return bar.until > bar.from || (bar.kind === 'serve' && bar.key[0] === 'c');
+}
+
+function stopBars(halt) {
+  const duration = halt.kind === 'customer' ? (halt.source.service_duration ?? 0) : 0;
+  const served = Math.min(halt.serviceStart + duration, halt.departure);
+  return [
+    { kind: 'wait', from: halt.arrival, until: halt.serviceStart, key: halt.key },
+    { kind: 'serve', from: halt.serviceStart, until: served, key: halt.key },
+    { kind: 'handle', from: served, until: halt.departure, key: halt.key },
+  ];
+}
+
+function droneRows(vehicle) {
+  const rows = new Map();
+  for (const sortie of vehicle.trips.flatMap((trip) => trip.sorties)) {
+    if (!rows.has(sortie.drone)) {
+      const label = sortie.drone.slice(sortie.drone.lastIndexOf('/') + 1);
+      rows.set(sortie.drone, { key: sortie.drone, kind: 'drone', label, vehicle, bars: [] });
+    }
+    rows.get(sortie.drone).bars.push(...sortieBars(vehicle, sortie));
+  }
+  return [...rows.values()].sort((first, second) =>
+    first.key.localeCompare(second.key, 'en', { numeric: true }),
+  );
+}
+
+function sortieBars(vehicle, sortie) {
+  const { launch_time: launch, recovery_time: recovered } = sortie.reply;
+  const drones = vehicle.type?.drones ?? {};
+  const landing = Math.max(recovered - (drones.recovery_duration ?? 0), launch);
+  const bars = [
+    {
+      kind: 'handle',
+      from: launch - (drones.launch_duration ?? 0),
+      until: launch,
+      key: sortie.key,
+    },
+  ];
+  let since = launch;
+  for (const halt of sortie.visits) {
+    bars.push(
+      { kind: 'fly', from: since, until: halt.arrival, key: sortie.key },
+      { kind: 'wait', from: halt.arrival, until: halt.serviceStart, key: halt.key },
+      { kind: 'serve', from: halt.serviceStart, until: halt.departure, key: halt.key },
+    );
+    since = halt.departure;
+  }
+  bars.push(
+    { kind: 'fly', from: since, until: landing, key: sortie.key },
+    { kind: 'handle', from: landing, until: recovered, key: sortie.key },
+  );
+  return bars.filter(isSeen);
+}
+
+/** Return the windows that matter in a row: `{key, earliest, latest, arrival}`, open ends null. */
+export function rowWindows(row) {
+  const halts =
+    row.kind === 'vehicle'
+      ? row.vehicle.trips.flatMap((trip) => trip.stops)
+      : row.vehicle.trips
+          .flatMap((trip) => trip.sorties)
+          .filter((sortie) => sortie.drone === row.key)
+          .flatMap((sortie) => sortie.visits);
+  return halts
+    .filter((halt) => halt.window && (halt.window.earliest > 0 || halt.window.latest != null))
+    .map((halt) => ({
+      key: halt.key,
+      earliest: halt.window.earliest ?? 0,
+      latest: halt.window.latest ?? null,
+      arrival: halt.arrival,
+      late: halt.lateness > 0,
+    }));
+}
+
+/** Return a step between marks on a time axis, so that no more than `most` fit into `seconds`. */
+export function tickStep(seconds, most) {
+  const steps = [60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 14400, 21600, 43200, 86400];
+  return steps.find((step) => seconds / step <= most) ?? Math.ceil(seconds / most / 86400) * 86400;
+}

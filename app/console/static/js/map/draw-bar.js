@@ -1,0 +1,72 @@
+/** The buttons of the drawing tools, and what the chosen one draws with. */
+
+import { clock, parseClock, parseNumber } from '../core/format.js';
+import { html, useState } from '../libraries.js';
+import { store, useStore } from '../store.js';
+import { TOOLS } from './tools.js';
+
+/** Take up a tool, or put it down. */
+export function takeTool(tool) {
+  store.set((state) => ({ tool: state.tool === tool ? null : tool }));
+}
+
+/** Buttons over the map. */
+export function DrawBar() {
+  const tool = useStore((state) => state.tool);
+  const [open, setOpen] = useState(false);
+  const toggle = () => {
+    if (open) store.set({ tool: null });
+    setOpen(!open);
+  };
+  return html`<div class="draw-bar">
+    <button type="button" aria-expanded=${open} onClick=${toggle}>Draw</button>
+    ${
+      open &&
+      html`<div class="draw-tools" role="group" aria-label="Drawing tools">
+      ${Object.entries(TOOLS).map(
+        ([key, { name }]) => html`<button type="button" key=${key}
+        aria-pressed=${tool === key} onClick=${() => takeTool(key)}>${name}</button>`,
+      )}
+      ${tool && html`<div class="draw-options"><p>${TOOLS[tool].hint}</p>
+        <${Brush} tool=${tool} /></div>`}
+    </div>`
+    }
+  </div>`;
+}
+
+function Brush({ tool }) {
+  if (tool === 'customer') {
+    return html`<${BrushField} name="demand" label="Demand"
+        show=${(values) => values.join(', ')} read=${readAmounts} />
+      <${BrushField} name="service_duration" label="Service (s)" show=${String}
+        read=${parseNumber} />
+      <${ServedBy} />`;
+  }
+  if (tool !== 'window' && tool !== 'windowArea') return null;
+  return html`<${BrushField} name="earliest" label="Opens" show=${clock} read=${parseClock} />
+    <${BrushField} name="latest" label="Closes" show=${clock} read=${parseClock} />`;
+}
+
+function readAmounts(text) {
+  const values = text.split(/[,;]/).map(parseNumber);
+  return values.includes(null) ? null : values;
+}
+
+function BrushField({ name, label, show, read }) {
+  const brush = useStore((state) => state.brush);
+  const change = (event) => {
+    const value = read(event.target.value);
+    if (value === null) event.target.value = show(brush[name]);
+    else store.set({ brush: { ...brush, [name]: value } });
+  };
+  return html`<label>${label} <input type="text" size="7" value=${show(brush[name])}
+    onChange=${change} /></label>`;
+}
+
+function ServedBy() {
+  const brush = useStore((state) => state.brush);
+  return html`<label>Served by <select value=${brush.served_by} onChange=${(event) =>
+    store.set({ brush: { ...brush, served_by: event.target.value } })}>
+    ${['either', 'truck', 'drone'].map((value) => html`<option key=${value}>${value}</option>`)}
+  </select></label>`;
+}

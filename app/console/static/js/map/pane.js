@@ -1,0 +1,151 @@
+/** The map in the page, a second one beside it when plans are compared. */
+
+import { besidePlan, hover, indexOf, select, shownPlan } from '../actions.js';
+import { describe } from '../core/describe.js';
+import { flightLines } from '../core/flights.js';
+import { playback } from '../core/playback.js';
+import { Facts } from '../views/parts.js';
+import {
+  html,
+  render,
+  useEffect,
+  useLayoutEffect,
+  useMemo,
+  useRef,
+  useState,
+} from '../libraries.js';
+import { store, useStore } from '../store.js';
+import { DrawBar } from './draw-bar.js';
+import { attachTools } from './tools.js';
+import { MapView, synchronise } from './view.js';
+
+/** The map and, if chosen, the plan that stands beside. */
+export function MapPane() {
+  const request = useStore((state) => state.request);
+  const shown = useStore(shownPlan);
+  const beside = useStore(besidePlan);
+  const [split, setSplit] = useState(false);
+  const [first, setFirst] = useState(null);
+  const [second, setSecond] = useState(null);
+  useEffect(
+    () => (first && second ? synchronise(first.map, second.map) : undefined),
+    [first, second],
+  );
+  useEffect(() => first?.fit(), [split, Boolean(second)]);
+  return html`<section class=${`maps ${split && beside ? 'split' : ''}`} aria-label="Map">
+    <div class="map-frame">
+      <${Map} key=${groundOf(request)} request=${request} entry=${shown}
+        onView=${setFirst} isMain />
+      <${DrawBar} />
+      <div class="map-tools">
+        <button type="button" onClick=${() => first?.fit()}>Fit</button>
+        ${
+          beside &&
+          html`<button type="button" aria-pressed=${split} onClick=${() => setSplit(!split)}>
+          ${split ? 'One map' : 'Former plan beside'}</button>`
+        }
+      </div>
+      ${
+        !hasLocations(request) &&
+        html`<p class="map-note">The problem has matrices and no locations,
+        so there is no map; the timeline and the tables show the plan.</p>`
+      }
+    </div>
+    ${
+      split &&
+      beside &&
+      html`<div class="map-frame">
+      <p class="map-title">Plan ${beside.number}, before</p>
+      <${Map} key=${groundOf(beside.request)} request=${beside.request} entry=${beside}
+        onView=${setSecond} /></div>`
+    }
+  </section>`;
+}
+
+/** Return what a map can't change once it is made. */
+function groundOf({ coordinate_system: system = 'planar', planar_unit: unit = 1 }) {
+  return `${system}/${unit}`;
+}
+
+function hasLocations(request) {
+  return [...request.depots, ...request.customers].some(({ location }) => location);
+}
+
+function Map({ request, entry, onView, isMain = false }) {
+  const element = useRef(null);
+  const [view, setView] = useState(null);
+  const dark = useStore((state) => state.dark);
+  const config = useStore((state) => state.config);
+  const geographic = request.coordinate_system === 'geographic';
+  const planarUnit = request.planar_unit ?? 1;
+  const index = indexOf(entry);
+  useLayoutEffect(() => {
+    const made = new MapView(element.current, {
+      geographic,
+      config,
+      planarUnit,
+      onHover: hover,
+      onSelect: select,
+    });
+    setView(made);
+    onView(made);
+    const endTools = isMain ? attachTools(made) : () => {};
+    return () => {
+      endTools();
+      made.destroy();
+      onView(null);
+    };
+  }, []);
+  useEffect(() => view?.draw(request, index, dark), [view, request, index, dark]);
+  useEffect(() => view?.fit(), [view, firstPlace(request)]);
+  useEffect(
+    () => (view ? followMarks(view, request, index) : undefined),
+    [view, request, index, dark],
+  );
+  useEffect(() => (view && index ? followClock(view, index) : undefined), [view, index, dark]);
+  return html`<div class="map" ref=${element} data-geographic=${geographic}></div>`;
+}
+
+/** Return what tells one problem's region from another's. */
+function firstPlace(request) {
+  return JSON.stringify([request.depots[0]?.location, request.depots.length]);
+}
+
+/** Mark what is selected and hovered; returns a function that ends it. */
+function followMarks(view, request, index) {
+  const tip = document.createElement('div');
+  tip.className = 'tip';
+  let last = '';
+  const follow = ({ selection, hover: hovered }) => {
+    view.mark(selection, hovered);
+    const key = hovered ?? selection;
+    // A click takes the tip away, so it is shown again when the selection changes.
+    const now = `${key} ${selection}`;
+    if (now !== last) {
+      last = now;
+      const about = describe(request, index, key);
+      render(about && html`<strong>${about.title}</strong><${Facts} facts=${about.facts} />`, tip);
+      view.tip(key, about && tip);
+      if (!hovered && selection) view.reveal(selection);
+    }
+  };
+  follow(store.get());
+  return store.subscribe(follow);
+}
+
+/** Move trucks and drones with the clock; returns a function that ends it. */
+function followClock(view, index) {
+  const placesAt = playback(index, flightLines(index.request));
+  let last;
+  const follow = ({ time }) => {
+    if (time === last) return;
+    last = time;
+    view.move(time === null ? null : placesAt(time));
+  };
+  follow(store.get());
+  const end = store.subscribe(follow);
+  return () => {
+    end();
+    view.move(null);
+  };
+}

@@ -1,0 +1,162 @@
+/** Drawing on the map: customers, depots, windows and no-fly areas. */
+
+import { edit, select } from '../actions.js';
+import {
+  addCustomer,
+  addDepot,
+  customersWithin,
+  eraseAreasAt,
+  giveWindow,
+  moveCustomer,
+  removeCustomer,
+  setArea,
+} from '../core/changes.js';
+import { drawing, leaflet } from '../libraries.js';
+import { store } from '../store.js';
+
+const L = leaflet();
+
+/** What can be drawn, in the order of the buttons. */
+export const TOOLS = {
+  customer: { name: 'Customer', hint: 'Click where customers are.' },
+  depot: { name: 'Depot', hint: 'Click where the depot is.' },
+  window: { name: 'Window', hint: 'Click customers to give them this window.' },
+  windowArea: {
+    name: 'Windows in an area',
+    hint: 'Click two corners: customers between get this window.',
+  },
+  area: { name: 'No-fly area', hint: 'Click the corners, the first again to close.' },
+  change: { name: 'Move', hint: 'Drag customers, and corners of no-fly areas.' },
+  erase: { name: 'Erase', hint: 'Click customers or no-fly areas to remove them.' },
+};
+
+const isCustomer = (key) => key?.startsWith('c:');
+const idOf = (key) => key.slice(2);
+
+/** Let a map follow the chosen tool; returns a function that ends it. */
+export function attachTools(view) {
+  let end = () => {};
+  let active = null;
+  const unfollow = store.subscribe(({ tool }) => {
+    if (tool === active) return;
+    end();
+    active = tool;
+    end = start(view, tool);
+  });
+  return () => {
+    unfollow();
+    end();
+  };
+}
+
+/** Take up a tool; returns a function that puts it down. */
+function start(view, tool) {
+  const former = { onSelect: view.onSelect, onGround: view.onGround, onPress: view.onPress };
+  view.map.getContainer().classList.toggle('drawing', Boolean(tool));
+  const end = tool ? BEGIN[tool](view) : () => {};
+  return () => {
+    end?.();
+    Object.assign(view, former);
+  };
+}
+
+const BEGIN = {
+  customer(view) {
+    const add = (point) => edit((request) => addCustomer(request, point, store.get().brush));
+    view.onGround = add;
+    view.onSelect = (key, point) => add(point);
+  },
+  depot(view) {
+    view.onGround = (point) => edit((request) => addDepot(request, point));
+  },
+  window(view) {
+    view.onSelect = (key) =>
+      isCustomer(key) && edit((request) => giveWindow(request, [idOf(key)], store.get().brush));
+  },
+  windowArea: (view) =>
+    drawShape(view, 'Rectangle', (layer) => {
+      const bounds = layer.getBounds();
+      const box = [bounds.getWest(), bounds.getSouth(), bounds.getEast(), bounds.getNorth()];
+      edit((request) => giveWindow(request, customersWithin(request, box), store.get().brush));
+    }),
+  area: (view) =>
+    drawShape(view, 'Polygon', (layer) => edit((request) => setArea(request, ringOf(layer)))),
+  change(view) {
+    view.onPress = (key, layer, event) => isCustomer(key) && drag(view, key, layer, event);
+    return changeAreas(view);
+  },
+  erase(view) {
+    view.onSelect = (key, point) =>
+      isCustomer(key)
+        ? edit((request) => removeCustomer(request, idOf(key)))
+        : view.onGround(point);
+    view.onGround = (point) => edit((request) => eraseAreasAt(request, point));
+  },
+};
+
+function ringOf(layer) {
+  return layer.getLatLngs()[0].map(({ lng, lat }) => [lng, lat]);
+}
+
+/** Load what drawing needs; maps and shapes made before get it too. */
+async function prepareDrawing(view) {
+  const library = await drawing();
+  view.map.pm ??= new library.Map(view.map);
+  return library;
+}
+
+/** Draw shapes one after another; returns a function that ends it. */
+function drawShape(view, shape, onShape) {
+  let ended = false;
+  const create = ({ layer }) => {
+    layer.remove();
+    onShape(layer);
+  };
+  view.map.on('pm:create', create);
+  prepareDrawing(view).then(() => {
+    if (ended) return;
+    view.map.pm.enableDraw(shape, { continueDrawing: true, snappable: false, tooltips: false });
+  });
+  return () => {
+    ended = true;
+    view.map.off('pm:create', create);
+    view.map.pm?.disableDraw();
+  };
+}
+
+/** Let corners of no-fly areas be dragged; returns a function that ends it. */
+function changeAreas(view) {
+  let ended = false;
+  const take = async () => {
+    const library = await prepareDrawing(view);
+    if (ended) return;
+    view.noFly.forEach((shape, position) => {
+      if (!shape.pm) library.reInitLayer(shape);
+      shape.pm.enable({ allowSelfIntersection: false, snappable: false });
+      shape.on('pm:markerdragend pm:vertexremoved', () =>
+        edit((request) => setArea(request, ringOf(shape), position)),
+      );
+    });
+  };
+  // Shapes are drawn anew with each edit.
+  view.map.on('drawn', take);
+  take();
+  return () => {
+    ended = true;
+    view.map.off('drawn', take);
+    view.noFly.forEach((shape) => shape.pm?.disable());
+  };
+}
+
+function drag(view, key, layer, event) {
+  L.DomEvent.stop(event);
+  view.map.dragging.disable();
+  const follow = ({ latlng }) => layer.setLatLng(latlng);
+  view.map.on('mousemove', follow);
+  view.map.once('mouseup', ({ latlng }) => {
+    view.map.off('mousemove', follow);
+    view.map.dragging.enable();
+    edit((request) => moveCustomer(request, idOf(key), [latlng.lng, latlng.lat]));
+    select(key);
+  });
+}

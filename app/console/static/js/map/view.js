@@ -1,0 +1,241 @@
+/** One map: a problem, a plan on it, and where everything is at an instant. */
+
+import { contains, partsOf } from '../core/plan.js';
+import { boundsOf } from '../core/geometry.js';
+import { vehicleColour } from '../core/palette.js';
+import { leaflet } from '../libraries.js';
+import {
+  customerMarks,
+  depotMarks,
+  labelIcon,
+  latLng,
+  noFlyShapes,
+  planLines,
+  stopNumbers,
+  tripLabels,
+} from './layers.js';
+import { ScaleBar } from './scale.js';
+
+const L = leaflet();
+const DIM = 0.18;
+const TIP_HEIGHT = 170; // pixels that a tip may need above its place
+
+/** Draws into an element until `destroy` is called. */
+export class MapView {
+  /**
+   * @param element where to draw
+   * @param options `geographic`, `config` with the tiles' address, `onHover(key)`, `onSelect(key)`
+   */
+  constructor(element, { geographic, config, planarUnit, onHover, onSelect }) {
+    this.map = L.map(element, {
+      crs: geographic ? L.CRS.EPSG3857 : L.CRS.Simple,
+      renderer: L.canvas({ padding: 0.5, tolerance: 4 }),
+      zoomSnap: 0.25,
+      zoomDelta: 0.5,
+      wheelPxPerZoomLevel: 90,
+      minZoom: geographic ? 1 : -16,
+      maxZoom: geographic ? 20 : 16,
+      attributionControl: Boolean(geographic && config.tile_url),
+      zoomControl: false,
+    });
+    L.control.zoom({ position: 'topright' }).addTo(this.map);
+    this.map.setView([0, 0], 2);
+    if (geographic && config.tile_url) {
+      const attribution = document.createElement('span');
+      attribution.textContent = config.tile_attribution;
+      L.tileLayer(config.tile_url, { attribution: attribution.innerHTML, maxZoom: 20 }).addTo(
+        this.map,
+      );
+      this.map.attributionControl.setPrefix(false);
+    }
+    new ScaleBar({ metresPerUnit: geographic ? null : planarUnit }).addTo(this.map);
+    this.areas = L.layerGroup().addTo(this.map);
+    this.shapes = L.layerGroup().addTo(this.map);
+    this.labels = L.layerGroup().addTo(this.map);
+    this.numbers = L.layerGroup().addTo(this.map);
+    this.movers = L.layerGroup().addTo(this.map);
+    this.entries = [];
+    this.tooltip = L.tooltip({ direction: 'top', offset: [0, -6], opacity: 1 });
+    this.#listen(onHover, onSelect);
+    this.resizes = new ResizeObserver(() => this.map.invalidateSize({ animate: false }));
+    this.resizes.observe(element);
+  }
+
+  #listen(onHover, onSelect) {
+    this.onHover = onHover;
+    this.onSelect = onSelect;
+    this.onGround = () => this.onSelect(null);
+    this.onPress = () => {};
+    this.map.on('click', ({ latlng }) => this.onGround([latlng.lng, latlng.lat]));
+  }
+
+  destroy() {
+    this.resizes.disconnect();
+    this.map.remove();
+    this.isGone = true;
+  }
+
+  /** Show a problem and, if there is one, its plan. */
+  draw(request, index, dark) {
+    Object.assign(this, { request, index, dark });
+    [this.areas, this.shapes, this.labels, this.numbers, this.movers].forEach((group) =>
+      group.clearLayers(),
+    );
+    this.trucks = new Map();
+    this.noFly = noFlyShapes(request, dark);
+    this.noFly.forEach((shape) => this.areas.addLayer(shape));
+    const lines = index ? planLines(index, dark) : [];
+    this.entries = [...lines, ...customerMarks(request, index, dark)];
+    for (const { layer, key } of this.entries) this.#addEntry(layer, key);
+    depotMarks(request).forEach((mark) => this.labels.addLayer(mark));
+    if (index) tripLabels(index, dark).forEach((mark) => this.labels.addLayer(mark));
+    this.marked = '';
+    this.map.fire('drawn');
+  }
+
+  #addEntry(layer, key) {
+    layer.on('mouseover', () => this.onHover(key));
+    layer.on('mouseout', () => this.onHover(null));
+    layer.on('mousedown', (event) => this.onPress(key, layer, event));
+    layer.on('click', (event) => {
+      L.DomEvent.stopPropagation(event);
+      this.onSelect(key, [event.latlng.lng, event.latlng.lat]);
+    });
+    this.shapes.addLayer(layer);
+  }
+
+  /** Show everything. */
+  fit() {
+    const places = [...this.request.depots, ...this.request.customers].flatMap(({ location }) =>
+      location ? [location] : [],
+    );
+    const bounds = boundsOf([...places, ...(this.request.airspace?.no_fly ?? []).flat()]);
+    if (!bounds) return;
+    const [west, south, east, north] = bounds;
+    this.map.invalidateSize({ animate: false });
+    this.map.fitBounds(
+      [
+        [south, west],
+        [north, east],
+      ],
+      { padding: [36, 36], animate: false },
+    );
+  }
+
+  /** Mark what is selected and what the pointer is on; the rest steps back. */
+  mark(selection, hovered) {
+    const focus = hovered ?? selection;
+    const outer = focus && this.index ? tripOrVehicle(this.index, focus) : null;
+    const state = `${outer}|${focus}|${selection}`;
+    if (state === this.marked) return;
+    this.marked = state;
+    for (const { key, layer, base } of this.entries) {
+      const inside = !outer || contains(this.index, outer, key);
+      const isFocus = key === focus || key === selection;
+      const style = { ...base };
+      if (!inside) Object.assign(style, { opacity: base.opacity * DIM, fillOpacity: DIM });
+      if (isFocus) style.weight = base.weight + 2;
+      layer.setStyle(style);
+      if (base.radius) layer.setRadius(isFocus ? base.radius + 3 : base.radius);
+      if (isFocus) layer.bringToFront();
+    }
+    this.#number(selection);
+  }
+
+  #number(selection) {
+    this.numbers.clearLayers();
+    const { trip } = partsOf(this.index, selection);
+    if (trip) stopNumbers(trip).forEach((mark) => this.numbers.addLayer(mark));
+  }
+
+  /** Show a tip at what a key names; null hides it. */
+  tip(key, content) {
+    const entry = key && this.entries.find((other) => other.key === key);
+    if (!entry || !content) {
+      this.tooltip.remove();
+      return;
+    }
+    const place = entry.layer.getLatLng?.() ?? entry.layer.getBounds().getCenter();
+    const above = this.map.latLngToContainerPoint(place).y > TIP_HEIGHT;
+    Object.assign(this.tooltip.options, {
+      direction: above ? 'top' : 'bottom',
+      offset: [0, above ? -6 : 6],
+    });
+    this.tooltip.setLatLng(place).setContent(content).addTo(this.map);
+  }
+
+  /** Bring what a key names into view, if it is outside. */
+  reveal(key) {
+    const entry = this.entries.find((other) => other.key === key);
+    if (!entry) return;
+    const bounds = entry.layer.getBounds?.() ?? L.latLngBounds([entry.layer.getLatLng()]);
+    if (!this.map.getBounds().contains(bounds)) {
+      if (entry.layer.getBounds)
+        this.map.fitBounds(bounds, { padding: [60, 60], maxZoom: this.map.getZoom() });
+      else this.map.panInside(entry.layer.getLatLng(), { padding: [70, 70] });
+    }
+  }
+
+  /** Place trucks and drones, `{trucks, drones}` of `playback`; null takes them away. */
+  move(places) {
+    if (this.isGone) return;
+    const seen = new Set();
+    for (const truck of places?.trucks ?? [])
+      this.#moveOne(seen, truck.vehicle.key, truck, 'truck');
+    for (const drone of places?.drones ?? []) this.#moveOne(seen, drone.sortie.key, drone, 'drone');
+    for (const [key, marker] of this.trucks) {
+      if (!seen.has(key)) {
+        marker.remove();
+        this.trucks.delete(key);
+      }
+    }
+  }
+
+  #moveOne(seen, key, what, kind) {
+    seen.add(key);
+    const vehicle = what.vehicle ?? what.sortie.trip.vehicle;
+    if (!this.trucks.has(key)) {
+      const colour = vehicleColour(vehicle.index, this.dark);
+      const icon = labelIcon(`${kind}-mover`, kind === 'truck' ? vehicle.label : '', {
+        background: colour,
+      });
+      this.trucks.set(
+        key,
+        L.marker(latLng(what.location), {
+          icon,
+          interactive: false,
+          keyboard: false,
+          zIndexOffset: kind === 'truck' ? 900 : 1000,
+        }).addTo(this.movers),
+      );
+    }
+    this.trucks.get(key).setLatLng(latLng(what.location));
+  }
+}
+
+/** Return the key of the trip or vehicle that is to stand out. */
+function tripOrVehicle(index, key) {
+  const { vehicle, trip } = partsOf(index, key);
+  if (key[0] === 'v') return vehicle ? key : null;
+  return trip ? trip.key : null;
+}
+
+/** Let two maps show the same place; returns a function that ends it. */
+export function synchronise(first, second) {
+  const follow = (leader, follower) => () => {
+    if (
+      follower.getZoom() !== leader.getZoom() ||
+      !follower.getCenter().equals(leader.getCenter())
+    ) {
+      follower.setView(leader.getCenter(), leader.getZoom(), { animate: false });
+    }
+  };
+  const [there, back] = [follow(first, second), follow(second, first)];
+  first.on('move', there);
+  second.on('move', back);
+  there();
+  return () => {
+    first.off('move', there);
+    second.off('move', back);
+  };
+}

@@ -1,0 +1,167 @@
+/** Plans: the policy's at once, then what a job improves, until it ends or is stopped. */
+
+import * as api from './api.js';
+import { showFailure } from './actions.js';
+import { store } from './store.js';
+
+const MOST_PLANS = 12;
+
+/** If the policy alone takes longer, the job begins, with a plan that is quicker made. */
+const MOST_DECODE_SECONDS = 0.3;
+
+let current = null; // {number, controller, job}
+
+function note(patch) {
+  store.set(({ run }) => ({ run: { ...run, ...patch } }));
+}
+
+/** Plan the problem as it stands, in place of any planning under way. */
+export async function plan() {
+  if (current) await stop();
+  const { request, epoch } = store.get();
+  const task = {
+    number: nextNumber(),
+    epoch,
+    controller: new AbortController(),
+    job: null,
+    began: performance.now(),
+  };
+  current = task;
+  store.set({
+    failure: null,
+    errors: [],
+    run: { state: 'decoding', points: [], message: 'Planning', number: task.number },
+  });
+  try {
+    task.request = request;
+    const inJob = searches(request);
+    if (!inJob || decodeSeconds(request) <= MOST_DECODE_SECONDS) await decode(task, request);
+    if (current === task && inJob) await improve(task, request);
+  } catch (error) {
+    if (current === task) showFailure(error);
+  } finally {
+    if (current === task) {
+      current = null;
+      note({ state: 'idle' });
+    }
+  }
+}
+
+/** Stop planning and keep the best plan so far. */
+export async function stop() {
+  const task = current;
+  if (!task) return;
+  note({ state: 'stopping' });
+  try {
+    if (task.job) {
+      const job = await api.stopJob(task.job);
+      if (job.result) keep(task, job.result);
+    }
+  } catch (error) {
+    showFailure(error);
+  } finally {
+    task.controller.abort();
+    if (current === task) current = null;
+    note({ state: 'idle', message: 'Stopped' });
+  }
+}
+
+function nextNumber() {
+  const { plans } = store.get();
+  return plans.length ? plans[plans.length - 1].number + 1 : 1;
+}
+
+function searches({ options = {} }) {
+  return options.time_limit !== 0 && options.search_iterations !== 0;
+}
+
+/** Return about how long the policy takes on a quiet machine, as the planner reckons it. */
+function decodeSeconds({ customers, options = {} }) {
+  const samples = options.decoding === 'sample' ? 1 + (options.num_samples ?? 64) / 6 : 1;
+  return 1.2e-4 * customers.length * (1 + customers.length / 300) * samples;
+}
+
+async function decode(task, request) {
+  const options = { ...request.options, time_limit: 0 };
+  delete options.search_iterations;
+  const reply = await api.postPlan({ ...request, options }, task.controller.signal);
+  keep(task, reply);
+  addPoint(task, reply.cost.total);
+}
+
+async function improve(task, request) {
+  note({ state: 'improving' });
+  const job = await api.startJob('jobs', request);
+  task.job = job.id;
+  if (current !== task) {
+    await api.stopJob(job.id);
+    return;
+  }
+  const fetching = latestOf(async () => {
+    const { result } = await api.getJob(job.id);
+    if (result && current === task) keep(task, result);
+  });
+  await api.followJob(
+    job.id,
+    (progress) => {
+      if (current !== task) return;
+      note({ share: progress.progress, iterations: progress.search_iterations });
+      if (progress.cost !== null && progress.cost !== undefined) addPoint(task, progress.cost);
+      if (progress.improved) fetching();
+    },
+    task.controller.signal,
+  );
+  const ended = await api.getJob(job.id);
+  if (current !== task) return;
+  if (ended.error) throw new api.ApiError(0, 'The search failed', ended.error);
+  if (ended.result) {
+    keep(task, ended.result);
+    addPoint(task, ended.result.cost.total);
+  }
+}
+
+/** Return a function that runs `work` again only when it has ended, and once more if asked to. */
+function latestOf(work) {
+  let running = false;
+  let again = false;
+  return async function run() {
+    if (running) {
+      again = true;
+      return;
+    }
+    running = true;
+    try {
+      await work();
+    } catch (error) {
+      showFailure(error);
+    } finally {
+      running = false;
+      if (again) {
+        again = false;
+        run();
+      }
+    }
+  };
+}
+
+/** Show a reply as the plan of a task, unless a cheaper one is there already. */
+function keep(task, reply) {
+  store.set((state) => {
+    if (task.epoch !== state.epoch) return {};
+    const before = state.plans.find(({ number }) => number === task.number);
+    if (before && before.plan.cost.total < reply.cost.total) return {};
+    const entry = { number: task.number, request: task.request, plan: reply };
+    const others = state.plans.filter(({ number }) => number !== task.number);
+    const besides = before ? state.besides : state.shown;
+    return { plans: [...others.slice(-MOST_PLANS), entry], shown: task.number, besides };
+  });
+}
+
+function addPoint(task, cost) {
+  const seconds = (performance.now() - task.began) / 1000;
+  store.set(({ run }) => {
+    const last = run.points[run.points.length - 1];
+    const lowest = last ? Math.min(last.cost, cost) : cost;
+    return { run: { ...run, points: [...run.points, { seconds, cost: lowest }] } };
+  });
+}

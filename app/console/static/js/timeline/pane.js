@@ -1,0 +1,261 @@
+/** The timeline: vehicles and drones as rows, linked with the map. */
+
+import { hover, indexOf, select, shownPlan } from '../actions.js';
+import { describe } from '../core/describe.js';
+import { partsOf, spanOf } from '../core/plan.js';
+import { ACTIVITIES, timelineRows } from '../core/timeline.js';
+import { html, useEffect, useLayoutEffect, useMemo, useRef, useState } from '../libraries.js';
+import { store, useStore } from '../store.js';
+import { AXIS, drawTimeline, heightOf, hit, placeRows, scaleOf } from './draw.js';
+import { Player } from './player.js';
+
+const CLOSEST = 300; // seconds
+
+/** The pane below the map. */
+export function TimelinePane() {
+  const entry = useStore(shownPlan);
+  const index = indexOf(entry);
+  const rows = useMemo(() => (index ? placeRows(timelineRows(index)) : []), [index]);
+  const whole = useMemo(() => (index ? padded(spanOf(index)) : [0, 3600]), [index]);
+  const [range, setRange] = useState(null);
+  useEffect(() => setRange(null), [entry?.number]);
+  const shown = range ?? whole;
+  return html`<section class="timeline" aria-label="Timeline">
+    <div class="timeline-bar">
+      <${Player} index=${index} />
+      <${Legend} />
+      <span class="zoom">
+        <button type="button" class="quiet" onClick=${() => setRange(zoomed(shown, whole, 0.5))}
+          aria-label="Zoom into the timeline">+</button>
+        <button type="button" class="quiet" onClick=${() => setRange(zoomed(shown, whole, 2))}
+          aria-label="Zoom out of the timeline">\u2212</button>
+        <button type="button" class="quiet" onClick=${() => setRange(null)}>Whole day</button>
+      </span>
+    </div>
+    ${
+      rows.length
+        ? html`<${Rows} index=${index} rows=${rows} range=${shown} whole=${whole}
+      setRange=${setRange} />`
+        : html`<p class="empty">Nothing is planned yet.</p>`
+    }
+  </section>`;
+}
+
+function padded([from, until]) {
+  const edge = (until - from) * 0.01;
+  return [from - edge, until + edge];
+}
+
+/** Return a range widened by a factor around an instant, within the whole. */
+function zoomed([from, until], whole, factor, around = (from + until) / 2) {
+  const width = Math.max((until - from) * factor, CLOSEST);
+  if (width >= whole[1] - whole[0]) return null;
+  const start = around - ((around - from) / (until - from)) * width;
+  return within([start, start + width], whole);
+}
+
+function within([from, until], whole) {
+  const start = Math.min(Math.max(from, whole[0]), whole[1] - (until - from));
+  return [start, start + until - from];
+}
+
+function Legend() {
+  return html`<ul class="legend" aria-label="Bars">${Object.entries(ACTIVITIES).map(
+    ([kind, name]) =>
+      html`<li key=${kind}><span class=${`swatch swatch-${kind}`}></span>${name}</li>`,
+  )}
+    <li><span class="swatch swatch-window"></span>Window</li></ul>`;
+}
+
+function Rows({ index, rows, range, whole, setRange }) {
+  const box = useRef(null);
+  const canvas = useRef(null);
+  const state = useRef({});
+  Object.assign(state.current, { index, rows, range, whole, setRange });
+  useLayoutEffect(() => attach(box.current, canvas.current, state), []);
+  useEffect(() => state.current.redraw?.());
+  return html`<div class="rows" ref=${box}>
+    <canvas ref=${canvas} tabindex="0" role="application"
+      aria-label="Timeline of vehicles and drones. Left and right go from stop to stop, up and down
+        from vehicle to vehicle; the same is in the Routes tab as tables."></canvas>
+    <div style=${{ height: `${heightOf(rows) + AXIS}px` }}></div>
+  </div>`;
+}
+
+/** Draw on changes and react to pointer and keys, until the returned function ends it. */
+function attach(box, canvas, state) {
+  const context = canvas.getContext('2d');
+  let frame = 0;
+  const view = () => ({
+    width: box.clientWidth,
+    height: box.clientHeight,
+    scroll: box.scrollTop,
+    range: state.current.range,
+  });
+  const draw = () => {
+    frame = 0;
+    const size = view();
+    const ratio = window.devicePixelRatio || 1;
+    if (
+      canvas.width !== Math.round(size.width * ratio) ||
+      canvas.height !== Math.round(size.height * ratio)
+    ) {
+      canvas.width = Math.round(size.width * ratio);
+      canvas.height = Math.round(size.height * ratio);
+      canvas.style.width = `${size.width}px`;
+      canvas.style.height = `${size.height}px`;
+    }
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const { selection, hover: hovered, time, dark } = store.get();
+    const { index, rows } = state.current;
+    drawTimeline(context, rows, {
+      ...size,
+      index,
+      selection,
+      hover: hovered,
+      time,
+      dark,
+      focus: focusOf(index, hovered ?? selection),
+      colours: coloursOf(box),
+    });
+  };
+  const redraw = () => {
+    frame ||= requestAnimationFrame(draw);
+  };
+  state.current.redraw = redraw;
+  const stop = [
+    store.subscribe(redraw),
+    listen(box, 'scroll', redraw),
+    ...pointer(box, canvas, state, view),
+    listen(canvas, 'keydown', (event) => onKey(event, state)),
+  ];
+  const resizes = new ResizeObserver(redraw);
+  resizes.observe(box);
+  draw();
+  return () => {
+    cancelAnimationFrame(frame);
+    resizes.disconnect();
+    stop.forEach((end) => end());
+  };
+}
+
+/** Return a key if there is something of that name in the plan. */
+function focusOf(index, key) {
+  return partsOf(index, key).vehicle ? key : null;
+}
+
+function listen(target, name, listener, options) {
+  target.addEventListener(name, listener, options);
+  return () => target.removeEventListener(name, listener, options);
+}
+
+function coloursOf(element) {
+  const style = getComputedStyle(element);
+  const value = (name) => style.getPropertyValue(`--${name}`).trim();
+  return {
+    text: value('text'),
+    faint: value('faint'),
+    grid: value('line'),
+    wait: value('wait'),
+    window: value('window'),
+    windowLine: value('window-line'),
+    late: value('bad'),
+    accent: value('accent'),
+    font: `12px ${style.fontFamily}`,
+    smallFont: `11px ${style.fontFamily}`,
+  };
+}
+
+function pointer(box, canvas, state, view) {
+  let drag = null;
+  const place = (event) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return { x: event.clientX - left, y: event.clientY - top };
+  };
+  const keyAt = (event) => {
+    const { row, bar, onLabel } = hit(state.current.rows, place(event), view());
+    if (!row) return null;
+    return onLabel ? row.vehicle.key : (bar?.key ?? null);
+  };
+  return [
+    listen(canvas, 'pointerdown', (event) => {
+      drag = { x: event.clientX, range: state.current.range, moved: false };
+      canvas.setPointerCapture(event.pointerId);
+    }),
+    listen(canvas, 'pointermove', (event) => {
+      if (!drag) {
+        const key = keyAt(event);
+        hover(key);
+        canvas.style.cursor = key ? 'pointer' : '';
+        canvas.title = tipOf(state.current.index, key);
+        return;
+      }
+      const scale = scaleOf(drag.range, view().width);
+      const shift = scale.time(0) - scale.time(event.clientX - drag.x);
+      drag.moved ||= Math.abs(event.clientX - drag.x) > 4;
+      const { whole, setRange } = state.current;
+      if (drag.moved)
+        setRange(
+          within(
+            drag.range.map((time) => time + shift),
+            whole,
+          ),
+        );
+    }),
+    listen(canvas, 'pointerup', (event) => {
+      if (drag && !drag.moved) select(keyAt(event));
+      drag = null;
+    }),
+    listen(canvas, 'pointercancel', () => {
+      drag = null;
+    }),
+    listen(canvas, 'pointerleave', () => hover(null)),
+    listen(
+      canvas,
+      'wheel',
+      (event) => {
+        if (!event.ctrlKey && !event.shiftKey) return;
+        event.preventDefault();
+        const { range, whole, setRange } = state.current;
+        const around = scaleOf(range, view().width).time(place(event).x);
+        setRange(zoomed(range, whole, event.deltaY + event.deltaX > 0 ? 1.25 : 0.8, around));
+      },
+      { passive: false },
+    ),
+  ];
+}
+
+function tipOf(index, key) {
+  const about = describe(index.request, index, key);
+  return about ? [about.title, ...about.facts.map((pair) => pair.join(': '))].join('\n') : '';
+}
+
+/** Move the selection from stop to stop and from vehicle to vehicle. */
+function onKey(event, state) {
+  const step = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[
+    event.key
+  ];
+  if (!step) return;
+  event.preventDefault();
+  const { index } = state.current;
+  const { vehicle, halt } = partsOf(index, store.get().selection);
+  const number = Math.min(Math.max((vehicle?.index ?? 0) + step[0], 0), index.vehicles.length - 1);
+  const halts = haltsOf(index.vehicles[number]);
+  if (step[0] && halt) {
+    const near = halts.reduce((best, other) =>
+      Math.abs(other.arrival - halt.arrival) < Math.abs(best.arrival - halt.arrival) ? other : best,
+    );
+    select(near.key);
+    return;
+  }
+  const position = halt ? halts.indexOf(halt) + step[1] : 0;
+  select(halts[Math.min(Math.max(position, 0), halts.length - 1)].key);
+}
+
+function haltsOf(vehicle) {
+  const halts = vehicle.trips.flatMap((trip) => [
+    ...trip.stops,
+    ...trip.sorties.flatMap((sortie) => sortie.visits),
+  ]);
+  return halts.sort((first, second) => first.arrival - second.arrival);
+}

@@ -1,0 +1,176 @@
+/** Customers and depots: a long table, and a form for the one that is selected. */
+
+import { edit, hover, indexOf, openTab, select, shownPlan } from '../actions.js';
+import { amounts, clock, count, timeWindow } from '../core/format.js';
+import { removeIn, setIn } from '../core/paths.js';
+import { freeName } from '../core/changes.js';
+import { html, useMemo, useState } from '../libraries.js';
+import { store, useStore } from '../store.js';
+import { Field, Fields } from './form.js';
+import { LongTable } from './parts.js';
+import { SheetPreview } from './sheet-preview.js';
+
+/** The tab. */
+export function CustomersTab() {
+  const request = useStore((state) => state.request);
+  const sheet = useStore((state) => state.sheet);
+  if (sheet) return html`<${SheetPreview} sheet=${sheet} />`;
+  return html`<${CustomerTable} request=${request} /><${SelectedCustomer} request=${request} />
+    <${Places} request=${request} />`;
+}
+
+function CustomerTable({ request }) {
+  const index = indexOf(useStore(shownPlan));
+  const selection = useStore((state) => state.selection);
+  const hovered = useStore((state) => state.hover);
+  const errors = useStore((state) => state.errors);
+  const [filter, setFilter] = useState('');
+  const wanted = filter.trim().toLowerCase();
+  const rows = useMemo(
+    () =>
+      request.customers
+        .map((customer, position) => ({ customer, position }))
+        .filter(({ customer }) => !wanted || customer.id.toLowerCase().includes(wanted)),
+    [request.customers, wanted],
+  );
+  const broken = useMemo(() => brokenCells(errors), [errors]);
+  const head = html`<tr><th scope="col">Name</th><th scope="col" class="number">Demand</th>
+    <th scope="col">Window</th><th scope="col">By</th><th scope="col">Arrival</th></tr>`;
+  return html`<section class="section">
+    <div class="buttons"><h3>${count(request.customers.length, 'customer')}</h3>
+      <input type="text" value=${filter} placeholder="Find a name"
+        aria-label="Find a customer by name"
+        onInput=${(event) => setFilter(event.target.value)} />
+      <button type="button" onClick=${() => addCustomer(request)}>Add</button></div>
+    <${LongTable} label="Customers" height=${330} head=${head} rows=${rows}
+      renderRow=${({
+        customer,
+        position,
+      }) => html`<${CustomerRow} key=${position} customer=${customer}
+        halt=${index?.halts.get(`c:${customer.id}`)} index=${index} errors=${broken.get(position)}
+        selected=${selection === `c:${customer.id}`}
+          marked=${hovered === `c:${customer.id}`} />`} />
+  </section>`;
+}
+
+/** Return the fields of each customer that have errors: position to field to message. */
+function brokenCells(errors) {
+  const cells = new Map();
+  for (const {
+    keys: [section, position, field],
+    message,
+  } of errors) {
+    if (section === 'customers' && typeof position === 'number') {
+      if (!cells.has(position)) cells.set(position, new Map());
+      cells.get(position).set(field ?? 'id', message);
+    }
+  }
+  return cells;
+}
+
+function CustomerRow({ customer, halt, index, selected, marked, errors }) {
+  const key = `c:${customer.id}`;
+  const cell = (field) =>
+    errors?.has(field) ? { class: 'invalid', title: errors.get(field) } : {};
+  const arrival = halt ? clock(halt.arrival) : index ? 'not served' : '';
+  return html`<tr data-selected=${selected} data-marked=${marked} onMouseEnter=${() => hover(key)}
+      onMouseLeave=${() => hover(null)}>
+    <th scope="row" ...${cell('id')}><button type="button" class="link" aria-pressed=${selected}
+      onClick=${() => select(selected ? null : key)}>${customer.id}</button></th>
+    <td ...${cell('demand')} class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
+      ${amounts(customer.demand ?? [])}</td>
+    <td ...${cell('time_window')}>${timeWindow(customer.time_window)}</td>
+    <td ...${cell('served_by')}>${customer.served_by ?? 'either'}</td>
+    <td class=${halt?.lateness > 0 || (index && !halt) ? 'late-text' : ''}>${arrival}</td></tr>`;
+}
+
+function addCustomer(request) {
+  const dimensions = request.fleet[0]?.capacity.length ?? 1;
+  const customer = {
+    id: freeName(request.customers, 'customer'),
+    location: request.depots[0]?.location ?? [0, 0],
+    demand: Array(dimensions).fill(1),
+  };
+  edit({ ...request, customers: [...request.customers, customer] });
+  select(`c:${customer.id}`);
+}
+
+function SelectedCustomer({ request }) {
+  const schemas = useStore((state) => state.schemas);
+  const selection = useStore((state) => state.selection);
+  const errors = useStore((state) => state.errors);
+  const id = selection?.startsWith('c:') ? selection.slice(2) : null;
+  const atError = errors.find(({ keys }) => keys[0] === 'customers' && typeof keys[1] === 'number');
+  const selected = request.customers.findIndex((customer) => customer.id === id);
+  const position = selected >= 0 ? selected : (atError?.keys[1] ?? -1);
+  if (position < 0 || position >= request.customers.length) {
+    return html`<p class="help">Select a customer, here or on the map, to change it.</p>`;
+  }
+  const change = (changed) => {
+    edit(changed);
+    const name = changed.customers[position]?.id;
+    if (name && name !== id) select(`c:${name}`);
+  };
+  return html`<details class="card" open><summary>Customer ${request.customers[position].id}
+      <span class="right"></span></summary>
+    <div class="inside">
+      <${Fields} schema=${schemas.CustomerInput} keys=${['customers', position]} request=${request}
+        onChange=${change} skip=${request.matrices ? [] : ['location_index']} />
+      <div class="buttons"><button type="button" onClick=${() => {
+        edit(removeIn(request, ['customers', position]));
+        select(null);
+      }}>Remove this customer</button></div>
+    </div></details>`;
+}
+
+function Places({ request }) {
+  const schemas = useStore((state) => state.schemas);
+  const { properties } = schemas.PlanRequest;
+  const addDepot = () =>
+    edit(
+      setIn(request, ['depots', request.depots.length], {
+        id: freeName(request.depots, 'depot'),
+        location: [...(request.depots[0]?.location ?? [0, 0])],
+      }),
+    );
+  return html`<details class="card"><summary>Coordinates and depots
+      <span class="right">${count(request.depots.length, 'depot')}</span></summary>
+    <div class="inside">
+      <${Field} name="coordinate_system" schema=${properties.coordinate_system}
+        keys=${['coordinate_system']} request=${request} onChange=${edit} />
+      ${
+        request.coordinate_system !== 'geographic' &&
+        html`<${Field} name="planar_unit"
+        schema=${properties.planar_unit} keys=${['planar_unit']} request=${request}
+          onChange=${edit} />`
+      }
+      ${request.depots.map(
+        (_, position) => html`<fieldset class="group" key=${position}>
+        <legend>Depot ${position + 1}</legend>
+        <${Fields} schema=${schemas.DepotInput} keys=${['depots', position]} request=${request}
+          onChange=${edit} skip=${request.matrices ? [] : ['location_index']} />
+        ${
+          request.depots.length > 1 &&
+          html`<div class="buttons"><button type="button" onClick=${() =>
+            edit(removeIn(request, ['depots', position]))}>Remove this depot</button></div>`
+        }
+      </fieldset>`,
+      )}
+      <div class="buttons"><button type="button" onClick=${addDepot}>Add a depot</button>
+        <button type="button" onClick=${clear}>Begin with an empty map</button></div>
+    </div></details>`;
+}
+
+/** Keep depots and fleet, drop customers and no-fly areas. */
+function clear() {
+  edit((request) => {
+    const { matrices, ...rest } = request;
+    return {
+      ...rest,
+      customers: [],
+      ...(rest.airspace && { airspace: { ...rest.airspace, no_fly: [] } }),
+    };
+  });
+  store.set({ selection: null });
+  openTab('customers');
+}

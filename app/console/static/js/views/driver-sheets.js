@@ -1,0 +1,63 @@
+/** Sheets for drivers, one page or more for each vehicle, for the printer alone. */
+
+import { amounts, clock, duration, timeWindow } from '../core/format.js';
+import { html, render } from '../libraries.js';
+
+/** Print the sheets of vehicles. */
+export function printSheets(vehicles) {
+  const holder = document.getElementById('sheets') ?? document.createElement('div');
+  holder.id = 'sheets';
+  document.body.append(holder);
+  render(
+    html`${vehicles.map((vehicle) => html`<${Sheet} key=${vehicle.key} vehicle=${vehicle} />`)}`,
+    holder,
+  );
+  window.print();
+}
+
+function Sheet({ vehicle }) {
+  return html`<article class="sheet-page">
+    <h1>${vehicle.name}</h1>
+    <p>Works ${duration(vehicle.route.working_duration)}. Driver: ____________________
+      Date: ______________</p>
+    ${vehicle.trips.map(
+      (trip) => html`<section key=${trip.key}>
+      <h2>Trip ${trip.index + 1}, load ${amounts(trip.reply.load)}</h2>
+      <table><thead><tr><th>No.</th><th>Arrival</th><th>Leave</th><th>Stop</th><th>Window</th>
+        <th>Amount</th><th>Drones</th><th>Done</th></tr></thead>
+      <tbody>${trip.stops.map(
+        (halt, position) => html`<tr key=${halt.key}><td>${position || ''}</td>
+        <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
+        <td><strong>${halt.id}</strong>${place(halt)}</td>
+        <td>${halt.kind === 'customer' ? timeWindow(halt.window) : 'depot'}</td>
+        <td>${halt.kind === 'customer' ? amounts(halt.source.demand) : ''}</td>
+        <td>${orders(trip, halt).map((order) => html`<div
+          key=${order}>${order}</div>`)}</td><td></td></tr>`,
+      )}
+      </tbody></table></section>`,
+    )}
+  </article>`;
+}
+
+function place({ location }) {
+  return location ? html`<br /><small>${location.join(', ')}</small>` : '';
+}
+
+/** Return what the driver does with drones at a stop. */
+function orders(trip, halt) {
+  const name = (sortie) => sortie.drone.slice(sortie.drone.lastIndexOf('/') + 1);
+  const launches = trip.sorties
+    .filter(({ from }) => from === halt)
+    .map(
+      (sortie) =>
+        `${clock(sortie.reply.launch_time)} launch ${name(sortie)} to ${sortie.visits
+          .map(({ id, source }) => `${id} (${amounts(source.demand)})`)
+          .join(', ')}`,
+    );
+  const recoveries = trip.sorties
+    .filter(({ to }) => to === halt)
+    .map((sortie) => `${clock(sortie.reply.recovery_time)} recover ${name(sortie)}`);
+  return [...launches, ...recoveries].sort((first, second) =>
+    first.localeCompare(second, 'en', { numeric: true }),
+  );
+}

@@ -1,0 +1,80 @@
+/** Take the plan away: files, sheets for drivers, pictures. */
+
+import { indexOf, shownPlan } from '../actions.js';
+import { geoJson, gpx, stopsCsv } from '../core/exports.js';
+import { flightLines } from '../core/flights.js';
+import { drawPicture, pictureOf, toSvg } from '../core/picture.js';
+import { html } from '../libraries.js';
+import { useStore } from '../store.js';
+import { Badge } from './parts.js';
+import { printSheets } from './driver-sheets.js';
+
+const PNG_SCALE = 2;
+
+/** The tab. */
+export function ExportTab() {
+  const request = useStore((state) => state.request);
+  const entry = useStore(shownPlan);
+  const index = indexOf(entry);
+  const problem = html`<section class="section"><h3>Problem</h3><div class="buttons">
+    <button type="button" onClick=${() => saveJson('problem.json', request)}>Problem as JSON
+      </button></div></section>`;
+  if (!index) return html`${problem}<p class="empty">Nothing is planned yet.</p>`;
+  const legsOf = flightLines(entry.request);
+  const isGeographic = entry.request.coordinate_system === 'geographic';
+  return html`${problem}
+    <section class="section"><h3>Plan</h3><div class="buttons">
+      <button type="button" onClick=${() => saveJson('plan.json', entry.plan)}>Plan as JSON</button>
+      <button type="button" onClick=${() => save('stops.csv', 'text/csv', stopsCsv(index))}>
+        Stops as CSV</button>
+      <button type="button" onClick=${() =>
+        save(
+          'plan.geojson',
+          'application/geo+json',
+          JSON.stringify(geoJson(index, legsOf)),
+        )}>GeoJSON</button></div></section>
+    <section class="section"><h3>Picture</h3><div class="buttons">
+      <button type="button" onClick=${() =>
+        save('plan.svg', 'image/svg+xml', toSvg(pictureOf(index, legsOf)))}>
+        SVG</button>
+      <button type="button" onClick=${() => savePng('plan.png', pictureOf(index, legsOf))}>PNG
+        </button></div></section>
+    <section class="section"><h3>For drivers</h3>
+      <div class="buttons"><button type="button" onClick=${() => printSheets(index.vehicles)}>
+        Print all driver sheets</button></div>
+      ${!isGeographic && html`<p
+        class="help">GPX needs longitudes and latitudes; this problem lies on a plane.</p>`}
+      <table><tbody>${index.vehicles.map(
+        (vehicle) => html`<tr key=${vehicle.key}>
+        <th scope="row"><${Badge} vehicle=${vehicle} /> ${vehicle.name}</th>
+        <td><div class="buttons">
+          <button type="button" onClick=${() => printSheets([vehicle])}
+            aria-label=${`Print the driver sheet of ${vehicle.name}`}>Print sheet</button>
+          <button type="button" disabled=${!isGeographic} aria-label=${`GPX of ${vehicle.name}`}
+            onClick=${() =>
+              save(`${vehicle.name}.gpx`, 'application/gpx+xml', gpx(vehicle, legsOf))}>GPX</button>
+        </div></td></tr>`,
+      )}</tbody></table></section>`;
+}
+
+function saveJson(name, value) {
+  save(name, 'application/json', `${JSON.stringify(value, null, 2)}\n`);
+}
+
+function save(name, type, content) {
+  const address = URL.createObjectURL(new Blob([content], { type }));
+  const link = document.createElement('a');
+  Object.assign(link, { href: address, download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+}
+
+function savePng(name, picture) {
+  const canvas = document.createElement('canvas');
+  canvas.width = picture.width * PNG_SCALE;
+  canvas.height = picture.height * PNG_SCALE;
+  const context = canvas.getContext('2d');
+  context.scale(PNG_SCALE, PNG_SCALE);
+  drawPicture(context, picture);
+  canvas.toBlob((blob) => save(name, 'image/png', blob), 'image/png');
+}

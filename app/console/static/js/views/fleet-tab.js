@@ -1,0 +1,84 @@
+/** The fleet, wind and what leaving a customer out costs, in forms made from the API's schema. */
+
+import { edit } from '../actions.js';
+import { freeName } from '../core/changes.js';
+import { amounts, count } from '../core/format.js';
+import { removeIn } from '../core/paths.js';
+import { html, useState } from '../libraries.js';
+import { useStore } from '../store.js';
+import { Field, Fields } from './form.js';
+
+/** The tab. */
+export function FleetTab() {
+  const request = useStore((state) => state.request);
+  const schemas = useStore((state) => state.schemas);
+  const [help, setHelp] = useState(true);
+  const { properties } = schemas.PlanRequest;
+  const add = () =>
+    edit({
+      ...request,
+      fleet: [
+        ...request.fleet,
+        {
+          ...(request.fleet.at(-1) ?? { count: 1, capacity: [100] }),
+          id: freeName(request.fleet, 'type'),
+        },
+      ],
+    });
+  return html`<div class=${help ? 'section' : 'section no-help'}>
+    <div class="buttons"><h3>${count(request.fleet.length, 'vehicle type')}</h3>
+      <button type="button" onClick=${add}>Add a type</button>
+      <label><input type="checkbox" checked=${help}
+        onChange=${() => setHelp(!help)} /> Explain fields</label>
+    </div>
+    ${request.fleet.map(
+      (type, position) => html`<${VehicleType} key=${position} type=${type}
+      position=${position} request=${request} />`,
+    )}
+    <fieldset class="group"><legend>Wind</legend>
+      <${Fields} schema=${schemas.WindInput} keys=${['airspace', 'wind']} request=${request}
+        onChange=${edit} /></fieldset>
+    <fieldset class="group"><legend>No-fly areas</legend>
+      ${(request.airspace?.no_fly ?? []).map(
+        (ring, position) => html`<div class="buttons" key=${position}>
+        Area ${position + 1}, ${count(ring.length, 'corner')}
+        <button type="button" onClick=${() =>
+            edit(removeIn(request, ['airspace', 'no_fly', position]))}>
+          Remove area ${position + 1}</button></div>`,
+      )}
+      <p class="help">${request.airspace?.no_fly?.length
+        ? 'Corners are moved' : 'None. They are drawn'}
+        on the map: Draw, then ${request.airspace?.no_fly?.length ? 'Move' : 'No-fly area'}.</p>
+    </fieldset>
+    <fieldset class="group"><legend>Customers left out</legend>
+      <${Field} name="unassigned_cost" schema=${properties.unassigned_cost}
+        keys=${['unassigned_cost']}
+        request=${request} onChange=${edit} /></fieldset>
+  </div>`;
+}
+
+function VehicleType({ type, position, request }) {
+  const schemas = useStore((state) => state.schemas);
+  const errors = useStore((state) => state.errors).filter(
+    ({ keys }) => keys[0] === 'fleet' && keys[1] === position,
+  ).length;
+  const drones = type.drones?.count ? `, ${count(type.drones.count, 'drone')} each` : '';
+  const choices = { depot: request.depots.map(({ id }) => id) };
+  const skip = request.matrices ? [] : ['profile'];
+  return html`<details class="card" open=${position === 0 || errors > 0}>
+    <summary><strong>${type.id}</strong> ${
+      errors > 0 &&
+      html`<span class="error">
+      ${count(errors, 'error')}</span>`
+    }<span class="right">${count(type.count, 'vehicle')}${`,
+      capacity ${amounts(type.capacity ?? [])}${drones}`}</span></summary>
+    <div class="inside">
+      <${Fields} schema=${schemas.VehicleTypeInput} keys=${['fleet', position]} request=${request}
+        onChange=${edit} choices=${choices} skip=${skip} />
+      ${
+        request.fleet.length > 1 &&
+        html`<div class="buttons"><button type="button" onClick=${() =>
+          edit(removeIn(request, ['fleet', position]))}>Remove ${type.id}</button></div>`
+      }
+    </div></details>`;
+}

@@ -1,0 +1,209 @@
+/** Forms made from the API's schema, with units, descriptions and errors at their fields. */
+
+import { clock, parseClock, parseNumber } from '../core/format.js';
+import { getIn, keyOf, removeIn, setIn } from '../core/paths.js';
+import { blank, emptyMeans, helpOf, kindOf, labelOf, resolve, unitOf } from '../core/schema.js';
+import { html, useEffect, useState } from '../libraries.js';
+import { useStore } from '../store.js';
+
+/**
+ * Fields of an object.
+ *
+ * @param schema of the object
+ * @param keys the object's place in the request
+ * @param request the whole request
+ * @param onChange called with the changed request
+ * @param skip names of fields to leave out
+ * @param choices names of fields and the values to choose from
+ */
+export function Fields({ schema, keys, request, onChange, skip = [], choices = {} }) {
+  const schemas = useStore((state) => state.schemas);
+  const { properties = {}, required = [] } = resolve(schemas, schema).schema;
+  const names = Object.keys(properties).filter((name) => !skip.includes(name));
+  return html`<div class="fields">${names.map(
+    (name) => html`
+    <${Field} key=${keyOf([...keys, name])} name=${name} schema=${properties[name]}
+      keys=${[...keys, name]} request=${request} onChange=${onChange} choices=${choices}
+      required=${required.includes(name)} />`,
+  )}</div>`;
+}
+
+/** One field, of whatever kind its schema says. */
+export function Field({ name, schema, keys, request, onChange, choices = {}, required = false }) {
+  const schemas = useStore((state) => state.schemas);
+  const errors = useStore((state) => state.errors).filter(
+    (error) => keyOf(error.keys) === keyOf(keys),
+  );
+  const found = resolve(schemas, schema);
+  const kind = choices[name] ? 'choice' : kindOf(found.schema);
+  if (kind === 'other') return null;
+  const shared = { name, keys, request, onChange, errors, schema: found.schema, choices };
+  if (kind === 'object') return html`<${ObjectField} ...${shared} nullable=${found.nullable} />`;
+  if (kind === 'objects') return html`<${ListField} ...${shared} />`;
+  return html`<${PlainField} ...${shared} kind=${kind} nullable=${found.nullable}
+    required=${required} />`;
+}
+
+function idOf(keys) {
+  return `field-${keys.join('-')}`;
+}
+
+function PlainField({
+  name,
+  schema,
+  keys,
+  request,
+  onChange,
+  kind,
+  nullable,
+  required,
+  errors,
+  choices,
+}) {
+  const id = idOf(keys);
+  const value = getIn(request, keys);
+  const set = (next) =>
+    onChange(next === undefined ? removeIn(request, keys) : setIn(request, keys, next));
+  const Input = { choice: ChoiceInput, switch: SwitchInput }[kind] ?? TextInput;
+  const invalid = errors.length > 0;
+  const [problem, setProblem] = useState(null);
+  const shown = problem ? [{ message: problem }] : errors;
+  return html`<div class=${`field kind-${kind} ${invalid || problem ? 'invalid' : ''}`}>
+    <label for=${id}>${labelOf(name)}</label>
+    <${Input} id=${id} kind=${kind} schema=${schema} value=${value} set=${set} nullable=${nullable}
+      required=${required} choices=${choices[name]} onProblem=${setProblem}
+      describedBy=${`${id}-help${shown.length ? ` ${id}-error` : ''}`}
+        invalid=${shown.length > 0} />
+    <span class="unit">${unitOf(schema)}<${Readable} schema=${schema} value=${value} /></span>
+    <p class="help" id=${`${id}-help`}>${helpOf(schema)}</p>
+    ${
+      shown.length > 0 &&
+      html`<p class="error" id=${`${id}-error`}>
+      ${shown.map(({ message }) => message).join(' ')}</p>`
+    }
+  </div>`;
+}
+
+/** Seconds as a time of day or length of time. */
+function Readable({ schema, value }) {
+  if (unitOf(schema) !== 's' || typeof value !== 'number' || value < 600) return null;
+  return html`<span class="readable"> = ${clock(value, { precise: true })} h</span>`;
+}
+
+function ChoiceInput({ id, schema, value, set, choices, describedBy, nullable }) {
+  const values = choices ?? schema.enum;
+  const shown = value ?? schema.default ?? '';
+  return html`<select id=${id} aria-describedby=${describedBy} value=${shown}
+    onChange=${(event) => set(event.target.value === '' ? undefined : event.target.value)}>
+    ${nullable && html`<option value="">${emptyMeans(schema, true) || 'none'}</option>`}
+    ${values.map((entry) => html`<option key=${entry} value=${entry}>${entry}</option>`)}
+  </select>`;
+}
+
+function SwitchInput({ id, schema, value, set, describedBy }) {
+  return html`<input type="checkbox" id=${id} aria-describedby=${describedBy}
+    checked=${value ?? schema.default ?? false}
+      onChange=${(event) => set(event.target.checked)} />`;
+}
+
+const LIST = /[,;]\s*/;
+
+/** Return the text of a value. */
+function textOf(kind, value) {
+  if (value === null || value === undefined) return '';
+  return kind === 'numbers' || kind === 'texts' ? value.join(', ') : String(value);
+}
+
+/** Return `{value}` or `{problem}` of a text; the value undefined if it is left out. */
+function valueOf(text, { kind, schema, required }) {
+  const trimmed = text.trim();
+  if (trimmed === '' && kind === 'texts') return { value: undefined };
+  if (trimmed === '') {
+    return required ? { problem: 'This field is required: state a value.' } : { value: undefined };
+  }
+  if (kind === 'text') return { value: trimmed };
+  if (kind === 'texts') return { value: trimmed.split(LIST).filter(Boolean) };
+  const read = unitOf(schema) === 's' ? parseClock : parseNumber;
+  if (kind === 'number') {
+    const value = read(trimmed);
+    return value === null ? { problem: `"${trimmed}" is not a number: state one.` } : { value };
+  }
+  const values = trimmed.split(LIST).map(parseNumber);
+  return values.includes(null)
+    ? { problem: 'State numbers with commas between.' }
+    : { value: values };
+}
+
+function TextInput({
+  id,
+  kind,
+  schema,
+  value,
+  set,
+  nullable,
+  required,
+  describedBy,
+  invalid,
+  onProblem,
+}) {
+  const [text, setText] = useState(textOf(kind, value));
+  useEffect(() => {
+    setText(textOf(kind, value));
+    onProblem(null);
+  }, [textOf(kind, value)]);
+  const commit = () => {
+    const read = valueOf(text, { kind, schema, required });
+    onProblem(read.problem ?? null);
+    if (!read.problem && textOf(kind, read.value) !== textOf(kind, value)) set(read.value);
+  };
+  const numeric = kind === 'number' && unitOf(schema) !== 's';
+  return html`<input type="text" id=${id} value=${text} aria-describedby=${describedBy}
+    aria-invalid=${invalid} aria-required=${required} autocomplete="off" spellcheck=${false}
+    inputmode=${numeric ? 'decimal' : 'text'} placeholder=${emptyMeans(schema, nullable)}
+    onInput=${(event) => setText(event.target.value)} onBlur=${commit}
+    onKeyDown=${(event) => event.key === 'Enter' && commit()} />`;
+}
+
+function ObjectField({ name, schema, keys, request, onChange, nullable, choices }) {
+  const schemas = useStore((state) => state.schemas);
+  const value = getIn(request, keys);
+  const present = value !== null && value !== undefined;
+  const toggle = (event) =>
+    onChange(
+      event.target.checked ? setIn(request, keys, blank(schemas, schema)) : removeIn(request, keys),
+    );
+  return html`<fieldset class="group">
+    <legend>${
+      nullable
+        ? html`<label><input type="checkbox" id=${idOf(keys)} checked=${present}
+      onChange=${toggle} /> ${labelOf(name)}</label>`
+        : labelOf(name)
+    }</legend>
+    <p class="help">${helpOf(schema)}</p>
+    ${
+      (present || !nullable) &&
+      html`<${Fields} schema=${schema} keys=${keys} request=${request}
+      onChange=${onChange} choices=${choices} />`
+    }
+  </fieldset>`;
+}
+
+function ListField({ name, schema, keys, request, onChange, errors, choices }) {
+  const schemas = useStore((state) => state.schemas);
+  const values = getIn(request, keys) ?? [];
+  const add = () => onChange(setIn(request, keys, [...values, blank(schemas, schema.items)]));
+  return html`<fieldset class="group list">
+    <legend>${labelOf(name)}</legend>
+    <p class="help">${helpOf(schema)}</p>
+    ${errors.map(({ message }) => html`<p class="error">${message}</p>`)}
+    ${values.map(
+      (_, index) => html`<div class="entry" key=${index}>
+      <${Fields} schema=${schema.items} keys=${[...keys, index]} request=${request}
+        onChange=${onChange} choices=${choices} />
+      <button type="button" class="quiet" onClick=${() =>
+        onChange(removeIn(request, [...keys, index]))}>Remove entry ${index + 1}</button>
+    </div>`,
+    )}
+    <button type="button" onClick=${add}>Add to ${labelOf(name).toLowerCase()}</button>
+  </fieldset>`;
+}

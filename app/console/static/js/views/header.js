@@ -1,0 +1,96 @@
+/** The header: what problem is open, planning, and what came of it. */
+
+import { openRequest, shownPlan } from '../actions.js';
+import { count, money } from '../core/format.js';
+import { html, useRef } from '../libraries.js';
+import { plan, stop } from '../planning.js';
+import { store, useStore } from '../store.js';
+import { openFile } from './files.js';
+
+/** The bar at the top. */
+export function Header() {
+  const busy = useStore((state) => !['idle'].includes(state.run.state));
+  const ready = useStore((state) => state.request !== null);
+  return html`<header class="head">
+    <h1><img src="console/icon.svg" alt="" />Tandem</h1>
+    ${ready && html`<${Opener} />`}
+    <button type="button" class="primary" disabled=${!ready} onClick=${plan}
+      id="plan-button">Plan</button>
+    <button type="button" disabled=${!busy} onClick=${stop}>Stop</button>
+    <${Result} />
+    <span class="gap"></span>
+    <button type="button" class="quiet"
+      onClick=${() => store.set({ dialog: { name: 'keys' } })}>Keys</button>
+    <button type="button" class="quiet" onClick=${switchTheme}><${ThemeName} /></button>
+    <a href="docs">API</a>
+  </header>`;
+}
+
+function ThemeName() {
+  return useStore((state) => state.dark) ? 'Light' : 'Dark';
+}
+
+/** Change between light and dark, and remember it. */
+export function switchTheme() {
+  const theme = store.get().dark ? 'light' : 'dark';
+  localStorage.setItem('tandem-theme', theme);
+  document.documentElement.dataset.theme = theme;
+}
+
+function Opener() {
+  const examples = useStore((state) => state.examples);
+  const input = useRef(null);
+  const choose = (event) => {
+    const example = examples.find(({ name }) => name === event.target.value);
+    event.target.value = '';
+    openRequest(example.request);
+    plan();
+  };
+  return html`<div class="problem">
+    <select aria-label="Open an example" onChange=${choose} value="">
+      <option value="" disabled hidden>Open an example</option>
+      ${examples.map(({ name, summary }) => html`<option key=${name}
+        value=${name}>${name}: ${summary}</option>`)}
+    </select>
+    <button type="button" onClick=${() => input.current.click()}>Open a file</button>
+    <input type="file" hidden ref=${input} id="file-input" aria-label="File to open"
+      accept=".json,.csv,.tsv,.txt,.xlsx" onChange=${(event) => {
+        openFile(event.target.files[0]);
+        event.target.value = '';
+      }} />
+  </div>`;
+}
+
+const STATES = { decoding: 'Building a plan', improving: 'Improving', stopping: 'Stopping' };
+
+function Result() {
+  const entry = useStore(shownPlan);
+  const run = useStore((state) => state.run);
+  const stale = useStore((state) => shownPlan(state)?.request !== state.request);
+  return html`<div class="result-line" aria-live="polite">
+    ${entry && html`<${Totals} plan=${entry.plan} />`}
+    ${run.state !== 'idle' && html`<span>${STATES[run.state]}</span>`}
+    ${
+      run.state === 'improving' &&
+      html`<span class="progress" role="progressbar" aria-label="Search"
+      aria-valuenow=${Math.round((run.share ?? 0) * 100)} aria-valuemin="0" aria-valuemax="100">
+      <span style=${{ width: `${(run.share ?? 0) * 100}%` }}></span></span>`
+    }
+    ${
+      entry &&
+      stale &&
+      run.state === 'idle' &&
+      html`<span class="stale">The problem has changed since: plan again.</span>`
+    }
+  </div>`;
+}
+
+function Totals({ plan: { cost, summary } }) {
+  const out = summary.customers - summary.served;
+  return html`<span>Cost <strong id="total-cost">${money(cost.total)}</strong></span>
+    <span>${summary.served} of ${summary.customers} served</span>
+    ${out > 0 && html`<span class="out">${out} unassigned</span>`}
+    <span>${count(summary.vehicles, 'vehicle')}</span>
+    <span>${count(summary.trips, 'trip')}</span>
+    <span>${count(summary.sorties, 'flight')}</span>`;
+}

@@ -1,0 +1,77 @@
+/** The panel beside the map: the problem, its plan, and what else can be asked. */
+
+import { openTab, shownPlan } from '../actions.js';
+import { html } from '../libraries.js';
+import { store, useStore } from '../store.js';
+import { ChangesTab } from './changes-tab.js';
+import { CostsTab } from './costs-tab.js';
+import { CustomersTab } from './customers-tab.js';
+import { ExportTab } from './export-tab.js';
+import { FleetTab } from './fleet-tab.js';
+import { RoutesTab } from './routes-tab.js';
+import { ScenariosTab } from './scenarios-tab.js';
+import { SolveTab } from './solve-tab.js';
+import { UnassignedTab } from './unassigned-tab.js';
+
+/** Tabs in order; the digit of each is its shortcut. */
+export const TABS = {
+  customers: { name: 'Customers', view: CustomersTab },
+  fleet: { name: 'Fleet', view: FleetTab },
+  solve: { name: 'Search', view: SolveTab },
+  routes: { name: 'Routes', view: RoutesTab },
+  costs: { name: 'Costs', view: CostsTab },
+  unassigned: { name: 'Unassigned', view: UnassignedTab },
+  changes: { name: 'What if', view: ChangesTab },
+  scenarios: { name: 'Scenarios', view: ScenariosTab },
+  export: { name: 'Export', view: ExportTab },
+};
+
+/** Return the tab where a place of the request is edited. */
+export function tabOf(keys) {
+  if (keys[0] === 'customers' || keys[0] === 'depots') return 'customers';
+  return keys[0] === 'options' ? 'solve' : 'fleet';
+}
+
+/** The tabs and the one that is open. */
+export function Panel() {
+  const tab = useStore((state) => state.tab);
+  const errors = useStore((state) => state.errors);
+  const unassigned = useStore((state) => shownPlan(state)?.plan.unassigned.length ?? 0);
+  const counts = Object.fromEntries(
+    Object.keys(TABS).map((name) => [
+      name,
+      errors.filter(({ keys }) => tabOf(keys) === name).length,
+    ]),
+  );
+  counts.unassigned = unassigned;
+  const { view: View, name: label } = TABS[tab];
+  return html`<aside class="panel" aria-label="Problem and plan">
+    <div class="tabs" role="tablist" aria-label="Panel" onKeyDown=${onKey}>
+      ${Object.entries(TABS).map(
+        ([name, { name: title }]) => html`<button type="button" role="tab"
+        key=${name} id=${`tab-${name}`} aria-controls="tab-body" aria-selected=${tab === name}
+        tabindex=${tab === name ? 0 : -1} onClick=${() => openTab(name)}>${title}${
+          counts[name] > 0 && html`<span class="count">${counts[name]}</span>`
+        }</button>`,
+      )}
+    </div>
+    <div class="tab" role="tabpanel" id="tab-body" aria-labelledby=${`tab-${tab}`} tabindex="0"
+      key=${tab}><h2 class="visually-hidden">${label}</h2><${View} /></div>
+  </aside>`;
+}
+
+function onKey(event) {
+  const names = Object.keys(TABS);
+  const position = names.indexOf(store.get().tab);
+  const next = {
+    ArrowLeft: position - 1,
+    ArrowRight: position + 1,
+    Home: 0,
+    End: names.length - 1,
+  };
+  if (!(event.key in next)) return;
+  event.preventDefault();
+  const name = names[(next[event.key] + names.length) % names.length];
+  openTab(name);
+  requestAnimationFrame(() => document.getElementById(`tab-${name}`).focus());
+}

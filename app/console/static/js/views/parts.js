@@ -1,0 +1,88 @@
+/** Small pieces that several views use. */
+
+import { contains } from '../core/plan.js';
+import { vehicleColour } from '../core/palette.js';
+import { hover, select } from '../actions.js';
+import { html, useEffect, useRef, useState } from '../libraries.js';
+import { useStore } from '../store.js';
+
+/** The colour and number of a vehicle or trip, as on the map. */
+export function Badge({ vehicle, label }) {
+  const dark = useStore((state) => state.dark);
+  return html`<span class="badge" style=${{ background: vehicleColour(vehicle.index, dark) }}>
+    ${label ?? vehicle.label}</span>`;
+}
+
+/** What links an element with the map and the timeline. */
+export function linked(index, key, selection, hovered) {
+  return {
+    onMouseEnter: () => hover(key),
+    onMouseLeave: () => hover(null),
+    'data-key': key,
+    'data-selected': selection === key,
+    'data-marked': Boolean(hovered) && contains(index, key, hovered),
+  };
+}
+
+/** A button that selects what a key names. */
+export function SelectButton({ of: key, children }) {
+  const selected = useStore((state) => state.selection) === key;
+  return html`<button type="button" class="link" aria-pressed=${selected}
+    onFocus=${() => hover(key)} onBlur=${() => hover(null)}
+    onClick=${() => select(selected ? null : key)}>${children}</button>`;
+}
+
+/** A bar of a share, 0 to 1, beside its number. */
+export function ShareBar({ share, text, label, colour }) {
+  return html`<span class="share-bar" role="img" aria-label=${`${label} ${text}`}>
+    <span class="share-fill" style=${{ width: `${Math.min(share, 1) * 100}%`, background: colour }}>
+      </span>
+    <span class="share-text">${text}</span></span>`;
+}
+
+/** Pairs of a term and its value. */
+export function Facts({ facts }) {
+  return html`<dl class="facts">${facts.map(
+    ([term, value]) => html`
+    <div key=${term}><dt>${term}</dt><dd>${value}</dd></div>`,
+  )}</dl>`;
+}
+
+/** A dialog over the page, closed by Escape or its button. */
+export function Dialog({ title, onClose, children, name }) {
+  const element = useRef(null);
+  useEffect(() => {
+    element.current.showModal();
+  }, []);
+  return html`<dialog ref=${element} class="dialog" aria-labelledby=${`${name}-title`}
+      onClose=${onClose} onCancel=${onClose}>
+    <header><h2 id=${`${name}-title`}>${title}</h2>
+      <button type="button" class="quiet" aria-label="Close"
+        onClick=${onClose}>Close</button></header>
+    ${children}
+  </dialog>`;
+}
+
+/** Rows of equal height, of which only those in view are there. */
+export function LongTable({ head, rows, height, rowHeight = 28, label, renderRow }) {
+  const [top, setTop] = useState(0);
+  const first = Math.max(Math.floor(top / rowHeight) - 8, 0);
+  const seen = Math.ceil(height / rowHeight) + 16;
+  const last = Math.min(first + seen, rows.length);
+  return html`<div class="long-table" style=${{ maxHeight: `${height}px` }} tabindex="0"
+    role="region"
+      aria-label=${label} onScroll=${(event) => setTop(event.currentTarget.scrollTop)}>
+    <table aria-rowcount=${rows.length + 1}>
+      <thead>${head}</thead>
+      <tbody>
+        ${first > 0 && html`<tr aria-hidden="true"
+          style=${{ height: `${first * rowHeight}px` }}></tr>`}
+        ${rows.slice(first, last).map((row, index) => renderRow(row, first + index))}
+        ${
+          last < rows.length &&
+          html`<tr aria-hidden="true"
+          style=${{ height: `${(rows.length - last) * rowHeight}px` }}></tr>`
+        }
+      </tbody>
+    </table></div>`;
+}

@@ -1,0 +1,143 @@
+/** Routes: vehicles, their trips, and every stop and flight of these. */
+
+import { indexOf, shownPlan } from '../actions.js';
+import { describe } from '../core/describe.js';
+import { amounts, clock, count, duration, km, money, percent, timeWindow } from '../core/format.js';
+import { partsOf } from '../core/plan.js';
+import { vehicleColour } from '../core/palette.js';
+import { html, useEffect, useState } from '../libraries.js';
+import { useStore } from '../store.js';
+import { Badge, Facts, linked, SelectButton, ShareBar } from './parts.js';
+
+/** Vehicles are unfolded at first if there are fewer. */
+const MOST_OPEN = 3;
+
+/** The tab. */
+export function RoutesTab() {
+  const index = indexOf(useStore(shownPlan));
+  if (!index) return html`<p class="empty">Nothing is planned yet.</p>`;
+  return html`<${Selected} index=${index} /><${Rates} index=${index} />
+    ${index.vehicles.map(
+      (vehicle) => html`<${Vehicle} key=${vehicle.key} index=${index}
+      vehicle=${vehicle} />`,
+    )}`;
+}
+
+function Selected({ index }) {
+  const selection = useStore((state) => state.selection);
+  const request = useStore((state) => state.request);
+  const about = describe(request, index, selection);
+  if (!about)
+    return html`<p class="help">Select a stop, flight or trip here, on the map or in the timeline.
+      </p>`;
+  return html`<section class="card"><header><strong>${about.title}</strong></header>
+    <div class="inside"><${Facts} facts=${about.facts} /></div></section>`;
+}
+
+function Rates({ index }) {
+  const selection = useStore((state) => state.selection);
+  const hovered = useStore((state) => state.hover);
+  const dark = useStore((state) => state.dark);
+  const trips = index.vehicles.flatMap(({ trips: own }) => own);
+  return html`<section class="section"><h3>Load rate and working rate</h3>
+    <table><thead><tr><th scope="col">Trip</th><th scope="col">Load rate</th>
+      <th scope="col">Working rate</th></tr></thead>
+    <tbody>${trips.map(
+      (trip) => html`<tr key=${trip.key} ...${linked(index, trip.key, selection, hovered)}>
+      <th scope="row"><${SelectButton} of=${trip.key}><${Badge} vehicle=${trip.vehicle}
+        label=${trip.label} /> ${trip.vehicle.name}</${SelectButton}></th>
+      <td><${ShareBar} share=${trip.reply.load_rate} text=${percent(trip.reply.load_rate)}
+        label="Load rate" colour=${vehicleColour(trip.vehicle.index, dark)} /></td>
+      <td>${working(trip, dark)}</td></tr>`,
+    )}</tbody></table></section>`;
+}
+
+/** The trip's share of the longest working duration, or why there is none. */
+function working(trip, dark) {
+  const longest = trip.vehicle.type?.max_working_duration;
+  if (!longest) return html`<span class="help">${duration(trip.reply.duration)}, no limit</span>`;
+  const share = trip.reply.duration / longest;
+  return html`<${ShareBar} share=${share} text=${percent(share)} label="Working rate"
+    colour=${vehicleColour(trip.vehicle.index, dark)} />`;
+}
+
+function Vehicle({ index, vehicle }) {
+  const selection = useStore((state) => state.selection);
+  const mine = partsOf(index, selection).vehicle === vehicle;
+  const [open, setOpen] = useState(index.vehicles.length < MOST_OPEN);
+  useEffect(() => {
+    if (mine) setOpen(true);
+  }, [mine]);
+  const { route } = vehicle;
+  const rate = route.working_rate === null ? '' : ` (${percent(route.working_rate)})`;
+  // What is folded is left out, as there may be thousands of stops.
+  return html`<details class="card" open=${open}
+    onToggle=${(event) => setOpen(event.currentTarget.open)}>
+    <summary><${Badge} vehicle=${vehicle} /><strong>${vehicle.name}</strong>
+      <span class="right">${[
+        count(vehicle.trips.length, 'trip'),
+        duration(route.working_duration) + rate,
+        money(route.cost),
+      ].join(', ')}</span></summary>
+    ${
+      open &&
+      html`<div class="inside">${vehicle.trips.map(
+        (trip) => html`<${Trip} key=${trip.key}
+      index=${index} trip=${trip} />`,
+      )}</div>`
+    }</details>`;
+}
+
+function Trip({ index, trip }) {
+  const selection = useStore((state) => state.selection);
+  const hovered = useStore((state) => state.hover);
+  const { reply } = trip;
+  return html`<div class="section"><h4><${SelectButton}
+    of=${trip.key}>Trip ${trip.index + 1}</${SelectButton}>
+      ${' '}<span class="help">${[
+        `load ${amounts(reply.load)} (${percent(reply.load_rate)})`,
+        km(reply.distance),
+        duration(reply.duration),
+      ].join(', ')}</span></h4>
+    <table><thead><tr><th scope="col">Stop</th><th scope="col">Arrival</th><th
+      scope="col">Window</th>
+      <th scope="col">Late</th><th scope="col" class="number">Load</th></tr></thead>
+    <tbody>${trip.stops.map(
+      (halt) => html`
+      <${Stop} key=${halt.key} index=${index} halt=${halt} selection=${selection}
+        hovered=${hovered} />
+      ${trip.sorties
+        .filter((sortie) => sortie.from === halt)
+        .map(
+          (sortie) => html`<${Sortie}
+        key=${sortie.key} index=${index} sortie=${sortie} selection=${selection}
+          hovered=${hovered} />`,
+        )}`,
+    )}
+    </tbody></table></div>`;
+}
+
+function Stop({ index, halt, selection, hovered }) {
+  return html`<tr class=${halt.lateness > 0 ? 'late' : ''}
+    ...${linked(index, halt.key, selection, hovered)}>
+    <th scope="row"><${SelectButton} of=${halt.key}>${halt.id}</${SelectButton}></th>
+    <td>${clock(halt.arrival)}${halt.waiting > 0 && html` <span
+      class="help">+${duration(halt.waiting)}</span>`}</td>
+    <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
+    <td class="lateness">${halt.lateness > 0 ? duration(halt.lateness) : ''}</td>
+    <td class="number">${amounts(halt.load)}</td></tr>`;
+}
+
+function Sortie({ index, sortie, selection, hovered }) {
+  const { reply } = sortie;
+  const drone = sortie.drone.slice(sortie.drone.lastIndexOf('/') + 1);
+  return html`<tr ...${linked(index, sortie.key, selection, hovered)}>
+      <td colspan="5" class="help"><${SelectButton}
+        of=${sortie.key}>${drone} flies</${SelectButton}>
+        ${' '}${clock(reply.launch_time)} to ${clock(reply.recovery_time)}, ${km(reply.distance)},
+        back at ${sortie.to.id}</td></tr>
+    ${sortie.visits.map(
+      (halt) => html`<${Stop} key=${halt.key} index=${index} halt=${halt}
+      selection=${selection} hovered=${hovered} />`,
+    )}`;
+}

@@ -1,0 +1,250 @@
+/** Scenarios: fleets side by side, and sweeps of one or two fields as a heat map. */
+
+import { withoutDrones } from '../core/changes.js';
+import { clock, money, number, percent } from '../core/format.js';
+import { heatTable, readValues, variableFields, writeAt } from '../core/grid.js';
+import { heatColour } from '../core/palette.js';
+import { html, useMemo, useState } from '../libraries.js';
+import { showScenarioJob, showScenarioPlan, startScenario, stopScenario } from '../scenarios.js';
+import { store, useStore } from '../store.js';
+import { TERMS } from './costs-tab.js';
+
+/** The tab. */
+export function ScenariosTab() {
+  const scenario = useStore((state) => state.scenario);
+  return html`<${SecondsEach} /><${Compare} /><${Sweep} />
+    ${scenario && html`<${Running} scenario=${scenario} />`}
+    ${
+      scenario?.result &&
+      (scenario.kind === 'compare'
+        ? html`<${CompareResult} scenario=${scenario} />`
+        : html`<${SweepResult} scenario=${scenario} />`)
+    }`;
+}
+
+function SecondsEach() {
+  const seconds = useStore((state) => state.scenarioSeconds);
+  return html`<label>Seconds of search for each scenario <input type="text" inputmode="decimal"
+    size="5"
+    value=${seconds} onChange=${(event) => {
+      const value = Number(event.target.value);
+      if (value >= 0) store.set({ scenarioSeconds: value });
+      else event.target.value = seconds;
+    }} /></label>`;
+}
+
+/** Return the problem as scenarios begin with it. */
+function baseOf({ request, scenarioSeconds }) {
+  return { ...request, options: { ...request.options, time_limit: scenarioSeconds } };
+}
+
+/** Return fleets worth a comparison with a request's own. */
+function suggestedFleets(request) {
+  const fleets = { 'as it is': request.fleet };
+  if (request.fleet.some((type) => type.drones?.count))
+    fleets['without drones'] = withoutDrones(request).fleet;
+  if (request.fleet.length > 1) {
+    const total = request.fleet.reduce((sum, { count }) => sum + count, 0);
+    request.fleet.forEach((type) => {
+      fleets[`only ${type.id}`] = [{ ...type, count: total }];
+    });
+  }
+  return fleets;
+}
+
+function Compare() {
+  const request = useStore((state) => state.request);
+  const kept = useStore((state) => state.keptFleets);
+  const [left, setLeft] = useState([]);
+  const [name, setName] = useState('');
+  const fleets = { ...suggestedFleets(request), ...kept };
+  const chosen = Object.entries(fleets).filter(([fleet]) => !left.includes(fleet));
+  const toggle = (fleet) =>
+    setLeft(left.includes(fleet) ? left.filter((other) => other !== fleet) : [...left, fleet]);
+  const keep = () => {
+    store.set({ keptFleets: { ...kept, [name.trim()]: request.fleet } });
+    setName('');
+  };
+  const text = (fleet) =>
+    fleet
+      .map(
+        (type) =>
+          `${type.count} ${type.id}${
+            type.drones?.count
+              ? ` with ${type.drones.count} drone${type.drones.count > 1 ? 's' : ''}`
+              : ''
+          }`,
+      )
+      .join(', ');
+  return html`<section class="section"><h3>Compare fleets</h3>
+    ${Object.entries(fleets).map(
+      ([fleet, types]) => html`<label key=${fleet}><input type="checkbox"
+      checked=${!left.includes(fleet)}
+        onChange=${() => toggle(fleet)} /> <strong>${fleet}:</strong>${' '}
+      <span class="help">${text(types)}</span></label>`,
+    )}
+    <div class="buttons"><input type="text" value=${name} placeholder="Name of this fleet"
+        aria-label="Name to keep this fleet by" onInput=${(event) => setName(event.target.value)} />
+      <button type="button" disabled=${!name.trim()}
+        onClick=${keep}>Keep this fleet for comparing</button></div>
+    <div class="buttons"><button type="button" class="primary" disabled=${chosen.length < 1}
+      onClick=${() =>
+        startScenario('compare', {
+          base: baseOf(store.get()),
+          fleets: Object.fromEntries(chosen),
+        })}>Compare ${chosen.length} fleets</button></div>
+  </section>`;
+}
+
+function Sweep() {
+  const request = useStore((state) => state.request);
+  const schemas = useStore((state) => state.schemas);
+  const axes = useStore((state) => state.sweepAxes);
+  const fields = useMemo(() => variableFields(schemas, request.fleet), [schemas, request.fleet]);
+  const set = (index, patch) =>
+    store.set({
+      sweepAxes: axes.map((axis, other) => (other === index ? { ...axis, ...patch } : axis)),
+    });
+  const unit = (axis) => fields.find(({ path }) => path === axis.path)?.unit ?? '';
+  const used = axes.filter(({ path }) => path);
+  const values = used.map((axis) => readValues(axis.text, unit(axis)));
+  const ready =
+    used.length > 0 &&
+    !values.includes(null) &&
+    new Set(used.map(({ path }) => path)).size === used.length;
+  const size = ready ? values.reduce((product, { length }) => product * length, 1) : 0;
+  const start = () =>
+    startScenario('sweep', {
+      base: baseOf(store.get()),
+      grid: Object.fromEntries(used.map(({ path }, index) => [path, values[index]])),
+    });
+  return html`<section class="section"><h3>Sweep</h3>
+    ${axes.map(
+      (axis, index) => html`<div class="sweep-axis" key=${index}>
+      <select aria-label=${`Field of axis ${index + 1}`} value=${axis.path}
+          onChange=${(event) => set(index, { path: event.target.value, text: '' })}>
+        ${index > 0 && html`<option value="">nothing more</option>`}
+        ${fields.map(({ path, label }) => html`<option key=${path}
+          value=${path}>${label}</option>`)}</select>
+      ${
+        axis.path &&
+        html`<input type="text" value=${axis.text} aria-label=${`Values of axis ${index + 1}`}
+        aria-invalid=${readValues(axis.text, unit(axis)) === null}
+        placeholder=${unit(axis) === 's' ? '4:00, 5:30' : '100, 150'}
+        onInput=${(event) => set(index, { text: event.target.value })} />
+        <span class="unit">${unit(axis) === 's' ? 'h:mm' : unit(axis)}</span>`
+      }</div>`,
+    )}
+    <p class="help">Values of all vehicle types alike, commas between.</p>
+    <div class="buttons"><button type="button" class="primary" disabled=${!ready} onClick=${start}>
+      Sweep ${size} scenarios</button></div></section>`;
+}
+
+function Running({ scenario }) {
+  const over = ['done', 'failed', 'cancelled'].includes(scenario.state);
+  return html`<section class="section" aria-live="polite"><div class="buttons"><span
+    id="scenario-state">
+      ${scenario.kind === 'compare' ? 'Comparison' : 'Sweep'}: ${scenario.state}</span>
+    ${
+      !over &&
+      html`<span class="progress" role="progressbar" aria-label="Scenarios" aria-valuemin="0"
+      aria-valuemax="100" aria-valuenow=${Math.round(scenario.progress * 100)}>
+      <span style=${{ width: `${scenario.progress * 100}%` }}></span></span>
+      <button type="button" onClick=${stopScenario}>Stop</button>`
+    }</div>
+    ${scenario.error && html`<p class="error">${scenario.error}</p>`}</section>`;
+}
+
+function CompareResult({ scenario: { body, result } }) {
+  const entries = Object.entries(result.fleets);
+  const least = Math.min(...entries.flatMap(([, { cost }]) => (cost ? [cost.total] : [])));
+  const line = (name, read) => html`<tr key=${name}><th scope="row">${name}</th>
+    ${entries.map(([fleet, found]) => html`<td key=${fleet}
+      class="number">${found.cost ? read(found) : ''}</td>`)}</tr>`;
+  return html`<section class="section wide"><h3>Fleets side by side</h3><table id="compare-table">
+    <thead><tr><th scope="col"></th>${entries.map(
+      ([fleet]) => html`<th scope="col" class="number"
+      key=${fleet}>${fleet}</th>`,
+    )}</tr></thead>
+    <tbody>
+      <tr><th scope="row"><strong>Total cost</strong></th>${entries.map(
+        ([fleet, { cost, error }]) => html`<td
+        key=${fleet} class="number">${
+          cost
+            ? html`<strong class=${cost.total === least ? 'delta-good' : ''}>
+        ${money(cost.total)}</strong>`
+            : (error ?? 'no plan')
+        }</td>`,
+      )}</tr>
+      ${Object.entries(TERMS).map(([term, name]) => line(name, ({ cost }) => money(cost[term])))}
+      ${line('Load rate, mean', ({ load_rate: rate }) => percent(rate?.mean))}
+      ${line('Load rate, least', ({ load_rate: rate }) => percent(rate?.min))}
+      ${line('Working rate, mean', ({ working_rate: rate }) => percent(rate?.mean))}
+      ${line('Vehicles', ({ vehicles }) => number(vehicles, 0))}
+      ${line('Trips', ({ trips }) => number(trips, 0))}
+      ${line('Unassigned', ({ unassigned }) => number(unassigned, 0))}
+      <tr><th scope="row"></th>${entries.map(
+        ([fleet, { plan }]) => html`<td key=${fleet} class="number">
+        ${
+          plan &&
+          html`<button type="button" aria-label=${`Show the plan of ${fleet}`}
+          onClick=${() => showScenarioPlan({ ...body.base, fleet: body.fleets[fleet] }, plan)}>Show
+            </button>`
+        }
+      </td>`,
+      )}</tr>
+    </tbody></table></section>`;
+}
+
+function SweepResult({ scenario: { body, result } }) {
+  const schemas = useStore((state) => state.schemas);
+  const fields = variableFields(schemas, body.base.fleet);
+  const field = (axis) =>
+    fields.find(({ path }) => path === axis?.path) ?? { label: axis?.path ?? '', unit: '' };
+  const [down, across] = result.axes.map(field);
+  const show = (found, value) =>
+    value === null
+      ? 'Cost'
+      : found?.unit === 's'
+        ? `${clock(value)} h`
+        : `${number(value)} ${found?.unit ?? ''}`;
+  const table = heatTable(result);
+  return html`<section class="section wide"><h3>Cost by ${down.label.toLowerCase()}${
+    across && ` and ${across.label.toLowerCase()}`
+  }</h3>
+    <table class="heat" id="heat-map"><thead><tr><th
+      scope="col">${down.label}${across && ` \\ ${across.label}`}</th>
+      ${table.columns.map((value) => html`<th scope="col"
+        key=${value}>${show(across, value)}</th>`)}</tr></thead>
+    <tbody>${table.rows.map(
+      (value, row) => html`<tr key=${value}><th scope="row">${show(down, value)}</th>
+      ${table.cells[row].map(
+        (cell, column) => html`<${HeatCell} key=${column} cell=${cell} table=${table}
+        body=${body} axes=${result.axes} />`,
+      )}</tr>`,
+    )}</tbody></table>
+    <p class="help">Light is cheap, dark is dear; the cheapest is framed. A cell opens its plan.</p>
+      </section>`;
+}
+
+function HeatCell({ cell, table, body, axes }) {
+  if (!cell || cell.cost === null)
+    return html`<td title=${cell?.error}>${cell?.error ? 'failed' : ''}</td>`;
+  const spread = table.most - table.least;
+  const colour = heatColour(spread > 0 ? (cell.cost - table.least) / spread : 0);
+  const open = () =>
+    showScenarioJob(
+      cell.job,
+      axes.reduce(
+        (request, { path }, index) => writeAt(request, path, cell.values[index]),
+        body.base,
+      ),
+    );
+  const out = cell.unassigned > 0 ? html`<br /><small>${cell.unassigned} out</small>` : '';
+  return html`<td class=${cell.cost === table.least ? 'least' : ''}
+      style=${{ background: colour.background, color: colour.text }}>
+    <button type="button" class="link" style=${{ color: colour.text }} onClick=${open}
+      title=${[`Load rate ${percent(cell.load_rate?.mean)}`, `${cell.vehicles} vehicles`,
+        `${cell.trips} trips`].join(', ')}>
+      ${money(cell.cost)}</button>${out}</td>`;
+}

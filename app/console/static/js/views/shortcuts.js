@@ -1,0 +1,51 @@
+/** Keys that work everywhere but in fields. */
+
+import { indexOf, openTab, select, shownPlan, undo } from '../actions.js';
+import { plan, stop } from '../planning.js';
+import { store } from '../store.js';
+import { togglePlaying } from '../timeline/player.js';
+import { switchTheme } from './header.js';
+import { TABS } from './panel.js';
+
+/** Keys and what they do, as the list of keys shows them. */
+export const SHORTCUTS = [
+  ['P', 'Plan'],
+  ['S', 'Stop planning'],
+  ['Space', 'Play or pause the day'],
+  ['1 to 9', 'Open a tab of the panel'],
+  ['U', 'Undo the last edit of the problem'],
+  ['T', 'Go to the timeline; arrows then go from stop to stop'],
+  ['M', 'Go to the map; arrows pan, + and \u2212 zoom'],
+  ['L', 'Light or dark'],
+  ['Esc', 'Put a drawing tool down, else select nothing'],
+  ['?', 'This list'],
+];
+
+const ACTIONS = {
+  p: plan,
+  s: stop,
+  u: undo,
+  l: switchTheme,
+  ' ': () => togglePlaying(indexOf(shownPlan(store.get()))),
+  t: () => document.querySelector('.rows canvas')?.focus(),
+  m: () => document.querySelector('.map')?.focus(),
+  '?': () => store.set({ dialog: { name: 'keys' } }),
+  Escape: () => (store.get().tool ? store.set({ tool: null }) : select(null)),
+};
+
+/** Begin to listen. */
+export function listenToKeys() {
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || store.get().dialog) return;
+    const target = event.target;
+    const typing = target.matches('input:not([type=range]), select, textarea, [contenteditable]');
+    if (typing && event.key !== 'Escape') return;
+    if (event.key === ' ' && target.matches('button, summary, a, input')) return;
+    const action = ACTIONS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    const tab = Object.keys(TABS)[Number(event.key) - 1];
+    if (!action && !tab) return;
+    event.preventDefault();
+    if (tab) openTab(tab);
+    else action();
+  });
+}

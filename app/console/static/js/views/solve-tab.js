@@ -1,0 +1,114 @@
+/** How to plan, and how the cost fell. */
+
+import { edit, shownPlan } from '../actions.js';
+import { duration, money, number } from '../core/format.js';
+import { html, uPlot, useEffect, useRef } from '../libraries.js';
+import { useStore } from '../store.js';
+import { Fields } from './form.js';
+import { Facts } from './parts.js';
+
+/** The tab. */
+export function SolveTab() {
+  const request = useStore((state) => state.request);
+  const schemas = useStore((state) => state.schemas);
+  const policies = useStore((state) => state.config.policies);
+  const sampled = request.options?.decoding === 'sample';
+  return html`<section class="section"><h3>How to plan</h3>
+      <${Fields} schema=${schemas.OptionsInput} keys=${['options']} request=${request}
+        onChange=${edit}
+        choices=${{ policy: policies }} skip=${sampled ? [] : ['num_samples', 'temperature']} />
+    </section>
+    <${Curve} /><${Solver} />`;
+}
+
+function Curve() {
+  const points = useStore((state) => state.run.points);
+  const dark = useStore((state) => state.dark);
+  const element = useRef(null);
+  const chart = useRef(null);
+  useEffect(() => {
+    const style = getComputedStyle(document.documentElement);
+    const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+    const axis = {
+      stroke: colour('faint'),
+      grid: { stroke: colour('line'), width: 1 },
+      ticks: { stroke: colour('line'), width: 1 },
+      font: '11px system-ui',
+    };
+    const Chart = uPlot();
+    chart.current = new Chart(
+      {
+        width: element.current.clientWidth,
+        height: 190,
+        cursor: { drag: { setScale: false } },
+        scales: { x: { time: false }, y: { range: (_, low, high) => roomy(low, high) } },
+        axes: [
+          { ...axis, label: 'Seconds', labelSize: 18, labelFont: '11px system-ui', size: 28 },
+          { ...axis, size: 56 },
+        ],
+        series: [
+          { label: 'Seconds', value: (_, value) => (value === null ? '' : number(value, 2)) },
+          {
+            label: 'Cost',
+            stroke: colour('accent'),
+            width: 2,
+            paths: Chart.paths.stepped({ align: 1 }),
+            points: { show: true, size: 5, fill: colour('panel') },
+            value: (_, value) => (value === null ? '' : money(value)),
+          },
+        ],
+      },
+      [[], []],
+      element.current,
+    );
+    const resizes = new ResizeObserver(() =>
+      chart.current.setSize({ width: element.current.clientWidth, height: 190 }),
+    );
+    resizes.observe(element.current);
+    return () => {
+      resizes.disconnect();
+      chart.current.destroy();
+    };
+  }, [dark]);
+  useEffect(() => {
+    chart.current.setData([points.map(({ seconds }) => seconds), points.map(({ cost }) => cost)]);
+  }, [points, dark]);
+  const last = points[points.length - 1];
+  return html`<section class="section"><h3>Cost while planning</h3>
+    <p>${
+      last
+        ? `From ${money(points[0].cost)} to ${money(last.cost)} in ${number(last.seconds, 1)} s.`
+        : 'The curve appears when a plan is made.'
+    }</p>
+    <div class="curve" ref=${element} role="img" aria-label="Cost of the best plan by time"></div>
+  </section>`;
+}
+
+/** Return a range of costs with room above and below, also where the cost never fell. */
+function roomy(low, high) {
+  if (low === null) return [0, 1];
+  const room = Math.max((high - low) * 0.08, high * 0.002, 0.01);
+  return [low - room, high + room];
+}
+
+function Solver() {
+  const entry = useStore(shownPlan);
+  const iterations = useStore((state) => state.run.iterations);
+  if (!entry) return null;
+  const { solver } = entry.plan;
+  return html`<section class="section"><h3>This plan</h3><${Facts} facts=${[
+    ['Policy', `${solver.policy}, ${solver.decoding}`],
+    ['Began with', STARTS[solver.start]],
+    ['First cost', money(solver.decoded_cost)],
+    ['Cost', money(solver.final_cost)],
+    ['Iterations', number(Math.max(solver.search_iterations, iterations ?? 0), 0)],
+    ['Search took', duration(solver.elapsed.search)],
+    ['Repeatable', solver.deterministic ? 'yes' : 'no, the clock ended the search'],
+  ]} /></section>`;
+}
+
+const STARTS = {
+  policy: "the policy's plan",
+  insertion: 'a plan by insertion',
+  given: 'a given plan',
+};

@@ -1,0 +1,184 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {
+  movedCustomers,
+  requestDifferences,
+} from '../../../app/console/static/js/core/differences.js';
+import { geoJson, gpx, stopsCsv } from '../../../app/console/static/js/core/exports.js';
+import { flightLines } from '../../../app/console/static/js/core/flights.js';
+import { pictureOf, toSvg } from '../../../app/console/static/js/core/picture.js';
+import { contains, indexPlan, spanOf } from '../../../app/console/static/js/core/plan.js';
+import { playback } from '../../../app/console/static/js/core/playback.js';
+import { rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
+import { eventReader } from '../../../app/console/static/js/core/sse.js';
+
+const REQUEST = {
+  depots: [{ id: 'hub', location: [0, 0] }],
+  customers: [
+    {
+      id: '=A',
+      location: [10, 0],
+      demand: [2],
+      service_duration: 10,
+      time_window: { earliest: 30, latest: 90 },
+    },
+    { id: 'B', location: [10, 10], demand: [1] },
+    { id: 'C', location: [90, 90], demand: [9] },
+  ],
+  fleet: [
+    {
+      id: 'van',
+      count: 1,
+      capacity: [5],
+      drones: { count: 1, capacity: [1], recovery_duration: 2 },
+    },
+  ],
+};
+const stop = (kind, id, arrival, serviceStart, departure, load) => ({
+  kind,
+  id,
+  arrival,
+  service_start: serviceStart,
+  departure,
+  waiting: serviceStart - arrival,
+  lateness: 0,
+  load,
+});
+const PLAN = {
+  routes: [
+    {
+      vehicle: 'van-1',
+      type: 'van',
+      cost: 1,
+      working_duration: 100,
+      working_rate: null,
+      trips: [
+        {
+          load: [3],
+          load_rate: 0.6,
+          distance: 20,
+          duration: 100,
+          stops: [
+            stop('depot', 'hub', 0, 0, 0, [3]),
+            stop('customer', '=A', 20, 30, 60, [0]),
+            stop('depot', 'hub', 100, 100, 100, [0]),
+          ],
+          sorties: [
+            {
+              drone: 'van-1/drone-1',
+              launch_stop: 1,
+              recovery_stop: 1,
+              launch_time: 40,
+              recovery_time: 60,
+              distance: 20,
+              duration: 20,
+              customers: [{ id: 'B', arrival: 50, service_start: 50, departure: 50, lateness: 0 }],
+            },
+          ],
+        },
+      ],
+    },
+  ],
+  unassigned: [{ id: 'C', reasons: [] }],
+  cost: { total: 5 },
+  summary: { customers: 3, served: 2, vehicles: 1, trips: 1, sorties: 1 },
+};
+const index = indexPlan(REQUEST, PLAN);
+
+test('a key contains the keys of its parts', () => {
+  assert.ok(contains(index, 'v:0', 'c:B'));
+  assert.ok(contains(index, 't:0/0', 's:0/0/0'));
+  assert.ok(contains(index, 's:0/0/0', 'c:B'));
+  assert.ok(!contains(index, 's:0/0/0', 'c:=A'));
+  assert.deepEqual(spanOf(index), [0, 100]);
+});
+
+test('a truck and its drone have a row each, waiting and service as bars', () => {
+  const [truck, drone] = timelineRows(index);
+  assert.deepEqual(
+    truck.bars.map(({ kind, from, until }) => [kind, from, until]),
+    [
+      ['drive', 0, 20],
+      ['wait', 20, 30],
+      ['serve', 30, 40],
+      ['handle', 40, 60],
+      ['drive', 60, 100],
+    ],
+  );
+  assert.deepEqual(
+    drone.bars.map(({ kind, from, until }) => [kind, from, until]),
+    [
+      ['fly', 40, 50],
+      ['serve', 50, 50],
+      ['fly', 50, 58],
+      ['handle', 58, 60],
+    ],
+  );
+  assert.deepEqual(rowWindows(truck), [
+    { key: 'c:=A', earliest: 30, latest: 90, arrival: 20, late: false },
+  ]);
+});
+
+test('trucks drive and drones fly along with the clock', () => {
+  const places = playback(index, flightLines(REQUEST));
+  assert.deepEqual(places(10).trucks[0].location, [5, 0]);
+  assert.equal(places(10).drones.length, 0);
+  assert.equal(places(50).drones[0].doing, 'flies');
+  assert.deepEqual(places(50).drones[0].location, [10, 10]);
+  assert.equal(places(101).trucks.length, 0);
+});
+
+test('stops become CSV that no sheet takes for a formula', () => {
+  const lines = stopsCsv(index).trim().split('\r\n');
+  assert.equal(lines.length, 5);
+  assert.ok(lines[2].startsWith("van-1,1,1,customer,'=A,,0:00:20"));
+  assert.ok(lines[3].includes('B,van-1/drone-1'));
+});
+
+test('GeoJSON has places, trips and flights, and tells a plane as such', () => {
+  const { features, coordinate_system: system } = geoJson(index, flightLines(REQUEST));
+  assert.deepEqual(
+    features.map(({ properties: { kind } }) => kind),
+    ['depot', 'customer', 'customer', 'customer', 'trip', 'flight'],
+  );
+  assert.equal(system, 'planar');
+});
+
+test('GPX and SVG write names so that they stay names', () => {
+  const vehicle = { ...index.vehicles[0], name: 'a<b&"c"' };
+  assert.ok(gpx(vehicle, flightLines(REQUEST)).includes('a&lt;b&amp;&quot;c&quot;, trip 1'));
+  assert.ok(toSvg(pictureOf(index, flightLines(REQUEST))).startsWith('<svg'));
+});
+
+test('differences name what changed and who is served by another', () => {
+  const changed = { ...REQUEST, fleet: [{ ...REQUEST.fleet[0], count: 2, drones: null }] };
+  assert.deepEqual(
+    requestDifferences(REQUEST, changed).map(({ path }) => path),
+    ['fleet[van].count', 'fleet[van].drones'],
+  );
+  const [first, second] = [
+    { request: REQUEST, plan: PLAN },
+    {
+      request: REQUEST,
+      plan: { ...PLAN, routes: [], unassigned: ['=A', 'B', 'C'].map((id) => ({ id })) },
+    },
+  ];
+  assert.deepEqual(movedCustomers(first, second), [
+    { id: '=A', before: 'van-1', now: 'nobody' },
+    { id: 'B', before: 'van-1/drone-1', now: 'nobody' },
+  ]);
+});
+
+test('events are read however the stream is cut', () => {
+  const text =
+    'id: 1\r\nevent: progress\r\ndata: {"cost": 2}\r\n\r\n: still here\r\n\r\nevent: end\ndata: a\ndata: b\n\n';
+  for (const size of [1, 2, 7, 1000]) {
+    const seen = [];
+    const read = eventReader((event) => seen.push(event));
+    for (let at = 0; at < text.length; at += size) read(text.slice(at, at + size));
+    assert.deepEqual(seen, [
+      { event: 'progress', id: '1', data: '{"cost": 2}' },
+      { event: 'end', id: null, data: 'a\nb' },
+    ]);
+  }
+});

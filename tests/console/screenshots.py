@@ -1,0 +1,104 @@
+"""Makes the pictures of the console in `docs/screenshots`.
+
+Run as `python -m tests.console.screenshots`.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from playwright.sync_api import Browser, Page, expect
+
+from tests.console.serving import ROOT, chromium, serving
+from tests.console.steps import idle, open_example, open_tab, place_of, planned
+
+FOLDER = ROOT / "docs" / "screenshots"
+DESK = {"width": 1440, "height": 900}
+PHONE = {"width": 390, "height": 844}
+WAIT_MS = 60_000
+
+
+def overview(page: Page) -> None:
+    """The paper's hundred customers, the cost falling."""
+    open_tab(page, "solve")
+    field = page.locator("#field-options-time_limit")
+    field.fill("5")
+    field.press("Enter")
+    page.get_by_role("button", name="Plan", exact=True).click()
+    planned(page, "100 of 100 served")
+
+
+def city(page: Page) -> None:
+    """A city with a no-fly area, one stop selected."""
+    open_example(page, "city_day")
+    open_tab(page, "routes")
+    page.mouse.click(*place_of(page, "c:restaurant-03"))
+
+
+def what_if(page: Page) -> None:
+    """Two plans side by side."""
+    open_example(page, "hetero_day")
+    open_tab(page, "changes")
+    page.get_by_role("button", name="One van-200 fewer").click()
+    idle(page)
+    page.get_by_role("button", name="Former plan beside").click()
+
+
+def sweep(page: Page) -> None:
+    """Cost by hours and capacity."""
+    open_example(page, "hetero_day")
+    open_tab(page, "scenarios")
+    page.get_by_label("Values of axis 1").fill("5:00, 6:00, 7:00, 8:00, 10:00")
+    page.get_by_label("Values of axis 2").fill("100, 110, 150, 200")
+    page.get_by_role("button", name="Sweep 20 scenarios").click()
+    expect(page.locator("#scenario-state")).to_contain_text("done")
+    page.locator("#heat-map").scroll_into_view_if_needed()
+
+
+def playing(page: Page) -> None:
+    """The day at ten past ten."""
+    open_example(page, "city_day")
+    page.get_by_label("Time of day").fill("36660")
+    open_tab(page, "costs")
+
+
+def phone(page: Page) -> None:
+    """As on a phone."""
+    idle(page)
+
+
+VIEWS: dict[str, tuple[Callable[[Page], None], dict[str, int], str]] = {
+    "overview": (overview, DESK, "light"),
+    "city": (city, DESK, "dark"),
+    "what-if": (what_if, DESK, "light"),
+    "sweep": (sweep, DESK, "light"),
+    "playing": (playing, DESK, "light"),
+    "phone": (phone, PHONE, "light"),
+}
+
+
+def take(browser: Browser, address: str, name: str) -> None:
+    """Write the picture of one view."""
+    prepare, size, scheme = VIEWS[name]
+    context = browser.new_context(viewport=size, color_scheme=scheme)
+    page = context.new_page()
+    page.goto(address)
+    expect(page.locator("#total-cost")).to_be_visible()
+    idle(page)
+    prepare(page)
+    page.mouse.move(size["width"] / 2, 3)
+    page.screenshot(path=FOLDER / f"{name}.png", full_page=size is PHONE, animations="disabled")
+    context.close()
+
+
+def main() -> None:
+    """Write all pictures."""
+    expect.set_options(timeout=WAIT_MS)
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory() as folder, serving(Path(folder)) as address, chromium() as browser:
+        for name in VIEWS:
+            take(browser, address, name)
+
+
+if __name__ == "__main__":
+    main()

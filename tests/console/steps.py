@@ -1,0 +1,70 @@
+"""What people do in the console, again and again."""
+
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Locator, Page, expect
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "app" / "examples"
+STATIC = ROOT / "app" / "console" / "static"
+
+
+def stop_button(page: Page) -> Locator:
+    """Return the button that stops planning."""
+    return page.locator("header.head").get_by_role("button", name="Stop")
+
+
+def idle(page: Page) -> None:
+    """Wait until there is a plan and nothing is being planned."""
+    expect(page.locator("#total-cost")).to_be_visible()
+    expect(stop_button(page)).to_be_disabled()
+
+
+def planned(page: Page, text: str) -> None:
+    """Wait until the header tells `text` of a plan and nothing is being planned."""
+    expect(page.locator(".result-line")).to_contain_text(text)
+    idle(page)
+
+
+def open_example(page: Page, name: str) -> None:
+    """Open an example and wait for its plan."""
+    page.get_by_label("Open an example").select_option(name)
+    expect(page.locator(".result-line")).to_contain_text("served")
+    idle(page)
+
+
+def open_file(page: Page, name: str, content: str | bytes) -> None:
+    """Open a file."""
+    data = content.encode() if isinstance(content, str) else content
+    page.locator("#file-input").set_input_files(
+        {"name": name, "mimeType": "application/octet-stream", "buffer": data})
+
+
+def open_tab(page: Page, name: str) -> None:
+    """Open a tab of the panel."""
+    page.locator(f"#tab-{name}").click()
+
+
+def state(page: Page, expression: str) -> Any:
+    """Return part of the console's state, such as `state.selection`."""
+    return page.evaluate("""async (read) => {
+      const { store } = await import(`${location.origin}/console/js/store.js`);
+      return read.split('.').slice(1).reduce((part, key) => part?.[key], store.get());
+    }""", expression)
+
+
+def place_of(page: Page, key: str) -> tuple[float, float]:
+    """Return where on the screen the map shows a customer, found by its tip."""
+    x, y = page.evaluate("""async (key) => {
+      const { store } = await import(`${location.origin}/console/js/store.js`);
+      const { selection } = store.get();
+      store.set({ selection: key });
+      await new Promise(requestAnimationFrame);
+      const tip = document.querySelector('.leaflet-tooltip');
+      const { left, width, top, bottom } = tip.getBoundingClientRect();
+      store.set({ selection });
+      const above = tip.classList.contains('leaflet-tooltip-top');
+      return [left + width / 2, above ? bottom + 12 : top - 12];
+    }""", key)
+    return x, y

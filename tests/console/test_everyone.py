@@ -1,0 +1,121 @@
+"""For everyone: by keyboard, on a phone, light and dark, with assistive tools, with a key."""
+
+from collections.abc import Callable
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, expect
+
+from tests.console.steps import idle, open_example, open_tab, state
+
+TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes", "scenarios",
+        "export")
+
+
+def findings(page: Page) -> list[str]:
+    """Return what axe finds serious or critical."""
+    result = Axe().run(page)
+    return [f"{found['id']}: {found['help']}: {node['html'][:160]}"
+            for found in result.response["violations"] if found["impact"] in ("serious", "critical")
+            for node in found["nodes"]]
+
+
+@pytest.mark.parametrize(("scheme", "tabs"), [("light", TABS), ("dark", ("customers", "routes"))])
+def test_axe_finds_nothing_serious(open_page: Callable[..., Page], service: str,
+                                   scheme: str, tabs: tuple[str, ...]) -> None:
+    page = open_page(service, color_scheme=scheme)
+    open_example(page, "city_day")
+    seen = []
+    for tab in tabs:
+        open_tab(page, tab)
+        seen += findings(page)
+    page.get_by_role("button", name="Draw", exact=True).click()
+    page.get_by_role("button", name="Keys").click()
+    assert [*seen, *findings(page)] == []
+
+
+def test_everything_is_reached_by_keyboard(page: Page) -> None:
+    idle(page)
+    page.keyboard.press("?")
+    expect(page.get_by_role("dialog", name="Keys")).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    page.keyboard.press("4")
+    expect(page.locator("#tab-routes")).to_have_attribute("aria-selected", "true")
+    page.locator("#tab-routes").focus()
+    page.keyboard.press("ArrowRight")
+    expect(page.locator("#tab-costs")).to_be_focused()
+    page.keyboard.press("t")
+    expect(page.locator(".rows canvas")).to_be_focused()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    first = state(page, "state.selection")
+    assert first.startswith("c:")
+    page.keyboard.press("ArrowDown")
+    assert state(page, "state.selection") != first
+    page.keyboard.press("Escape")
+    assert state(page, "state.selection") is None
+    page.keyboard.press("p")
+    expect(page.locator(".result-line")).to_contain_text("Improving")
+    page.keyboard.press("s")
+    idle(page)
+    page.keyboard.press("l")
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+
+
+def test_focus_goes_through_the_page_in_order(page: Page) -> None:
+    idle(page)
+    labels = []
+    for _ in range(4):
+        page.keyboard.press("Tab")
+        labels.append(page.evaluate("""() => document.activeElement.getAttribute('aria-label')
+            ?? document.activeElement.innerText"""))
+    assert labels == ["Open an example", "Open a file", "Plan", "Keys"]
+
+
+def test_phone_shows_map_panel_and_timeline_without_scrolling_sideways(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, viewport={"width": 390, "height": 844}, has_touch=True)
+    idle(page)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    for place in (".map", ".panel", ".rows canvas"):
+        page.locator(place).first.scroll_into_view_if_needed()
+        expect(page.locator(place).first).to_be_in_viewport()
+    page.locator("#tab-export").tap()
+    expect(page.get_by_role("button", name="Plan as JSON")).to_be_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_theme_follows_the_system_and_the_choice(open_page: Callable[..., Page],
+                                                 service: str) -> None:
+    page = open_page(service, color_scheme="dark")
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    page.get_by_role("button", name="Light").click()
+    page.reload()
+    expect(page.locator("html")).to_have_attribute("data-theme", "light")
+
+
+def test_service_with_keys_asks_for_one_and_forgets_it(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("401",))
+    idle(page)
+
+    def guard(route) -> None:
+        if route.request.headers.get("authorization") == "Bearer tdm_right":
+            route.fallback()
+        else:
+            route.fulfill(status=401, content_type="application/problem+json",
+                          body='{"title": "A valid API key is needed", "detail": "Send one."}')
+
+    page.route("**/plan", guard)
+    page.route("**/jobs**", guard)
+    page.get_by_role("button", name="Plan", exact=True).click()
+    dialog = page.get_by_role("dialog", name="API key")
+    dialog.get_by_label("Key").fill("tdm_wrong")
+    dialog.get_by_role("button", name="Use this key").click()
+    expect(dialog).to_contain_text("The service refused the key.")
+    dialog.get_by_label("Key").fill("tdm_right")
+    dialog.get_by_label("Key").press("Enter")
+    expect(page.locator(".result-line")).to_contain_text("Improving")
+    assert page.evaluate("sessionStorage.getItem('tandem-api-key')") == "tdm_right"
+    assert "tdm" not in page.evaluate("JSON.stringify(localStorage)")

@@ -1,0 +1,142 @@
+"""Looking at a plan: map, panel and timeline linked; rates, costs, and what was left out."""
+
+import json
+import re
+from collections.abc import Callable
+
+from playwright.sync_api import Page, expect
+
+from tests.console.steps import (
+    EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
+)
+
+UNSERVABLE = {
+    "planar_unit": 1000,
+    "depots": [{"id": "hub", "location": [0, 0]}],
+    "customers": [{"id": "near", "location": [1, 1], "demand": [0]},
+                  {"id": "heavy", "location": [3, 4], "demand": [30]},
+                  {"id": "early", "location": [30, 0], "demand": [0],
+                   "time_window": {"latest": 1200}}],
+    "fleet": [{"id": "van", "count": 1, "capacity": [20]}],
+    "options": {"time_limit": 0.2},
+}
+
+
+def test_stop_tells_arrival_window_lateness_and_load(page: Page) -> None:
+    open_example(page, "drones")
+    page.mouse.click(*place_of(page, "c:D"))
+    assert state(page, "state.selection") == "c:D"
+    tip = page.locator(".leaflet-tooltip")
+    for text in ("Arrival", "until 0:15", "Served by", re.compile("Load on leaving|Payload")):
+        expect(tip).to_contain_text(text)
+    open_tab(page, "routes")
+    expect(page.locator("tr[data-key='c:D']")).to_have_attribute("data-selected", "true")
+
+
+def test_late_stop_is_marked(page: Page) -> None:
+    request = json.loads((EXAMPLES / "drones.json").read_text("utf-8"))
+    request["customers"][3]["time_window"] = {"latest": 60, "late_cost_per_hour": 1}
+    open_file(page, "late.json", json.dumps(request))
+    planned(page, "4 of 4 served")
+    open_tab(page, "routes")
+    for vehicle in page.locator("details.card:not([open]) > summary").all():
+        vehicle.click()
+    expect(page.locator("tr.late[data-key='c:D'] .lateness")).to_contain_text("min")
+
+
+def test_map_panel_and_timeline_are_linked_both_ways(page: Page) -> None:
+    idle(page)
+    page.mouse.move(*place_of(page, "c:50"))
+    assert state(page, "state.hover") == "c:50"
+    page.mouse.move(5, 5)
+    canvas = page.locator(".rows canvas")
+    box = canvas.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + 40, box["y"] + 30)
+    assert state(page, "state.hover") == "v:0"
+    page.mouse.click(box["x"] + 40, box["y"] + 30)
+    assert state(page, "state.selection") == "v:0"
+    open_tab(page, "routes")
+    page.locator("tr[data-key='t:1/0'] button").click()
+    assert state(page, "state.selection") == "t:1/0"
+    expect(page.locator(".stop-mark span").first).to_be_visible()
+
+
+def test_rates_are_shown_by_trip(page: Page) -> None:
+    open_example(page, "hetero_day")
+    open_tab(page, "routes")
+    trips = state(page, "state.plans.0.plan.summary.trips")
+    expect(page.get_by_role("img", name="Load rate")).to_have_count(trips)
+    expect(page.get_by_role("img", name="Working rate")).to_have_count(trips)
+
+
+def test_costs_are_shown_by_term_and_add_up(page: Page) -> None:
+    open_example(page, "hetero_day")
+    open_tab(page, "costs")
+    rows = page.locator(".tab table").first.locator("tbody tr").all()
+    values = [float(row.locator("td").first.inner_text().replace(",", "")) for row in rows]
+    assert len(values) == 7
+    assert abs(sum(values[:-1]) - values[-1]) < 0.05
+    expect(page.get_by_text("Cost by vehicle")).to_be_visible()
+
+
+def test_remedies_are_applied_with_one_click(page: Page) -> None:
+    open_file(page, "hard.json", json.dumps(UNSERVABLE))
+    planned(page, "1 of 3 served")
+    open_tab(page, "unassigned")
+    expect(page.get_by_text("Its demand of 30 exceeds the capacity of 20.")).to_be_visible()
+    page.get_by_role("button", name="Apply and plan again: fits if capacity").click()
+    planned(page, "2 of 3 served")
+    page.get_by_role("button", name="Apply and plan again: fits if its window").click()
+    planned(page, "3 of 3 served")
+    expect(page.get_by_text("Every customer is served.")).to_be_visible()
+
+
+def test_flights_are_drawn_as_they_are_measured(page: Page) -> None:
+    """A drone flies around a no-fly area, and the line on the map is as long as the reply says."""
+    request = json.loads((EXAMPLES / "drones.json").read_text("utf-8"))
+    request["customers"] = [{"id": "far", "location": [8, 0], "demand": [1],
+                             "served_by": "drone"}]
+    request["airspace"] = {"no_fly": [[[3, -2], [5, -3], [5, 4], [3, 3]]]}
+    open_file(page, "around.json", json.dumps(request))
+    planned(page, "1 of 1 served")
+    drawn, measured = page.evaluate("""async () => {
+      const load = (path) => import(`${location.origin}/console/js/${path}.js`);
+      const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
+      const [{ flightLines }, { lengthOf }] = await Promise.all(
+        ['core/flights', 'core/geometry'].map(load));
+      const index = indexOf(shownPlan(store.get()));
+      const [sortie] = index.vehicles[0].trips[0].sorties;
+      const legs = flightLines(index.request)(sortie);
+      return [legs.reduce((sum, leg) => sum + lengthOf(leg), 0) * 1000, sortie.reply.distance];
+    }""")
+    assert abs(drawn - measured) < 1
+    assert measured > 16_500
+
+
+def test_windows_and_lateness_of_a_city_are_on_the_timeline(page: Page) -> None:
+    open_example(page, "city_day")
+    windows = page.evaluate("""async () => {
+      const load = (path) => import(`${location.origin}/console/js/${path}.js`);
+      const [{ store }, { indexOf, shownPlan }, { timelineRows, rowWindows }] =
+        await Promise.all(['store', 'actions', 'core/timeline'].map(load));
+      return timelineRows(indexOf(shownPlan(store.get()))).flatMap(rowWindows).length;
+    }""")
+    served_with_window = [customer for customer in state(page, "state.request.customers")
+                          if "time_window" in customer]
+    assert windows == len(served_with_window)
+
+
+def test_problem_of_matrices_alone_is_planned_without_a_map(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service)
+    idle(page)
+    request = {"depots": [{"id": "hub", "location_index": 0}],
+               "customers": [{"id": "A", "location_index": 1, "demand": [1]}],
+               "fleet": [{"id": "van", "count": 1, "capacity": [2]}],
+               "matrices": {"truck": {"durations": [[0, 600], [600, 0]],
+                                      "distances": [[0, 5000], [5000, 0]]}},
+               "options": {"time_limit": 0.1}}
+    open_file(page, "matrix.json", json.dumps(request))
+    planned(page, "1 of 1 served")
+    expect(page.get_by_text("there is no map")).to_be_visible()

@@ -1,0 +1,41 @@
+"""The modules that need no browser, by the test runner of node."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+STATIC = Path(__file__).parents[2] / "app" / "console" / "static"
+MODULES = sorted((STATIC / "js").rglob("*.js"))
+MAX_FILE_LINES = 400
+MAX_LINE = 100
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+def test_modules_pass_their_own_tests() -> None:
+    tests = sorted((Path(__file__).parent / "modules").glob("*.mjs"))
+    done = subprocess.run(["node", "--test", *map(str, tests)], text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
+    assert done.returncode == 0, done.stdout[-4000:]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.name)
+def test_module_is_short(path: Path) -> None:
+    lines = path.read_text("utf-8").splitlines()
+    assert len(lines) <= MAX_FILE_LINES
+    assert [line for line in lines if len(line) > MAX_LINE] == []
+
+
+def test_every_library_has_its_licence() -> None:
+    folders = [path for path in (STATIC / "vendor").iterdir() if path.is_dir()]
+    assert len(folders) == 6
+    assert [path.name for path in folders if not list(path.glob("LICENSE*"))] == []
+
+
+def test_nothing_is_loaded_from_another_host() -> None:
+    sources = [*MODULES, *STATIC.glob("*.html"), *(STATIC / "css").glob("*.css")]
+    named = {line.strip() for path in sources for line in path.read_text("utf-8").splitlines()
+             if "://" in line}
+    # Names of formats, which nothing is fetched from.
+    assert all("xmlns" in line for line in named)

@@ -1,0 +1,81 @@
+"""What one sees first: an example planned, at once, from this service alone."""
+
+import json
+from collections.abc import Callable
+
+from playwright.sync_api import Page, expect
+
+from tests.console.steps import EXAMPLES, STATIC, idle, open_example
+
+MAX_PAGE_BYTES = 1_000_000
+MAX_FIRST_PLAN_SECONDS = 1.0
+
+
+def test_console_opens_with_an_example_planned(page: Page) -> None:
+    expect(page.get_by_text("100 of 100 served")).to_be_visible()
+    expect(page.locator(".map canvas")).to_be_visible()
+    expect(page.locator(".rows canvas")).to_be_visible()
+    idle(page)
+    assert float(page.locator("#total-cost").inner_text()) < 890
+
+
+def test_page_weighs_little(open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service)
+    expect(page.locator("#total-cost")).to_be_visible()
+    sizes = page.evaluate("performance.getEntriesByType('resource').map(entry => "
+                          "[entry.name, entry.decodedBodySize])")
+    page_bytes = sum(size for name, size in sizes if "/console/" in name)
+    assert 200_000 < page_bytes < MAX_PAGE_BYTES
+
+
+def test_first_plan_is_drawn_within_a_second_of_the_click(page: Page) -> None:
+    idle(page)
+    page.evaluate("""() => {
+      const total = document.querySelector('.result-line');
+      window.drawn = new Promise((resolve) => {
+        let began = 0;
+        document.getElementById('plan-button').addEventListener('click', () => {
+          began = performance.now();
+        });
+        new MutationObserver(() => {
+          if (total.textContent.includes('Improving')) {
+            requestAnimationFrame(() => resolve(performance.now() - began));
+          }
+        }).observe(total, { childList: true, subtree: true, characterData: true });
+      });
+    }""")
+    page.get_by_role("button", name="Plan", exact=True).click()
+    assert page.evaluate("window.drawn") / 1000 < MAX_FIRST_PLAN_SECONDS
+
+
+def test_every_example_opens(page: Page, service: str) -> None:
+    for name in json.loads(page.request.get(f"{service}/openapi.json").text())["paths"]["/plan"][
+            "post"]["requestBody"]["content"]["application/json"]["examples"]:
+        customers = json.loads((EXAMPLES / f"{name}.json").read_text("utf-8"))["customers"]
+        open_example(page, name)
+        expect(page.locator(".result-line")).to_contain_text(f"of {len(customers)} served")
+
+
+def test_tiles_are_drawn_if_an_address_is_set(open_page: Callable[..., Page],
+                                              service: str) -> None:
+    page = open_page(service)
+    idle(page)
+    page.route("**/config.json", lambda route: route.fulfill(json={
+        "policies": ["attention"], "tile_url": f"{service}/tiles/{{z}}/{{x}}/{{y}}.png",
+        "tile_attribution": "the <b>map</b> makers"}))
+    page.route("**/tiles/**", lambda route: route.fulfill(path=STATIC / "icon.svg"))
+    page.reload()
+    open_example(page, "city_day")
+    expect(page.locator("img.leaflet-tile").first).to_be_visible()
+    expect(page.get_by_text("the <b>map</b> makers")).to_be_visible()
+
+
+def test_starting_service_is_waited_for(open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("503",))
+    page.route("**/health/ready", lambda route: route.fulfill(
+        status=503, json={"status": "starting", "detail": "compiling"}))
+    page.reload()
+    expect(page.get_by_text("The service is starting.")).to_be_visible()
+    page.unroute("**/health/ready")
+    expect(page.locator("#total-cost")).to_be_visible()
+    expect(page.get_by_text("The service is starting.")).to_have_count(0)

@@ -1,0 +1,245 @@
+"""A problem from a file, from a sheet or drawn on the map, and edited in forms."""
+
+import json
+import re
+import zipfile
+from collections.abc import Callable
+from io import BytesIO
+from xml.sax.saxutils import escape
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.console.steps import (
+    EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
+)
+
+SHEET = """name,lat,lon,kg,service_min,opens,closes,note
+Anna,47.38,8.54,5,3,8:00,10:00,ring twice
+Ben,47.39,8.51,7,3,,12:30,
+"""
+
+
+def excel_file(rows: list[list[str | float]]) -> bytes:
+    """Return the smallest Excel file that holds `rows`."""
+    lines = "".join(f'<row r="{number}">' + "".join(
+        f'<c r="{letter}{number}"><v>{cell}</v></c>' if isinstance(cell, float | int)
+        else f'<c r="{letter}{number}" t="inlineStr"><is><t>{escape(cell)}</t></is></c>'
+        for letter, cell in zip("ABCDEFGH", row, strict=False)) + "</row>"
+        for number, row in enumerate(rows, 1))
+    package = "http://schemas.openxmlformats.org/package/2006"
+    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    content = BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("[Content_Types].xml", f'<Types xmlns="{package}/content-types"/>')
+        archive.writestr("_rels/.rels", f'<Relationships xmlns="{package}/relationships">'
+                         f'<Relationship Id="r1" Type="{office}/officeDocument" '
+                         'Target="xl/workbook.xml"/></Relationships>')
+        archive.writestr("xl/workbook.xml", f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>'
+                         '<sheet name="Customers" sheetId="1" r:id="r1"/></sheets></workbook>')
+        archive.writestr("xl/_rels/workbook.xml.rels",
+                         f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
+                         f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/>'
+                         "</Relationships>")
+        archive.writestr("xl/worksheets/sheet1.xml", f'<worksheet xmlns="{main}"><sheetData>'
+                         f"{lines}</sheetData></worksheet>")
+    return content.getvalue()
+
+
+def test_problem_is_opened_from_a_file(page: Page) -> None:
+    open_file(page, "mine.json", (EXAMPLES / "smallest.json").read_text("utf-8"))
+    planned(page, "2 of 2 served")
+
+
+def test_file_that_is_no_problem_is_refused_in_words(page: Page) -> None:
+    open_file(page, "mine.json", "{")
+    expect(page.get_by_role("alert")).to_contain_text("mine.json is not JSON")
+    open_file(page, "mine.json", '{"customers": []}')
+    expect(page.get_by_role("alert")).to_contain_text("It lacks depots, fleet")
+
+
+def test_customers_come_from_csv(page: Page) -> None:
+    open_file(page, "today.csv", SHEET)
+    expect(page.get_by_text("2 customers, longitude and latitude. Not used: note.")).to_be_visible()
+    page.get_by_role("button", name="Use these customers").click()
+    planned(page, "2 of 2 served")
+    assert state(page, "state.request.coordinate_system") == "geographic"
+    assert state(page, "state.request.customers.0.time_window") == {
+        "earliest": 28800, "latest": 36000}
+
+
+def test_wrong_cell_is_marked_and_corrected_in_place(page: Page) -> None:
+    open_file(page, "today.csv", SHEET.replace("47.39", "47.x").replace("12:30", "noon"))
+    expect(page.get_by_text("2 errors.")).to_be_visible()
+    cell = page.get_by_label("lat, line 3")
+    expect(cell).to_have_attribute("aria-invalid", "true")
+    expect(page.get_by_role("button", name="Use these customers")).to_be_disabled()
+    cell.fill("47.39")
+    cell.press("Tab")
+    expect(page.get_by_text("1 error.")).to_be_visible()
+    page.get_by_label("closes, line 3").fill("12:30")
+    page.get_by_label("closes, line 3").press("Tab")
+    page.get_by_role("button", name="Use these customers").click()
+    planned(page, "2 of 2 served")
+
+
+def test_customers_come_from_excel(page: Page) -> None:
+    open_file(page, "today.xlsx", excel_file(
+        [["id", "x", "y", "demand", "from"], ["A", 3, 4, 10, 8 / 24], ["B", 6, 0, 5, 0.4]]))
+    page.get_by_role("button", name="Use these customers").click()
+    planned(page, "2 of 2 served")
+    assert state(page, "state.request.customers.0.time_window.earliest") == 28800
+
+
+def test_large_excel_sheet_is_read(page: Page) -> None:
+    rows: list[list[str | float]] = [
+        [f"customer with a long name {number}", number % 70, number // 70 + 0.5, 1]
+        for number in range(3000)]
+    open_file(page, "all.xlsx", excel_file([["id", "x", "y", "demand"], *rows]))
+    expect(page.get_by_text("3,000 customers, planar coordinates.")).to_be_visible()
+
+
+def drawing(page: Page) -> tuple[Locator, tuple[float, float]]:
+    """Open an example and the drawing tools; return these and the middle of the map."""
+    open_example(page, "drones")
+    page.get_by_role("button", name="Draw", exact=True).click()
+    area = page.locator(".map").first.bounding_box()
+    assert area is not None
+    middle = (area["x"] + area["width"] / 2, area["y"] + area["height"] / 2)
+    return page.get_by_role("group", name="Drawing tools"), middle
+
+
+def fill(tools: Locator, label: str, value: str) -> None:
+    """Fill a field of a drawing tool."""
+    tools.get_by_label(label).fill(value)
+    tools.get_by_label(label).press("Tab")
+
+
+def test_customers_and_windows_are_drawn_and_erased(page: Page) -> None:
+    tools, (x, y) = drawing(page)
+    tools.get_by_role("button", name="Customer").click()
+    fill(tools, "Demand", "4")
+    page.mouse.click(x - 150, y + 60)
+    page.mouse.click(x - 170, y + 80)
+    assert state(page, "state.request.customers.length") == 6
+    assert state(page, "state.request.customers.5.demand") == [4]
+    tools.get_by_role("button", name="Window", exact=True).click()
+    fill(tools, "Opens", "0:30")
+    fill(tools, "Closes", "2:00")
+    page.mouse.click(x - 150, y + 60)
+    assert state(page, "state.request.customers.4.time_window") == {
+        "earliest": 1800, "latest": 7200}
+    tools.get_by_role("button", name="Erase").click()
+    page.mouse.click(x - 170, y + 80)
+    assert state(page, "state.request.customers.length") == 5
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Plan", exact=True).click()
+    planned(page, "of 5 served")
+
+
+def test_areas_are_drawn_and_erased(page: Page) -> None:
+    tools, (x, y) = drawing(page)
+    tools.get_by_role("button", name="No-fly area").click()
+    expect(page.locator(".marker-icon.cursor-marker")).to_be_attached()
+    corners = [(150, -60), (200, -60), (200, 20), (150, 20)]
+    for right, down in [*corners, corners[0]]:
+        page.mouse.move(x + right, y + down)
+        page.mouse.click(x + right, y + down)
+    assert state(page, "state.request.airspace.no_fly.0.length") == 4
+    tools.get_by_role("button", name="Erase").click()
+    page.mouse.click(x + 175, y - 20)
+    assert state(page, "state.request.airspace.no_fly") == []
+
+
+def test_corner_of_an_area_is_dragged(page: Page) -> None:
+    open_example(page, "city_day")
+    before = state(page, "state.request.airspace.no_fly.0")
+    page.get_by_role("button", name="Draw", exact=True).click()
+    page.get_by_role("button", name="Move", exact=True).click()
+    corner = page.locator(".marker-icon:not(.marker-icon-middle)").first.bounding_box()
+    assert corner is not None
+    x, y = corner["x"] + corner["width"] / 2, corner["y"] + corner["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x - 30, y - 30, steps=5)
+    page.mouse.up()
+    after = state(page, "state.request.airspace.no_fly.0")
+    assert [old != new for old, new in zip(before, after, strict=True)].count(True) == 1
+
+
+def test_customers_in_an_area_get_a_window(page: Page) -> None:
+    tools, (x, y) = drawing(page)
+    tools.get_by_role("button", name="Windows in an area").click()
+    fill(tools, "Opens", "0:10")
+    expect(page.locator(".marker-icon.cursor-marker")).to_be_attached()
+    for right, down in [(-430, -290), (440, 290)]:
+        page.mouse.move(x + right, y + down)
+        page.mouse.click(x + right, y + down)
+    windows = [customer["time_window"] for customer in state(page, "state.request.customers")]
+    assert [window["earliest"] for window in windows] == [600] * 4
+
+
+def test_customer_is_dragged(page: Page) -> None:
+    open_example(page, "smallest")
+    page.get_by_role("button", name="Draw", exact=True).click()
+    page.get_by_role("button", name="Move", exact=True).click()
+    before = state(page, "state.request.customers.0.location")
+    place = place_of(page, "c:A")
+    page.mouse.move(*place)
+    page.mouse.down()
+    page.mouse.move(place[0] + 40, place[1] + 30, steps=4)
+    page.mouse.up()
+    after = state(page, "state.request.customers.0.location")
+    assert after[0] > before[0]
+    assert after[1] < before[1]
+
+
+def test_forms_are_made_from_the_schema_and_change_the_problem(page: Page) -> None:
+    open_example(page, "drones")
+    open_tab(page, "fleet")
+    count = page.get_by_label("Count").first
+    count.fill("3")
+    count.press("Enter")
+    assert state(page, "state.request.fleet.0.count") == 3
+    expect(page.get_by_text("Vehicles of this type.")).to_be_visible()
+    latest = page.locator("#field-fleet-0-shift-latest")
+    latest.fill("5:30")
+    latest.press("Enter")
+    assert state(page, "state.request.fleet.0.shift.latest") == 19800
+    per_km = page.locator("#field-fleet-0-drones-costs-per_km")
+    per_km.fill("0.5")
+    per_km.press("Enter")
+    assert state(page, "state.request.fleet.0.drones.costs.per_km") == 0.5
+    wind = page.locator("#field-airspace-wind-speed_kmh")
+    wind.fill("20")
+    wind.press("Enter")
+    assert state(page, "state.request.airspace.wind.speed_kmh") == 20
+    page.locator("#field-fleet-0-drones").uncheck()
+    expect(per_km).to_have_count(0)
+    page.keyboard.press("Escape")
+    page.locator(".map").first.focus()
+    page.keyboard.press("u")
+    assert state(page, "state.request.fleet.0.drones.count") == 1
+
+
+def test_errors_of_the_service_are_shown_at_their_fields(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("422",))
+    idle(page)
+    request = json.loads((EXAMPLES / "smallest.json").read_text("utf-8"))
+    request["fleet"][0]["speed_kmh"] = 0.1
+    request["customers"][1]["demand"] = [-1]
+    open_file(page, "wrong.json", json.dumps(request))
+    expect(page.get_by_role("alert")).to_contain_text("The request is not valid.")
+    open_tab(page, "fleet")
+    speed = page.locator("#field-fleet-0-speed_kmh")
+    expect(page.locator("#field-fleet-0-speed_kmh-error")).to_contain_text("at least 1")
+    expect(page.locator("#tab-fleet .count")).to_be_visible()
+    open_tab(page, "costs")
+    page.get_by_role("alert").get_by_role("button", name="$.fleet[0].speed_kmh").click()
+    expect(speed).to_be_focused()
+    speed.fill("40")
+    speed.press("Enter")
+    expect(page.locator("#field-fleet-0-speed_kmh-error")).to_have_count(0)
+    open_tab(page, "customers")
+    expect(page.locator("td.invalid")).to_have_attribute("title", re.compile("at least 0"))

@@ -1,0 +1,71 @@
+"""Every remedy that the service words is understood by the console, and serves the customer."""
+
+import re
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page
+
+from tests.console.steps import idle
+
+APPLY = """async (request) => {
+  const { applyRemedy } = await import(`${location.origin}/console/js/core/remedies.js`);
+  const plan = async (body) => (await fetch('plan', { method: 'POST', body: JSON.stringify(body),
+    headers: { 'Content-Type': 'application/json' } })).json();
+  const first = await plan(request);
+  const [customer] = first.unassigned;
+  const reason = customer.reasons.find(({ remedy }) => remedy);
+  const second = await plan(applyRemedy(request, customer.id, reason));
+  return [reason.remedy, second.unassigned];
+}"""
+
+DRONES = {"count": 1, "capacity": [5]}
+
+
+def problem(customers: list[dict[str, Any]], **vehicle: Any) -> dict[str, Any]:
+    """Return a problem with one type of vehicle."""
+    return {"planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
+            "customers": [{"id": f"C{number}", "location": [6, 0], "demand": [5]} | customer
+                          for number, customer in enumerate(customers)],
+            "fleet": [{"id": "van", "count": 1, "capacity": [20]} | vehicle],
+            "options": {"time_limit": 0.1}}
+
+
+PROBLEMS = {
+    "one more vehicle": problem([{"demand": [20]}, {"demand": [20]}]),
+    "unassigned_cost": problem([{}]) | {"unassigned_cost": 1},
+    "had cooled": problem([{"skills": ["cooled"]}]),
+    "if capacity": problem([{"demand": [25]}]),
+    "drone capacity": problem([{"demand": [9], "served_by": "drone"}], drones=DRONES),
+    "endurance": problem([{"served_by": "drone"}], drones=DRONES | {"endurance": 600}),
+    "trips could be": problem([{}], max_trip_distance=9000),
+    "window closed": problem([{"time_window": {"latest": 300}}]),
+    "shift ended": problem([{}], shift={"latest": 600}),
+    "could work": problem([{}], max_working_duration=600),
+    "a truck may serve": problem([{"served_by": "drone"}]),
+}
+
+
+@pytest.fixture(scope="module")
+def open_console(browser: Any, service: str) -> Any:
+    """Return a page to ask from."""
+    page = browser.new_page()
+    page.goto(service)
+    idle(page)
+    yield page
+    page.close()
+
+
+@pytest.mark.parametrize("words", PROBLEMS)
+def test_remedy_is_applied_and_serves_the_customer(open_console: Page, words: str) -> None:
+    remedy, unassigned = open_console.evaluate(APPLY, PROBLEMS[words])
+    assert re.search(words, remedy)
+    assert unassigned == []
+
+
+def test_unknown_remedy_changes_nothing(open_console: Page) -> None:
+    assert open_console.evaluate("""async () => {
+      const { applyRemedy } = await import(`${location.origin}/console/js/core/remedies.js`);
+      const request = { fleet: [{ id: 'van' }], customers: [{ id: 'A' }] };
+      return applyRemedy(request, 'A', { vehicle_type: 'van', remedy: 'fits on Sundays' });
+    }""") is None

@@ -1,0 +1,76 @@
+"""Plan and problem as files, sheets for drivers, pictures."""
+
+import csv
+import json
+from io import StringIO
+from pathlib import Path
+from xml.etree import ElementTree
+
+from playwright.sync_api import Page, expect
+
+from tests.console.steps import open_example, open_tab, state
+
+
+def saved(page: Page, button: str) -> bytes:
+    """Return the file that a button saves."""
+    with page.expect_download() as download:
+        page.get_by_role("button", name=button, exact=True).click()
+    return Path(download.value.path()).read_bytes()
+
+
+def test_plan_and_problem_are_saved_as_json(page: Page) -> None:
+    open_example(page, "drones")
+    open_tab(page, "export")
+    plan = json.loads(saved(page, "Plan as JSON"))
+    assert plan["status"] == "complete"
+    assert json.loads(saved(page, "Problem as JSON")) == state(page, "state.request")
+
+
+def test_stops_are_saved_as_csv(page: Page) -> None:
+    open_example(page, "drones")
+    open_tab(page, "export")
+    rows = list(csv.DictReader(StringIO(saved(page, "Stops as CSV").decode())))
+    assert {row["id"] for row in rows} == {"hub", "A", "B", "C", "D"}
+    assert next(row for row in rows if row["id"] == "C")["drone"].startswith("truck-")
+
+
+def test_map_is_saved_as_geojson_and_gpx(page: Page) -> None:
+    open_example(page, "city_day")
+    open_tab(page, "export")
+    features = json.loads(saved(page, "GeoJSON"))["features"]
+    kinds = {feature["properties"]["kind"] for feature in features}
+    assert kinds >= {"depot", "customer", "trip", "no_fly"}
+    vehicle = state(page, "state.plans.0.plan.routes.0.vehicle")
+    gpx = ElementTree.fromstring(saved(page, f"GPX of {vehicle}"))
+    assert gpx.tag.endswith("gpx")
+    assert len(gpx.findall(".//{*}rtept")) > 3
+
+
+def test_gpx_is_for_degrees_alone(page: Page) -> None:
+    open_example(page, "drones")
+    open_tab(page, "export")
+    expect(page.get_by_role("button", name="GPX of").first).to_be_disabled()
+    expect(page.get_by_text("GPX needs longitudes and latitudes")).to_be_visible()
+
+
+def test_picture_is_saved_as_svg_and_png(page: Page) -> None:
+    open_example(page, "city_day")
+    open_tab(page, "export")
+    picture = ElementTree.fromstring(saved(page, "SVG"))
+    assert len(picture.findall(".//{*}polyline")) > 5
+    assert saved(page, "PNG").startswith(b"\x89PNG")
+
+
+def test_driver_sheet_is_printed(page: Page) -> None:
+    open_example(page, "drones")
+    open_tab(page, "export")
+    page.evaluate("window.print = () => { window.printed = true; }")
+    page.get_by_role("button", name="Print all driver sheets").click()
+    assert page.evaluate("window.printed")
+    page.emulate_media(media="print")
+    sheet = page.locator(".sheet-page").first
+    expect(sheet).to_be_visible()
+    expect(page.locator("#app")).to_be_hidden()
+    expect(sheet).to_contain_text("launch drone-1 to C")
+    page.emulate_media(media="screen")
+    expect(sheet).to_be_hidden()

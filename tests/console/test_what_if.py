@@ -1,0 +1,83 @@
+"""Change one thing, compare fleets, sweep two fields, play the day."""
+
+from playwright.sync_api import Page, expect
+
+from tests.console.steps import idle, open_example, open_tab, state
+
+
+def test_change_shows_plan_and_cost_beside_the_former(page: Page) -> None:
+    open_example(page, "drones")
+    open_tab(page, "changes")
+    page.get_by_role("button", name="Drones off").click()
+    idle(page)
+    differences = page.locator("#differences")
+    expect(differences).to_contain_text("Plan 2 beside plan 1")
+    expect(differences).to_contain_text("fleet[truck].drones")
+    expect(differences.locator("tr").filter(has_text="Flights")).to_contain_text("\u2212")
+    page.get_by_role("button", name="Former plan beside").click()
+    expect(page.locator(".map")).to_have_count(2)
+    page.get_by_label("Show plan 1").check()
+    assert state(page, "state.request.fleet.0.drones.count") == 1
+    expect(differences).to_contain_text("Plan 1 beside plan 2")
+
+
+def test_vehicle_fewer_and_a_window_are_one_click_each(page: Page) -> None:
+    open_example(page, "drones")
+    open_tab(page, "changes")
+    page.get_by_role("button", name="One truck fewer").click()
+    idle(page)
+    assert state(page, "state.request.fleet.0.count") == 1
+    page.get_by_label("Customer", exact=True).select_option("B")
+    page.get_by_label("closes").fill("0:40")
+    page.get_by_role("button", name="Change this window").click()
+    idle(page)
+    assert state(page, "state.request.customers.1.time_window.latest") == 2400
+    expect(page.locator("#differences")).to_contain_text("customers[B].time_window.latest")
+
+
+def test_fleets_are_compared(page: Page) -> None:
+    open_example(page, "hetero_day")
+    open_tab(page, "scenarios")
+    page.get_by_label("Seconds of search for each scenario").fill("0.2")
+    page.get_by_label("Seconds of search for each scenario").press("Enter")
+    page.get_by_label("only van-200").uncheck()
+    page.get_by_role("button", name="Compare 3 fleets").click()
+    table = page.locator("#compare-table")
+    expect(page.locator("#scenario-state")).to_contain_text("done")
+    expect(table.locator("thead th")).to_have_count(4)
+    expect(table.locator("tr").filter(has_text="Load rate, mean")).to_contain_text("%")
+    page.get_by_role("button", name="Show the plan of only van-150").click()
+    idle(page)
+    assert [entry["id"] for entry in state(page, "state.request.fleet")] == ["van-150"]
+    expect(page.locator("#differences")).to_be_visible()
+
+
+def test_hours_and_capacity_are_swept_into_a_heat_map(page: Page) -> None:
+    open_example(page, "hetero_day")
+    open_tab(page, "scenarios")
+    page.get_by_label("Seconds of search for each scenario").fill("0.1")
+    page.get_by_label("Seconds of search for each scenario").press("Enter")
+    page.get_by_label("Values of axis 1").fill("6:00, 8:00")
+    page.get_by_label("Values of axis 2").fill("100, 150")
+    page.get_by_role("button", name="Sweep 4 scenarios").click()
+    expect(page.locator("#scenario-state")).to_contain_text("done")
+    heat = page.locator("#heat-map")
+    expect(heat.locator("tbody tr")).to_have_count(2)
+    expect(heat.locator("td.least")).to_have_count(1)
+    heat.locator("td.least button").click()
+    expect(page.locator("#differences")).to_be_visible()
+    assert state(page, "state.request.fleet.0.max_working_duration") in (21600, 28800)
+
+
+def test_day_is_played(page: Page) -> None:
+    open_example(page, "drones")
+    page.get_by_role("button", name="Play the day").click()
+    expect(page.locator(".truck-mover span").first).to_be_visible()
+    expect(page.locator(".drone-mover span").first).to_be_visible()
+    page.get_by_role("button", name="Pause").click()
+    slider = page.get_by_label("Time of day")
+    before = page.locator(".truck-mover span").first.bounding_box()
+    slider.fill("1200")
+    assert page.locator(".truck-mover span").first.bounding_box() != before
+    page.get_by_role("button", name="End", exact=True).click()
+    expect(page.locator(".truck-mover")).to_have_count(0)
