@@ -1,0 +1,156 @@
+"""What vehicles and drones do when: rows of bars. Times in seconds since plan start."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from math import inf
+from typing import Literal
+
+from app.names import number_in
+from app.pictures.scene import Scene
+from app.schemas_plan import RouteInput, SortieInput, StopInput, TripInput
+from app.schemas_request import DronesInput, VehicleTypeInput
+
+Activity = Literal["drive", "wait", "serve", "fly", "launch", "reload"]
+
+
+@dataclass(frozen=True)
+class Bar:
+    """One activity."""
+
+    activity: Activity
+    start: float
+    end: float
+    trip: int
+
+
+@dataclass(frozen=True)
+class Window:
+    """A customer's time window, as far as it is stated, and when service began."""
+
+    earliest: float
+    latest: float | None
+    service_start: float
+    is_late: bool
+
+
+@dataclass(frozen=True)
+class Row:
+    """One vehicle's or drone's day."""
+
+    name: str
+    route: int
+    is_drone: bool
+    bars: tuple[Bar, ...]
+    windows: tuple[Window, ...]
+
+    @cached_property
+    def lanes(self) -> tuple[int, ...]:
+        """A lane for each window, so that none covers another."""
+        lanes = [0] * len(self.windows)
+        taken_until: list[float] = []
+        for index in sorted(range(len(lanes)), key=lambda index: self.windows[index].earliest):
+            window = self.windows[index]
+            lane = next((lane for lane, time in enumerate(taken_until)
+                         if time < window.earliest), len(taken_until))
+            latest = inf if window.latest is None else window.latest
+            taken_until[lane:lane + 1] = [max(latest, window.service_start)]
+            lanes[index] = lane
+        return tuple(lanes)
+
+
+def rows_of(scene: Scene) -> list[Row]:
+    """Return a row per vehicle used, each followed by one per drone that it carries."""
+    rows = []
+    for index, route in enumerate(scene.plan.routes):
+        kind = scene.types[route.type]
+        bars = tuple(bar for bar in _truck_bars(scene, route, kind) if bar.end >= bar.start)
+        windows = [_window(scene, stop.id, stop.arrival, stop.service_start)
+                   for trip in route.trips for stop in trip.stops if stop.kind == "customer"]
+        rows.append(Row(route.vehicle, index, False, bars, _stated(windows)))
+        rows += [_drone_row(scene, index, route, drone, kind.drones)
+                 for drone in range(_num_drones(route, kind.drones))]
+    return rows
+
+
+def _num_drones(route: RouteInput, drones: DronesInput | None) -> int:
+    """Return how many drones a vehicle carries, or flies if a plan has more."""
+    used = [number_in(f"{route.vehicle}/drone-", sortie.drone) or 0
+            for trip in route.trips for sortie in trip.sorties]
+    return max([0 if drones is None else drones.count, *(number + 1 for number in used)])
+
+
+def _truck_bars(scene: Scene, route: RouteInput, kind: VehicleTypeInput) -> Iterator[Bar]:
+    end: float | None = None
+    for number, trip in enumerate(route.trips):
+        loaded = trip.stops[0].arrival
+        if end is not None:
+            yield Bar("reload", max(end, loaded - kind.reload_duration), loaded, number)
+        for before, stop in pairwise(trip.stops):
+            yield Bar("drive", before.departure, stop.arrival, number)
+        for stop in trip.stops:
+            yield from _halt_bars(scene, stop, number)
+        if kind.drones is not None:
+            yield from _handling_bars(trip, number, kind.drones)
+        end = trip.stops[-1].departure
+
+
+def _halt_bars(scene: Scene, stop: StopInput, trip: int) -> Iterator[Bar]:
+    if stop.departure > stop.arrival:
+        yield Bar("wait", stop.arrival, stop.departure, trip)
+    if stop.kind == "customer":
+        duration = scene.customers[stop.id].service_duration
+        yield Bar("serve", stop.service_start,
+                  min(stop.service_start + duration, stop.departure), trip)
+
+
+def _handling_bars(trip: TripInput, number: int, drones: DronesInput) -> Iterator[Bar]:
+    for sortie in trip.sorties:
+        yield from _ends(sortie, number, drones)
+
+
+def _ends(sortie: SortieInput, trip: int, drones: DronesInput) -> Iterator[Bar]:
+    """Yield launch and recovery."""
+    yield Bar("launch", sortie.launch_time - drones.launch_duration, sortie.launch_time, trip)
+    yield Bar("launch", sortie.recovery_time - drones.recovery_duration, sortie.recovery_time,
+              trip)
+
+
+def _drone_row(scene: Scene, index: int, route: RouteInput, drone: int,
+               drones: DronesInput | None) -> Row:
+    name = f"{route.vehicle}/drone-{drone + 1}"
+    bars: list[Bar] = []
+    windows = []
+    for number, trip in enumerate(route.trips):
+        for sortie in trip.sorties:
+            if sortie.drone == name:
+                bars += _flight_bars(sortie, number, drones)
+                windows += [_window(scene, visit.id, visit.arrival, visit.service_start)
+                            for visit in sortie.customers]
+    return Row(name, index, True, tuple(bar for bar in bars if bar.end >= bar.start),
+               _stated(windows))
+
+
+def _flight_bars(sortie: SortieInput, trip: int, drones: DronesInput | None) -> Iterator[Bar]:
+    recovery = 0.0 if drones is None else drones.recovery_duration
+    yield Bar("fly", sortie.launch_time, sortie.recovery_time - recovery, trip)
+    for visit in sortie.customers:
+        if visit.service_start > visit.arrival:
+            yield Bar("wait", visit.arrival, visit.service_start, trip)
+        yield Bar("serve", visit.service_start, visit.departure, trip)
+    if drones is not None:
+        yield from _ends(sortie, trip, drones)
+
+
+def _window(scene: Scene, customer: str, arrival: float, service_start: float) -> Window | None:
+    """Return a customer's window if one is stated."""
+    window = scene.customers[customer].time_window
+    if window.latest is None and not window.earliest:
+        return None
+    is_late = window.latest is not None and arrival > window.latest
+    return Window(window.earliest, window.latest, service_start, is_late)
+
+
+def _stated(windows: list[Window | None]) -> tuple[Window, ...]:
+    return tuple(window for window in windows if window is not None)
