@@ -5,13 +5,14 @@ HOST ?= 127.0.0.1
 PORT ?= 8000
 MINUTES ?= 60
 DATA ?= ../shared/data
+CASES ?= 10000
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
-.PHONY: help serve plan test lint train bench bench-quick latency clean
+.PHONY: help serve plan test lint train bench bench-quick latency screenshots fuzz settings clean
 
 help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -20,7 +21,7 @@ serve: .venv/serving ## Run the service (PORT=8000, HOST=127.0.0.1)
 	@echo "Loading compiled code; the first time it is compiled, which takes a minute."
 	@$(BIN)/tandem warm
 	@echo
-	@echo "Starting. Open $(URL)/docs or, in another terminal and in this folder, run"
+	@echo "Starting. Open $(URL) for the console, $(URL)/docs for the API or, in another terminal and in this folder, run"
 	@echo
 	@echo "  curl -H 'Content-Type: application/json' --data-binary @examples/table1.json $(URL)/plan"
 	@echo
@@ -54,6 +55,15 @@ bench-quick: .venv/benching ## The same on a few instances, in five minutes
 
 latency: .venv/benching ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency
+
+screenshots: .venv/testing ## Make the pictures of the console in docs/screenshots, with Chromium
+	$(BIN)/python -m tests.console.screenshots
+
+fuzz: .venv/testing ## Send generated requests to the whole API (CASES=10000)
+	$(BIN)/python -m benchmarks.fuzz_api --cases $(CASES)
+
+settings: .venv/serving ## Write docs/settings.md
+	$(BIN)/tandem settings > docs/settings.md
 
 clean: ## Remove caches, compiled code and plan.json; keep .venv and training runs
 	rm -rf build dist *.egg-info plan.json .pytest_cache .mypy_cache .ruff_cache .hypothesis

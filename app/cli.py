@@ -2,28 +2,33 @@
 
 import time
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
-import uvicorn
 
-from app.convert import to_problem
+from app.access.cli import keys_cli
+from app.access.setup import ExposedError, check_exposure
 from app.errors import RequestError
+from app.file_errors import EXIT_BAD_INPUT, refuse
 from app.importers import FileFormat, convert_file
 from app.instance_files import Rounding
-from app.main import create_app
+from app.load.serving import run_server
+from app.pictures.cli import plot
 from app.plan_reading import plan_to_solution
 from app.reading import read_request
+from app.replanning import task_of
 from app.service import ReceivedBody, answer
 from app.settings import Settings
-from model.check import Evaluation, check
+from app.settings_table import settings_page
+from model.check import Evaluation
 from model.planner import Planner, load_planner
 
 EXIT_INFEASIBLE = 1
-EXIT_BAD_INPUT = 2
 
 cli = typer.Typer(help="Plan deliveries for trucks that carry drones.", no_args_is_help=True,
                   add_completion=False)
+cli.add_typer(keys_cli, name="keys")
+cli.command()(plot)
 
 ProblemFile = Annotated[Path, typer.Argument(help="Request of POST /plan as JSON.", exists=True,
                                              dir_okay=False)]
@@ -43,9 +48,23 @@ RoundingOption = Annotated[Rounding, typer.Option(help=(
 def serve(
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(help="Port to listen on.", min=0, max=65535)] = 8000,
+    workers: Annotated[int, typer.Option(help="Processes that share the port.", min=1,
+                                         max=256)] = 1,
 ) -> None:
     """Answer planning requests over HTTP."""
-    uvicorn.run(create_app(Settings()), host=host, port=port)
+    settings = Settings()
+    try:
+        check_exposure(settings, host)
+    except ExposedError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
+    run_server(settings, host, port, workers)
+
+
+@cli.command("settings")
+def list_settings() -> None:
+    """List all settings, the environment variables that they are read from, as Markdown."""
+    typer.echo(settings_page(), nl=False)
 
 
 @cli.command()
@@ -64,7 +83,7 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
     try:
         reply = answer(planner, body, settings.search_threads)
     except RequestError as error:
-        _refuse(problem_file, error)
+        refuse(problem_file, error)
     if output is None:
         typer.echo(reply)
     else:
@@ -75,14 +94,14 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
 def check_plan(problem_file: ProblemFile, plan_file: PlanFile) -> None:
     """Judge a plan: print the rules it breaks and its cost. Exits with 1 if it breaks any."""
     try:
-        problem = to_problem(read_request(problem_file.read_bytes(), policies=None))
+        task = task_of(read_request(problem_file.read_bytes(), policies=None))
     except RequestError as error:
-        _refuse(problem_file, error)
+        refuse(problem_file, error)
     try:
-        solution = plan_to_solution(plan_file.read_bytes(), problem)
+        solution = plan_to_solution(plan_file.read_bytes(), task.problem)
     except RequestError as error:
-        _refuse(plan_file, error)
-    evaluation = check(problem, solution)
+        refuse(plan_file, error)
+    evaluation = task.check(solution)
     _print_evaluation(evaluation)
     if not evaluation.is_feasible:
         raise typer.Exit(EXIT_INFEASIBLE)
@@ -102,7 +121,7 @@ def convert(
     try:
         request = convert_file(instance_file, file_format, rounding)
     except RequestError as error:
-        _refuse(instance_file, error)
+        refuse(instance_file, error)
     if output is None:
         typer.echo(request)
     else:
@@ -127,11 +146,3 @@ def _print_evaluation(evaluation: Evaluation) -> None:
     for term in ("fixed", "distance", "time", "lateness", "earliness", "unassigned", "total"):
         typer.echo(f"{term:10} {getattr(cost, term):.6f}")
     typer.echo("feasible" if evaluation.is_feasible else "infeasible")
-
-
-def _refuse(file: Path, error: RequestError) -> NoReturn:
-    """Print what is wrong with an input file, and exit."""
-    typer.echo(f"{file}: {error}", err=True)
-    for item in error.errors:
-        typer.echo(f"{item.code} {item.path}: {item.message}", err=True)
-    raise typer.Exit(EXIT_BAD_INPUT)

@@ -2,11 +2,13 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 from pydantic_core import ErrorDetails
+
+from app.observe.metrics import Refusal
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -43,10 +45,29 @@ ErrorCode = Literal[
     "POLYGON_CROSSES_ITSELF",
     "POLYGON_WITHOUT_AREA",
     "TOO_MANY_CORNERS",
+    "TOO_MANY_LEGS",
     "UNKNOWN_POLICY",
     "UNKNOWN_CUSTOMER",
     "UNKNOWN_VEHICLE_TYPE",
     "WRONG_NAME",
+    "DUPLICATE_VEHICLE",
+    "UNKNOWN_VEHICLE",
+    "UNKNOWN_DRONE",
+    "WRONG_DEPOT",
+    "TRIP_SHAPE",
+    "SORTIE_STOPS",
+    "TIMES_DISORDERED",
+    "PLANNED_TWICE",
+    "NOT_PLANNED",
+    "PINNED_TO_UNAVAILABLE",
+    "SETTLED_PART",
+    "TOO_MANY_VEHICLES",
+    "WRONG_PARAMETER",
+    "UNKNOWN_PATH",
+    "PATHS_OVERLAP",
+    "TOO_MANY_SCENARIOS",
+    "WEBHOOK",
+    "IDEMPOTENCY_KEY_REUSED",
 ]
 
 _CODES: dict[str, ErrorCode] = {
@@ -122,10 +143,13 @@ class RequestError(ValueError):
     status = 400
     name = "bad-request"
     title = "The request can't be read"
+    refusal: ClassVar[Refusal | None] = None
+    """How metrics count requests that were turned away without a look at their content."""
 
     def __init__(self, detail: str, errors: Sequence[InputError] = ()) -> None:
         super().__init__(detail)
         self.errors = tuple(errors)
+        self.headers: Mapping[str, str] = {}
 
 
 class NotJsonError(RequestError):
@@ -164,6 +188,7 @@ class NotReadyError(RequestError):
     status = 503
     name = "not-ready"
     title = "The service is starting"
+    refusal = "starting"
 
 
 def problem_response(status: int, name: str, title: str, detail: str,

@@ -14,7 +14,7 @@ from app.instance_files import (
     distances,
 )
 from app.reading import read_request
-from app.schemas_request import MAX_CUSTOMERS
+from app.settings import MAX_CUSTOMERS
 from app.solomon_files import is_solomon, read_solomon
 from app.vrplib_files import read_vrplib
 from model.problem import FloatArray

@@ -5,20 +5,34 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from http import HTTPStatus
 
-import anyio.to_thread
 from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
 from fastapi_offline import FastAPIOffline
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
-from app.errors import RequestError, problem_response
-from app.openapi import describe
+from app.access.gate import KeyScrubber
+from app.access.setup import control_access, guarding
+from app.console.routes import mount_console
+from app.errors import InvalidRequestError, RequestError, problem_response, schema_error
+from app.jobs.gate import WorkerGate
+from app.jobs.routes import router as jobs_router
+from app.jobs.setup import running_jobs
+from app.jobs.working import Surroundings
+from app.load.bounds import Bounds
+from app.load.setup import prepare_for_load
+from app.observe.observer import Observer
+from app.observe.routes import metrics_router
+from app.openapi import TAGS, allowed_methods, describe, operation_id
 from app.routes import router
 from app.service import PlanService
 from app.settings import Settings
+from app.vroom.routes import router as vroom_router
 from model.planner import PlanCheckError, Planner, load_planner
 
 logger = logging.getLogger(__name__)
+
+VERSION = "0.1.0"
 
 RETRY_SECONDS = 5
 
@@ -37,43 +51,80 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        anyio.to_thread.current_default_thread_limiter().total_tokens = (
-            settings.max_concurrent_plans)
-        service = PlanService(planner or load_planner(settings.weights_dir, settings.policies),
-                              settings.search_threads)
+        loaded = planner or load_planner(settings.weights_dir, settings.policies)
+        service = PlanService(loaded, settings.search_threads, observer.record_plan,
+                              Bounds.of_plans(settings))
         service.start()
         app.state.service = service
-        yield
+        around = Surroundings(settings, loaded, lambda: service.readiness().is_ready,
+                              observer.metrics, observer.record_plan)
+        with (guarding(settings) as app.state.guard, running_jobs(around) as app.state.jobs,
+              shutdown.listening(settings.drain_seconds)):
+            yield
         service.stop()
+        observer.stop()
 
-    app = FastAPIOffline(title="Tandem", version="0.1.0", lifespan=lifespan,
+    observer = Observer(settings, VERSION)
+    app = FastAPIOffline(title="Tandem", version=VERSION, lifespan=lifespan,
+                         telemetry=observer.telemetry, openapi_tags=TAGS,
+                         generate_unique_id_function=operation_id,
                          description="Plans deliveries for trucks that carry drones.")
     app.state.settings = settings
+    observer.enter(app)
+    shutdown = prepare_for_load(app, settings)
     app.include_router(router)
+    app.include_router(jobs_router)
+    app.include_router(vroom_router)
+    app.include_router(metrics_router(settings))
+    _map_errors(app)
+    mount_console(app)
+    app.openapi = describe(app)  # type: ignore[method-assign]
+    control_access(app, settings)
+    if settings.role == "worker":
+        app.add_middleware(WorkerGate)
+    observer.surround(app)
+    app.add_middleware(KeyScrubber)
+    return app
+
+
+def _map_errors(app: FastAPI) -> None:
+    """Have errors answered by problem documents. In place."""
     app.add_exception_handler(RequestError, _request_error)
+    app.add_exception_handler(RequestValidationError, _wrong_parameters)
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(ClientDisconnect, _client_gone)
     app.add_exception_handler(PlanCheckError, _plan_withheld)
     app.add_exception_handler(Exception, _internal_error)
-    app.openapi = describe(app)  # type: ignore[method-assign]
-    return app
 
 
 async def _request_error(request: Request, error: Exception) -> Response:
     if not isinstance(error, RequestError):
         raise error
-    headers = {"Retry-After": str(RETRY_SECONDS)} if error.status == 503 else None
+    if error.refusal is not None:
+        request.app.state.metrics.count_refusal(error.refusal)
+    retry = {"Retry-After": str(RETRY_SECONDS)} if error.status == 503 else {}
     return problem_response(error.status, error.name, error.title, str(error), error.errors,
-                            headers)
+                            {**retry, **error.headers})
+
+
+async def _wrong_parameters(request: Request, error: Exception) -> Response:
+    if not isinstance(error, RequestValidationError):
+        raise error
+    return await _request_error(request, InvalidRequestError([
+        schema_error(details).model_copy(update={"path": ".".join(map(str, details["loc"]))})
+        for details in error.errors()]))
 
 
 async def _http_error(request: Request, error: Exception) -> Response:
     if not isinstance(error, HTTPException):
         raise error
     title = HTTPStatus(error.status_code).phrase
+    headers = dict(error.headers or {})
+    if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
+        headers |= allowed_methods(request)
     return problem_response(error.status_code, title.lower().replace(" ", "-"), title,
                             f"{request.method} {request.url.path}: {error.detail}.",
-                            headers=error.headers)
+                            headers=headers)
 
 
 async def _client_gone(request: Request, error: Exception) -> Response:

@@ -13,6 +13,7 @@ from app.errors import (
     RequestError,
     schema_error,
 )
+from app.load.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
 from app.schemas_request import (
     AirspaceInput,
     CustomerInput,
@@ -20,6 +21,7 @@ from app.schemas_request import (
     MatrixInput,
     OptionsInput,
     PlanRequest,
+    ReplanInput,
     VehicleTypeInput,
 )
 from app.validation import Draft, semantic_errors
@@ -34,7 +36,8 @@ MAX_SEARCHED_BYTES = 8 * 2**20
 """To save memory, longer bodies that don't fit the schema aren't searched for further errors."""
 
 
-def read_request(body: bytes, policies: Collection[str] | None) -> PlanRequest:
+def read_request(body: bytes, policies: Collection[str] | None,
+                 bounds: Bounds = UNBOUNDED) -> PlanRequest:
     """Return the request that `body` holds.
 
     Parameters
@@ -43,6 +46,8 @@ def read_request(body: bytes, policies: Collection[str] | None) -> PlanRequest:
         JSON.
     policies
         Those that may be asked for; None allows any.
+    bounds
+        How large the request may be.
 
     Raises
     ------
@@ -54,11 +59,19 @@ def read_request(body: bytes, policies: Collection[str] | None) -> PlanRequest:
     try:
         request = PlanRequest.model_validate_json(body)
     except ValidationError as error:
-        raise _refusal(error, body, policies) from error
-    errors = semantic_errors(_whole_draft(request), policies)
+        raise _refusal(error, body, policies, bounds) from error
+    errors = request_errors(request, policies, bounds)
     if errors:
         raise InvalidRequestError(errors)
     return request
+
+
+def request_errors(request: PlanRequest, policies: Collection[str] | None,
+                   bounds: Bounds) -> list[InputError]:
+    """Return every error of a request that fits the schema."""
+    draft = _whole_draft(request)
+    errors = [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
+    return errors or list(leg_errors(request, bounds))
 
 
 def read_json(body: bytes) -> Any:
@@ -76,7 +89,7 @@ def read_json(body: bytes) -> Any:
 
 
 def _refusal(error: ValidationError, body: bytes,
-             policies: Collection[str] | None) -> RequestError:
+             policies: Collection[str] | None, bounds: Bounds) -> RequestError:
     """Return the refusal of a body that doesn't fit the schema, semantic errors included."""
     if error.error_count() > MAX_COUNTED_ERRORS:
         message = f"The request has {error.error_count()} errors: compare it with the schema."
@@ -89,7 +102,8 @@ def _refusal(error: ValidationError, body: bytes,
         except NotJsonError as not_json:
             return not_json
         if isinstance(raw, dict):
-            errors += semantic_errors(_partial_draft(raw, _broken_parts(details)), policies)
+            draft = partial_draft(raw, details)
+            errors += [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
     return InvalidRequestError(errors)
 
 
@@ -109,11 +123,13 @@ def _whole_draft(request: PlanRequest) -> Draft:
         matrices_known=True,
         airspace=request.airspace,
         options=request.options,
+        replan=request.replan,
     )
 
 
-def _partial_draft(raw: dict[str, Any], broken: Parts) -> Draft:
-    """Return the well-formed parts of a request."""
+def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails]) -> Draft:
+    """Return the well-formed parts of a request, by what is wrong with the others."""
+    broken = _broken_parts(details)
     scale_known = not {("coordinate_system",), ("planar_unit",)} & broken
     return Draft(
         coordinate_system=raw.get("coordinate_system", "planar") if scale_known else None,
@@ -125,6 +141,8 @@ def _partial_draft(raw: dict[str, Any], broken: Parts) -> Draft:
         matrices_known=("matrices",) not in broken,
         airspace=_section(raw, broken, "airspace", AirspaceInput),
         options=_section(raw, broken, "options", OptionsInput),
+        replan=(None if raw.get("replan") is None
+                else _section(raw, broken, "replan", ReplanInput)),
     )
 
 

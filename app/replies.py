@@ -1,11 +1,12 @@
 """A plan -> the reply of `POST /plan`, as plain data (see `app.schemas_response`)."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from app.units import all_whole, whole
 from model.check import Evaluation
-from model.explain import explain
+from model.explain import Reason, explain
 from model.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
 from model.problem import Problem
@@ -13,18 +14,30 @@ from model.solution import Cost, Route, Solution, Sortie, Stop, Trip, Visit
 
 Data = dict[str, Any]
 
+MAX_LOAD_RATE = 1e9
+"""Stands for any load where there is no capacity, since JSON knows no infinity."""
 
-def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult) -> Data:
-    """Return the reply but for `solver.elapsed`'s `validate` and `total`, which are 0."""
+Reasons = Callable[[Solution, int], tuple[Reason, ...]]
+"""Says why a plan leaves a customer out."""
+
+
+def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
+               reasons: Reasons | None = None) -> Data:
+    """Return the reply but for `solver.elapsed`'s `validate` and `total`, which are 0.
+
+    `reasons` are those of vehicles that have done nothing yet unless stated.
+    """
     solution, evaluation = result.solution, result.evaluation
     elapsed = result.elapsed
+    why = reasons or partial(explain, problem)
     return {
         "status": "partial" if solution.unassigned else "complete",
-        "cost": _cost(evaluation.cost),
+        "cost": cost_reply(evaluation.cost),
         "routes": [_route(problem, route, metrics)
                    for route, metrics in zip(solution.routes, evaluation.routes, strict=True)],
-        "unassigned": [_unassigned(problem, solution, node) for node in solution.unassigned],
-        "summary": _summary(problem, solution, evaluation),
+        "unassigned": [_unassigned(problem, node, why(solution, node))
+                       for node in solution.unassigned],
+        "summary": summary_reply(problem, solution, evaluation),
         "solver": {
             "policy": options.policy,
             "decoding": options.decoding,
@@ -46,7 +59,8 @@ def vehicle_name(problem: Problem, route: Route) -> str:
     return f"{problem.vehicle_types[route.vehicle_type].id}-{route.vehicle + 1}"
 
 
-def _cost(cost: Cost) -> Data:
+def cost_reply(cost: Cost) -> Data:
+    """Return a cost by term."""
     return {"total": cost.total, "fixed": cost.fixed, "distance": cost.distance, "time": cost.time,
             "lateness": cost.lateness, "earliness": cost.earliness, "unassigned": cost.unassigned}
 
@@ -120,8 +134,7 @@ def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetri
     }
 
 
-def _unassigned(problem: Problem, solution: Solution, node: int) -> Data:
-    reasons = explain(problem, solution, node)
+def _unassigned(problem: Problem, node: int, reasons: tuple[Reason, ...]) -> Data:
     return {
         "id": problem.customer_at(node).id,
         "reasons": [
@@ -136,13 +149,14 @@ def _unassigned(problem: Problem, solution: Solution, node: int) -> Data:
     }
 
 
-def _summary(problem: Problem, solution: Solution, evaluation: Evaluation) -> Data:
+def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) -> Data:
+    """Return a plan in numbers, even if it breaks rules."""
     trips = [trip for route in evaluation.routes for trip in route.trips]
     sorties = [sortie for trip in trips for sortie in trip.sorties]
-    rates = [trip.load_rate for trip in trips] or [0.0]
+    rates = [min(trip.load_rate, MAX_LOAD_RATE) for trip in trips] or [0.0]
     return {
         "customers": problem.num_customers,
-        "served": problem.num_customers - len(solution.unassigned),
+        "served": _served(problem, solution),
         "vehicles": len(solution.routes),
         "trips": len(trips),
         "sorties": len(sorties),
@@ -151,3 +165,12 @@ def _summary(problem: Problem, solution: Solution, evaluation: Evaluation) -> Da
         "load_rate": {"min": min(rates), "mean": sum(rates) / len(rates), "max": max(rates)},
         "makespan": whole(evaluation.makespan),
     }
+
+
+def _served(problem: Problem, solution: Solution) -> int:
+    """Return how many customers are served, each counted once."""
+    nodes = {stop.node for route in solution.routes for trip in route.trips
+             for stop in trip.stops[1:-1]}
+    nodes |= {visit.node for route in solution.routes for trip in route.trips
+              for sortie in trip.sorties for visit in sortie.visits}
+    return sum(problem.num_depots <= node < problem.num_nodes for node in nodes)

@@ -1,41 +1,35 @@
 """Endpoints."""
 
-import time
+from collections.abc import AsyncIterator
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request, Response
-from fastapi.responses import HTMLResponse, JSONResponse
+from fastapi.responses import JSONResponse
 
-from app.errors import BodyTooLargeError
-from app.openapi import ERROR_RESPONSES
-from app.schemas_response import PlanReply
+from app.access.guard import Plan
+from app.checking import answer_check
+from app.load.abandoned import Planning
+from app.load.bodies import Bodies
+from app.load.bounds import Bounds
+from app.openapi import ERROR_RESPONSES, EXAMPLES, json_body
+from app.schemas_check import CheckReply, CheckRequest
+from app.schemas_request import PlanRequest
+from app.schemas_response import LivenessReply, PlanReply, ReadinessReply
 from app.service import PlanService, ReceivedBody
 
 router = APIRouter()
 
-HOME = """<!doctype html>
-<html lang="en"><meta charset="utf-8"><title>Tandem</title>
-<body style="font-family: sans-serif; margin: 3em; max-width: 40em">
-<h1>Tandem</h1>
-<p>Plans deliveries for trucks that carry drones.</p>
-<ul><li><a href="docs">Try it</a>: the API with examples to run</li>
-<li><a href="redoc">Read it</a>: the same as a reference</li>
-<li><a href="health/ready">Is it ready?</a></li></ul>
-"""
+CHECK_EXAMPLES = {"check": "A plan whose truck is too full, and too late at its second customer"}
+CHECK_ERROR_RESPONSES = {status: response for status, response in ERROR_RESPONSES.items()
+                         if status != 500}
+"""A plan of whatever kind is an answer."""
 
-async def read_body(request: Request) -> ReceivedBody:
-    """Read the body, as far as it stays within the limit."""
-    limit: int = request.app.state.settings.max_body_bytes
-    too_large = BodyTooLargeError(f"The body has more than {limit} bytes: send less at a time.")
-    stated = request.headers.get("content-length", "0")
-    if stated.isdigit() and int(stated) > limit:
-        raise too_large
-    content = bytearray()
-    async for chunk in request.stream():
-        content += chunk
-        if len(content) > limit:
-            raise too_large
-    return ReceivedBody(bytes(content), time.perf_counter())
+
+async def read_body(request: Request) -> AsyncIterator[ReceivedBody]:
+    """Read the body, as far as it stays within the limits."""
+    bodies: Bodies = request.app.state.bodies
+    async with bodies.read(request) as body:
+        yield body
 
 
 def get_service(request: Request) -> PlanService:
@@ -48,29 +42,38 @@ Service = Annotated[PlanService, Depends(get_service)]
 Body = Annotated[ReceivedBody, Depends(read_body)]
 
 
-@router.post("/plan", summary="Plan deliveries", response_model=PlanReply,
-             responses=ERROR_RESPONSES)
-def plan(body: Body, service: Service) -> Response:
+@router.post("/plan", summary="Plan deliveries", tags=["planning"], response_model=PlanReply,
+             responses=ERROR_RESPONSES, openapi_extra=json_body(PlanRequest, EXAMPLES))
+async def plan(request: Request, principal: Plan, planning: Planning, body: Body,
+               service: Service) -> Response:
     """Return routes, costs and load rates; customers that can't be served stay unassigned."""
-    return Response(service.plan(body), media_type="application/json")
+    reply = await planning.run(request, lambda should_stop: service.plan(body, should_stop))
+    return Response(reply, media_type="application/json")
 
 
-@router.get("/health/live", summary="Is the process alive?")
+@router.post("/check", summary="Judge a plan", tags=["planning"], response_model=CheckReply,
+             responses=CHECK_ERROR_RESPONSES, openapi_extra=json_body(CheckRequest, CHECK_EXAMPLES))
+async def check(request: Request, principal: Plan, planning: Planning, body: Body) -> Response:
+    """Return every rule that a plan breaks, and its true cost by term."""
+    bounds = Bounds.of_plans(request.app.state.settings)
+    reply = await planning.run(request, lambda _: answer_check(body.content, bounds))
+    return Response(reply, media_type="application/json")
+
+
+@router.get("/health/live", summary="Is the process alive?", tags=["operations"],
+            response_model=LivenessReply)
 async def live() -> dict[str, str]:
     """Answer as long as the process runs."""
     return {"status": "live"}
 
 
-@router.get("/health/ready", summary="Can it plan now?",
-            responses={503: {"description": "The service is starting."}})
-async def ready(service: Service) -> JSONResponse:
-    """Answer 200 once plans can be computed, 503 before."""
+@router.get("/health/ready", summary="Can it plan now?", tags=["operations"],
+            response_model=ReadinessReply, responses={503: {
+                "model": ReadinessReply, "description": "The service is starting or stopping."}})
+async def ready(request: Request, service: Service) -> JSONResponse:
+    """Answer 200 while plans can be computed, 503 before and after."""
+    if request.app.state.shutdown.has_begun:
+        return JSONResponse({"status": "stopping", "detail": "this process is about to end"}, 503)
     readiness = service.readiness()
     content = {"status": "ready" if readiness.is_ready else "starting", "detail": readiness.detail}
     return JSONResponse(content, 200 if readiness.is_ready else 503)
-
-
-@router.get("/", response_class=HTMLResponse, include_in_schema=False)
-async def home() -> str:
-    """Say what to open."""
-    return HOME

@@ -8,14 +8,16 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.settings import DEFAULT_POLICY, MAX_THREADS
+from app.schemas_plan import PlanInput
+from app.settings import (
+    DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT,
+)
 from model.problem import MAX_QUANTITY
 
 MAX_AMOUNT = MAX_QUANTITY // 1000
 """Largest amount, duration in seconds or distance in metres: all are held as thousandths."""
 
 MAX_MONEY = 1e12
-MAX_CUSTOMERS = 3_000
 MAX_DEPOTS = 100
 MAX_VEHICLE_TYPES = 100
 MAX_POLYGON_POINTS = 500
@@ -258,7 +260,7 @@ class OptionsInput(_Input):
         description="`greedy` takes the likeliest decision each time, `sample` draws "
         "`num_samples` plans and keeps the best.",
     )
-    num_samples: int = Field(64, ge=1, le=4096, description="Plans drawn when sampling.")
+    num_samples: int = Field(64, ge=1, le=MAX_NUM_SAMPLES, description="Plans drawn when sampling.")
     temperature: Annotated[float, Field(ge=0.01, le=100)] = Field(
         1.0, description="Above 1 samples more widely, below 1 more narrowly."
     )
@@ -268,7 +270,7 @@ class OptionsInput(_Input):
         le=2**63 - 1,
         description="Seed of all random draws. See `search_iterations` for when plans repeat.",
     )
-    time_limit: Annotated[float, Field(ge=0, le=3600)] = Field(
+    time_limit: Annotated[float, Field(ge=0, le=MAX_TIME_LIMIT)] = Field(
         1.0,
         description="Seconds until the reply, validation included. 0: the policy's plan as it is.",
     )
@@ -284,6 +286,37 @@ class OptionsInput(_Input):
         description="Threads of the search. Null: as the service's setting "
         "`TANDEM_SEARCH_THREADS` says, usually one. No more are used than the machine has cores; "
         "the reply's `solver.threads` tells how many.",
+    )
+
+
+class ReplanInput(_Input):
+    """A plan to go on from, and what of it stays."""
+
+    plan: PlanInput = Field(
+        description="A plan that `POST /plan` replied, unchanged or cut down. Customers whom it "
+        "lacks are new orders; customers whom the request lacks are cancelled."
+    )
+    freeze_before: Seconds | None = Field(
+        None,
+        description="Now, in seconds since plan start: what has departed by then stays as the plan "
+        "says, and vehicles go on from where they are with what they carry. Null: nothing has "
+        "happened yet; the plan is where the search begins.",
+    )
+    pinned: Annotated[list[Name], Field(max_length=MAX_CUSTOMERS)] = Field(
+        [], description="Customers who stay with their vehicles; if need be, they are left out."
+    )
+    pin_all: bool = Field(
+        False, description="Whether all customers of the plan stay with their vehicles."
+    )
+    unavailable: Annotated[list[Name], Field(max_length=10_000)] = Field(
+        [],
+        description="Vehicles, such as `truck-2`, that do nothing more from `freeze_before` on; "
+        "whom they haven't begun to serve by then others serve.",
+    )
+    parcels_back: Seconds | None = Field(
+        None,
+        description="When the parcels aboard unavailable vehicles are at the depots again, in "
+        "seconds since plan start. Null: at `freeze_before`.",
     )
 
 
@@ -314,5 +347,8 @@ class PlanRequest(_Input):
     unassigned_cost: Money | None = Field(
         None,
         description="Cost of each customer left out. Null: larger than the detour to any customer.",
+    )
+    replan: ReplanInput | None = Field(
+        None, description="A plan to go on from. Null: plan from nothing."
     )
     options: OptionsInput = Field(OptionsInput(), description="How to plan.")

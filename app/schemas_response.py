@@ -161,6 +161,38 @@ class SolverReply(_Reply):
     elapsed: ElapsedReply = Field(description="Seconds by phase.")
 
 
+class ViolationReply(_Reply):
+    """A broken rule."""
+
+    code: str = Field(description="Stable name of the rule.")
+    path: str = Field(description="Where it is broken, such as `$.plan.routes[0].trips[1]`.")
+    message: str = Field(description="How it is broken.")
+
+
+class SettledReply(_Reply):
+    """How far a vehicle's work is settled."""
+
+    vehicle: str = Field(description="Name of the vehicle.")
+    trip: int = Field(description="Index in `trips` of the last one that has begun.")
+    stop: int = Field(
+        description="Index in its `stops` of the last one that can't be changed: the truck has "
+        "been there, is on its way there, or meets a drone there that is in the air."
+    )
+
+
+class ReplanReply(_Reply):
+    """What became of the plan that was given."""
+
+    settled: list[SettledReply] = Field(
+        description="Vehicles that have departed before `freeze_before`. They come first in "
+        "`routes`, in this order."
+    )
+    excused: list[ViolationReply] = Field(
+        description="Rules that are broken already by what has happened, such as a window that was "
+        "closed after service had begun there. Nothing can mend them."
+    )
+
+
 class PlanReply(_Reply):
     """A plan that passed the independent check."""
 
@@ -172,3 +204,21 @@ class PlanReply(_Reply):
     unassigned: list[UnassignedReply] = Field(description="Customers left out, with reasons.")
     summary: SummaryReply = Field(description="The plan in numbers.")
     solver: SolverReply = Field(description="How the plan was made.")
+    replan: ReplanReply | None = Field(
+        None, description="What became of the plan given. Left out if none was."
+    )
+
+
+class LivenessReply(_Reply):
+    """The process runs."""
+
+    status: Literal["live"] = Field(description="Always the same.")
+
+
+class ReadinessReply(_Reply):
+    """Whether plans can be computed now."""
+
+    status: Literal["ready", "starting", "stopping"] = Field(
+        description="`ready` if plans can be computed."
+    )
+    detail: str = Field(description="The same in words.")

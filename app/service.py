@@ -3,20 +3,19 @@
 import logging
 import os
 import time
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
 from pydantic_core import to_json
 
-from app.convert import to_problem
 from app.errors import NotReadyError
+from app.load.bounds import UNBOUNDED, Bounds
 from app.reading import read_request
-from app.replies import plan_reply
+from app.replanning import task_of
+from app.replies import Data
 from app.schemas_request import OptionsInput
-from model.check import check
-from model.planner import Elapsed, Planner, PlanOptions, PlanResult
-from model.problem import Problem
-from model.solution import Solution
+from model.planner import ALONE, Listener, Planner, PlanOptions
 
 logger = logging.getLogger(__name__)
 
@@ -40,9 +39,13 @@ class Readiness:
 class PlanService:
     """Answers planning requests once its planner is warm."""
 
-    def __init__(self, planner: Planner, search_threads: int = 1) -> None:
+    def __init__(self, planner: Planner, search_threads: int = 1,
+                 on_plan: Callable[[Data], None] = lambda _: None,
+                 bounds: Bounds = UNBOUNDED) -> None:
         self._planner = planner
         self._search_threads = search_threads
+        self._on_plan = on_plan
+        self._bounds = bounds
         self._executor = ThreadPoolExecutor(1, thread_name_prefix="warm")
         self._warming: Future[None] | None = None
         self._progress = "not started"
@@ -64,8 +67,11 @@ class PlanService:
             return Readiness(False, f"warming up failed: {error}")
         return Readiness(True, "ready")
 
-    def plan(self, body: ReceivedBody) -> bytes:
+    def plan(self, body: ReceivedBody,
+             should_stop: Callable[[], bool] = lambda: False) -> bytes:
         """Return the reply to a planning request as JSON.
+
+        The search ends as soon as `should_stop` says so, with the best plan so far.
 
         Raises
         ------
@@ -76,31 +82,44 @@ class PlanService:
         PlanCheckError
             If the plan found breaks a rule.
         """
+        return answer(self.warm_planner(), body, self._search_threads, self._on_plan,
+                      Listener(should_stop), self._bounds)
+
+    def warm_planner(self) -> Planner:
+        """Return the planner.
+
+        Raises
+        ------
+        NotReadyError
+            If it isn't warm yet.
+        """
         readiness = self.readiness()
         if not readiness.is_ready:
             raise NotReadyError(f"The planner is not ready ({readiness.detail}): try again soon.")
-        return answer(self._planner, body, self._search_threads)
+        return self._planner
 
     def _note(self, progress: str) -> None:
         logger.info("warming up: %s", progress)
         self._progress = progress
 
 
-def answer(planner: Planner, body: ReceivedBody, search_threads: int = 1) -> bytes:
+def answer(planner: Planner, body: ReceivedBody, search_threads: int = 1,
+           on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
+           bounds: Bounds = UNBOUNDED) -> bytes:
     """Return the reply to a planning request as JSON; raises as `PlanService.plan` does.
 
-    A request that states no number of threads gets `search_threads`.
+    A request that states no number of threads gets `search_threads`; `on_plan` is told the reply.
     """
-    request = read_request(body.content, planner.policies)
-    problem = to_problem(request)
+    request = read_request(body.content, planner.policies, bounds)
+    task = task_of(request)
     validated = time.perf_counter() - body.received_at
     options = plan_options(request.options, search_threads)
-    result = (planner.plan(problem, options, body.received_at) if problem.customers
-              else _no_plan(problem, options))
-    reply = plan_reply(problem, options, result)
+    result = task.plan(planner, options, body.received_at, listener)
+    reply = task.reply(options, result)
     elapsed = reply["solver"]["elapsed"]
     elapsed["validate"] = validated
     elapsed["total"] = time.perf_counter() - body.received_at
+    on_plan(reply)
     return to_json(reply)
 
 
@@ -116,20 +135,4 @@ def plan_options(stated: OptionsInput, search_threads: int = 1) -> PlanOptions:
         time_limit=stated.time_limit,
         search_iterations=stated.search_iterations,
         threads=min(threads, os.cpu_count() or 1),
-    )
-
-
-def _no_plan(problem: Problem, options: PlanOptions) -> PlanResult:
-    """Return the empty plan of a problem without customers."""
-    solution = Solution(())
-    return PlanResult(
-        solution=solution,
-        evaluation=check(problem, solution),
-        start="policy",
-        decoded_cost=0.0,
-        final_cost=0.0,
-        search_iterations=0,
-        threads=options.threads,
-        deterministic=True,
-        elapsed=Elapsed(decode=0.0, search=0.0, check=0.0),
     )

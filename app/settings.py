@@ -1,9 +1,11 @@
 """Settings, read from environment variables that begin with `TANDEM_`."""
 
 import os
+import re
 from pathlib import Path
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field, SecretStr
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 DEFAULT_POLICY = "attention"
@@ -14,11 +16,48 @@ MAX_THREADS = 64
 
 WEIGHTS_DIR = Path(__file__).resolve().parent.parent / "model" / "weights"
 
+MAX_CUSTOMERS = 10_000
+"""Most customers of any request, whatever the settings say."""
+
+MAX_NUM_SAMPLES = 4096
+"""Most samples of any request."""
+
+MAX_LEGS = 10**9
+"""Most legs of any request."""
+
+BYTES_PER_LEG = 50
+"""What planning holds in memory for a leg."""
+
+MAX_TIME_LIMIT = 3600
+"""Longest time limit of any request in seconds."""
+
+
+def memory_bytes() -> int:
+    """Return how much memory this machine, or the container on it, has."""
+    machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    limit = Path("/sys/fs/cgroup/memory.max")
+    stated = limit.read_text().strip() if limit.exists() else "max"
+    return machine if stated == "max" else min(machine, int(stated))
+
+
+def default_data_dir() -> Path:
+    """Return the folder for data of the user who runs the service."""
+    shared = os.environ.get("XDG_DATA_HOME") or os.path.expanduser("~/.local/share")
+    return Path(shared, "tandem")
+
+
+def _webhook_secret(secret: SecretStr) -> SecretStr:
+    """Refuse what is no secret of Standard Webhooks."""
+    if re.fullmatch(r"whsec_[A-Za-z0-9+/]{32,100}={0,2}", secret.get_secret_value()) is None:
+        raise ValueError("write 'whsec_' and at least 24 random bytes in base64")
+    return secret
+
 
 class Settings(BaseSettings):
     """How the service runs."""
 
-    model_config = SettingsConfigDict(env_prefix="TANDEM_", frozen=True)
+    model_config = SettingsConfigDict(env_prefix="TANDEM_", frozen=True,
+                                      hide_input_in_errors=True)
 
     weights_dir: Path = Field(
         WEIGHTS_DIR, description="Folder with one sub-folder of exported weights per policy."
@@ -32,7 +71,8 @@ class Settings(BaseSettings):
     max_concurrent_plans: int = Field(
         default_factory=lambda: os.cpu_count() or 1,
         ge=1,
-        description="Plans computed at the same time; further requests wait for their turn.",
+        description="Plans computed at the same time; further requests wait for their turn. "
+        "Usually as many as there are cores.",
     )
     search_threads: int = Field(
         1,
@@ -40,4 +80,151 @@ class Settings(BaseSettings):
         le=MAX_THREADS,
         description="Threads of a search when the request states none; no more than this machine "
         "has cores are ever used.",
+    )
+    tile_url: str | None = Field(
+        None,
+        pattern=r"^https?://[^/]+/.*\{z\}.*",
+        description="Address of map tiles for the console, with `{z}`, `{x}` and `{y}`, such as "
+        "`https://tiles.example.org/{z}/{x}/{y}.png`. None: no tiles, and no request leaves.",
+    )
+    tile_attribution: str = Field(
+        "", description="Whom the console thanks for map tiles, as plain text."
+    )
+    log_format: Literal["auto", "json", "console"] = Field(
+        "auto", description="Log lines: `json`, `console` (for people) or `auto`, which is "
+        "`console` on a terminal and `json` elsewhere.",
+    )
+    log_level: Literal["debug", "info", "warning", "error"] = Field(
+        "info", description="Least urgent log lines to write."
+    )
+    metrics_open: bool = Field(
+        False, description="Whether `/metrics` may be read without a key where keys are needed."
+    )
+    otlp_endpoint: str | None = Field(
+        None,
+        pattern="^https?://",
+        description="Address of an OpenTelemetry collector for traces (OTLP over HTTP), such as "
+        "`http://collector:4318`; needs the packages of the extra `trace`. None: no traces.",
+    )
+    data_dir: Path = Field(
+        default_factory=default_data_dir,
+        description="Folder for the service's own data where no database is named. Usually "
+        "`~/.local/share/tandem`.",
+    )
+    database_url: SecretStr | None = Field(
+        None,
+        description="Database for keys and jobs, such as `postgresql://user:password@host/tandem`. "
+        "None: an SQLite file in `TANDEM_DATA_DIR`.",
+    )
+    access: Literal["keys", "open"] | None = Field(
+        None,
+        description="`keys`: every request needs an API key (`tandem keys create`); `open`: none "
+        "does. None: open, and `tandem serve` listens on a loopback address only.",
+    )
+    plans_per_minute: int = Field(
+        0, ge=0, description="Plans a minute for each key, or for each address where access is "
+        "open, in each process. 0: no limit.",
+    )
+    jobs_per_minute: int = Field(
+        0, ge=0, description="Jobs a minute for each key or address, in each process. 0: no limit."
+    )
+    wrong_keys_per_minute: int = Field(
+        60, ge=0, description="Wrong keys a minute from one address, in each process, before they "
+        "are answered with 429. 0: no limit.",
+    )
+    cors_origins: tuple[str, ...] = Field(
+        (), description="Origins whose pages may call the service, as a JSON list such as "
+        '`["https://dispatch.example.org"]`.',
+    )
+    max_queued_plans: int = Field(
+        default_factory=lambda known: 2 * known.get("max_concurrent_plans", 1),
+        ge=0,
+        description="Plans that may wait while others are computed; what comes beyond is refused "
+        "with 503. Usually twice `TANDEM_MAX_CONCURRENT_PLANS`.",
+    )
+    max_queue_seconds: float = Field(
+        2.0, gt=0, description="Longest wait for a plan's turn in seconds, then 503."
+    )
+    max_customers: int = Field(
+        MAX_CUSTOMERS, ge=1, le=MAX_CUSTOMERS, description="Most customers of a request."
+    )
+    max_num_samples: int = Field(
+        MAX_NUM_SAMPLES, ge=1, le=MAX_NUM_SAMPLES,
+        description="Largest `options.num_samples` of a request.",
+    )
+    max_legs: int = Field(
+        default_factory=lambda: min(MAX_LEGS, memory_bytes() // 4 // BYTES_PER_LEG),
+        ge=1, le=MAX_LEGS,
+        description="Most legs of a request: places squared, for each way to travel by speed or "
+        "matrix. Planning holds about 50 bytes a leg; usually as many as a quarter of the memory "
+        "holds.",
+    )
+    max_plan_seconds: float = Field(
+        60.0, ge=0, le=MAX_TIME_LIMIT,
+        description="Largest `options.time_limit` of `POST /plan` in seconds.",
+    )
+    max_body_seconds: float = Field(
+        30.0, gt=0, description="Longest time that a body may take to arrive in seconds, then 408."
+    )
+    max_buffered_bytes: int = Field(
+        256 * 2**20, ge=1, description="Most bytes of bodies in memory at once, in each process; "
+        "what comes beyond is refused with 503.",
+    )
+    drain_seconds: float = Field(
+        1.0, ge=0, description="After SIGTERM, how long new requests are answered with 503 before "
+        "the port is closed, so that load balancers notice.",
+    )
+    shutdown_seconds: int = Field(
+        10, ge=1, description="Longest time in seconds that requests may take to end after the "
+        "port is closed.",
+    )
+    role: Literal["all", "api", "worker"] = Field(
+        "all", description="What this process does: `api` answers requests and takes jobs in, "
+        "`worker` works on jobs and answers only for its health and metrics, `all` does both.",
+    )
+    worker_id: str | None = Field(
+        None,
+        pattern="^[A-Za-z0-9][A-Za-z0-9_.-]{0,99}$",
+        description="Name of this worker, which must be its own and the same again after a "
+        "restart, so that it goes on at once with its jobs. None: `local` with SQLite, else the "
+        "name of the host.",
+    )
+    job_slots: int = Field(
+        default_factory=lambda known: known.get("max_concurrent_plans", 1),
+        ge=1,
+        description="Jobs' plans computed at once in each process; the same for all workers. "
+        "Usually as many as `TANDEM_MAX_CONCURRENT_PLANS`.",
+    )
+    max_job_seconds: float = Field(
+        MAX_TIME_LIMIT, gt=0, le=MAX_TIME_LIMIT,
+        description="Largest `options.time_limit` of a job in seconds.",
+    )
+    max_open_jobs: int = Field(
+        10_000, ge=1, description="Plans that may wait or run as jobs, scenarios included; what "
+        "comes beyond is refused with 503.",
+    )
+    max_scenarios: int = Field(
+        500, ge=1, le=10_000, description="Most scenarios of a comparison or sweep."
+    )
+    job_expiry_hours: float = Field(
+        72.0, gt=0, description="Hours after their end when jobs and their results are deleted."
+    )
+    webhook_secret: Annotated[SecretStr, AfterValidator(_webhook_secret)] | None = Field(
+        None,
+        description="What webhooks are signed with: `whsec_` and at least 24 random bytes in "
+        "base64, as Standard Webhooks has it. None: no webhooks are called.",
+    )
+    webhook_private: bool | None = Field(
+        None,
+        description="Whether webhooks may be on this machine or in private networks. None: only "
+        "where the service itself listens on a loopback address.",
+    )
+    vroom_seconds: float = Field(
+        1.0, gt=0, le=MAX_TIME_LIMIT,
+        description="Time limit of `POST /vroom` in seconds where `options` state none.",
+    )
+    vroom_speeds: dict[str, Annotated[float, Field(ge=1, le=1000)]] = Field(
+        {"car": 40.0, "truck": 40.0, "bike": 15.0, "foot": 5.0},
+        description="Speeds in km/h of `POST /vroom` by profile, for legs that no matrix states, "
+        "as a JSON object.",
     )

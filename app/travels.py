@@ -1,6 +1,7 @@
 """Travel matrices of a request, from locations or the client's matrices, equal ones built once."""
 
 from functools import cached_property
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -31,14 +32,28 @@ from model.travel import (
 _MAX_FLIGHT_M = MAX_QUANTITY / 1000
 
 
+class _Key(NamedTuple):
+    """What tells one pair of matrices from another."""
+
+    means: Literal["drive", "matrix", "flight"]
+    profile: str  # of the client's matrix, else empty
+    speed: float  # km/h, or a multiple of the matrix speed
+
+
 class Travels:
     """Collects the matrices of one valid request."""
 
     def __init__(self, request: PlanRequest) -> None:
         self._request = request
         self._places: list[DepotInput | CustomerInput] = [*request.depots, *request.customers]
-        self._index: dict[tuple[str, str, float], int] = {}
+        self._index: dict[_Key, int] = {}
         self._travels: list[Travel] = []
+
+    def count(self) -> int:
+        """Return how many pairs of matrices the request needs, without building any."""
+        fleet = self._request.fleet
+        return len({self._driving(kind)[0] for kind in fleet}
+                   | {self._flying(kind.drones) for kind in fleet if kind.drones is not None})
 
     def built(self) -> tuple[Travel, ...]:
         """Return the matrices built so far."""
@@ -46,35 +61,12 @@ class Travels:
 
     def drive(self, vehicle_type: VehicleTypeInput) -> tuple[int, SpeedProfile | None]:
         """Return the index of the trucks' matrices, and their speeds by time of day."""
-        matrix = self._matrix(vehicle_type.profile)
-        usual = vehicle_type.speed_kmh or DEFAULT_TRUCK_SPEED_KMH
-        scale = usual if matrix is None else 1.0
-        if not vehicle_type.speed_profile:
-            return self._drive_at(vehicle_type.profile, matrix, scale), None
-        changes = [
-            (thousandths(change.from_time),
-             scale * (change.factor or (change.speed_kmh or usual) / usual))
-            for change in vehicle_type.speed_profile
-        ]
-        fastest, profile = speed_profile(scale, changes)
-        return self._drive_at(vehicle_type.profile, matrix, fastest), profile
+        key, profile = self._driving(vehicle_type)
+        return self._at(key), profile
 
     def fly(self, drones: DronesInput) -> int:
         """Return the index of the drones' matrices."""
-        matrix = self._matrix(drones.profile)
-        speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
-        airspace = self._request.airspace
-        if matrix is not None:
-            return self._drive_at(drones.profile, matrix, 1.0)
-        if not airspace.no_fly and not airspace.wind.speed_kmh:
-            return self._drive_at(drones.profile, None, speed)
-        key = ("flight", "", speed)
-        if key not in self._index:
-            legs = flight_legs(self._points_m, self._airspace, speed, self._distances_m)
-            too_long = legs.distance > _MAX_FLIGHT_M
-            self._add(key, flight_travel(np.where(too_long, np.inf, legs.distance),
-                                         np.where(too_long, np.inf, legs.duration)))
-        return self._index[key]
+        return self._at(self._flying(drones))
 
     def coordinates(self) -> FloatArray:
         """Return the (node, 2) coordinates that the policy sees, in any planar unit."""
@@ -82,25 +74,56 @@ class Travels:
             return self._points_m
         return embed(self._travels[0].duration)
 
+    def _driving(self, vehicle_type: VehicleTypeInput) -> tuple[_Key, SpeedProfile | None]:
+        matrix = self._matrix(vehicle_type.profile)
+        usual = vehicle_type.speed_kmh or DEFAULT_TRUCK_SPEED_KMH
+        scale = usual if matrix is None else 1.0
+        if not vehicle_type.speed_profile:
+            return self._driving_at(vehicle_type.profile, scale), None
+        changes = [
+            (thousandths(change.from_time),
+             scale * (change.factor or (change.speed_kmh or usual) / usual))
+            for change in vehicle_type.speed_profile
+        ]
+        fastest, profile = speed_profile(scale, changes)
+        return self._driving_at(vehicle_type.profile, fastest), profile
+
+    def _flying(self, drones: DronesInput) -> _Key:
+        if self._matrix(drones.profile) is not None:
+            return self._driving_at(drones.profile, 1.0)
+        speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
+        airspace = self._request.airspace
+        if not airspace.no_fly and not airspace.wind.speed_kmh:
+            return self._driving_at(drones.profile, speed)
+        return _Key("flight", "", speed)
+
+    def _driving_at(self, profile: str, speed: float) -> _Key:
+        return (_Key("drive", "", speed) if self._matrix(profile) is None
+                else _Key("matrix", profile, speed))
+
     def _matrix(self, profile: str) -> MatrixInput | None:
         return (self._request.matrices or {}).get(profile)
 
-    def _drive_at(self, profile: str, matrix: MatrixInput | None, speed: float) -> int:
-        """Return the index of legs at a speed: km/h, or a multiple of the matrix speed."""
-        key = ("drive", "", speed) if matrix is None else ("matrix", profile, speed)
+    def _at(self, key: _Key) -> int:
+        """Return the index of a pair of matrices, which is built the first time."""
         if key not in self._index:
-            if matrix is None:
-                self._add(key, truck_travel(self._distances_m, speed))
-            else:
-                durations = self._at_places(matrix.durations) / speed
-                distances = (self._distances_m if matrix.distances is None
-                             else self._at_places(matrix.distances))
-                self._add(key, matrix_travel(durations, distances))
+            self._index[key] = len(self._travels)
+            self._travels.append(self._build(key))
         return self._index[key]
 
-    def _add(self, key: tuple[str, str, float], travel: Travel) -> None:
-        self._index[key] = len(self._travels)
-        self._travels.append(travel)
+    def _build(self, key: _Key) -> Travel:
+        matrix = self._matrix(key.profile) if key.means == "matrix" else None
+        if matrix is not None:
+            durations = self._at_places(matrix.durations) / key.speed
+            distances = (self._distances_m if matrix.distances is None
+                         else self._at_places(matrix.distances))
+            return matrix_travel(durations, distances)
+        if key.means == "drive":
+            return truck_travel(self._distances_m, key.speed)
+        legs = flight_legs(self._points_m, self._airspace, key.speed, self._distances_m)
+        too_long = legs.distance > _MAX_FLIGHT_M
+        return flight_travel(np.where(too_long, np.inf, legs.distance),
+                             np.where(too_long, np.inf, legs.duration))
 
     def _at_places(self, table: list[list[float]]) -> FloatArray:
         """Return a client's matrix with one row and column per node."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.errors import ErrorCode, InputError, json_path
+from app.plan_validation import Names, replan_errors
 from app.schemas_request import (
     AirspaceInput,
     CustomerInput,
@@ -13,6 +14,7 @@ from app.schemas_request import (
     Location,
     MatrixInput,
     OptionsInput,
+    ReplanInput,
     SpeedChangeInput,
     VehicleTypeInput,
 )
@@ -50,6 +52,7 @@ class Draft:
     matrices_known: bool
     airspace: AirspaceInput | None
     options: OptionsInput | None
+    replan: ReplanInput | None = None
 
     def places(self) -> Iterator[tuple[Path, Place]]:
         """Yield depots and customers with their paths."""
@@ -81,6 +84,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *_speed_errors(draft),
         *_airspace_errors(draft),
         *_policy_errors(draft, policies),
+        *replan_errors(draft.replan, Names.of(draft.depots, draft.customers, draft.fleet)),
     ]
 
 

@@ -1,7 +1,7 @@
 """Tiny problems whose answers were worked out by hand."""
 
 import socket
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 import pytest
@@ -17,6 +17,14 @@ from model.problem import (
 )
 
 MINUTE = 60_000
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_data_dir(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Have services under test keep their data in a folder of their own."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TANDEM_DATA_DIR", str(tmp_path_factory.mktemp("data")))
+        yield
 
 
 def free_port() -> int:

@@ -25,15 +25,18 @@ SEARCH = tuple(f"search/{name}" for name in (
     "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit", "savings",
     "translate", "sharing", "anneal", "improve",
 ))
+REPLANNING = tuple(f"replanning/{name}" for name in (
+    "amend", "kept", "workers", "remainder", "handover"))
 MODEL_ORDER = (
-    "compiled", "problem", "solution", "timing", "metrics", "rules", "check", "attempt", "explain",
+    "compiled", "problem", "solution", "past", "timing", "metrics", "rules", "past_rules", "check",
+    "attempt", "explain", *REPLANNING,
     "travel", "airspace", "instance", "schedule", "cost", "transition", "simulator", "tokens",
     "prospects", "features", "extract", *SEARCH, "policy", "policy_pointer", "policy_attention",
-    "decode", "planner",
+    "decode", "planner", "replan",
 )
 """Each file of `model` imports only files to the left of its name."""
 
-CHECKER = ("timing", "metrics", "rules", "check", "attempt", "explain")
+CHECKER = ("past", "timing", "metrics", "rules", "past_rules", "check", "attempt", "explain")
 SIMULATION = ("compiled", "instance", "schedule", "cost", "transition", "simulator", "tokens",
               "prospects", "features", "extract")
 INTERPRETED = {"solution"}

@@ -16,7 +16,7 @@ import uvicorn
 from app.main import create_app
 from app.settings import DEFAULT_POLICY, Settings
 from model.check import check
-from model.planner import Elapsed, Planner, PlanOptions, PlanResult
+from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 from model.solution import Route, Solution
 from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
@@ -33,8 +33,8 @@ class FirstFitPlanner:
         if progress is not None:
             progress("nothing to compile")
 
-    def plan(self, problem: Problem, options: PlanOptions,
-             received_at: float | None = None) -> PlanResult:
+    def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
+             listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
         routes: list[RouteDecision] = []
         unassigned = []
         for node in range(problem.num_depots, problem.num_nodes):
@@ -89,6 +89,14 @@ def _timed(problem: Problem, routes: list[RouteDecision]) -> tuple[Route, ...]:
     return tuple(schedule(problem, route) for route in routes)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def no_workers() -> Iterator[None]:
+    """Let services within this process take jobs without working on them: only one could."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TANDEM_ROLE", "api")
+        yield
+
+
 @pytest.fixture
 def planner() -> FirstFitPlanner:
     """Return a planner that needs no weights."""
@@ -96,9 +104,9 @@ def planner() -> FirstFitPlanner:
 
 
 @contextmanager
-def _serving(planner: Planner) -> Iterator[httpx.Client]:
+def _serving(planner: Planner, settings: Settings | None = None) -> Iterator[httpx.Client]:
     """Serve on loopback."""
-    app = create_app(Settings(max_body_bytes=2**20), planner)
+    app = create_app(settings or Settings(max_body_bytes=2**20), planner)
     # With its protocol stated, asyncio sends small packets at once.
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.bind(("127.0.0.1", 0))
@@ -115,10 +123,10 @@ def _serving(planner: Planner) -> Iterator[httpx.Client]:
 
 
 @pytest.fixture
-def serve() -> Iterator[Callable[[Planner], httpx.Client]]:
+def serve() -> Iterator[Callable[..., httpx.Client]]:
     """Return a function that serves a planner, until the test ends, and returns a client."""
     with ExitStack() as stack:
-        yield lambda planner: stack.enter_context(_serving(planner))
+        yield lambda planner, settings=None: stack.enter_context(_serving(planner, settings))
 
 
 @pytest.fixture(scope="session")

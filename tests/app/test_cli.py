@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app import cli
+from app.file_errors import EXIT_BAD_INPUT
 from model.planner import Planner
 
 Request = dict[str, Any]
@@ -55,7 +56,7 @@ def test_wrong_input_is_told_as_over_http(tmp_path: Path, smallest: Request) -> 
     problem = _write(tmp_path / "problem.json", smallest)
     for command in (["plan", problem], ["check", problem, problem]):
         told = CliRunner().invoke(cli.cli, command)
-        assert told.exit_code == cli.EXIT_BAD_INPUT
+        assert told.exit_code == EXIT_BAD_INPUT
         assert "WRONG_TYPE $.customers[0].demand[0]: " in told.stderr
         assert "UNKNOWN_DEPOT $.fleet[0].depot: " in told.stderr
 
@@ -63,7 +64,7 @@ def test_wrong_input_is_told_as_over_http(tmp_path: Path, smallest: Request) -> 
 def test_what_is_no_plan_is_refused(tmp_path: Path, smallest: Request) -> None:
     problem = _write(tmp_path / "problem.json", smallest)
     told = CliRunner().invoke(cli.cli, ["check", problem, problem])
-    assert told.exit_code == cli.EXIT_BAD_INPUT
+    assert told.exit_code == EXIT_BAD_INPUT
     assert "MISSING_FIELD $.routes: " in told.stderr
 
 
@@ -77,4 +78,5 @@ def test_serve_runs_the_application(monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[dict[str, Any]] = []
     monkeypatch.setattr("uvicorn.run", lambda app, **options: calls.append(options))
     assert CliRunner().invoke(cli.cli, ["serve", "--port", "81"]).exit_code == 0
-    assert calls == [{"host": "127.0.0.1", "port": 81}]
+    (options,) = calls
+    assert (options["host"], options["port"]) == ("127.0.0.1", 81)

@@ -14,8 +14,11 @@ from app.main import create_app
 from app.schemas_request import OptionsInput
 from app.service import PlanService, ReceivedBody, answer, plan_options
 from app.settings import DEFAULT_POLICY, Settings
-from model.planner import PlanCheckError, Planner, PlanOptions, PlanResult
+from model.planner import (
+    ALONE, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
+)
 from model.problem import Problem
+from model.solution import Solution
 
 Progress = Callable[[str], None]
 Serve = Callable[[Planner], httpx.Client]
@@ -55,8 +58,8 @@ class WrongPlanner:
     def warm(self, progress: Progress | None = None) -> None:
         pass
 
-    def plan(self, problem: Problem, options: PlanOptions,
-             received_at: float | None = None) -> PlanResult:
+    def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
+             listener: Listener = ALONE) -> PlanResult:
         raise self._error
 
 
@@ -117,8 +120,8 @@ def test_time_limit_runs_from_the_end_of_the_request(
     told: list[float | None] = []
     plan = planner.plan
 
-    def listening(problem: Problem, options: PlanOptions,
-                  received_at: float | None = None) -> PlanResult:
+    def listening(problem: Problem, options: PlanOptions, received_at: float | None = None,
+                  listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
         told.append(received_at)
         return plan(problem, options, received_at)
 

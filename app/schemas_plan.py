@@ -1,0 +1,105 @@
+"""A plan that a client sends: a reply of `POST /plan`, as it is or cut down to what decides.
+
+What follows from the rest, such as loads and costs, may be there and is not read: it is computed
+anew.
+"""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from model.problem import MAX_QUANTITY
+
+MAX_INSTANT = MAX_QUANTITY // 1000
+"""Farthest instant from the plan's start in seconds."""
+
+NOT_READ = "Not read: it is computed anew."
+
+Instant = Annotated[float, Field(ge=-MAX_INSTANT, le=MAX_INSTANT)]
+Number = Annotated[float | None, Field(description=NOT_READ)]
+Details = Annotated[dict[str, Any] | None, Field(description=NOT_READ)]
+
+
+class _Plan(BaseModel):
+    """Strict on types, names and finiteness."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
+
+
+class VisitInput(_Plan):
+    """A customer served by a drone. Times in seconds since plan start."""
+
+    id: str = Field(description="Id of the customer.")
+    arrival: Instant = Field(description="Arrival of the drone.")
+    service_start: Instant = Field(description="Start of service.")
+    departure: Instant = Field(description="Departure of the drone.")
+    lateness: Number = None
+
+
+class StopInput(_Plan):
+    """A place where the truck halts. Times in seconds since plan start."""
+
+    kind: Literal["depot", "customer"] = Field(description="What the place is.")
+    id: str = Field(description="Id of the depot or customer.")
+    arrival: Instant = Field(
+        description="Arrival; at the trip's first stop, when loading is done."
+    )
+    service_start: Instant = Field(description="Start of service; at depots the arrival.")
+    departure: Instant = Field(description="Departure; at the trip's last stop, its end.")
+    waiting: Number = None
+    lateness: Number = None
+    load: list[float] | None = Field(None, description=NOT_READ)
+
+
+class SortieInput(_Plan):
+    """One drone flight. Times in seconds since plan start."""
+
+    drone: str = Field(description="Name of the drone, `<vehicle>/drone-<number>`.")
+    launch_stop: int = Field(description="Index in `stops` where it is launched.")
+    recovery_stop: int = Field(description="Index in `stops` where it is recovered.")
+    customers: list[VisitInput] = Field(description="Customers served, in order.")
+    launch_time: Instant = Field(description="Take-off; the launch lies before it.")
+    recovery_time: Instant = Field(description="End of the recovery.")
+    distance: Number = None
+    duration: Number = None
+
+
+class TripInput(_Plan):
+    """Depot to depot on one loading."""
+
+    stops: list[StopInput] = Field(description="Stops in order, the depot first and last.")
+    sorties: list[SortieInput] = Field([], description="Drone flights of this trip.")
+    load: list[float] | None = Field(None, description=NOT_READ)
+    load_rate: Number = None
+    distance: Number = None
+    duration: Number = None
+
+
+class RouteInput(_Plan):
+    """One vehicle's work."""
+
+    vehicle: str = Field(description="Name of the vehicle, `<type>-<number>`.")
+    type: str = Field(description="Id of the vehicle type.")
+    trips: list[TripInput] = Field(description="Trips in order.")
+    working_duration: Number = None
+    working_rate: Number = None
+    cost: Number = None
+
+
+class LeftOutInput(_Plan):
+    """A customer whom no vehicle serves."""
+
+    id: str = Field(description="Id of the customer.")
+    reasons: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+
+
+class PlanInput(_Plan):
+    """A plan, as `POST /plan` replied it."""
+
+    routes: list[RouteInput] = Field(description="One entry per vehicle used.")
+    unassigned: list[LeftOutInput] = Field([], description="Customers left out.")
+    status: str | None = Field(None, description=NOT_READ)
+    cost: Details = None
+    summary: Details = None
+    solver: Details = None
+    replan: Details = None

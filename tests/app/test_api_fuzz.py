@@ -1,0 +1,45 @@
+"""Whatever fits or doesn't fit the API's description is answered as it says, never with a 5xx.
+
+The study of ten thousand cases is `python -m benchmarks.fuzz_api`.
+"""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from app.access.keys import SCOPES, KeyStore
+from app.database import make_engine
+from app.settings import Settings
+from tests.app.observe.server import running
+
+CASES = 5
+"""Most of each operation in a phase."""
+
+UNCHECKED = "positive_data_acceptance"
+"""What fits the schema may still be refused: ids that repeat, windows that end before they begin.
+"""
+
+
+def test_generated_requests_are_answered_as_described(tmp_path: Path) -> None:
+    settings = Settings(data_dir=tmp_path / "data")
+    engine = make_engine(settings)
+    key = KeyStore(engine).create("fuzz", SCOPES)
+    engine.dispose()
+    with running(TANDEM_ACCESS="keys", TANDEM_DATA_DIR=str(settings.data_dir), TANDEM_ROLE="all",
+                 TANDEM_WRONG_KEYS_PER_MINUTE="0", TANDEM_LOG_LEVEL="error") as server:
+        command = [
+            Path(sys.executable).parent / "schemathesis", "run",
+            f"{server.client.base_url}/openapi.json", "--header", f"Authorization: Bearer {key}",
+            "--phases", "examples,fuzzing", "--max-examples", str(CASES), "--seed", "7",
+            "--exclude-checks", UNCHECKED, "--continue-on-failure", "--no-shrink",
+            "--suppress-health-check", "all",
+            "--report", "json", "--report-json-path", "report.json",
+        ]
+        done = subprocess.run(command, cwd=tmp_path, text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, check=False)
+        described = set(server.client.get("/openapi.json").json()["paths"])
+    assert done.returncode == 0, done.stdout
+    report = json.loads((tmp_path / "report.json").read_text("utf-8"))
+    assert report["operations"]["tested"] >= len(described)
+    assert report["test_cases"]["generated"] > CASES
