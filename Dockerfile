@@ -8,7 +8,7 @@ WORKDIR /src
 COPY pyproject.toml README.md LICENSE ./
 COPY app ./app
 COPY model ./model
-RUN /opt/tandem/bin/pip install . \
+RUN /opt/tandem/bin/pip install '.[trace]' \
     && /opt/tandem/bin/pip uninstall --yes setuptools pip
 
 
@@ -16,22 +16,25 @@ FROM python:3.11-slim
 
 RUN useradd --system --uid 10001 --user-group --no-create-home --home-dir /nonexistent \
         --shell /usr/sbin/nologin tandem \
-    && install --directory --owner=tandem --group=tandem /cache /opt/compiled
+    && install --directory --owner=tandem --group=tandem /cache /data /opt/compiled
 COPY entrypoint.sh /usr/local/bin/tandem-entrypoint
 COPY --from=builder /opt/tandem /opt/tandem
 
 ENV PATH=/opt/tandem/bin:$PATH \
+    MPLCONFIGDIR=/cache \
     NUMBA_CACHE_DIR=/cache \
     ORT_DISABLE_TELEMETRY=1 \
     PYTHONDONTWRITEBYTECODE=1 \
-    PYTHONUNBUFFERED=1
+    PYTHONUNBUFFERED=1 \
+    TANDEM_ACCESS=keys \
+    TANDEM_DATA_DIR=/data
 
 USER tandem
 WORKDIR /cache
 # Compiled here, copied to the cache at start. On a processor unlike the builder's, the first start
-# compiles again into /cache, the only folder that has to be writable.
+# compiles again into /cache. Without a database elsewhere, keys and jobs are kept in /data.
 RUN NUMBA_CACHE_DIR=/opt/compiled tandem warm
-VOLUME /cache
+VOLUME /cache /data
 
 EXPOSE 8000
 HEALTHCHECK --interval=10s --timeout=3s --start-period=120s --retries=3 \
