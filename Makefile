@@ -33,6 +33,8 @@ plan: .venv/serving ## Plan examples/table1.json, write plan.json and check it
 	@echo "The plan is in plan.json."
 
 test: .venv/testing ## Install what the tests need and run them
+	@echo "Compiling what is tested, so that no test waits for that."
+	@$(BIN)/tandem warm
 	$(BIN)/pytest
 
 lint: .venv/testing ## Check style and types
