@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from app import cli, importers
 from app.convert import to_problem
 from app.errors import RequestError
+from app.file_errors import EXIT_BAD_INPUT
 from app.importers import FileFormat, convert_file
 from app.instance_files import InstanceFileError, Rounding
 from app.reading import read_request
@@ -247,7 +248,7 @@ def test_command_names_the_file_and_what_is_wrong(tmp_path: Path) -> None:
                            "WINDOW_ENDS_BEFORE_START $.customers[0].time_window.latest: ")):
         path = _write(tmp_path, text)
         told = CliRunner().invoke(cli.cli, ["convert", str(path)])
-        assert told.exit_code == cli.EXIT_BAD_INPUT
+        assert told.exit_code == EXIT_BAD_INPUT
         assert told.stderr.startswith(f"{path}: ")
         assert message in told.stderr
         assert told.stdout == ""
