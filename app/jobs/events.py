@@ -1,8 +1,9 @@
 """Server-sent events of jobs, whichever process works on them."""
 
 import asyncio
+import logging
 from collections import Counter
-from collections.abc import AsyncGenerator, AsyncIterator, Awaitable, Callable, Collection
+from collections.abc import AsyncGenerator, AsyncIterator, Awaitable, Callable, Collection, Iterable
 from contextlib import aclosing, suppress
 
 from pydantic_core import to_json
@@ -11,6 +12,8 @@ from sse_starlette import ServerSentEvent
 from app.errors import RequestError
 from app.jobs.replies import progress, summary
 from app.jobs.store import JobRow
+
+logger = logging.getLogger(__name__)
 
 PERIOD = 0.2
 """Seconds between two looks at the jobs that are followed."""
@@ -28,12 +31,12 @@ class Watcher:
     def __init__(self, find_all: Callable[[Collection[str]], Awaitable[list[JobRow]]]) -> None:
         self._find_all = find_all
         self._followers: Counter[str] = Counter()
-        self._latest: dict[str, JobRow | None] = {}  # None: deleted
+        self._latest: dict[str, JobRow | None] = {}  # None: no telling
         self._news = asyncio.Condition()
         self._looking: asyncio.Task[None] | None = None
 
     async def follow(self, row: JobRow) -> AsyncGenerator[JobRow]:
-        """Yield a job now and after each change, until it is over or deleted."""
+        """Yield a job now and after each change, until it is over, deleted or can't be read."""
         self._followers[row.id] += 1
         if self._looking is None:
             self._looking = asyncio.create_task(self._look())
@@ -51,7 +54,7 @@ class Watcher:
                 self._latest.pop(row.id, None)
 
     async def _changed(self, row: JobRow) -> JobRow | None:
-        """Return a job once it differs from what is known of it; None if it was deleted."""
+        """Return a job once it differs from what is known of it; None if there is no telling."""
         async with self._news:
             while True:
                 latest = self._latest.get(row.id, row)
@@ -60,23 +63,33 @@ class Watcher:
                 await self._news.wait()
 
     async def _look(self) -> None:
-        while self._followers:
-            ids = list(self._followers)
-            with suppress(RequestError):
-                found = {row.id: row for row in await self._find_all(ids)}
-                async with self._news:
-                    self._latest = {job_id: found.get(job_id) for job_id in ids
-                                    if job_id in self._followers}
-                    self._news.notify_all()
-            await asyncio.sleep(PERIOD)
-        self._looking = None
+        try:
+            while self._followers:
+                ids = list(self._followers)
+                with suppress(RequestError):
+                    await self._tell(ids, await self._find_all(ids))
+                await asyncio.sleep(PERIOD)
+        except Exception:  # whatever it was, nobody may wait for news that don't come
+            logger.exception("jobs can't be followed")
+            self._looking = None  # whoever comes from now on has them looked at anew
+            await self._tell(list(self._followers), [])
+        else:
+            self._looking = None
+
+    async def _tell(self, ids: Collection[str], rows: Iterable[JobRow]) -> None:
+        """Let followers know which of the jobs there are, and how they stand. In place."""
+        found = {row.id: row for row in rows}
+        async with self._news:
+            self._latest = {job_id: found.get(job_id) for job_id in ids
+                            if job_id in self._followers}
+            self._news.notify_all()
 
 
 async def events(watcher: Watcher, row: JobRow, seen: int) -> AsyncIterator[ServerSentEvent]:
     """Yield the events of a job.
 
     Their numbers are the job's revisions, the same in every process: what has changed while nobody
-    followed is told by the first event.
+    followed is told by the first event. Without an `end`, the client is to come again.
 
     Parameters
     ----------

@@ -66,6 +66,21 @@ def test_outage_of_the_database_ends_nothing() -> None:
     assert told(jobs) == [["5 progress", "6 progress", "6 end"]]
 
 
+def test_unforeseen_error_ends_the_stream_and_the_next_one_goes_on() -> None:
+    async def follow_twice() -> tuple[list[str], list[str]]:
+        watcher = Watcher(Jobs(ValueError("no row"),
+                               replace(ROW, revision=6, state="done")).find_all)
+
+        async def follow(seen: int) -> list[str]:
+            return [f"{event.id} {event.event}" async for event in events(watcher, ROW, seen)]
+
+        async with asyncio.timeout(30):
+            first, = {tuple(told) for told in await asyncio.gather(follow(0), follow(0))}
+            return list(first), await follow(5)
+
+    assert asyncio.run(follow_twice()) == (["5 progress"], ["6 progress", "6 end"])
+
+
 def test_deleted_job_ends_without_an_end() -> None:
     assert told(Jobs(None)) == [["5 progress"]]
 
