@@ -55,6 +55,12 @@ class Travels:
         return len({self._driving(kind)[0] for kind in fleet}
                    | {self._flying(kind.drones) for kind in fleet if kind.drones is not None})
 
+    def count_apart(self) -> int:
+        """Return how many pairs replanning makes of them: drones share none with trucks."""
+        fleet = self._request.fleet
+        return (len({self._driving(kind)[0] for kind in fleet})
+                + len({self._flying(kind.drones) for kind in fleet if kind.drones is not None}))
+
     def built(self) -> tuple[Travel, ...]:
         """Return the matrices built so far."""
         return tuple(self._travels)

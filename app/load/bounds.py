@@ -4,11 +4,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from app.errors import InputError
-from app.schemas_request import PlanRequest
+from app.schemas_request import PlanRequest, ReplanInput
 from app.settings import MAX_CUSTOMERS, MAX_LEGS, MAX_NUM_SAMPLES, MAX_TIME_LIMIT, Settings
 from app.travels import Travels
 from app.validation import Draft
 from model.planner import decoding_seconds
+from model.replanning.workers import MAX_OWN_TYPES
 
 PLAN_SECONDS = "TANDEM_MAX_PLAN_SECONDS"
 
@@ -67,11 +68,23 @@ def bound_errors(draft: Draft, bounds: Bounds) -> Iterator[InputError]:
 
 def leg_errors(request: PlanRequest, bounds: Bounds) -> Iterator[InputError]:
     """Yield an error if the matrices of a valid request would take too much memory."""
-    kinds = Travels(request).count()
+    travels = Travels(request)
+    kinds = travels.count()
     places = len(request.depots) + len(request.customers)
-    if kinds * places**2 > bounds.legs:
+    legs = kinds * places**2
+    once_more = ""
+    if request.replan is not None:
+        left = places + _most_anchors(request.replan)
+        legs += travels.count_apart() * left**2
+        once_more = f", and {left} at most where the plan given goes on"
+    if legs > bounds.legs:
         yield InputError(
             code="TOO_MANY_LEGS", path="$.fleet",
             message=f"The fleet travels in {kinds} ways, by speed and profile, between {places} "
-            f"places: {kinds * places**2} legs, and this service holds {bounds.legs} at most "
+            f"places{once_more}: {legs} legs, and this service holds {bounds.legs} at most "
             "(TANDEM_MAX_LEGS): give vehicle types the same speed, or send fewer customers.")
+
+
+def _most_anchors(replan: ReplanInput) -> int:
+    """Return how many places vehicles under way may add, for this trip and for later ones."""
+    return 0 if replan.freeze_before is None else min(2 * len(replan.plan.routes), MAX_OWN_TYPES)

@@ -46,7 +46,7 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
         If the plan found breaks a rule.
     """
     request = read_request(body.content, settings.max_customers, settings.max_customers)
-    places = find_places(request, settings.vroom_speeds)
+    places = find_places(request, settings.vroom_speeds, settings.max_legs)
     options = PlanOptions(
         planner.policies[0],
         threads=min(request.options.t or settings.search_threads, os.cpu_count() or 1))
@@ -55,7 +55,7 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
              tell: Callable[[Progress], None]) -> PlanResult:
         return planner.plan(problem, options, listener=Listener(should_stop, tell), start=start)
 
-    planning = Planning(request, places, plan, options)
+    planning = Planning(request, places, plan, options, settings.max_legs)
     start = stated_routes(request, places, planning.kinds)
     loaded = time.perf_counter()
     seconds = search_seconds(request.options, settings) - SECONDS_PER_JOB * len(request.jobs)

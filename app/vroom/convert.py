@@ -6,6 +6,7 @@ from math import isqrt
 import numpy as np
 
 from app.vroom.alternatives import choose_windows
+from app.settings import MAX_LEGS
 from app.vroom.drives import Drive, Drives
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError
 from app.vroom.kinds import Loads, find_kinds, find_loads
@@ -21,9 +22,6 @@ from model.problem import (
 )
 from model.travel import local_coordinates
 
-MAX_LEGS = 12_000_000
-"""Most legs of all matrices together: one of 3,000 places, or a hundred of 300."""
-
 MAX_SEVERAL = 1000
 """Most jobs with several time windows."""
 
@@ -34,14 +32,23 @@ EARLIER = 2 * 10**8
 class Converter:
     """Makes problems of one request: of all its jobs, or some.
 
+    Parameters
+    ----------
+    request, places
+        What is asked for, and where.
+    max_legs
+        Most legs of all matrices together.
+
     Raises
     ------
     VroomError
         If the request asks for what the planner can't do, or for too much.
     """
 
-    def __init__(self, request: VroomRequest, places: Places) -> None:
+    def __init__(self, request: VroomRequest, places: Places,
+                 max_legs: int = MAX_LEGS) -> None:
         self._request = request
+        self._max_legs = max_legs
         self._places = places
         self.kinds = find_kinds(request, places)
         self._is_timed = has_windows(request)
@@ -54,28 +61,34 @@ class Converter:
             raise VroomError(TOO_LARGE, f"Too many jobs ({several}) with several time windows, "
                                         f"maximum is {MAX_SEVERAL}")
         nodes = Nodes.of(self._places, self.kinds, slots)
-        if len(nodes.origins) ** 2 > MAX_LEGS:
+        if len(nodes.origins) ** 2 > self._max_legs:
             raise VroomError(TOO_LARGE, "Too many starts and ends of vehicles and windows of jobs "
-                                        f"({len(nodes.origins)}), maximum is {isqrt(MAX_LEGS)}")
-        problem, is_compromise = self._problem(nodes, relaxed=False)
+                                        f"({len(nodes.origins)}), maximum is "
+                                        f"{isqrt(self._max_legs)} (TANDEM_MAX_LEGS)")
+        problem, is_compromise = self._problem(nodes)
         relaxed: tuple[Problem, ...] = ()
         if is_compromise:
-            relaxed = (choose_windows(self._problem(nodes, relaxed=True)[0], nodes),)
+            relaxed = (choose_windows(self._problem(nodes, strict=problem)[0], nodes),)
         surplus = find_loads(self._request, self.kinds, relaxed=True).surplus
         return Model(choose_windows(problem, nodes), nodes, len(self.kinds), relaxed,
                      None if surplus is None else tuple(surplus[list(nodes.jobs)].tolist()),
                      has_longest=self._has_longest())
 
-    def _problem(self, nodes: Nodes, relaxed: bool) -> tuple[Problem, bool]:
-        """Return the problem, and whether it is a compromise between rules and costs."""
+    def _problem(self, nodes: Nodes, strict: Problem | None = None) -> tuple[Problem, bool]:
+        """Return the problem, and whether it is a compromise between rules and costs.
+
+        With one that is, `strict`, return a relaxed one beside it.
+        """
+        relaxed = strict is not None
         loads = find_loads(self._request, self.kinds, relaxed)
         drives = Drives(self._request, self._places, self.kinds, nodes, self._is_timed, relaxed)
+        beside = 0 if strict is None else len(strict.travel)
         driven = []
         for kind in self.kinds:
             driven.append(drives.drive(kind))
-            if len(drives.travels) * len(nodes.origins) ** 2 > MAX_LEGS:
+            if (beside + len(drives.travels)) * len(nodes.origins) ** 2 > self._max_legs:
                 raise VroomError(TOO_LARGE, "Too many vehicles that drive unlike each other for so "
-                                            "many jobs.")
+                                            "many jobs (TANDEM_MAX_LEGS).")
         depots = {depot: node for node, depot in enumerate(nodes.depots)}
         vehicle_types = tuple(
             self._vehicle_type(number, depots[kind.start, kind.end], drive, loads)

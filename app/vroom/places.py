@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.vroom.errors import INPUT, VroomError
+from app.settings import MAX_LEGS
+from app.vroom.errors import INPUT, TOO_LARGE, VroomError
 from app.vroom.schemas import Coordinates, VroomMatricesInput, Table, VroomRequest
 from model.problem import FloatArray, IntArray
 from model.travel import great_circle_distances
@@ -43,7 +44,8 @@ class Places:
 Place = tuple[Coordinates | None, int | None]
 
 
-def find_places(request: VroomRequest, speeds: Mapping[str, float]) -> Places:
+def find_places(request: VroomRequest, speeds: Mapping[str, float],
+                max_legs: int = MAX_LEGS) -> Places:
     """Number the places of a request and find the legs between them.
 
     Parameters
@@ -52,11 +54,13 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float]) -> Places:
         Valid but for its places and matrices.
     speeds
         km/h by profile, for legs that no matrix states.
+    max_legs
+        Most legs of all profiles together.
 
     Raises
     ------
     VroomError
-        If a place or a matrix is missing or wrong.
+        If a place or a matrix is missing or wrong, or there are too many legs.
     """
     matrices = _stated_matrices(request)
     numbers: dict[Coordinates | int, int] = {}
@@ -76,9 +80,12 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float]) -> Places:
     starts = np.array([number((v.start, v.start_index)) for v in vehicles], np.int64)
     ends = np.array([number((v.end, v.end_index)) for v in vehicles], np.int64)
     jobs = np.array([number((j.location, j.location_index)) for j in request.jobs], np.int64)
+    profiles = list(dict.fromkeys(vehicle.profile for vehicle in vehicles))
+    if len(profiles) * len(known)**2 > max_legs:
+        raise VroomError(TOO_LARGE, f"Too many legs: {len(profiles)} profiles and {len(known)} "
+                                    f"places, maximum is {max_legs} legs (TANDEM_MAX_LEGS)")
     finder = _LegFinder(request, matrices, known, speeds)
-    legs = {profile: finder.find(profile)
-            for profile in dict.fromkeys(vehicle.profile for vehicle in vehicles)}
+    legs = {profile: finder.find(profile) for profile in profiles}
     return Places(jobs, starts, ends, tuple(coordinates for coordinates, _ in known),
                   tuple(index for _, index in known), legs, finder.tells_distances)
 

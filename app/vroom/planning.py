@@ -57,7 +57,7 @@ class Found:
 
 
 class Planning:
-    """Plans one request.
+    """Plans one request; `max_legs` is the most legs of a problem's matrices together.
 
     Raises
     ------
@@ -66,12 +66,12 @@ class Planning:
     """
 
     def __init__(self, request: VroomRequest, places: Places, plan: Plan,
-                 options: PlanOptions) -> None:
+                 options: PlanOptions, max_legs: int) -> None:
         self._plan = plan
         self._options = options
         self._request = request
         self._places = places
-        self._converter = Converter(request, places)
+        self._converter = Converter(request, places, max_legs)
         self.kinds = self._converter.kinds
         self._priorities = [job.priority for job in request.jobs]
         self._costs: dict[tuple[int, tuple[int, ...]], int | None] = {}

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from app.settings import MAX_LEGS
 from app.vroom.checking import route_faults
 from app.vroom.convert import Converter
 from app.vroom.errors import TOO_LARGE, VroomError
@@ -23,10 +24,10 @@ Data = dict[str, Any]
 class Case:
     """A request with its model."""
 
-    def __init__(self, request: Data) -> None:
+    def __init__(self, request: Data, max_legs: int = MAX_LEGS) -> None:
         self.request = VroomRequest.model_validate_json(json.dumps(request))
         self.places: Places = find_places(self.request, {"car": 36.0})
-        self.converter = Converter(self.request, self.places)
+        self.converter = Converter(self.request, self.places, max_legs)
         self.model: Model = self.converter.model({
             index: [None] if job.time_windows is None else sorted(job.time_windows)
             for index, job in enumerate(self.request.jobs)})
@@ -186,6 +187,18 @@ def test_too_many_windows_are_too_large(street: Data) -> None:
     windows = [[10 * number, 10 * number + 5] for number in range(100)]
     street["jobs"] = [{"id": number, "location_index": 1, "time_windows": windows}
                       for number in range(40)]
-    with pytest.raises(VroomError, match="4001") as caught:
-        Case(street)
+    with pytest.raises(VroomError, match=r"4001.*3999.*TANDEM_MAX_LEGS") as caught:
+        Case(street, max_legs=15_999_999)
+    assert caught.value.code == TOO_LARGE
+
+
+def test_too_many_unlike_vehicles_are_too_large(street: Data) -> None:
+    nodes = len(Case(street).model.problem.coordinates)
+    (one,) = Case(street, max_legs=nodes**2).model.problem.travel
+    assert one.duration.size == nodes**2
+    street["jobs"][0]["time_windows"] = [[0, 10_000]]
+    street["vehicles"][1]["speed_factor"] = 2.0
+    assert len(Case(street, max_legs=2 * nodes**2).model.problem.travel) == 2
+    with pytest.raises(VroomError, match="unlike each other") as caught:
+        Case(street, max_legs=2 * nodes**2 - 1)
     assert caught.value.code == TOO_LARGE

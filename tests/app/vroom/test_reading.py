@@ -30,14 +30,15 @@ def request_data() -> Data:
                              "distances": copy.deepcopy(SQUARE)}}}
 
 
-def read(request: Data, max_jobs: int, max_vehicles: int) -> None:
+def read(request: Data, max_jobs: int, max_vehicles: int, max_legs: int = 10**9) -> None:
     found = read_request(json.dumps(request).encode(), max_jobs, max_vehicles)
-    find_places(found, {"car": 40.0})
+    find_places(found, {"car": 40.0, "bike": 15.0}, max_legs)
 
 
-def refusal(request: Data, max_jobs: int = 100, max_vehicles: int = 100) -> VroomError:
+def refusal(request: Data, max_jobs: int = 100, max_vehicles: int = 100,
+            max_legs: int = 10**9) -> VroomError:
     with pytest.raises(VroomError) as caught:
-        read(request, max_jobs, max_vehicles)
+        read(request, max_jobs, max_vehicles, max_legs)
     return caught.value
 
 
@@ -173,6 +174,17 @@ def test_too_many_jobs_or_vehicles_are_too_large(request_data: Data) -> None:
     assert (too_many.code, str(too_many)) == (
         TOO_LARGE, "Too many locations (2) in query, maximum is set to 1")
     assert refusal(request_data, max_vehicles=1).code == TOO_LARGE
+
+
+def test_too_many_legs_are_too_large_before_any_is_computed() -> None:
+    request: Data = {"vehicles": [{"id": 1, "start": [2.0, 48.0]},
+                                  {"id": 2, "start": [2.0, 48.0], "profile": "bike"}],
+                     "jobs": [{"id": 1, "location": [2.1, 48.0]},
+                              {"id": 2, "location": [2.1, 48.0]}]}
+    read(request, 2, 2, max_legs=8)
+    too_many = refusal(request, max_legs=7)
+    assert (too_many.code, str(too_many)) == (
+        TOO_LARGE, "Too many legs: 2 profiles and 2 places, maximum is 7 legs (TANDEM_MAX_LEGS)")
 
 
 def test_places_without_matrices_need_coordinates_and_a_known_profile() -> None:
