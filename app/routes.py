@@ -71,9 +71,11 @@ async def live() -> dict[str, str]:
             response_model=ReadinessReply, responses={503: {
                 "model": ReadinessReply, "description": "The service is starting or stopping."}})
 async def ready(request: Request, service: Service) -> JSONResponse:
-    """Answer 200 while plans can be computed, 503 before and after."""
+    """Answer 200 while plans can be computed and jobs taken, 503 before and after."""
     if request.app.state.shutdown.has_begun:
         return JSONResponse({"status": "stopping", "detail": "this process is about to end"}, 503)
+    if request.app.state.jobs.is_preparing:
+        return JSONResponse({"status": "starting", "detail": "the database is being prepared"}, 503)
     readiness = service.readiness()
     content = {"status": "ready" if readiness.is_ready else "starting", "detail": readiness.detail}
     return JSONResponse(content, 200 if readiness.is_ready else 503)

@@ -54,6 +54,7 @@ class JobDesk:
         self._engine: JobEngine | None = None
         self._plans: PlanWork | None = None
         self._is_prepared = False
+        self._has_tried = threading.Event()
         self._threads = CapacityLimiter(THREADS)
         self._drawing = CapacityLimiter(1)
         self._stopping = threading.Event()
@@ -72,6 +73,14 @@ class JobDesk:
         if self._engine is not None:
             self._engine.stop()
         self._queues.engine.dispose()
+
+    @property
+    def is_preparing(self) -> bool:
+        """Tell whether the database is being prepared for the first time.
+
+        It is over, too, once the database could not be reached: plans need none.
+        """
+        return not self._has_tried.is_set()
 
     async def ask(self, question: Callable[[JobService], Result]) -> Result:
         """Ask in a thread, as the database has to be waited for.
@@ -101,7 +110,9 @@ class JobDesk:
     def _begin(self) -> None:
         """Prepare the database, wait for the planner, work on jobs. In place."""
         while not self._stopping.is_set() and not self._prepare():
+            self._has_tried.set()
             self._stopping.wait(RETRY)
+        self._has_tried.set()
         if self._around.settings.role == "api":
             return
         while not self._around.is_warm():

@@ -20,9 +20,8 @@ MOST = 18
 @pytest.fixture
 def client(serve: Callable[..., httpx.Client], tmp_path: Path) -> httpx.Client:
     """Return a client of a service that holds few legs."""
-    client = serve(FirstFitPlanner(), Settings(max_legs=MOST, data_dir=tmp_path, role="all"))
+    client = serve(FirstFitPlanner(), Settings(max_legs=MOST, data_dir=tmp_path, role="api"))
     until(lambda: client.get("/health/ready").status_code == 200)
-    until(lambda: client.get("/jobs").status_code != 503)
     return client
 
 
