@@ -152,11 +152,15 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
     demand = instance.node[row, customers, NODE_DEMAND:]
     by_truck = np.array([c.served_by != "drone" for c in problem.customers], np.bool_)
     by_drone = np.array([c.served_by != "truck" for c in problem.customers], np.bool_)
-    skilled_customers = [(i, c.skills) for i, c in enumerate(problem.customers) if c.skills]
+    asking: dict[frozenset[str], list[int]] = {}
+    for customer, skills in enumerate(c.skills for c in problem.customers):
+        if skills:
+            asking.setdefault(skills, []).append(customer)
     for index, kind in enumerate(problem.vehicle_types):
         fits = np.all(demand <= instance.type[row, index, TYPE_CAPACITY:TYPE_PAYLOAD], axis=1)
-        for customer, skills in skilled_customers:
-            fits[customer] &= skills <= kind.skills
+        for skills, customers_asking in asking.items():
+            if not skills <= kind.skills:
+                fits[customers_asking] = False
         instance.can_drive[row, index, customers] = fits & by_truck
         if kind.drones is not None:
             payload = instance.type[row, index, TYPE_PAYLOAD:]

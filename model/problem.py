@@ -222,6 +222,9 @@ class Problem:
                      customer.demand)
         for vehicle_type in self.vehicle_types:
             self._require_consistent(vehicle_type)
+        for used in {vehicle_type.travel for vehicle_type in self.vehicle_types}:
+            _require(bool((self.travel[used].duration < UNREACHABLE).all()), "travel",
+                     "unreachable leg")
 
     def _require_consistent(self, vehicle_type: VehicleType) -> None:
         name = f"vehicle type {vehicle_type.id}"
@@ -230,8 +233,6 @@ class Problem:
         _require(0 <= vehicle_type.depot < self.num_depots, f"{name} depot", vehicle_type.depot)
         _require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
                  vehicle_type.travel)
-        _require(bool((self.travel[vehicle_type.travel].duration < UNREACHABLE).all()),
-                 f"{name} travel", "unreachable leg")
         if vehicle_type.drones is not None:
             _require(len(vehicle_type.drones.capacity) == self.num_dimensions,
                      f"{name} drone capacity", vehicle_type.drones.capacity)
