@@ -16,11 +16,15 @@ from typing import Any, TypeVar, cast
 from numba import config, njit
 
 SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", "simulator",
-           "tokens", "prospects", "features", *(f"search/{part}" for part in (
+           "tokens", "prospects", "features", "rolling", *(f"search/{part}" for part in (
                "layout", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
                "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit",
                "anneal", "savings", "translate", "sharing")))
 """Files with compiled functions, and those whose constants are compiled into them."""
+
+PART: dict[str, Any] = {
+    "nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
+"""Options of functions that exist only within others."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -38,9 +42,15 @@ def inlined(function: Function) -> Function:
 
     It has no entry from Python and counts no references, so it may not make arrays.
     """
-    options: dict[str, Any] = {
-        "nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
-    return cast(Function, njit(**options)(function))
+    return cast(Function, njit(**PART)(function))
+
+
+def inlined_arithmetic(function: Function) -> Function:
+    """Compile like `inlined`, and let sums of floats be taken in any order.
+
+    Only for what need not be the same to the last bit on every processor.
+    """
+    return cast(Function, njit(**PART, fastmath={"reassoc", "contract", "nsz", "arcp"})(function))
 
 
 @cache

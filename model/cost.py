@@ -1,6 +1,6 @@
 """What a vehicle's log costs, compiled."""
 
-from model.compiled import compiled
+from model.compiled import compiled, inlined
 from model.instance import (
     NODE_LATEST, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM,
     TYPE_DRONE_TRAVEL, TYPE_TRAVEL, Instance,
@@ -15,7 +15,7 @@ from model.schedule import (
 COST_FIXED, COST_DISTANCE, COST_TIME, COST_LATENESS, COST_EARLINESS, COST_UNASSIGNED = range(6)
 
 
-@compiled
+@inlined
 def add_window_cost(instance: Instance, b: int, node: int, arrival: int, start: int,
                     cost: FloatArray) -> None:
     """Add what lateness and earliness at a customer cost. In place."""

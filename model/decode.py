@@ -13,6 +13,7 @@ import onnxruntime as ort
 from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
 from model.features import Observation, empty_observation, step
+from model.rolling import STEP_WEIGHTS, StepWeights, read_weights, roll_out
 from model.instance import Instance
 from model.problem import BoolArray, IntArray, Problem
 from model.simulator import max_steps, reset
@@ -51,6 +52,7 @@ class Policy:
     step: ort.InferenceSession
     hidden_size: int
     num_features: int  # of the action features, the first that it was trained with
+    step_weights: StepWeights | None = None  # of a policy whose step is compiled, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +74,7 @@ class Scene:
 
 
 def load_policy(folder: Path) -> Policy:
-    """Load `encoder.onnx`, `step.onnx` and `card.json`.
+    """Load `encoder.onnx`, `step.onnx` and `card.json`; `step.npz` if there is one.
 
     Raises
     ------
@@ -89,10 +91,13 @@ def load_policy(folder: Path) -> Policy:
         encoder, step = (ort.InferenceSession(str(folder / f"{part}.onnx"), options,
                                               providers=["CPUExecutionProvider"])
                          for part in ("encoder", "step"))
+        weights = folder / STEP_WEIGHTS
+        step_weights = read_weights(weights) if weights.exists() else None
     except (OSError, ValueError, *ORT_ERRORS) as error:
         raise ValueError(f"policy folder: {str(folder)!r} is not usable: {error}") from error
     feature, = (entry for entry in step.get_inputs() if entry.name == "feature")
-    return Policy(folder.name, encoder, step, int(card["hidden_size"]), int(feature.shape[2]))
+    return Policy(folder.name, encoder, step, int(card["hidden_size"]), int(feature.shape[2]),
+                  step_weights)
 
 
 def prepare(policy: Policy, problem: Problem, instance: Instance) -> Scene:
@@ -154,6 +159,12 @@ def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Genera
 
     Of several samples the first is the greedy plan.
     """
+    if policy.step_weights is not None:
+        temperatures = [0.0 if rng is None or (row == 0 and rows > 1) else temperature
+                        for row in range(rows)]
+        codes, least = roll_out(policy.step_weights, scene.memory, scene.instance, scene.scale,
+                                scene.tokens.type, temperatures, rng or np.random.default_rng(0))
+        return Decoded(tuple(codes.tolist()), least)
     instance = scene.instance
     state = reset(instance, np.zeros(rows, np.int64))
     seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])

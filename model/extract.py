@@ -11,7 +11,7 @@ from model.schedule import (
     SORTIE_NODE, SORTIE_READY, SORTIE_RECOVERY_END, SORTIE_RECOVERY_START, SORTIE_RECOVERY_STOP,
     SORTIE_START, SORTIE_TAKEOFF, TRIP_FIRST_STOP, VehicleLog, log_of,
 )
-from model.simulator import NUM_KINDS, OPEN, apply, reset
+from model.simulator import apply_route, reset
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 from model.transition import NO_VEHICLE, V_INDEX, V_TYPE, State, close_vehicle
 
@@ -29,12 +29,12 @@ def extract(problem: Problem, instance: Instance, actions: Sequence[int]) -> Sol
         Codes of all actions, from the first on.
     """
     state = reset(instance, np.zeros(1, np.int64))
+    codes = np.array(actions, dtype=np.int64)
     routes = []
-    for action in actions:
-        if action % NUM_KINDS == OPEN:
-            routes += _close(instance, state)
-        apply(instance, state, 0, action)
-    routes += _close(instance, state)
+    done = 0
+    while done < len(codes):
+        done = apply_route(instance, state, 0, codes, done)
+        routes += _close(instance, state)
     nodes = range(problem.num_depots, problem.num_nodes)
     unassigned = tuple(node for node in nodes if not state.served[0, node])
     return Solution(tuple(routes), unassigned)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.compiled import compiled
+from model.compiled import compiled, inlined
 from model.instance import (
     MAX_DIMENSIONS, NODE_DEMAND, NODE_LATEST, NODE_RELEASE, RATE_DRONE_HOUR, RATE_DRONE_KM,
     RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_TRAVEL,
@@ -68,13 +68,13 @@ def empty_observation(rows: int, num_nodes: int, num_types: int) -> Observation:
     )
 
 
-@compiled
+@inlined
 def _share(used: int, limit: int) -> float:
     """Return how much of a limit is used, 2 at most; 0 where there is no limit."""
     return 0.0 if limit >= UNLIMITED else min(used / max(1, limit), 2.0)
 
 
-@compiled
+@inlined
 def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, vehicle: IntArray,
                        begun: bool, node: int, outlook: IntArray, feature: Float32Array) -> None:
     """Describe what serving a customer next means, by truck or drone alike. In place."""
@@ -97,7 +97,7 @@ def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, veh
     feature[19] = ratio(columns[NODE_RELEASE] - vehicle[V_NEXT_START], unit.time)
 
 
-@compiled
+@inlined
 def _describe_leg(unit: Unit, duration: int, distance: int, km: float, hour: float,
                   feature: Float32Array) -> None:
     """Describe the way to a place. In place."""
@@ -107,7 +107,7 @@ def _describe_leg(unit: Unit, duration: int, distance: int, km: float, hour: flo
     feature[6] = min(cost / unit.cost, 5.0)
 
 
-@compiled
+@inlined
 def _describe_flight(setting: Setting, unit: Unit, here: int, node: int, distance: int,
                      rate: FloatArray, feature: Float32Array) -> None:
     """Describe the flight to a customer, as if the drone came back here. In place."""
@@ -118,7 +118,7 @@ def _describe_flight(setting: Setting, unit: Unit, here: int, node: int, distanc
     feature[18] = _share(there + back, setting.type[TYPE_ENDURANCE])
 
 
-@compiled
+@inlined
 def _nearest_drive(durations: IntArray, actions: IntArray) -> int:
     """Return the shortest drive among the actions."""
     nearest = UNLIMITED
@@ -128,7 +128,7 @@ def _nearest_drive(durations: IntArray, actions: IntArray) -> int:
     return nearest
 
 
-@compiled
+@inlined
 def _describe_return(setting: Setting, vehicle: IntArray, trips: int,
                      feature: Float32Array) -> None:
     """Describe returning to the depot. In place."""
@@ -136,7 +136,7 @@ def _describe_return(setting: Setting, vehicle: IntArray, trips: int,
     feature[11] = min(setting.type[TYPE_MAX_TRIPS] - trips, 4) / 4
 
 
-@compiled
+@inlined
 def _describe_open(columns: IntArray, fixed: float, used: int, unserved: float, unit: Unit,
                    feature: Float32Array) -> None:
     """Describe opening a vehicle of a type. In place."""
@@ -147,7 +147,7 @@ def _describe_open(columns: IntArray, fixed: float, used: int, unserved: float, 
     feature[14] = columns[TYPE_DRONES] > 0
 
 
-@compiled
+@inlined
 def _unserved_demand(instance: Instance, state: State, r: int) -> float:
     """Return the demand left in the first dimension."""
     b = state.problem[r]
@@ -159,7 +159,7 @@ def _unserved_demand(instance: Instance, state: State, r: int) -> float:
     return total
 
 
-@compiled
+@inlined
 def _describe_state(instance: Instance, scale: Scales, state: State, type_token: Float32Array,
                     r: int, unserved: float, glob: Float32Array) -> None:
     """Describe the open vehicle and what is left to do. In place."""
@@ -199,10 +199,11 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     glob[11] = vehicle[V_FLYING] / max(1, columns[TYPE_DRONES])
     glob[12] = columns[TYPE_DRONES] > vehicle[V_FLYING]
     glob[13] = min(vehicle[V_LOAD] / max(1.0, unserved), 2.0)
-    glob[NUM_STATE_FEATURES:] = type_token[b, k]
+    for column in range(NUM_TYPE_FEATURES):
+        glob[NUM_STATE_FEATURES + column] = type_token[b, k, column]
 
 
-@compiled
+@inlined
 def _describe_opens(instance: Instance, scale: Scales, state: State, r: int, unserved: float,
                     seen: Observation) -> None:
     """Describe the vehicles that may be opened. In place."""

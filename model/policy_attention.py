@@ -167,6 +167,21 @@ class AttentionPolicy(nn.Module):
         logits = self.config.clip * torch.tanh((dot + extra) / self.config.clip * 2)
         return logits.masked_fill(~allowed, MASKED)
 
+    def decision_weights(self) -> dict[str, Tensor]:
+        """Return what `score` multiplies with, as `model.rolling.StepWeights` names and lays it."""
+        linear = {
+            "globe": self.globe[0], "globe_output": self.globe[2], "action": self.action,
+            "glimpse_output": self.glimpse_output, "action_query": self.action_query,
+            "action_mix": self.action_mix}
+        state = self.state_dict()
+        return {
+            **{name: layer.get_parameter("weight").T for name, layer in linear.items()},
+            "globe_bias": state["globe.0.bias"], "globe_output_bias": state["globe.2.bias"],
+            "action_bias": state["action.bias"], "action_mix_bias": state["action_mix.bias"],
+            "glimpse_bias": state["glimpse_bias.weight"],
+            "action_score": state["action_score.weight"][0],
+        }
+
     def _glimpse(self, query: Tensor, key: Tensor, value: Tensor, candidate: Tensor,
                  bias: Tensor, allowed: Tensor) -> Tensor:
         """Attend to the candidates' tokens, (*problem, decision, width)."""

@@ -6,7 +6,7 @@ one customer further: what comes next, what can no longer come, what would bette
 
 from typing import NamedTuple
 
-from model.compiled import compiled
+from model.compiled import inlined
 from model.instance import NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, NODE_SERVICE
 from model.problem import UNLIMITED, BoolArray, IntArray
 from model.schedule import Setting, drone_service, unreachable
@@ -30,25 +30,25 @@ class Unit(NamedTuple):
     cost: float
 
 
-@compiled
+@inlined
 def ratio(value: float, scale: float) -> float:
     """Squash a length of any size to 0..1, half at `scale`."""
     return value / (value + scale) if value > 0 else 0.0
 
 
-@compiled
+@inlined
 def slack(limit: int, used: int, scale: float) -> float:
     """Squash what a limit leaves to 0..1, half at `scale`; 1 where there is no limit."""
     return 1.0 if limit >= UNLIMITED else ratio(float(limit - used), scale)
 
 
-@compiled
+@inlined
 def excess(value: int, scale: float) -> float:
     """Clip a difference to three times `scale`, -1..1; 1 where there is nothing to compare."""
     return 1.0 if value >= UNLIMITED else max(min(value / scale / 3.0, 1.0), -1.0)
 
 
-@compiled
+@inlined
 def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, here: int,
                       node: int, unit: Unit, feature: Float32Array) -> None:
     """Describe how close a candidate's unserved neighbours are. In place."""
@@ -68,7 +68,7 @@ def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, 
             feature[NEXT_EXCESS] = excess(way - drive[here, node], unit.near)
 
 
-@compiled
+@inlined
 def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
                     here: int, node: int, outlook: IntArray, unit: Unit,
                     feature: Float32Array) -> None:
@@ -112,7 +112,7 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
     feature[LATER_DURATION] = 1.0 if later >= UNLIMITED else ratio(float(later), unit.near)
 
 
-@compiled
+@inlined
 def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, here: int,
                      node: int, outlook: IntArray, unit: Unit, feature: Float32Array) -> None:
     """Describe at which neighbours the drone could meet the truck. In place.
@@ -141,7 +141,7 @@ def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, 
     feature[DETOUR_BEFORE] = excess(detour, unit.near)
 
 
-@compiled
+@inlined
 def describe_neighbours(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
                         here: int, node: int, outlook: IntArray, unit: Unit, by_air: bool,
                         feature: Float32Array) -> None:

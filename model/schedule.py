@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.compiled import compiled
+from model.compiled import compiled, inlined
 from model.instance import (
     NO_PROFILE, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_SERVICE, TYPE_DRONE_SERVICE,
     TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_PROFILE, TYPE_RECOVERY, TYPE_RELOAD,
@@ -75,7 +75,7 @@ def setting_of(instance: Instance, b: int, k: int) -> Setting:
                    instance.profile_time[b, k], instance.profile_factor[b, k])
 
 
-@compiled
+@inlined
 def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
     """Return when a truck that leaves at `leave` arrives, by its speed at the time of day."""
     duration = setting.drive[origin, to]
@@ -104,14 +104,14 @@ def arrival_by_profile(times: IntArray, factors: IntArray, changes: int, duratio
     return time + (work + factors[piece] - 1) // factors[piece]
 
 
-@compiled
+@inlined
 def drone_service(setting: Setting, node: int) -> int:
     """Return how long a drone serves a customer."""
     own = setting.type[TYPE_DRONE_SERVICE]
     return own if own >= 0 else setting.node[node, NODE_SERVICE]
 
 
-@compiled
+@inlined
 def within_endurance(columns: IntArray, takeoff: int, back: int, recovery_start: int) -> bool:
     """Tell whether a sortie, back at `back` and recovered from then on, is short enough."""
     if columns[TYPE_WAITING_COUNTS]:
@@ -119,13 +119,13 @@ def within_endurance(columns: IntArray, takeoff: int, back: int, recovery_start:
     return back - takeoff <= columns[TYPE_ENDURANCE]
 
 
-@compiled
+@inlined
 def unreachable(duration: int) -> bool:
     """Tell whether a flight duration marks a flight that can't be flown."""
     return duration >= UNREACHABLE
 
 
-@compiled
+@inlined
 def _arrival_allowed(columns: IntArray, arrival: int, before: int, write: bool) -> bool:
     """Check a window: when writing, that a hard one holds; else, that no lateness is added."""
     if write:
@@ -133,7 +133,7 @@ def _arrival_allowed(columns: IntArray, arrival: int, before: int, write: bool) 
     return arrival <= max(before, columns[NODE_LATEST])
 
 
-@compiled
+@inlined
 def _replay_launch(setting: Setting, sortie: IntArray, node: int, free: int, write: bool) -> int:
     """Time one launch begun at `free`; return the take-off, -1 if it is not allowed."""
     customer = sortie[SORTIE_NODE]
@@ -152,7 +152,7 @@ def _replay_launch(setting: Setting, sortie: IntArray, node: int, free: int, wri
     return takeoff
 
 
-@compiled
+@inlined
 def _replay_recovery(setting: Setting, sortie: IntArray, node: int, free: int, write: bool) -> int:
     """Time one recovery begun at `free` or later; return its end, -1 if it is not allowed."""
     takeoff = sortie[TRIAL_TAKEOFF]
@@ -168,7 +168,7 @@ def _replay_recovery(setting: Setting, sortie: IntArray, node: int, free: int, w
     return end
 
 
-@compiled
+@inlined
 def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, start: int,
            write: bool) -> bool:
     """Time the trips from `first_trip` on, the first begun at `start`, all else without delay.
@@ -220,7 +220,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
     return write or leave <= log.stop[log.count[COUNT_STOPS] - 1, STOP_LEAVE]
 
 
-@compiled
+@inlined
 def latest_start(setting: Setting, num_depots: int, log: VehicleLog, trip: int, known: int) -> int:
     """Return the latest start of a trip that costs nothing; `known` is one that costs nothing."""
     if not replay(setting, num_depots, log, trip, known + 1, False):

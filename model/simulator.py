@@ -10,7 +10,7 @@ is not kept by being late. So no legal action leads into an illegal plan.
 
 import numpy as np
 
-from model.compiled import compiled
+from model.compiled import compiled, inlined
 from model.cost import COST_UNASSIGNED
 from model.instance import (
     MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
@@ -41,7 +41,7 @@ def encode_action(kind: int, target: int) -> int:
     return target * NUM_KINDS + kind
 
 
-@compiled
+@inlined
 def _fits(columns: IntArray, vehicle: IntArray) -> bool:
     """Tell whether a customer's demand fits the load left."""
     for dimension in range(MAX_DIMENSIONS):
@@ -50,7 +50,7 @@ def _fits(columns: IntArray, vehicle: IntArray) -> bool:
     return True
 
 
-@compiled
+@inlined
 def _judge_end(setting: Setting, end: int, departure: int, rigid: bool) -> int:
     """Judge the return home: within the shift and, leaving at `departure`, the working duration.
 
@@ -63,7 +63,7 @@ def _judge_end(setting: Setting, end: int, departure: int, rigid: bool) -> int:
     return NO if rigid else UNSURE
 
 
-@compiled
+@inlined
 def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest: int, node: int,
                  outlook: IntArray) -> int:
     """Judge driving to a customer whose parcel the trip carries already. Writes `outlook`.
@@ -95,7 +95,7 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
     return _judge_end(setting, end, departure, rigid)
 
 
-@compiled
+@inlined
 def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departure: int,
                   node: int, outlook: IntArray) -> int:
     """Judge a launch during a trip that carries the parcel already. Writes `outlook`.
@@ -121,18 +121,26 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
     return _judge_end(setting, end, departure, False)
 
 
-@compiled
+@inlined
+def _copy_rows(source: IntArray, target: IntArray, count: int) -> None:
+    """Copy the first rows of a table to another of as many columns. In place."""
+    for row in range(count):
+        for column in range(source.shape[1]):
+            target[row, column] = source[row, column]
+
+
+@inlined
 def _copy_vehicle(state: State, r: int, to: int) -> None:
     """Copy the open vehicle of one row to another. In place."""
     logs = state.log
     count = logs.count[r]
-    state.vehicle[to] = state.vehicle[r]
-    state.drone[to] = state.drone[r]
-    logs.count[to] = count
-    logs.trip[to, : count[COUNT_TRIPS]] = logs.trip[r, : count[COUNT_TRIPS]]
-    logs.stop[to, : count[COUNT_STOPS]] = logs.stop[r, : count[COUNT_STOPS]]
-    logs.op[to, : count[COUNT_OPS]] = logs.op[r, : count[COUNT_OPS]]
-    logs.sortie[to, : count[COUNT_SORTIES]] = logs.sortie[r, : count[COUNT_SORTIES]]
+    _copy_rows(state.vehicle[r : r + 1], state.vehicle[to : to + 1], 1)
+    _copy_rows(logs.count[r : r + 1], logs.count[to : to + 1], 1)
+    _copy_rows(state.drone[r], state.drone[to], state.drone.shape[1])
+    _copy_rows(logs.trip[r], logs.trip[to], count[COUNT_TRIPS])
+    _copy_rows(logs.stop[r], logs.stop[to], count[COUNT_STOPS])
+    _copy_rows(logs.op[r], logs.op[to], count[COUNT_OPS])
+    _copy_rows(logs.sortie[r], logs.sortie[to], count[COUNT_SORTIES])
 
 
 @compiled
@@ -212,7 +220,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     return found
 
 
-@compiled
+@inlined
 def _open_legal(instance: Instance, state: State, r: int, k: int) -> bool:
     """Tell whether a vehicle of type `k` may open: one is left and has a customer to serve."""
     b = state.problem[r]
@@ -273,6 +281,20 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
     if kind != RETURN:
         state.served[r, target] = True
         state.num_unserved[r] -= 1
+
+
+@compiled
+def apply_route(instance: Instance, state: State, r: int, actions: IntArray, first: int) -> int:
+    """Do legal actions of one rollout, the `first` and all before the next vehicle opens.
+
+    In place; returns the index of the action that opens it, or how many there are.
+    """
+    apply(instance, state, r, actions[first])
+    index = first + 1
+    while index < len(actions) and actions[index] % NUM_KINDS != OPEN:
+        apply(instance, state, r, actions[index])
+        index += 1
+    return index
 
 
 @compiled

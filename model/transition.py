@@ -4,12 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.compiled import compiled
+from model.compiled import compiled, inlined
 from model.cost import add_cost
 from model.instance import (
     MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
     NODE_SERVICE, TYPE_CAPACITY, TYPE_DEPOT, TYPE_DRONES, TYPE_EARLIEST, TYPE_LAUNCH,
-    TYPE_MAX_WORKING, TYPE_PAYLOAD, TYPE_RECOVERY, TYPE_RELOAD, Instance,
+    TYPE_MAX_WORKING, TYPE_RECOVERY, TYPE_RELOAD, Instance,
 )
 from model.problem import UNLIMITED, BoolArray, FloatArray, IntArray
 from model.schedule import (
@@ -82,7 +82,7 @@ def empty_state(instance: Instance, rows: int) -> State:
     return state
 
 
-@compiled
+@inlined
 def recover(setting: Setting, drones: IntArray, place: int, node: int, free: int) -> int:
     """Recover the drones marked `place` one after another at `node`, in order of arrival.
 
@@ -114,7 +114,7 @@ def recover(setting: Setting, drones: IntArray, place: int, node: int, free: int
         free = begin + setting.type[TYPE_RECOVERY]
 
 
-@compiled
+@inlined
 def leave_for(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) -> tuple[int, int]:
     """Decide where the sorties in flight are recovered if the truck drives to `to` next.
 
@@ -138,7 +138,7 @@ def leave_for(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) ->
             return arrival, free
 
 
-@compiled
+@inlined
 def log_op(log: VehicleLog, stop: int, sortie: int, is_recovery: bool) -> None:
     """Append a launch or recovery. In place."""
     op = log.op[log.count[COUNT_OPS]]
@@ -146,7 +146,7 @@ def log_op(log: VehicleLog, stop: int, sortie: int, is_recovery: bool) -> None:
     log.count[COUNT_OPS] += 1
 
 
-@compiled
+@inlined
 def log_stop(log: VehicleLog, node: int, arrival: int, start: int, leave: int) -> None:
     """Append a stop. In place."""
     stop = log.stop[log.count[COUNT_STOPS]]
@@ -155,7 +155,7 @@ def log_stop(log: VehicleLog, node: int, arrival: int, start: int, leave: int) -
     log.count[COUNT_STOPS] += 1
 
 
-@compiled
+@inlined
 def log_recoveries(setting: Setting, log: VehicleLog, drones: IntArray, place: int,
                    stop: int) -> None:
     """Append the recoveries decided by `leave_for`, in order. In place."""
@@ -179,7 +179,7 @@ def log_recoveries(setting: Setting, log: VehicleLog, drones: IntArray, place: i
         drone[DRONE_SORTIE] = IN_FLIGHT
 
 
-@compiled
+@inlined
 def begin_trip(log: VehicleLog, vehicle: IntArray, release: int) -> None:
     """Begin a trip of the idle vehicle as soon as the parcel is released. In place."""
     start = max(vehicle[V_NEXT_START], release)
@@ -195,7 +195,7 @@ def begin_trip(log: VehicleLog, vehicle: IntArray, release: int) -> None:
     vehicle[V_SERVICE_END] = vehicle[V_FREE] = start
 
 
-@compiled
+@inlined
 def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
               drones: IntArray, release: int) -> bool:
     """Let the trip begin no earlier than `release`. In place; False if it can't be held so long."""
@@ -226,7 +226,7 @@ def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntAr
     return True
 
 
-@compiled
+@inlined
 def improve_departure(setting: Setting, num_depots: int, log: VehicleLog,
                       vehicle: IntArray) -> None:
     """Find how late the vehicle could have left without ending its last stop later. In place."""
@@ -235,7 +235,7 @@ def improve_departure(setting: Setting, num_depots: int, log: VehicleLog,
     vehicle[V_DEPARTURE_BEST] = first_departure(setting, log, vehicle[V_START_BEST])
 
 
-@compiled
+@inlined
 def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, node: int,
           takeoff: int) -> int:
     """Put the first drone aboard into the air, to a customer. In place; return which."""
@@ -252,7 +252,7 @@ def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, no
     return drone
 
 
-@compiled
+@inlined
 def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
            drones: IntArray, node: int) -> bool:
     """Launch a drone to a customer. In place; False if a window or a distance forbids it."""
@@ -286,7 +286,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray
     return True
 
 
-@compiled
+@inlined
 def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
           drones: IntArray, node: int) -> bool:
     """Drive to a customer or home. In place; False if a window or an endurance forbids it."""
@@ -323,11 +323,18 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
         vehicle[V_IDLE] = 1
         vehicle[V_DISTANCE] = 0
         vehicle[V_NEXT_START] = free + setting.type[TYPE_RELOAD]
-        vehicle[V_LOAD:] = setting.type[TYPE_CAPACITY:TYPE_PAYLOAD]
+        fill(vehicle, setting.type)
     return True
 
 
-@compiled
+@inlined
+def fill(vehicle: IntArray, columns: IntArray) -> None:
+    """Give the vehicle all of its type's capacity again. In place."""
+    for dimension in range(MAX_DIMENSIONS):
+        vehicle[V_LOAD + dimension] = columns[TYPE_CAPACITY + dimension]
+
+
+@inlined
 def take_load(setting: Setting, vehicle: IntArray, node: int) -> None:
     """Take a customer's demand from the load left. In place."""
     for dimension in range(MAX_DIMENSIONS):
@@ -344,7 +351,7 @@ def open_vehicle(instance: Instance, state: State, r: int, k: int) -> None:
     vehicle[V_NODE] = instance.type[b, k, TYPE_DEPOT]
     vehicle[V_IDLE] = 1
     vehicle[V_NEXT_START] = instance.type[b, k, TYPE_EARLIEST]
-    vehicle[V_LOAD:] = instance.type[b, k, TYPE_CAPACITY:TYPE_PAYLOAD]
+    fill(vehicle, instance.type[b, k])
     state.drone[r, :, DRONE_SORTIE] = IN_FLIGHT
     state.log.count[r] = 0
     state.used[r, k] += 1

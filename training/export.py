@@ -1,5 +1,7 @@
 """Export a trained policy to ONNX: `encoder.onnx`, `step.onnx` and a card.
 
+The weights of `attention`'s step go into `step.npz` too, for `model.rolling`.
+
 Run with `python -m training.export --checkpoint runs/pointer/checkpoint.pt --name pointer`.
 """
 
@@ -8,12 +10,15 @@ import warnings
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import onnx
 import torch
 import typer
 from torch import Tensor, nn
 
 from model.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
+from model.rolling import STEP_WEIGHTS
+from model.policy_attention import AttentionPolicy
 from model.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 from training.policies import POLICIES, AnyPolicy
 
@@ -94,6 +99,10 @@ def export(policy: AnyPolicy, folder: Path, card: dict[str, Any]) -> None:
            {"memory": {0: tokens}, "here": {0: rollouts}, "candidate": {0: rollouts, 1: candidates},
             "feature": {0: rollouts, 1: candidates}, "allowed": {0: rollouts, 1: candidates},
             "glob": {0: rollouts}, "hidden": {0: rollouts}})
+    if isinstance(policy, AttentionPolicy):
+        arrays: dict[str, Any] = {name: weight.detach().numpy()
+                                  for name, weight in policy.decision_weights().items()}
+        np.savez(folder / STEP_WEIGHTS, **arrays)
     content = {**card, "hidden_size": policy.hidden_size}
     (folder / "card.json").write_text(json.dumps(content, indent=2) + "\n")
 

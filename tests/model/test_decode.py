@@ -18,7 +18,8 @@ from model.extract import extract
 from model.instance import pack
 from model.policy import MASKED
 from model.problem import Problem
-from training.instances import generate
+from model.rolling import CLIP, choose
+from training.instances import VARIANTS, generate
 
 WEIGHTS = Path(__file__).parents[2] / "model" / "weights"
 
@@ -89,6 +90,25 @@ def test_draws_follow_the_probabilities_and_never_what_is_masked() -> None:
     drawn = np.bincount(disturbed(logits, 1.0, noise).argmax(axis=1), minlength=3)
     assert drawn[2] == 0
     assert drawn[0] / len(logits) == pytest.approx(0.7, abs=0.02)
+
+
+def test_compiled_draws_follow_the_probabilities() -> None:
+    scores = np.arctanh(np.log(np.array([0.5, 0.3, 0.2])) / CLIP).astype(np.float32) * CLIP / 2
+    rng = np.random.default_rng(3)
+    for temperature, expected in ((1.0, [0.5, 0.3, 0.2]), (0.5, [0.658, 0.237, 0.105])):
+        drawn = [choose(scores, temperature, rng) for _ in range(20_000)]
+        assert np.bincount(drawn) / 20_000 == pytest.approx(expected, abs=0.015)
+    assert choose(scores, 0.0, rng) == 0
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_compiled_rollouts_and_the_graph_plan_the_same(variant: str) -> None:
+    policy = load_policy(WEIGHTS / "attention")
+    assert policy.step_weights is not None
+    for seed in range(3):
+        problem = generate(np.random.default_rng(seed), 15, variant)
+        assert (plan(policy, problem, DecodeConfig())
+                == plan(replace(policy, step_weights=None), problem, DecodeConfig()))
 
 
 def test_missing_policy_is_refused(tmp_path: Path) -> None:

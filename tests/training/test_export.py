@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import onnx
@@ -9,6 +10,10 @@ import onnxruntime as ort
 import pytest
 import torch
 
+from model.features import Observation
+from model.rolling import (
+    ACTION_WIDTH, CLIP, SHAPES, SHARE, STEP_WEIGHTS, candidate_scores, read_weights,
+)
 from training.export import Encoder, Step, example_inputs, export
 from training.policies import POLICIES
 
@@ -49,6 +54,41 @@ def test_torch_and_onnx_agree(exported: tuple[str, Path], nodes: int, types: int
                                  in zip(STEP_INPUTS, step_inputs, strict=True)}})
     np.testing.assert_allclose(got_logits, logits.numpy(), atol=1e-4, rtol=1e-4)
     np.testing.assert_allclose(got_hidden, hidden.numpy(), atol=1e-4, rtol=1e-4)
+
+
+@pytest.mark.parametrize(("nodes", "types", "candidates"), [(2, 1, 1), (21, 4, 30), (301, 2, 170)])
+def test_compiled_step_of_attention_agrees_with_its_graph(
+        exported: tuple[str, Path], nodes: int, types: int, candidates: int) -> None:
+    name, folder = exported
+    assert (folder / STEP_WEIGHTS).exists() == (name == "attention")
+    if name != "attention":
+        return
+    policy = POLICIES[name]()
+    _, step_inputs = example_inputs(policy, nodes, types, 3, candidates, seed=4)
+    here, candidate, feature, _, glob, hidden = (x.numpy() for x in step_inputs)
+    everyone = np.ones(candidate.shape, np.bool_)
+    memory = np.random.default_rng(5).standard_normal((nodes + types, SHARE + ACTION_WIDTH),
+                                                      np.float32)
+    session = ort.InferenceSession(str(folder / "step.onnx"))
+    logits, _ = session.run(None, dict(zip(
+        ("memory", *STEP_INPUTS), (memory, here, candidate, feature, everyone, glob, hidden),
+        strict=True)))
+    seen = Observation(np.full(3, candidates), candidate, candidate, np.zeros((3, 1, 3), np.int64),
+                       feature, glob, here)
+    weights = read_weights(folder / STEP_WEIGHTS)
+    for r in range(3):
+        clipped = CLIP * np.tanh(candidate_scores(weights, memory, seen, r) * 2 / CLIP)
+        np.testing.assert_allclose(clipped, logits[r], atol=1e-4, rtol=1e-4)
+
+
+@pytest.mark.parametrize("spoil", [{"action": None}, {"globe_bias": np.zeros(7, np.float32)}])
+def test_step_weights_of_another_shape_are_refused(tmp_path: Path,
+                                                   spoil: dict[str, Any]) -> None:
+    arrays: dict[str, Any] = {name: np.zeros(shape) for name, shape in SHAPES.items()} | spoil
+    np.savez(tmp_path / STEP_WEIGHTS,
+             **{name: array for name, array in arrays.items() if array is not None})
+    with pytest.raises(ValueError, match=next(iter(spoil))):
+        read_weights(tmp_path / STEP_WEIGHTS)
 
 
 def test_card_and_graphs_are_complete_and_tell_no_paths(exported: tuple[str, Path]) -> None:

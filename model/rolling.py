@@ -1,0 +1,309 @@
+"""Rollouts of `attention` in one compiled loop.
+
+Its step as `step.onnx` computes it, for one rollout and without padding. A decision is so small
+that a call of ONNX Runtime takes longer than its arithmetic, and a plan makes many of them.
+"""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from model.compiled import compiled, inlined, inlined_arithmetic
+from model.features import (
+    NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, empty_observation, step,
+)
+from model.instance import Instance
+from model.problem import IntArray
+from model.simulator import max_steps, reset
+from model.tokens import Float32Array, Scales
+from model.transition import State
+
+STEP_WEIGHTS = "step.npz"
+"""File in a policy's folder."""
+
+WIDTH = 96
+NUM_HEADS = 4
+HEAD_WIDTH = WIDTH // NUM_HEADS
+ACTION_WIDTH = 48
+"""Sizes of the network, compiled in: loops of fixed length run twice as fast."""
+
+KEY, VALUE, POINTER, SHARE = WIDTH, 2 * WIDTH, 3 * WIDTH, 4 * WIDTH
+"""Where the parts of a token's memory begin; what queries read comes first."""
+
+CLIP = 10.0
+"""What the scores are clipped to, softly."""
+
+LEAST_NOISE = float(np.finfo(np.float32).tiny)
+"""Noise may be exactly zero, which has no logarithm."""
+
+UNROLLED = 4
+"""Rows of a matrix that are multiplied together."""
+
+
+class StepWeights(NamedTuple):
+    """The weights of a decision, matrices as (input, output)."""
+
+    globe: Float32Array
+    globe_bias: Float32Array
+    globe_output: Float32Array
+    globe_output_bias: Float32Array
+    action: Float32Array
+    action_bias: Float32Array
+    glimpse_bias: Float32Array
+    glimpse_output: Float32Array
+    action_query: Float32Array
+    action_mix: Float32Array
+    action_mix_bias: Float32Array
+    action_score: Float32Array
+
+
+SHAPES = {
+    "globe": (NUM_GLOBAL_FEATURES, WIDTH), "globe_bias": (WIDTH,),
+    "globe_output": (WIDTH, WIDTH), "globe_output_bias": (WIDTH,),
+    "action": (NUM_ACTION_FEATURES, ACTION_WIDTH), "action_bias": (ACTION_WIDTH,),
+    "glimpse_bias": (NUM_HEADS, ACTION_WIDTH), "glimpse_output": (WIDTH, WIDTH),
+    "action_query": (WIDTH, ACTION_WIDTH), "action_mix": (ACTION_WIDTH, ACTION_WIDTH),
+    "action_mix_bias": (ACTION_WIDTH,), "action_score": (ACTION_WIDTH,),
+}
+"""Of `StepWeights`; numbers of rows are multiples of UNROLLED."""
+
+
+class Desk(NamedTuple):
+    """Room for the numbers of one decision."""
+
+    hidden: Float32Array  # (WIDTH,)
+    query: Float32Array  # (WIDTH,)
+    glimpsed: Float32Array  # (WIDTH,)
+    asked: Float32Array  # (ACTION_WIDTH,)
+    mixed: Float32Array  # (ACTION_WIDTH,)
+    action: Float32Array  # (candidate, ACTION_WIDTH)
+    weight: Float32Array  # (NUM_HEADS, candidate)
+
+
+def read_weights(path: Path) -> StepWeights:
+    """Read what `training.export` wrote.
+
+    Raises
+    ------
+    ValueError
+        If an array is missing or has another shape than is compiled in.
+    """
+    with np.load(path, allow_pickle=False) as stored:
+        arrays = {name: np.ascontiguousarray(stored[name], dtype=np.float32)
+                  for name in StepWeights._fields if name in stored}
+    for name, shape in SHAPES.items():
+        if name not in arrays or arrays[name].shape != shape:
+            raise ValueError(f"{path.name}: {name!r} is not there in the shape {shape}")
+    return StepWeights(**arrays)
+
+
+@compiled
+def new_desk(most: int) -> Desk:
+    """Return room for `most` candidates."""
+    return Desk(np.empty(WIDTH, np.float32), np.empty(WIDTH, np.float32),
+                np.empty(WIDTH, np.float32), np.empty(ACTION_WIDTH, np.float32),
+                np.empty(ACTION_WIDTH, np.float32), np.empty((most, ACTION_WIDTH), np.float32),
+                np.empty((NUM_HEADS, most), np.float32))
+
+
+@inlined_arithmetic
+def _add_to_actions(x: Float32Array, matrix: Float32Array, result: Float32Array) -> None:
+    """Add `x` times a matrix of width ACTION_WIDTH. In place."""
+    for i in range(0, matrix.shape[0], UNROLLED):
+        a, b, c, d = x[i], x[i + 1], x[i + 2], x[i + 3]
+        row_a, row_b, row_c, row_d = matrix[i], matrix[i + 1], matrix[i + 2], matrix[i + 3]
+        for j in range(ACTION_WIDTH):
+            result[j] += a * row_a[j] + b * row_b[j] + c * row_c[j] + d * row_d[j]
+
+
+@inlined_arithmetic
+def _add_to_query(x: Float32Array, matrix: Float32Array, result: Float32Array) -> None:
+    """Add `x` times a matrix of width WIDTH. In place."""
+    for i in range(0, matrix.shape[0], UNROLLED):
+        a, b, c, d = x[i], x[i + 1], x[i + 2], x[i + 3]
+        row_a, row_b, row_c, row_d = matrix[i], matrix[i + 1], matrix[i + 2], matrix[i + 3]
+        for j in range(WIDTH):
+            result[j] += a * row_a[j] + b * row_b[j] + c * row_c[j] + d * row_d[j]
+
+
+@inlined_arithmetic
+def _begin_query(weights: StepWeights, place: Float32Array, glob: Float32Array,
+                 desk: Desk) -> None:
+    """Ask from the present place and the state of the vehicle. In place."""
+    for j in range(WIDTH):
+        desk.hidden[j] = weights.globe_bias[j]
+        desk.query[j] = weights.globe_output_bias[j] + place[j]
+    _add_to_query(glob, weights.globe, desk.hidden)
+    for j in range(WIDTH):
+        desk.hidden[j] = desk.hidden[j] / (np.float32(1.0) + np.exp(-desk.hidden[j]))
+    _add_to_query(desk.hidden, weights.globe_output, desk.query)
+
+
+@inlined_arithmetic
+def _weigh(weights: StepWeights, token: Float32Array, feature: Float32Array, index: int,
+           desk: Desk) -> None:
+    """Find how much each head looks at a candidate, before the softmax. In place."""
+    action, query = desk.action[index], desk.query
+    for j in range(ACTION_WIDTH):
+        action[j] = weights.action_bias[j] + token[SHARE + j]
+    _add_to_actions(feature, weights.action, action)
+    a = b = c = d = np.float32(0.0)
+    for j in range(ACTION_WIDTH):
+        action[j] = max(action[j], np.float32(0.0))
+        a += weights.glimpse_bias[0, j] * action[j]
+        b += weights.glimpse_bias[1, j] * action[j]
+        c += weights.glimpse_bias[2, j] * action[j]
+        d += weights.glimpse_bias[3, j] * action[j]
+    p = q = r = s = np.float32(0.0)
+    for j in range(HEAD_WIDTH):
+        p += query[j] * token[KEY + j]
+        q += query[HEAD_WIDTH + j] * token[KEY + HEAD_WIDTH + j]
+        r += query[2 * HEAD_WIDTH + j] * token[KEY + 2 * HEAD_WIDTH + j]
+        s += query[3 * HEAD_WIDTH + j] * token[KEY + 3 * HEAD_WIDTH + j]
+    scale = np.float32(HEAD_WIDTH ** -0.5)
+    weight = desk.weight
+    weight[0, index], weight[1, index] = a + p * scale, b + q * scale
+    weight[2, index], weight[3, index] = c + r * scale, d + s * scale
+
+
+@inlined_arithmetic
+def _normalise(weight: Float32Array) -> None:
+    """Replace numbers by their softmax. In place."""
+    top = weight[0]
+    for index in range(len(weight)):
+        top = max(top, weight[index])
+    total = np.float32(0.0)
+    for index in range(len(weight)):
+        weight[index] = np.exp(weight[index] - top)
+        total += weight[index]
+    for index in range(len(weight)):
+        weight[index] /= total
+
+
+@inlined_arithmetic
+def _glimpse(memory: Float32Array, tokens: IntArray, desk: Desk) -> None:
+    """Mix the candidates' values by weight. In place."""
+    weight, glimpsed = desk.weight, desk.glimpsed
+    for j in range(WIDTH):
+        glimpsed[j] = np.float32(0.0)
+    for index in range(len(tokens)):
+        token = memory[tokens[index]]
+        a, b, c, d = weight[0, index], weight[1, index], weight[2, index], weight[3, index]
+        for j in range(HEAD_WIDTH):
+            glimpsed[j] += a * token[VALUE + j]
+            glimpsed[HEAD_WIDTH + j] += b * token[VALUE + HEAD_WIDTH + j]
+            glimpsed[2 * HEAD_WIDTH + j] += c * token[VALUE + 2 * HEAD_WIDTH + j]
+            glimpsed[3 * HEAD_WIDTH + j] += d * token[VALUE + 3 * HEAD_WIDTH + j]
+
+
+@inlined_arithmetic
+def _score(weights: StepWeights, token: Float32Array, index: int, desk: Desk) -> float:
+    """Return the score of a candidate, before it is clipped."""
+    mixed, query = desk.mixed, desk.query
+    for j in range(ACTION_WIDTH):
+        mixed[j] = desk.asked[j]
+    _add_to_actions(desk.action[index], weights.action_mix, mixed)
+    dot = extra = np.float32(0.0)
+    for j in range(WIDTH):
+        dot += query[j] * token[POINTER + j]
+    for j in range(ACTION_WIDTH):
+        extra += weights.action_score[j] * max(mixed[j], np.float32(0.0))
+    return float(dot * np.float32(WIDTH ** -0.5) + extra)
+
+
+@inlined
+def _score_all(weights: StepWeights, memory: Float32Array, seen: Observation, r: int, desk: Desk,
+               scores: Float32Array) -> None:
+    """Write the scores of a rollout's candidates, before they are clipped. In place."""
+    count = seen.count[r]
+    tokens = seen.token[r, :count]
+    _begin_query(weights, memory[seen.here[r]], seen.glob[r], desk)
+    for index in range(count):
+        _weigh(weights, memory[tokens[index]], seen.feature[r, index], index, desk)
+    for head in range(NUM_HEADS):
+        _normalise(desk.weight[head, :count])
+    _glimpse(memory, tokens, desk)
+    _add_to_query(desk.glimpsed, weights.glimpse_output, desk.query)
+    for j in range(ACTION_WIDTH):
+        desk.asked[j] = weights.action_mix_bias[j]
+    _add_to_actions(desk.query, weights.action_query, desk.asked)
+    for index in range(count):
+        scores[index] = _score(weights, memory[tokens[index]], index, desk)
+
+
+@compiled
+def choose(scores: Float32Array, temperature: float, rng: np.random.Generator) -> int:
+    """Return the likeliest candidate, or one drawn by probability if the temperature isn't 0."""
+    best, most = 0, -np.inf
+    for index in range(len(scores)):
+        value = scores[index]
+        if temperature > 0:
+            noise = max(rng.standard_exponential(), LEAST_NOISE)
+            value = CLIP * math.tanh(value * 2 / CLIP) / temperature - math.log(noise)
+        if value > most:
+            best, most = index, value
+    return best
+
+
+@compiled
+def _roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, scale: Scales,
+              state: State, type_token: Float32Array, seen: Observation, r: int,
+              temperature: float, rng: np.random.Generator, actions: IntArray) -> int:
+    """Plan one rollout; write its actions and return how many. In place."""
+    desk = new_desk(seen.token.shape[1])
+    scores = np.empty(seen.token.shape[1], np.float32)
+    choice = np.zeros(len(seen.count), np.int64)
+    scratch = len(seen.count)
+    for index in range(len(actions)):
+        if step(instance, scale, state, type_token, r, r + 1, scratch, choice, seen) == 0:
+            return index
+        _score_all(weights, memory, seen, r, desk, scores)
+        choice[r] = choose(scores[: seen.count[r]], temperature, rng)
+        actions[index] = seen.action[r, choice[r]]
+    return len(actions)
+
+
+@compiled
+def candidate_scores(weights: StepWeights, memory: Float32Array, seen: Observation,
+                     r: int) -> Float32Array:
+    """Return the scores of a rollout's candidates, (candidate,), before they are clipped."""
+    scores = np.empty(seen.count[r], np.float32)
+    _score_all(weights, memory, seen, r, new_desk(seen.count[r]), scores)
+    return scores
+
+
+def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, scale: Scales,
+             type_token: Float32Array, temperatures: Sequence[float],
+             rng: np.random.Generator) -> tuple[IntArray, float]:
+    """Plan a problem several times; return the cheapest plan.
+
+    Parameters
+    ----------
+    weights
+        Of the policy's decisions.
+    memory
+        (token, memory width) that its encoder made of the problem.
+    instance, scale, type_token
+        The problem, packed alone, and what `model.tokens` says of it.
+    temperatures
+        Of each rollout; 0 for the likeliest action at each step.
+    rng
+        For all others.
+
+    Returns
+    -------
+    Codes of the actions, and the cost.
+    """
+    rows = len(temperatures)
+    state = reset(instance, np.zeros(rows, np.int64))
+    seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
+    actions = np.empty((rows, max_steps(instance)), np.int64)
+    counts = [_roll_out(weights, memory, instance, scale, state, type_token, seen, r,
+                        float(temperature), rng, actions[r])
+              for r, temperature in enumerate(temperatures)]
+    cost = state.cost[:rows].sum(axis=1)
+    best = int(cost.argmin())
+    return actions[best, : counts[best]], float(cost[best])
