@@ -1,5 +1,6 @@
 """One loaded planner: is it ready, and what does it answer."""
 
+import gc
 import logging
 import os
 import time
@@ -52,7 +53,7 @@ class PlanService:
 
     def start(self) -> None:
         """Warm the planner in the background. In place."""
-        self._warming = self._executor.submit(self._planner.warm, self._note)
+        self._warming = self._executor.submit(self._warm)
 
     def stop(self) -> None:
         """Let go of the background thread. In place."""
@@ -97,6 +98,12 @@ class PlanService:
         if not readiness.is_ready:
             raise NotReadyError(f"The planner is not ready ({readiness.detail}): try again soon.")
         return self._planner
+
+    def _warm(self) -> None:
+        self._planner.warm(self._note)
+        # What is loaded by now stays, so the collector need not look through it again and again.
+        gc.collect()
+        gc.freeze()
 
     def _note(self, progress: str) -> None:
         logger.info("warming up: %s", progress)
