@@ -1,4 +1,4 @@
-"""Tests of `benchmarks.ablation` and `benchmarks.table1`."""
+"""Tests of `benchmarks.ablation`."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,13 +12,9 @@ from benchmarks.ablation import (
     table_of_starts, trial, ways,
 )
 from benchmarks.rows import append_rows, read_rows
-from benchmarks.table1 import (
-    FLEETS, REFERENCE, SIDE_KM, FleetPlan, Timed, example, fleet_problem, table_of_fleets,
-    table_of_times, with_fleet,
-)
 from model.decode import load_policy
 from model.planner import PlanCheckError
-from model.problem import MS_PER_HOUR, Customer, Problem, VehicleType
+from model.problem import Customer, Problem, VehicleType
 from model.solution import Solution
 
 
@@ -78,38 +74,6 @@ def test_moves_are_compared_with_all_of_them() -> None:
               for name, costs in {"x": (100, 101, 100, 99), "y": (10, 10.1, 10, 9.9)}.items()
               for move, cost in zip(("", *MOVES), costs, strict=True)]
     assert table_of_moves(trials)[-1] == "| all | 2 | +1.00 ± 0.00 | +0.00 ± 0.00 | -1.00 ± 0.00 |"
-
-
-def test_table_1_is_that_of_the_paper() -> None:
-    problem = example()
-    assert (problem.num_customers, problem.vehicle_types[0].count) == (100, 4)
-    lines = table_of_times([Timed(1.0, 1, "policy", 1.0 + cost / 1e6, cost * REFERENCE)
-                            for cost in (1.0, 1.01, 1.5)])
-    assert lines[2:] == [
-        "| 1 | 1 | policy | 3 | 710.53 | 717.64 | 1065.80 | 1.00 | 1.000 |"]
-
-
-@pytest.mark.parametrize("fleet", FLEETS)
-def test_fleets_have_the_same_customers_and_hours(fleet: str) -> None:
-    drawn = fleet_problem(np.random.default_rng(1), 25)
-    problem = with_fleet(drawn, fleet, 6.5)
-    assert problem.customers is drawn.customers
-    assert tuple(kind.capacity[0] // 1000 for kind in problem.vehicle_types) == FLEETS[fleet]
-    assert {kind.max_working_duration for kind in problem.vehicle_types} == {6.5 * MS_PER_HOUR}
-    assert problem.coordinates[0] == pytest.approx((32, 38))
-    assert problem.coordinates.max() <= SIDE_KM
-    reserved = [customer.served_by for customer in problem.customers]
-    assert (reserved.count("drone"), reserved.count("truck")) == (2, 2)
-
-
-def test_fleets_are_compared_by_mean_cost() -> None:
-    plans = [FleetPlan(25, "150", hours, 0.9, cost, 0, (0.5, 1.0))
-             for hours, cost in ((8.0, 10.0), (4.0, 13.0), (8.0, 11.0))]
-    assert table_of_fleets(plans) == [
-        "| customers | capacity | 4 h | 8 h | left out | load, % | longest, s |",
-        "| ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
-        "| 25 | 150 | 13.0 | 10.5 | 0 | 75.0 | 0.900 |",
-    ]
 
 
 def test_trials_come_back_from_the_file_as_they_were(tmp_path: Path) -> None:

@@ -1,0 +1,1 @@
+"""The paper's study, made again: its tables and figures, planned and judged by Tandem."""
