@@ -62,6 +62,18 @@ def playing(page: Page) -> None:
     open_tab(page, "costs")
 
 
+def replanning(page: Page) -> None:
+    """At ten past ten a truck has broken down, and an order is new."""
+    open_example(page, "city_day")
+    page.get_by_label("Time of day").fill("36600")
+    page.get_by_role("button", name="Replan from here").click()
+    page.get_by_label("drone-truck-1 is broken").check()
+    page.get_by_role("button", name="Add orders on the map").click()
+    page.mouse.click(300, 480)
+    page.keyboard.press("Escape")
+    page.locator(".panel").get_by_role("button", name="Plan on").focus()
+
+
 def phone(page: Page) -> None:
     """As on a phone."""
     idle(page)
@@ -71,6 +83,7 @@ VIEWS: dict[str, tuple[Callable[[Page], None], dict[str, int], str]] = {
     "overview": (overview, DESK, "light"),
     "city": (city, DESK, "dark"),
     "what-if": (what_if, DESK, "light"),
+    "replanning": (replanning, DESK, "light"),
     "sweep": (sweep, DESK, "light"),
     "playing": (playing, DESK, "light"),
     "phone": (phone, PHONE, "light"),

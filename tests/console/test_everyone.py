@@ -9,7 +9,7 @@ from playwright.sync_api import Page, expect
 from tests.console.steps import idle, open_example, open_tab, state
 
 TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes", "scenarios",
-        "export")
+        "replan", "export")
 
 
 def findings(page: Page) -> list[str]:

@@ -2,6 +2,7 @@
 
 import { getIn, parsePath } from './core/paths.js';
 import { indexPlan } from './core/plan.js';
+import { goOnFrom, settledParts } from './core/replanning.js';
 import { store } from './store.js';
 
 const MOST_UNDOS = 100;
@@ -68,6 +69,23 @@ export function openTab(tab) {
   store.set({ tab });
 }
 
+/** Begin to go on from the plan that is looked at, at the minute that the clock shows. */
+export function replanFromClock() {
+  const { time } = store.get();
+  const minute = Math.round(time / 60) * 60;
+  store.set({ time: minute });
+  replanFrom(minute);
+}
+
+/** Begin to go on from the plan that is looked at, at an instant in seconds. */
+export function replanFrom(now) {
+  const entry = shownPlan(store.get());
+  if (!entry) return;
+  store.set({ playing: false });
+  edit((request) => goOnFrom(request, entry.plan, Math.round(now)));
+  openTab('replan');
+}
+
 /** Show why a request failed, each error where it belongs. */
 export function showFailure(error) {
   if (error.name === 'AbortError') return;
@@ -99,3 +117,18 @@ export function indexOf(entry) {
   if (!indices.has(entry.plan)) indices.set(entry.plan, indexPlan(entry.request, entry.plan));
   return indices.get(entry.plan);
 }
+
+const settled = new WeakMap();
+
+/** Return what of an entry of `plans` is settled, see `settledParts`; the same while it holds. */
+export function settledOf(entry, request) {
+  if (!entry) return NOTHING;
+  const ahead = request.replan?.plan === entry.plan ? request.replan : null;
+  const known = settled.get(entry);
+  if (known?.ahead === ahead) return known.parts;
+  const parts = settledParts(entry, request);
+  settled.set(entry, { ahead, parts });
+  return parts;
+}
+
+const NOTHING = new Map();

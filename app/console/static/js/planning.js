@@ -1,7 +1,8 @@
 /** Plans: the policy's at once, then what a job improves, until it ends or is stopped. */
 
 import * as api from './api.js';
-import { showFailure } from './actions.js';
+import { showFailure, shownPlan } from './actions.js';
+import { furtherFrom } from './core/replanning.js';
 import { store } from './store.js';
 
 const MOST_PLANS = 12;
@@ -16,9 +17,22 @@ function note(patch) {
 }
 
 /** Plan the problem as it stands, in place of any planning under way. */
-export async function plan() {
+export function plan() {
+  const { request } = store.get();
+  return run(request, request);
+}
+
+/** Search on from the plan that is looked at; what is settled, pinned or broken stays so. */
+export function improvePlan() {
+  const { request } = store.get();
+  const entry = shownPlan(store.get());
+  return entry ? run(request, furtherFrom(request, entry)) : undefined;
+}
+
+/** Plan what is `sent` for a problem. */
+async function run(request, sent) {
   if (current) await stop();
-  const { request, epoch } = store.get();
+  const { epoch } = store.get();
   const task = {
     number: nextNumber(),
     epoch,
@@ -34,9 +48,9 @@ export async function plan() {
   });
   try {
     task.request = request;
-    const inJob = searches(request);
-    if (!inJob || decodeSeconds(request) <= MOST_DECODE_SECONDS) await decode(task, request);
-    if (current === task && inJob) await improve(task, request);
+    const inJob = searches(sent);
+    if (!inJob || decodeSeconds(sent) <= MOST_DECODE_SECONDS) await decode(task, sent);
+    if (current === task && inJob) await improve(task, sent);
   } catch (error) {
     if (current === task) showFailure(error);
   } finally {
@@ -152,7 +166,8 @@ function keep(task, reply) {
     if (before && before.plan.cost.total < reply.cost.total) return {};
     const entry = { number: task.number, request: task.request, plan: reply };
     const others = state.plans.filter(({ number }) => number !== task.number);
-    const besides = before ? state.besides : state.shown;
+    const basis = state.plans.find(({ plan: former }) => former === task.request.replan?.plan);
+    const besides = before ? state.besides : (basis?.number ?? state.shown);
     return { plans: [...others.slice(-MOST_PLANS), entry], shown: task.number, besides };
   });
 }

@@ -66,9 +66,12 @@ export function customersWithin(request, [west, south, east, north]) {
     .map(({ id }) => id);
 }
 
-/** Remove a customer. */
+/** Remove a customer, pinned or not. */
 export function removeCustomer(request, id) {
-  return { ...request, customers: request.customers.filter((customer) => customer.id !== id) };
+  const customers = request.customers.filter((customer) => customer.id !== id);
+  if (!request.replan?.pinned?.includes(id)) return { ...request, customers };
+  const pinned = request.replan.pinned.filter((other) => other !== id);
+  return { ...request, customers, replan: { ...request.replan, pinned } };
 }
 
 /** Move a customer. */

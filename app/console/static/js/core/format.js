@@ -31,6 +31,13 @@ export function parseNumber(text) {
   return Number(trimmed);
 }
 
+/** Return a message of the service with its seconds as times, `36000 s` as `10:00`. */
+export function timesInWords(message) {
+  return message.replace(/\b(\d+(?:\.\d+)?) s\b/g, (_, seconds) =>
+    clock(Number(seconds), { precise: true }),
+  );
+}
+
 /** Return a length of time such as `2 h 05 min`, `12 min` or `40 s`. */
 export function duration(seconds) {
   const size = Math.abs(Math.round(seconds));

@@ -82,7 +82,7 @@ function fit([west, south, east, north], toPlane) {
 }
 
 function tripShapes(trip, legsOf, at) {
-  const colour = vehicleColour(trip.vehicle.index, false);
+  const colour = vehicleColour(trip.vehicle.number, false);
   const places = trip.stops.flatMap(({ location }) => (location ? [at(location)] : []));
   const middle = places[Math.floor(places.length / 2)];
   return [
@@ -108,7 +108,7 @@ function customerShapes(index, { id, location }, at) {
   const centre = at(location);
   if (!halt)
     return [{ kind: 'text', at: move(centre, -5, 5), text: '\u00d7', size: 18, colour: RED }];
-  const colour = vehicleColour(halt.vehicle.index, false);
+  const colour = vehicleColour(halt.vehicle.number, false);
   return [
     { kind: 'circle', at: centre, radius: 4, colour, fill: halt.sortie ? '#ffffff' : colour },
   ];
@@ -140,7 +140,7 @@ function timelineShapes(index, rows, top) {
 }
 
 function rowShapes(row, top, x, [start, end]) {
-  const colour = vehicleColour(row.vehicle.index, false);
+  const colour = vehicleColour(row.vehicle.number, false);
   const thin = { drive: 3, fly: 2 };
   const isVehicle = row.kind === 'vehicle';
   return [

@@ -2,8 +2,11 @@
  * A plan as the views need it: vehicles, trips, sorties and halts, each with a key.
  *
  * Keys are `c:<customer>`, `d:<vehicle>/<trip>/<stop>` for depots, `v:<vehicle>`,
- * `t:<vehicle>/<trip>` and `s:<vehicle>/<trip>/<sortie>`; vehicles count as in the reply.
+ * `t:<vehicle>/<trip>` and `s:<vehicle>/<trip>/<sortie>`; vehicles count in the fleet's order.
  */
+
+/** How many vehicles are told apart by colour, see `palette.js`. */
+const MOST_COLOURS = 10;
 
 /** Return the index of a plan, or null without one. */
 export function indexPlan(request, plan) {
@@ -12,15 +15,37 @@ export function indexPlan(request, plan) {
   const depots = new Map(request.depots.map((depot) => [depot.id, depot]));
   const types = new Map(request.fleet.map((type) => [type.id, type]));
   const index = { request, plan, customers, depots, types, vehicles: [], halts: new Map() };
-  index.vehicles = plan.routes.map((route, vehicle) => indexRoute(index, route, vehicle));
+  const numbers = numbersOf(request.fleet);
+  const place = ({ vehicle }) => numbers.get(vehicle) ?? numbers.size;
+  // Replies put vehicles under way first; here each keeps its row and colour.
+  index.vehicles = [...plan.routes]
+    .sort((first, second) => place(first) - place(second))
+    .map((route, position) => {
+      const number = isFew(request.fleet) ? place(route) : position;
+      return indexRoute(index, route, position, number);
+    });
   return index;
 }
 
-function indexRoute(index, route, number) {
+/** Return the place of each vehicle in the fleet by its name, counted from 0. */
+function numbersOf(fleet) {
+  const names = fleet.flatMap(({ id, count = 0 }) =>
+    Array.from({ length: count }, (_, number) => `${id}-${number + 1}`),
+  );
+  return new Map(names.map((name, number) => [name, number]));
+}
+
+/** Tell whether vehicles are numbered as in the fleet, whether all are used or not. */
+function isFew(fleet) {
+  return fleet.length === 1 || fleet.reduce((sum, { count }) => sum + count, 0) <= MOST_COLOURS;
+}
+
+function indexRoute(index, route, position, number) {
   const type = index.types.get(route.type);
   const vehicle = {
-    key: `v:${number}`,
-    index: number,
+    key: `v:${position}`,
+    index: position,
+    number,
     label: String(number + 1),
     name: route.vehicle,
     type,

@@ -60,9 +60,9 @@ export function labelOf(name) {
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
-/** Return a description in plain text. */
+/** Return a description in plain text; a field that is null is an empty one to whoever fills it. */
 export function helpOf(schema) {
-  return (schema.description ?? '').replaceAll('`', '');
+  return (schema.description ?? '').replaceAll('`', '').replace(/\bNull: /, 'Empty: ');
 }
 
 /** Return an object with what a schema demands and nothing else. */

@@ -13,17 +13,20 @@ export function takeTool(tool) {
 /** Buttons over the map. */
 export function DrawBar() {
   const tool = useStore((state) => state.tool);
-  const [open, setOpen] = useState(false);
+  const replans = useStore((state) => Boolean(state.request.replan));
+  const [wanted, setWanted] = useState(false);
+  const open = wanted || tool !== null;
   const toggle = () => {
     if (open) store.set({ tool: null });
-    setOpen(!open);
+    setWanted(!open);
   };
+  const tools = Object.entries(TOOLS).filter(([key]) => key !== 'pin' || replans);
   return html`<div class="draw-bar">
     <button type="button" aria-expanded=${open} onClick=${toggle}>Draw</button>
     ${
       open &&
       html`<div class="draw-tools" role="group" aria-label="Drawing tools">
-      ${Object.entries(TOOLS).map(
+      ${tools.map(
         ([key, { name }]) => html`<button type="button" key=${key}
         aria-pressed=${tool === key} onClick=${() => takeTool(key)}>${name}</button>`,
       )}

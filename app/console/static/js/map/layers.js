@@ -2,12 +2,14 @@
 
 import { flightLines } from '../core/flights.js';
 import { tripDash, vehicleColour } from '../core/palette.js';
+import { standingIn } from '../core/replanning.js';
 import { leaflet } from '../libraries.js';
 
 const L = leaflet();
 
 const LINE = { weight: 2.5, opacity: 0.9, lineCap: 'round', lineJoin: 'round' };
 const MOST_LABELS = 30;
+const SETTLED = { weight: 2, opacity: 0.5, dashArray: '1 5' };
 const FLIGHT = { weight: 1.6, opacity: 0.95, dashArray: '1 4', lineCap: 'round' };
 
 /** A customer that nobody serves: a cross, so that it is told by shape too. */
@@ -32,25 +34,58 @@ export function latLng([x, y]) {
   return L.latLng(y, x);
 }
 
-/** Return the lines of a plan by key: `{key, layer, base}`; base is its style unless marked. */
-export function planLines(index, dark) {
+/** Return what a broken vehicle's way looks like. */
+function lostStyle(dark) {
+  return { weight: 1.5, opacity: 0.8, dashArray: '7 6', color: redOf(dark) };
+}
+
+function redOf(dark) {
+  return dark ? '#ff7b72' : '#c0392b';
+}
+
+/**
+ * Return the lines of a plan by key: `{key, layer, base}`; base is its style unless marked.
+ *
+ * @param parts what is settled, of `settledParts`
+ */
+export function planLines(index, parts, dark) {
   const legsOf = flightLines(index.request);
   const lines = [];
   for (const vehicle of index.vehicles) {
-    const colour = vehicleColour(vehicle.index, dark);
+    const colour = vehicleColour(vehicle.number, dark);
     for (const trip of vehicle.trips) {
-      const places = trip.stops
-        .filter(({ location }) => location)
-        .map(({ location }) => latLng(location));
-      const style = { ...LINE, color: colour, dashArray: tripDash(trip.index) };
-      if (places.length > 1) lines.push(line(trip.key, places, style));
+      const styles = stylesOf(colour, trip, dark);
+      for (const { standing, places } of stretches(trip, parts)) {
+        lines.push(line(trip.key, places, styles[standing]));
+      }
       for (const sortie of trip.sorties) {
         const legs = legsOf(sortie).map((leg) => leg.map(latLng));
-        if (legs.length) lines.push(line(sortie.key, legs, { ...FLIGHT, color: colour }));
+        const style = { ...styles[standingIn(parts, sortie)], ...FLIGHT };
+        if (standingIn(parts, sortie) === 'settled') style.opacity = SETTLED.opacity;
+        if (legs.length) lines.push(line(sortie.key, legs, style));
       }
     }
   }
   return lines;
+}
+
+function stylesOf(colour, trip, dark) {
+  const open = { ...LINE, color: colour, dashArray: tripDash(trip.index) };
+  return { open, settled: { ...open, ...SETTLED }, lost: { ...open, ...lostStyle(dark) } };
+}
+
+/** Return a trip's way in stretches that are settled or not: `{standing, places}`. */
+function stretches(trip, parts) {
+  const stops = trip.stops.filter(({ location }) => location);
+  const found = [];
+  stops.slice(1).forEach((halt, position) => {
+    const standing = standingIn(parts, halt);
+    const last = found[found.length - 1];
+    const place = latLng(halt.location);
+    if (last?.standing === standing) last.places.push(place);
+    else found.push({ standing, places: [latLng(stops[position].location), place] });
+  });
+  return found;
 }
 
 function line(key, places, base) {
@@ -58,30 +93,32 @@ function line(key, places, base) {
 }
 
 /** Return the customers' marks by key. */
-export function customerMarks(request, index, dark) {
+export function customerMarks(request, index, parts, dark) {
   const crowded = request.customers.length > 600;
   const radius = crowded ? 3.2 : 5;
   return request.customers
     .filter(({ location }) => location)
     .map((customer) => {
       const key = `c:${customer.id}`;
-      const [Kind, base] = customerStyle(index, index?.halts.get(key), dark, radius);
+      const [Kind, base] = customerStyle(index, customer, parts, dark, radius);
       return { key, base, layer: new Kind(latLng(customer.location), { ...base, key }) };
     });
 }
 
-function customerStyle(index, halt, dark, radius) {
+function customerStyle(index, customer, parts, dark, radius) {
+  const halt = index?.halts.get(`c:${customer.id}`);
   const ground = dark ? '#141a21' : '#ffffff';
   const plain = { radius, weight: 1.5, opacity: 1, fillOpacity: 1 };
-  if (!index) {
+  if (!index?.customers.has(customer.id)) {
     const grey = dark ? '#9aa7b4' : '#66727e';
     return [L.CircleMarker, { ...plain, color: ground, fillColor: grey }];
   }
   if (!halt) {
-    const red = dark ? '#ff7b72' : '#c0392b';
-    return [Cross, { ...plain, radius: radius + 2, weight: 3, color: red, fill: false }];
+    return [Cross, { ...plain, radius: radius + 2, weight: 3, color: redOf(dark), fill: false }];
   }
-  const colour = vehicleColour(halt.vehicle.index, dark);
+  const standing = standingIn(parts, halt);
+  const colour = standing === 'lost' ? redOf(dark) : vehicleColour(halt.vehicle.number, dark);
+  if (standing === 'settled') Object.assign(plain, { opacity: 0.6, fillOpacity: 0.45 });
   if (halt.sortie)
     return [L.CircleMarker, { ...plain, weight: 2.2, color: colour, fillColor: ground }];
   return [L.CircleMarker, { ...plain, color: ground, fillColor: colour }];
@@ -133,7 +170,7 @@ export function tripLabels(index, dark) {
       if (!stops.length) return [];
       const middle = stops[Math.floor((stops.length - 1) / 2)];
       const icon = labelIcon('trip-mark', trip.label, {
-        background: vehicleColour(vehicle.index, dark),
+        background: vehicleColour(vehicle.number, dark),
       });
       return [
         L.marker(latLng(middle.location), {
@@ -161,4 +198,19 @@ export function stopNumbers(trip) {
         ]
       : [],
   );
+}
+
+/** Return marks of the customers who are pinned to their vehicles. */
+export function pinMarks(request) {
+  const pinned = new Set(request.replan?.pinned ?? []);
+  return request.customers
+    .filter(({ id, location }) => location && pinned.has(id))
+    .map(({ location }) =>
+      L.marker(latLng(location), {
+        interactive: false,
+        keyboard: false,
+        zIndexOffset: 400,
+        icon: labelIcon('pin-mark', '\u25be'),
+      }),
+    );
 }

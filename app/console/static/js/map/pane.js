@@ -1,6 +1,6 @@
 /** The map in the page, a second one beside it when plans are compared. */
 
-import { besidePlan, hover, indexOf, select, shownPlan } from '../actions.js';
+import { besidePlan, hover, indexOf, select, settledOf, shownPlan } from '../actions.js';
 import { describe } from '../core/describe.js';
 import { flightLines } from '../core/flights.js';
 import { playback } from '../core/playback.js';
@@ -16,6 +16,7 @@ import {
 } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { DrawBar } from './draw-bar.js';
+import { MapLegend } from './legend.js';
 import { attachTools } from './tools.js';
 import { MapView, synchronise } from './view.js';
 
@@ -45,6 +46,8 @@ export function MapPane() {
           ${split ? 'One map' : 'Former plan beside'}</button>`
         }
       </div>
+      ${hasLocations(request) && html`<${MapLegend} request=${request} index=${indexOf(shown)}
+        parts=${settledOf(shown, request)} />`}
       ${
         !hasLocations(request) &&
         html`<p class="map-note">The problem has matrices and no locations,
@@ -79,6 +82,10 @@ function Map({ request, entry, onView, isMain = false }) {
   const geographic = request.coordinate_system === 'geographic';
   const planarUnit = request.planar_unit ?? 1;
   const index = indexOf(entry);
+  const parts = settledOf(
+    entry,
+    useStore((state) => state.request),
+  );
   useLayoutEffect(() => {
     const made = new MapView(element.current, {
       geographic,
@@ -96,11 +103,11 @@ function Map({ request, entry, onView, isMain = false }) {
       onView(null);
     };
   }, []);
-  useEffect(() => view?.draw(request, index, dark), [view, request, index, dark]);
+  useEffect(() => view?.draw(request, index, parts, dark), [view, request, index, parts, dark]);
   useEffect(() => view?.fit(), [view, firstPlace(request)]);
   useEffect(
     () => (view ? followMarks(view, request, index) : undefined),
-    [view, request, index, dark],
+    [view, request, index, parts, dark],
   );
   useEffect(() => (view && index ? followClock(view, index) : undefined), [view, index, dark]);
   return html`<div class="map" ref=${element} data-geographic=${geographic}></div>`;

@@ -11,6 +11,7 @@ import {
   removeCustomer,
   setArea,
 } from '../core/changes.js';
+import { choicesOf, setPinned } from '../core/replanning.js';
 import { drawing, leaflet } from '../libraries.js';
 import { store } from '../store.js';
 
@@ -27,6 +28,7 @@ export const TOOLS = {
   },
   area: { name: 'No-fly area', hint: 'Click the corners, the first again to close.' },
   change: { name: 'Move', hint: 'Drag customers, and corners of no-fly areas.' },
+  pin: { name: 'Pin', hint: 'Click customers to keep them with their vehicles.' },
   erase: { name: 'Erase', hint: 'Click customers or no-fly areas to remove them.' },
 };
 
@@ -85,6 +87,12 @@ const BEGIN = {
     view.onPress = (key, layer, event) => isCustomer(key) && drag(view, key, layer, event);
     return changeAreas(view);
   },
+  pin(view) {
+    view.onSelect = (key) => {
+      select(key);
+      if (isCustomer(key)) edit((request) => togglePin(request, idOf(key)));
+    };
+  },
   erase(view) {
     view.onSelect = (key, point) =>
       isCustomer(key)
@@ -93,6 +101,11 @@ const BEGIN = {
     view.onGround = (point) => edit((request) => eraseAreasAt(request, point));
   },
 };
+
+function togglePin(request, id) {
+  if (!request.replan || !choicesOf(request, id).mayPin) return request;
+  return setPinned(request, [id], !(request.replan.pinned ?? []).includes(id));
+}
 
 function ringOf(layer) {
   return layer.getLatLngs()[0].map(({ lng, lat }) => [lng, lat]);

@@ -10,6 +10,7 @@ import {
   labelIcon,
   latLng,
   noFlyShapes,
+  pinMarks,
   planLines,
   stopNumbers,
   tripLabels,
@@ -18,7 +19,8 @@ import { ScaleBar } from './scale.js';
 
 const L = leaflet();
 const DIM = 0.18;
-const TIP_HEIGHT = 170; // pixels that a tip may need above its place
+const TIP_GAP = 14; // pixels between a place and its tip
+const TIP_EDGE = 4; // pixels between a tip and the map's edge
 
 /** Draws into an element until `destroy` is called. */
 export class MapView {
@@ -55,6 +57,7 @@ export class MapView {
     this.numbers = L.layerGroup().addTo(this.map);
     this.movers = L.layerGroup().addTo(this.map);
     this.entries = [];
+    this.trucks = new Map();
     this.tooltip = L.tooltip({ direction: 'top', offset: [0, -6], opacity: 1 });
     this.#listen(onHover, onSelect);
     this.resizes = new ResizeObserver(() => this.map.invalidateSize({ animate: false }));
@@ -75,19 +78,17 @@ export class MapView {
     this.isGone = true;
   }
 
-  /** Show a problem and, if there is one, its plan. */
-  draw(request, index, dark) {
+  /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
+  draw(request, index, parts, dark) {
     Object.assign(this, { request, index, dark });
-    [this.areas, this.shapes, this.labels, this.numbers, this.movers].forEach((group) =>
-      group.clearLayers(),
-    );
-    this.trucks = new Map();
+    [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
     this.noFly.forEach((shape) => this.areas.addLayer(shape));
-    const lines = index ? planLines(index, dark) : [];
-    this.entries = [...lines, ...customerMarks(request, index, dark)];
+    const lines = index ? planLines(index, parts, dark) : [];
+    this.entries = [...lines, ...customerMarks(request, index, parts, dark)];
     for (const { layer, key } of this.entries) this.#addEntry(layer, key);
     depotMarks(request).forEach((mark) => this.labels.addLayer(mark));
+    pinMarks(request).forEach((mark) => this.labels.addLayer(mark));
     if (index) tripLabels(index, dark).forEach((mark) => this.labels.addLayer(mark));
     this.marked = '';
     this.map.fire('drawn');
@@ -156,12 +157,18 @@ export class MapView {
       return;
     }
     const place = entry.layer.getLatLng?.() ?? entry.layer.getBounds().getCenter();
-    const above = this.map.latLngToContainerPoint(place).y > TIP_HEIGHT;
+    this.tooltip.setLatLng(place).setContent(content).addTo(this.map);
+    const { x, y } = this.map.latLngToContainerPoint(place);
+    const { offsetHeight: height, offsetWidth: width } = this.tooltip.getElement();
+    const below = this.map.getSize().y - y;
+    const above = y > height + TIP_GAP || y > below;
+    const half = width / 2 + TIP_EDGE;
+    const within = Math.min(Math.max(x, half), Math.max(this.map.getSize().x - half, half));
     Object.assign(this.tooltip.options, {
       direction: above ? 'top' : 'bottom',
-      offset: [0, above ? -6 : 6],
+      offset: [within - x, above ? -6 : 6],
     });
-    this.tooltip.setLatLng(place).setContent(content).addTo(this.map);
+    this.tooltip.update();
   }
 
   /** Bring what a key names into view, if it is outside. */
@@ -195,7 +202,7 @@ export class MapView {
     seen.add(key);
     const vehicle = what.vehicle ?? what.sortie.trip.vehicle;
     if (!this.trucks.has(key)) {
-      const colour = vehicleColour(vehicle.index, this.dark);
+      const colour = vehicleColour(vehicle.number, this.dark);
       const icon = labelIcon(`${kind}-mover`, kind === 'truck' ? vehicle.label : '', {
         background: colour,
       });

@@ -1,13 +1,18 @@
 /** Draws rows of bars into a canvas, and finds what lies at a point of it. */
 
 import { clock } from '../core/format.js';
-import { contains } from '../core/plan.js';
+import { contains, partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
+import { standingIn } from '../core/replanning.js';
 import { rowWindows, tickStep } from '../core/timeline.js';
 
 export const AXIS = 20;
 const HEIGHTS = { vehicle: 24, drone: 16 };
 const TICK_PIXELS = 70;
+const KEPT_END = 4; // characters of a long name
+
+/** How much of its strength a bar keeps. */
+const STANDINGS = { settled: 0.4, lost: 0.8 };
 
 /** Return rows with their place from the top: `{...row, top, height, windows}`. */
 export function placeRows(rows) {
@@ -68,6 +73,7 @@ export function drawTimeline(context, rows, view) {
   );
   for (const row of seen) drawRow(context, row, scale, view);
   context.restore();
+  if (view.now !== null) drawNow(context, scale.x(view.now), view);
   if (view.time !== null) drawClock(context, scale.x(view.time), view);
 }
 
@@ -121,7 +127,7 @@ function drawLabel(context, row, gutter, { colours, dark }) {
   context.textAlign = 'left';
   context.font = row.kind === 'vehicle' ? colours.font : colours.smallFont;
   if (row.kind === 'vehicle') {
-    context.fillStyle = vehicleColour(row.vehicle.index, dark);
+    context.fillStyle = vehicleColour(row.vehicle.number, dark);
     context.fillRect(6, row.top + 6, 4, row.height - 12);
   }
   context.fillStyle = row.kind === 'vehicle' ? colours.text : colours.faint;
@@ -134,10 +140,12 @@ function drawLabel(context, row, gutter, { colours, dark }) {
 
 function shortened(context, text, width) {
   if (context.measureText(text).width <= width) return text;
-  let kept = text;
-  while (kept.length > 1 && context.measureText(`${kept}\u2026`).width > width)
-    kept = kept.slice(0, -1);
-  return `${kept}\u2026`;
+  // The end is kept, since it has the vehicle's number.
+  const end = text.slice(-KEPT_END);
+  let start = text.slice(0, -KEPT_END);
+  while (start.length > 1 && context.measureText(`${start}\u2026${end}`).width > width)
+    start = start.slice(0, -1);
+  return `${start}\u2026${end}`;
 }
 
 /** Draw a window as a line under the bars with a post at each end that is not open. */
@@ -171,7 +179,10 @@ function drawWindow(context, row, mark, scale, { selection, hover, colours, rang
 
 function drawBar(context, row, bar, scale, view) {
   const { colours, dark, selection, hover } = view;
-  const colour = vehicleColour(row.vehicle.index, dark);
+  const standing = standingOfBar(view, bar);
+  const colour = standing === 'lost' ? colours.late : vehicleColour(row.vehicle.number, dark);
+  const alpha = context.globalAlpha;
+  if (standing !== 'open') context.globalAlpha *= STANDINGS[standing];
   const x = scale.x(bar.from);
   const width = Math.max(scale.x(bar.until) - x, bar.kind === 'serve' ? 2 : 1);
   const box = boxOf(row, bar.kind);
@@ -181,13 +192,18 @@ function drawBar(context, row, bar, scale, view) {
     context.fillStyle = colour;
     context.globalAlpha *= { drive: 0.45, fly: 0.55, handle: 0.28, serve: 1 }[bar.kind];
     context.fillRect(x, box.y, width, box.height);
-    context.globalAlpha /= { drive: 0.45, fly: 0.55, handle: 0.28, serve: 1 }[bar.kind];
   }
+  context.globalAlpha = alpha;
   if ([selection, hover].includes(bar.key) && bar.key[0] !== 'v') {
     context.strokeStyle = colours.text;
     context.lineWidth = 1.5;
     context.strokeRect(x - 0.5, box.y - 1.5, width + 1, box.height + 3);
   }
+}
+
+function standingOfBar({ index, parts }, bar) {
+  const what = partsOf(index, bar.to ?? bar.key);
+  return what.halt || what.sortie ? standingIn(parts, what.halt ?? what.sortie) : 'open';
 }
 
 function boxOf(row, kind) {
@@ -216,6 +232,19 @@ function hatch(context, { x, y, width, height }, colour) {
   context.strokeStyle = colour;
   context.lineWidth = 1;
   context.strokeRect(x + 0.5, y + 0.5, Math.max(width - 1, 0.5), height - 1);
+}
+
+/** Draw from when on things may change. */
+function drawNow(context, x, { width, height, colours }) {
+  if (x < gutterOf(width) || x > width) return;
+  context.strokeStyle = colours.text;
+  context.lineWidth = 1.5;
+  context.setLineDash([4, 3]);
+  context.beginPath();
+  context.moveTo(x, 0);
+  context.lineTo(x, height);
+  context.stroke();
+  context.setLineDash([]);
 }
 
 function drawClock(context, x, { width, height, colours }) {

@@ -1,6 +1,6 @@
 /** The timeline: vehicles and drones as rows, linked with the map. */
 
-import { hover, indexOf, select, shownPlan } from '../actions.js';
+import { hover, indexOf, select, settledOf, shownPlan } from '../actions.js';
 import { describe } from '../core/describe.js';
 import { partsOf, spanOf } from '../core/plan.js';
 import { ACTIVITIES, timelineRows } from '../core/timeline.js';
@@ -20,10 +20,12 @@ export function TimelinePane() {
   const [range, setRange] = useState(null);
   useEffect(() => setRange(null), [entry?.number]);
   const shown = range ?? whole;
+  const request = useStore((state) => state.request);
+  const parts = settledOf(entry, request);
   return html`<section class="timeline" aria-label="Timeline">
     <div class="timeline-bar">
       <${Player} index=${index} />
-      <${Legend} />
+      <${Legend} isSettled=${parts.size > 0} />
       <span class="zoom">
         <button type="button" class="quiet" onClick=${() => setRange(zoomed(shown, whole, 0.5))}
           aria-label="Zoom into the timeline">+</button>
@@ -35,7 +37,7 @@ export function TimelinePane() {
     ${
       rows.length
         ? html`<${Rows} index=${index} rows=${rows} range=${shown} whole=${whole}
-      setRange=${setRange} />`
+      setRange=${setRange} parts=${parts} now=${nowOf(entry, request)} />`
         : html`<p class="empty">Nothing is planned yet.</p>`
     }
   </section>`;
@@ -59,19 +61,26 @@ function within([from, until], whole) {
   return [start, start + until - from];
 }
 
-function Legend() {
+/** Return the instant that a plan was, or is to be, gone on from; null if there is none. */
+function nowOf(entry, request) {
+  const { replan } = request.replan?.plan === entry.plan ? request : entry.request;
+  return replan?.freeze_before ?? null;
+}
+
+function Legend({ isSettled }) {
   return html`<ul class="legend" aria-label="Bars">${Object.entries(ACTIVITIES).map(
     ([kind, name]) =>
       html`<li key=${kind}><span class=${`swatch swatch-${kind}`}></span>${name}</li>`,
   )}
-    <li><span class="swatch swatch-window"></span>Window</li></ul>`;
+    <li><span class="swatch swatch-window"></span>Window</li>
+    ${isSettled && html`<li><span class="swatch swatch-settled"></span>Settled</li>`}</ul>`;
 }
 
-function Rows({ index, rows, range, whole, setRange }) {
+function Rows({ index, rows, range, whole, setRange, parts, now }) {
   const box = useRef(null);
   const canvas = useRef(null);
   const state = useRef({});
-  Object.assign(state.current, { index, rows, range, whole, setRange });
+  Object.assign(state.current, { index, rows, range, whole, setRange, parts, now });
   useLayoutEffect(() => attach(box.current, canvas.current, state), []);
   useEffect(() => state.current.redraw?.());
   return html`<div class="rows" ref=${box}>
@@ -107,10 +116,12 @@ function attach(box, canvas, state) {
     }
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const { selection, hover: hovered, time, dark } = store.get();
-    const { index, rows } = state.current;
+    const { index, rows, parts, now } = state.current;
     drawTimeline(context, rows, {
       ...size,
       index,
+      parts,
+      now,
       selection,
       hover: hovered,
       time,

@@ -1,6 +1,7 @@
 /** The clock of the day: play, stop, and go to any instant. */
 
 import { clock } from '../core/format.js';
+import { replanFromClock } from '../actions.js';
 import { spanOf } from '../core/plan.js';
 import { html, useEffect } from '../libraries.js';
 import { store, useStore } from '../store.js';
@@ -53,8 +54,9 @@ export function Player({ index }) {
     </select>
     ${
       time !== null &&
-      html`<button type="button" class="quiet"
-      onClick=${() => store.set({ time: null, playing: false })}>End</button>`
+      html`<button type="button" onClick=${replanFromClock}>Replan from here</button>
+      <button type="button" class="quiet"
+        onClick=${() => store.set({ time: null, playing: false })}>End</button>`
     }
   </div>`;
 }

@@ -59,12 +59,20 @@ function Notice() {
     ${' '}${starting}</div></div>`;
 }
 
+/** Return the field at a place, or the nearest that holds it. */
+function nearestField(keys) {
+  if (!keys.length) return null;
+  return (
+    document.getElementById(`field-${keys.join('-')}`) ?? nearestField(keys.slice(0, -1))
+  );
+}
+
 /** Open the tab with the field that an error is at, and go there. */
 function goTo({ keys }) {
   openTab(tabOf(keys));
   requestAnimationFrame(() =>
     requestAnimationFrame(() => {
-      const field = document.getElementById(`field-${keys.join('-')}`);
+      const field = nearestField(keys);
       field?.closest('details')?.setAttribute('open', '');
       field?.scrollIntoView({ block: 'center' });
       field?.focus();

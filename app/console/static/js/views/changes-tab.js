@@ -3,11 +3,14 @@
 import { besidePlan, edit, select, shownPlan } from '../actions.js';
 import { addVehicles, changeWindows, giveWindow, withoutDrones } from '../core/changes.js';
 import { movedCustomers, planMeasures, requestDifferences } from '../core/differences.js';
-import { clock, count, km, money, number, parseClock, percent, signed } from '../core/format.js';
-import { html, useEffect, useState } from '../libraries.js';
+import { fromNothing } from '../core/replanning.js';
+import { clock, count, km, money, number, percent, signed } from '../core/format.js';
+import { html } from '../libraries.js';
 import { plan } from '../planning.js';
 import { store, useStore } from '../store.js';
+import { Change } from './change-words.js';
 import { TERMS } from './costs-tab.js';
+import { WindowFields } from './window-fields.js';
 
 const MOST_LISTED = 40;
 const SOFT_COST = 30; // per hour
@@ -65,29 +68,14 @@ function WindowChange({ request }) {
   const selection = useStore((state) => state.selection);
   const id = selection?.startsWith('c:') ? selection.slice(2) : request.customers[0]?.id;
   const customer = request.customers.find((other) => other.id === id);
-  const [text, setText] = useState(['', '']);
-  const window = customer?.time_window;
-  useEffect(() => setText([clock(window?.earliest ?? 0), clock(window?.latest)]), [customer]);
   if (!customer) return null;
-  const [earliest, latest] = text.map((part) => (part.trim() === '' ? null : parseClock(part)));
-  const wrong = text.some(
-    (part, index) => part.trim() !== '' && [earliest, latest][index] === null,
-  );
-  const apply = () => changeAndPlan(giveWindow(request, [id], { earliest: earliest ?? 0, latest }));
-  const input = (
-    index,
-    label,
-  ) => html`<label>${label} <input type="text" size="6" value=${text[index]}
-    onInput=${(event) =>
-      setText(text.map((part, other) => (other === index ? event.target.value : part)))} />
-  </label>`;
   return html`<div class="buttons"><label>Window of <select value=${id} aria-label="Customer"
       onChange=${(event) => select(`c:${event.target.value}`)}>
       ${request.customers.map((other) => html`<option key=${other.id}
         value=${other.id}>${other.id}</option>`)}
     </select></label>
-    ${input(0, 'opens')} ${input(1, 'closes')}
-    <button type="button" disabled=${wrong} onClick=${apply}>Change this window</button></div>`;
+    <${WindowFields} customer=${customer}
+      onApply=${(window) => changeAndPlan(giveWindow(request, [id], window))} /></div>`;
 }
 
 function Plans() {
@@ -122,10 +110,12 @@ function Plans() {
 
 const SHOWN = { distance: km, drone_distance: km, makespan: clock, load_rate: percent };
 
-function Differences({ entry, former }) {
-  const changes = requestDifferences(former.request, entry.request).filter(
-    ({ path }) => !path.startsWith('options'),
-  );
+/** What changed in the problem and in the plan between two entries of the plans. */
+export function Differences({ entry, former }) {
+  const changes = requestDifferences(
+    fromNothing(former.request),
+    fromNothing(entry.request),
+  ).filter(({ path }) => !path.startsWith('options'));
   const moved = movedCustomers(former, entry);
   const head = html`<tr><th scope="col"></th><th scope="col"
     class="number">Plan ${former.number}</th>
@@ -137,9 +127,7 @@ function Differences({ entry, former }) {
     ${
       changes.length > 0
         ? html`<ul>${changes.slice(0, MOST_LISTED).map(
-            (change) => html`
-      <li key=${change.path}><code>${change.path}</code>
-        : ${shown(change.before)} → ${shown(change.after)}</li>`,
+            (change) => html`<li key=${change.path}><${Change} ...${change} /></li>`,
           )}
       ${changes.length > MOST_LISTED && html`<li>and ${changes.length - MOST_LISTED} more</li>`}
         </ul>`
@@ -166,12 +154,6 @@ function Differences({ entry, former }) {
     ${moved.length > MOST_LISTED && html`<p
       class="help">and ${moved.length - MOST_LISTED} more</p>`}
   </section>`;
-}
-
-function shown(value) {
-  if (value === undefined || value === null) return 'none';
-  const text = typeof value === 'object' ? JSON.stringify(value) : String(value);
-  return text.length > 60 ? `${text.slice(0, 60)}\u2026` : text;
 }
 
 function Difference({ name, before, now, show, cost = false }) {

@@ -3,7 +3,7 @@
 import { edit, hover, indexOf, openTab, select, shownPlan } from '../actions.js';
 import { amounts, clock, count, timeWindow } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
-import { freeName } from '../core/changes.js';
+import { freeName, removeCustomer } from '../core/changes.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { Field, Fields } from './form.js';
@@ -35,7 +35,7 @@ function CustomerTable({ request }) {
   );
   const broken = useMemo(() => brokenCells(errors), [errors]);
   const head = html`<tr><th scope="col">Name</th><th scope="col" class="number">Demand</th>
-    <th scope="col">Window</th><th scope="col">By</th><th scope="col">Arrival</th></tr>`;
+    <th scope="col">Window</th><th scope="col">For</th><th scope="col">Arrival</th></tr>`;
   return html`<section class="section">
     <div class="buttons"><h3>${count(request.customers.length, 'customer')}</h3>
       <input type="text" value=${filter} placeholder="Find a name"
@@ -76,6 +76,7 @@ function CustomerRow({ customer, halt, index, selected, marked, errors }) {
   return html`<tr data-selected=${selected} data-marked=${marked} onMouseEnter=${() => hover(key)}
       onMouseLeave=${() => hover(null)}>
     <th scope="row" ...${cell('id')}><button type="button" class="link" aria-pressed=${selected}
+      title=${customer.id}
       onClick=${() => select(selected ? null : key)}>${customer.id}</button></th>
     <td ...${cell('demand')} class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
       ${amounts(customer.demand ?? [])}</td>
@@ -117,7 +118,7 @@ function SelectedCustomer({ request }) {
       <${Fields} schema=${schemas.CustomerInput} keys=${['customers', position]} request=${request}
         onChange=${change} skip=${request.matrices ? [] : ['location_index']} />
       <div class="buttons"><button type="button" onClick=${() => {
-        edit(removeIn(request, ['customers', position]));
+        edit(removeCustomer(request, request.customers[position].id));
         select(null);
       }}>Remove this customer</button></div>
     </div></details>`;

@@ -11,12 +11,13 @@ import { openFile } from './files.js';
 export function Header() {
   const busy = useStore((state) => !['idle'].includes(state.run.state));
   const ready = useStore((state) => state.request !== null);
+  const goesOn = useStore((state) => Boolean(state.request?.replan));
   return html`<header class="head">
     <h1><img src="console/icon.svg" alt="" />Tandem</h1>
     ${ready && html`<${Opener} />`}
     <button type="button" class="primary" disabled=${!ready} onClick=${plan}
-      id="plan-button">Plan</button>
-    <button type="button" disabled=${!busy} onClick=${stop}>Stop</button>
+      id="plan-button">${goesOn ? 'Plan on' : 'Plan'}</button>
+    <button type="button" class="stop" disabled=${!busy} onClick=${stop}>Stop</button>
     <${Result} />
     <span class="gap"></span>
     <button type="button" class="quiet"
@@ -67,6 +68,7 @@ function Result() {
   const entry = useStore(shownPlan);
   const run = useStore((state) => state.run);
   const stale = useStore((state) => shownPlan(state)?.request !== state.request);
+  const goesOn = useStore((state) => Boolean(state.request?.replan));
   return html`<div class="result-line" aria-live="polite">
     ${entry && html`<${Totals} plan=${entry.plan} />`}
     ${run.state !== 'idle' && html`<span>${STATES[run.state]}</span>`}
@@ -80,7 +82,8 @@ function Result() {
       entry &&
       stale &&
       run.state === 'idle' &&
-      html`<span class="stale">The problem has changed since: plan again.</span>`
+      html`<span class="stale">The problem has changed since: plan ${
+        goesOn ? 'on' : 'again'}.</span>`
     }
   </div>`;
 }

@@ -1,19 +1,20 @@
 /** The panel beside the map: the problem, its plan, and what else can be asked. */
 
 import { openTab, shownPlan } from '../actions.js';
-import { html } from '../libraries.js';
+import { html, useEffect, useRef } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { ChangesTab } from './changes-tab.js';
 import { CostsTab } from './costs-tab.js';
 import { CustomersTab } from './customers-tab.js';
 import { ExportTab } from './export-tab.js';
 import { FleetTab } from './fleet-tab.js';
+import { ReplanTab } from './replan-tab.js';
 import { RoutesTab } from './routes-tab.js';
 import { ScenariosTab } from './scenarios-tab.js';
 import { SolveTab } from './solve-tab.js';
 import { UnassignedTab } from './unassigned-tab.js';
 
-/** Tabs in order; the digit of each is its shortcut. */
+/** Tabs in order; the digit of each, 0 for the tenth, is its shortcut. */
 export const TABS = {
   customers: { name: 'Customers', view: CustomersTab },
   fleet: { name: 'Fleet', view: FleetTab },
@@ -22,6 +23,7 @@ export const TABS = {
   costs: { name: 'Costs', view: CostsTab },
   unassigned: { name: 'Unassigned', view: UnassignedTab },
   changes: { name: 'What if', view: ChangesTab },
+  replan: { name: 'Replan', view: ReplanTab },
   scenarios: { name: 'Scenarios', view: ScenariosTab },
   export: { name: 'Export', view: ExportTab },
 };
@@ -29,6 +31,7 @@ export const TABS = {
 /** Return the tab where a place of the request is edited. */
 export function tabOf(keys) {
   if (keys[0] === 'customers' || keys[0] === 'depots') return 'customers';
+  if (keys[0] === 'replan') return 'replan';
   return keys[0] === 'options' ? 'solve' : 'fleet';
 }
 
@@ -44,6 +47,12 @@ export function Panel() {
     ]),
   );
   counts.unassigned = unassigned;
+  const opened = useRef(tab);
+  useEffect(() => {
+    if (opened.current === tab) return;
+    opened.current = tab;
+    document.getElementById(`tab-${tab}`).scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }, [tab]);
   const { view: View, name: label } = TABS[tab];
   return html`<aside class="panel" aria-label="Problem and plan">
     <div class="tabs" role="tablist" aria-label="Panel" onKeyDown=${onKey}>

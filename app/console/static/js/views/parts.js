@@ -9,7 +9,7 @@ import { useStore } from '../store.js';
 /** The colour and number of a vehicle or trip, as on the map. */
 export function Badge({ vehicle, label }) {
   const dark = useStore((state) => state.dark);
-  return html`<span class="badge" style=${{ background: vehicleColour(vehicle.index, dark) }}>
+  return html`<span class="badge" style=${{ background: vehicleColour(vehicle.number, dark) }}>
     ${label ?? vehicle.label}</span>`;
 }
 

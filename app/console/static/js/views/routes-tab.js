@@ -47,7 +47,7 @@ function Rates({ index }) {
       <th scope="row"><${SelectButton} of=${trip.key}><${Badge} vehicle=${trip.vehicle}
         label=${trip.label} /> ${trip.vehicle.name}</${SelectButton}></th>
       <td><${ShareBar} share=${trip.reply.load_rate} text=${percent(trip.reply.load_rate)}
-        label="Load rate" colour=${vehicleColour(trip.vehicle.index, dark)} /></td>
+        label="Load rate" colour=${vehicleColour(trip.vehicle.number, dark)} /></td>
       <td>${working(trip, dark)}</td></tr>`,
     )}</tbody></table></section>`;
 }
@@ -58,7 +58,7 @@ function working(trip, dark) {
   if (!longest) return html`<span class="help">${duration(trip.reply.duration)}, no limit</span>`;
   const share = trip.reply.duration / longest;
   return html`<${ShareBar} share=${share} text=${percent(share)} label="Working rate"
-    colour=${vehicleColour(trip.vehicle.index, dark)} />`;
+    colour=${vehicleColour(trip.vehicle.number, dark)} />`;
 }
 
 function Vehicle({ index, vehicle }) {

@@ -4,6 +4,7 @@ import { withoutDrones } from '../core/changes.js';
 import { clock, money, number, percent } from '../core/format.js';
 import { heatTable, readValues, variableFields, writeAt } from '../core/grid.js';
 import { heatColour } from '../core/palette.js';
+import { fromNothing } from '../core/replanning.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { showScenarioJob, showScenarioPlan, startScenario, stopScenario } from '../scenarios.js';
 import { store, useStore } from '../store.js';
@@ -33,9 +34,10 @@ function SecondsEach() {
     }} /></label>`;
 }
 
-/** Return the problem as scenarios begin with it. */
+/** Return the problem as scenarios begin with it: they plan the whole day, from nothing. */
 function baseOf({ request, scenarioSeconds }) {
-  return { ...request, options: { ...request.options, time_limit: scenarioSeconds } };
+  const base = fromNothing(request);
+  return { ...base, options: { ...base.options, time_limit: scenarioSeconds } };
 }
 
 /** Return fleets worth a comparison with a request's own. */

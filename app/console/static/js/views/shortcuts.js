@@ -1,7 +1,7 @@
 /** Keys that work everywhere but in fields. */
 
-import { indexOf, openTab, select, shownPlan, undo } from '../actions.js';
-import { plan, stop } from '../planning.js';
+import { indexOf, openTab, replanFromClock, select, shownPlan, undo } from '../actions.js';
+import { improvePlan, plan, stop } from '../planning.js';
 import { store } from '../store.js';
 import { togglePlaying } from '../timeline/player.js';
 import { switchTheme } from './header.js';
@@ -11,8 +11,10 @@ import { TABS } from './panel.js';
 export const SHORTCUTS = [
   ['P', 'Plan'],
   ['S', 'Stop planning'],
+  ['I', 'Improve the plan: search on from it'],
+  ['R', 'Replan from the clock of the day'],
   ['Space', 'Play or pause the day'],
-  ['1 to 9', 'Open a tab of the panel'],
+  ['1 to 9, 0', 'Open a tab of the panel'],
   ['U', 'Undo the last edit of the problem'],
   ['T', 'Go to the timeline; arrows then go from stop to stop'],
   ['M', 'Go to the map; arrows pan, + and \u2212 zoom'],
@@ -23,6 +25,8 @@ export const SHORTCUTS = [
 
 const ACTIONS = {
   p: plan,
+  i: improvePlan,
+  r: replanOrAsk,
   s: stop,
   u: undo,
   l: switchTheme,
@@ -33,6 +37,12 @@ const ACTIONS = {
   Escape: () => (store.get().tool ? store.set({ tool: null }) : select(null)),
 };
 
+/** Go on from the clock of the day; without one, ask for the time. */
+function replanOrAsk() {
+  if (store.get().time === null) openTab('replan');
+  else replanFromClock();
+}
+
 /** Begin to listen. */
 export function listenToKeys() {
   document.addEventListener('keydown', (event) => {
@@ -42,7 +52,7 @@ export function listenToKeys() {
     if (typing && event.key !== 'Escape') return;
     if (event.key === ' ' && target.matches('button, summary, a, input')) return;
     const action = ACTIONS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    const tab = Object.keys(TABS)[Number(event.key) - 1];
+    const tab = /^\d$/.test(event.key) && Object.keys(TABS)[(Number(event.key) + 9) % 10];
     if (!action && !tab) return;
     event.preventDefault();
     if (tab) openTab(tab);

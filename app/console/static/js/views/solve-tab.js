@@ -7,6 +7,10 @@ import { useStore } from '../store.js';
 import { Fields } from './form.js';
 import { Facts } from './parts.js';
 
+/** If the first cost is so many times the last, as where customers were left out, it is cut off. */
+const STEEP = 3;
+const SEEN = 1.25; // of the least cost is seen then
+
 /** The tab. */
 export function SolveTab() {
   const request = useStore((state) => state.request);
@@ -26,6 +30,7 @@ function Curve() {
   const dark = useStore((state) => state.dark);
   const element = useRef(null);
   const chart = useRef(null);
+  const last = points[points.length - 1];
   useEffect(() => {
     const style = getComputedStyle(document.documentElement);
     const colour = (name) => style.getPropertyValue(`--${name}`).trim();
@@ -41,7 +46,10 @@ function Curve() {
         width: element.current.clientWidth,
         height: 190,
         cursor: { drag: { setScale: false } },
-        scales: { x: { time: false }, y: { range: (_, low, high) => roomy(low, high) } },
+        scales: {
+          x: { time: false },
+          y: { range: (_, low, high) => roomy(low, high) },
+        },
         axes: [
           { ...axis, label: 'Seconds', labelSize: 18, labelFont: '11px system-ui', size: 28 },
           { ...axis, size: 56 },
@@ -73,11 +81,12 @@ function Curve() {
   useEffect(() => {
     chart.current.setData([points.map(({ seconds }) => seconds), points.map(({ cost }) => cost)]);
   }, [points, dark]);
-  const last = points[points.length - 1];
   return html`<section class="section"><h3>Cost while planning</h3>
     <p>${
       last
-        ? `From ${money(points[0].cost)} to ${money(last.cost)} in ${number(last.seconds, 1)} s.`
+        ? `From ${money(points[0].cost)} to ${money(last.cost)} in ${number(last.seconds, 1)} s.${
+            points[0].cost > STEEP * last.cost ? ' The curve begins above what is drawn.' : ''
+          }`
         : 'The curve appears when a plan is made.'
     }</p>
     <div class="curve" ref=${element} role="img" aria-label="Cost of the best plan by time"></div>
@@ -87,6 +96,7 @@ function Curve() {
 /** Return a range of costs with room above and below, also where the cost never fell. */
 function roomy(low, high) {
   if (low === null) return [0, 1];
+  if (low > 0 && high > STEEP * low) return [low * (2 - SEEN), low * SEEN];
   const room = Math.max((high - low) * 0.08, high * 0.002, 0.01);
   return [low - room, high + room];
 }

@@ -1,0 +1,69 @@
+/** What the marks and lines of the map mean. */
+
+import { html, useEffect, useState } from '../libraries.js';
+
+const NARROW = '(max-width: 760px)';
+
+/**
+ * The legend, folded where there is little room.
+ *
+ * @param request that is drawn
+ * @param index of the plan that is drawn, if there is one
+ * @param parts what of it is settled
+ */
+export function MapLegend({ request, index, parts }) {
+  const [open, setOpen] = useState(!window.matchMedia(NARROW).matches);
+  const replans = parts.size > 0;
+  useEffect(() => {
+    if (replans && !window.matchMedia(NARROW).matches) setOpen(true);
+  }, [replans]);
+  return html`<details class="map-legend" open=${open}
+      onToggle=${(event) => setOpen(event.currentTarget.open)}>
+    <summary>Legend</summary><ul>${entriesOf(request, index, parts).map(
+      ([sign, name]) => html`<li key=${name}><${Sign} sign=${sign} />${name}</li>`,
+    )}</ul></details>`;
+}
+
+function entriesOf(request, index, parts) {
+  const pinned = (request.replan?.pinned ?? []).length > 0;
+  const some = (test) => index?.vehicles.some((vehicle) => vehicle.trips.some(test));
+  const isNew = index && request.customers.some(({ id }) => !index.customers.has(id));
+  const lost = [...parts.values()].some(({ isBroken, isOver }) => isBroken && !isOver);
+  const entries = [
+    [index, 'road', 'Truck, its colour and number'],
+    [some((trip) => trip.index > 0), 'later', 'Second trip; later ones differ too'],
+    [some((trip) => trip.sorties.length > 0), 'flight', 'Flight of a drone'],
+    [index, 'truck', 'Served by truck'],
+    [some((trip) => trip.sorties.length > 0), 'drone', 'Served by drone'],
+    [index?.plan.unassigned.length > 0, 'out', 'Unassigned'],
+    [!index || isNew, 'new', index ? 'New, not planned yet' : 'Customer'],
+    [parts.size > 0, 'settled', 'Settled: it has departed'],
+    [lost, 'lost', 'Lost with a broken vehicle'],
+    [pinned, 'pin', 'Pinned to its vehicle'],
+    [request.airspace?.no_fly?.length > 0, 'area', 'No-fly area'],
+  ];
+  return entries.filter(([there]) => there).map(([, sign, name]) => [sign, name]);
+}
+
+const SIGNS = {
+  road: html`<path class="ink" d="M1 7H25" stroke-width="2.5" />`,
+  later: html`<path class="ink" d="M1 7H25" stroke-width="2.5" stroke-dasharray="9 5" />`,
+  flight: html`<path class="ink" d="M1 12Q13 -4 25 12" stroke-width="1.6" stroke-dasharray="1 4"
+    stroke-linecap="round" />`,
+  truck: html`<circle class="filled" cx="13" cy="7" r="4.5" />`,
+  drone: html`<circle class="ink" cx="13" cy="7" r="4" stroke-width="2.2" />`,
+  out: html`<path class="red" d="M9 3L17 11M17 3L9 11" stroke-width="3" />`,
+  new: html`<circle class="grey" cx="13" cy="7" r="4.5" />`,
+  settled: html`<path class="ink" d="M1 7H25" stroke-width="2" stroke-dasharray="1 5"
+    stroke-linecap="round" opacity="0.6" /><circle class="filled" cx="13" cy="7" r="4"
+    opacity="0.5" />`,
+  lost: html`<path class="red" d="M1 7H25" stroke-width="1.5" stroke-dasharray="7 6" />`,
+  pin: html`<path class="filled" d="M9 4H17L13 11Z" />`,
+  area: html`<rect class="area" x="4" y="2" width="18" height="10" stroke-width="1.5"
+    stroke-dasharray="6 3" />`,
+};
+
+function Sign({ sign }) {
+  return html`<svg viewBox="0 0 26 14" width="26" height="14"
+    aria-hidden="true">${SIGNS[sign]}</svg>`;
+}

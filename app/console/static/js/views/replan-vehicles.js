@@ -1,0 +1,135 @@
+/** Vehicles of the plan that is gone on from: where they are, whom they keep, which are broken. */
+
+import { edit, indexOf } from '../actions.js';
+import { clock, count, parseClock } from '../core/format.js';
+import { removeIn, setIn } from '../core/paths.js';
+import {
+  basisRoutes,
+  idleVehicles,
+  setBroken,
+  setPinned,
+  whereabouts,
+} from '../core/replanning.js';
+import { html, useEffect, useState } from '../libraries.js';
+import { takeTool } from '../map/draw-bar.js';
+import { useStore } from '../store.js';
+import { Badge, SelectButton } from './parts.js';
+import { Errors, errorsAt } from './replan-errors.js';
+
+const MOST_IDLE = 200;
+
+/** The section. */
+export function Vehicles({ request, basis, errors }) {
+  const index = indexOf(basis);
+  const byName = new Map(index?.vehicles.map((vehicle) => [vehicle.name, vehicle]));
+  const states = basisRoutes(request);
+  const { unavailable = [] } = request.replan;
+  const rows = states.map((state, position) => ({
+    ...state,
+    position,
+    vehicle: byName.get(state.route.vehicle),
+    errors: errorsAt(errors, ([, section, part, at]) =>
+      section === 'plan'
+        ? part === 'routes' && at === position
+        : section === 'unavailable' && unavailable[part] === state.route.vehicle,
+    ),
+  }));
+  const order = (row) => row.vehicle?.index ?? row.position;
+  rows.sort((first, second) => order(first) - order(second));
+  const used = new Set(states.map(({ route }) => route.vehicle));
+  const others = unavailable.filter((name) => !used.has(name));
+  const idle = idleVehicles(request).filter((name) => !others.includes(name)).slice(0, MOST_IDLE);
+  return html`<section class="section"><h3>Vehicles</h3>
+    <table class="replan-vehicles"><thead><tr><th scope="col">Vehicle</th>
+      <th scope="col">Keeps all</th><th scope="col">Broken</th></tr></thead>
+    <tbody>${rows.map((row) => html`<${Row} key=${row.route.vehicle} row=${row}
+      request=${request} />`)}
+    ${others.map((name) => html`<${BrokenRow} key=${name} name=${name} request=${request}
+      id=${`field-replan-unavailable-${unavailable.indexOf(name)}`}
+      errors=${errorsAt(errors, ([, section, position]) =>
+        section === 'unavailable' && unavailable[position] === name)} />`)}</tbody></table>
+    ${idle.length > 0 && html`<label>Another is broken: <select value=""
+      onChange=${(event) => edit(setBroken(request, event.target.value, true))}>
+      <option value="" disabled hidden>choose an unused vehicle</option>
+      ${idle.map((name) => html`<option key=${name} value=${name}>${name}</option>`)}</select>
+      </label>`}
+    ${unavailable.length > 0 && html`<${ParcelsBack} request=${request} errors=${errors} />`}
+  </section>`;
+}
+
+function Row({ row, request }) {
+  const { route, progress, open, vehicle, position, errors } = row;
+  const { pinned = [], pin_all: pinAll, freeze_before: now } = request.replan;
+  const name = route.vehicle;
+  const keepsAll = pinAll || (open.length > 0 && open.every((id) => pinned.includes(id)));
+  const place = progress.isBroken ? 'broken' : whereabouts(route, progress, now ?? -1);
+  const left = progress.isBroken
+    ? `${count(open.length, 'customer')} for others`
+    : `${count(open.length, 'customer')} to go`;
+  return html`<tr><th scope="row">
+      ${vehicle && html`<${SelectButton} of=${vehicle.key}><${Badge} vehicle=${vehicle} /> ${name}
+        </${SelectButton}>`}${!vehicle && name}
+      <div class="help">${place}; ${left}</div>
+      <${Errors} errors=${errors} id=${`field-replan-plan-routes-${position}`} /></th>
+    <td><input type="checkbox" aria-label=${`${name} keeps all its customers`} checked=${keepsAll}
+      disabled=${pinAll || progress.isBroken || !open.length}
+      onChange=${() => edit(setPinned(request, open, !keepsAll))} /></td>
+    <td><input type="checkbox" aria-label=${`${name} is broken`} checked=${progress.isBroken}
+      onChange=${() => edit(setBroken(request, name, !progress.isBroken))} /></td></tr>`;
+}
+
+/** A vehicle that is broken and that the plan doesn't use. */
+function BrokenRow({ name, request, id, errors }) {
+  return html`<tr><th scope="row">${name}<div class="help">broken; not used in the plan</div>
+      <${Errors} errors=${errors} /></th><td></td>
+    <td><input type="checkbox" id=${id} aria-label=${`${name} is broken`} checked
+      onChange=${() => edit(setBroken(request, name, false))} /></td></tr>`;
+}
+
+/** When parcels that broken vehicles carry can be loaded again. */
+function ParcelsBack({ request, errors }) {
+  const { parcels_back: value } = request.replan;
+  const [text, setText] = useState('');
+  useEffect(() => setText(clock(value, { precise: true })), [value]);
+  const mine = errorsAt(errors, (keys) => keys[1] === 'parcels_back');
+  const parsed = parseClock(text);
+  const isWrong = text.trim() !== '' && parsed === null;
+  const id = 'field-replan-parcels_back';
+  const commit = () => {
+    if (isWrong) return;
+    const keys = ['replan', 'parcels_back'];
+    edit(text.trim() === '' ? removeIn(request, keys) : setIn(request, keys, parsed));
+  };
+  return html`<div class=${mine.length || isWrong ? 'field invalid' : 'field'}>
+    <label for=${id}>Parcels are back at</label>
+    <input type="text" id=${id} value=${text} placeholder="at once" autocomplete="off"
+      aria-describedby=${`${id}-help`} onInput=${(event) => setText(event.target.value)}
+      onBlur=${commit} onKeyDown=${(event) => event.key === 'Enter' && commit()} />
+    <span class="unit">h:mm</span>
+    <p class="help" id=${`${id}-help`}>When what broken vehicles carry is at the depots again.</p>
+    ${isWrong && html`<p class="error">State a time of day such as 11:15.</p>`}
+    <${Errors} errors=${mine} /></div>`;
+}
+
+/** Customers who stay with their vehicles. */
+export function PinnedCustomers({ request, errors }) {
+  const tool = useStore((state) => state.tool);
+  const { pinned = [], pin_all: pinAll = false } = request.replan;
+  return html`<section class="section"><h3>Pinned to their vehicles</h3>
+    <label><input type="checkbox" checked=${pinAll}
+      onChange=${() => edit(setIn(request, ['replan', 'pin_all'], !pinAll))} /> All customers of the
+      plan</label>
+    <div class="buttons"><button type="button" aria-pressed=${tool === 'pin'} disabled=${pinAll}
+        onClick=${() => takeTool('pin')}>Pin on the map</button>
+      ${pinned.length > 0 && html`<button type="button"
+        onClick=${() => edit(setPinned(request, pinned, false))}>Let go of all</button>`}</div>
+    ${pinned.length > 0 && html`<ul class="chips" aria-label="Pinned customers">${pinned.map(
+      (id, position) => html`<li key=${id}><span>${id}</span><button type="button" class="quiet"
+        id=${`field-replan-pinned-${position}`} aria-label=${`Let go of ${id}`}
+        onClick=${() => edit(setPinned(request, [id], false))}>\u00d7</button>
+        <${Errors} errors=${errorsAt(errors, ([, section, at]) =>
+          section === 'pinned' && at === position)} /></li>`,
+    )}</ul>`}
+    ${!pinned.length && !pinAll && html`<p class="help">None: customers who aren't settled may
+      change vehicles.</p>`}</section>`;
+}
