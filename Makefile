@@ -12,7 +12,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
-.PHONY: help serve plan test lint train bench bench-quick latency screenshots fuzz settings clean
+.PHONY: help serve plan test lint train bench bench-quick latency study study-quick screenshots fuzz settings clean
 
 help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -57,6 +57,14 @@ bench-quick: .venv/benching ## The same on a few instances, in five minutes
 
 latency: .venv/benching ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency
+
+study: .venv/serving ## Make the paper's study again, docs/study.md (half an hour on 2 cores)
+	@$(BIN)/tandem warm
+	$(BIN)/python -m benchmarks.study
+
+study-quick: .venv/serving ## The same with few cases, build/study.md
+	@$(BIN)/tandem warm
+	$(BIN)/python -m benchmarks.study --quick
 
 screenshots: .venv/testing ## Make the pictures of the console in docs/screenshots, with Chromium
 	$(BIN)/python -m tests.console.screenshots

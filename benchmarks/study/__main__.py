@@ -5,6 +5,7 @@ writes the report. A study that was stopped goes on where it was; one that is co
 reported again.
 """
 
+import json
 import os
 from collections.abc import Collection, Iterable
 from pathlib import Path
@@ -14,7 +15,7 @@ import typer
 
 from benchmarks.rows import append_rows, read_rows
 from benchmarks.study.planning import plan_all
-from benchmarks.study.report import Study, write_report
+from benchmarks.study.report import PLAN, Study, write_report
 from benchmarks.study.tasks import FULL, QUICK, Planned, Scale, Task, TripRow, all_tasks
 
 TRIPS = "trips.csv"
@@ -35,12 +36,25 @@ def run(scale: Scale, folder: Path, workers: int) -> Study:
 def _plan(missing: list[Task], section: str, folder: Path, workers: int) -> None:
     """Plan a section's tasks and write a row of each."""
     plans = folder / f"{section}.csv"
-    for number, (row, trips) in enumerate(plan_all(missing, workers), 1):
-        # Trips first: a study that is stopped in between plans the task again.
-        append_rows(folder / TRIPS, TripRow, trips)
-        append_rows(plans, Planned, [row])
+    for number, done in enumerate(plan_all(missing, workers), 1):
+        # The row last: a study that is stopped in between plans the task again.
+        append_rows(folder / TRIPS, TripRow, done.trips)
+        if done.reply is not None:
+            keep_cheaper(folder / PLAN, done.reply)
+        append_rows(plans, Planned, [done.row])
         if number % 20 == 0 or number == len(missing):
             typer.echo(f"{section}: {number} of {len(missing)}")
+
+
+def keep_cheaper(path: Path, reply: bytes) -> None:
+    """Write a plan to a file unless one as cheap is in it."""
+    if not path.exists() or _total(reply) < _total(path.read_bytes()):
+        path.write_bytes(reply)
+
+
+def _total(reply: bytes) -> float:
+    cost: float = json.loads(reply)["cost"]["total"]
+    return cost
 
 
 def _read(tasks: Iterable[Task], folder: Path) -> Study:

@@ -33,7 +33,7 @@ def places() -> dict[str, Point]:
 
 def draw_nodes(path: Path) -> None:
     """Figure 4: the nodes of Table 1."""
-    figure = Figure(figsize=(7.2, 6.4), layout="constrained")
+    figure = Figure(figsize=(8.4, 6.4), layout="constrained")
     axes = figure.subplots()
     customers = example("table1")["customers"]
     for kind, (colour, marker, label) in KINDS.items():
@@ -171,7 +171,8 @@ def draw_fleets(rows: Sequence[Planned], trips: Sequence[TripRow], path: Path) -
         lower.set_xticks(range(len(FLEETS)), FLEETS, fontsize=8)
         for panel in (upper, lower):
             panel.grid(axis="y", alpha=0.3)
-    panels[0, 0].legend(frameon=False, loc="lower left")
+    panels[0, 0].margins(y=0.2)
+    panels[0, 0].legend(frameon=False, loc="upper left", ncols=2)
     panels[1, 0].legend(frameon=False, loc="lower left")
     _save(figure, path)
 
@@ -237,6 +238,7 @@ def draw_drones(rows: Sequence[Planned], path: Path) -> None:
                          [f"{windows},\n{speeds}" for windows, speeds in places_])
         panel.set(title=f"{size} customers; windows and speeds", ylabel="total cost")
         panel.grid(axis="y", alpha=0.3)
+        panel.margins(y=0.2)
     panels.flat[0].legend(frameon=False, ncols=3, fontsize=8, loc="upper left")
     _save(figure, path)
 

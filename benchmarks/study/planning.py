@@ -6,6 +6,7 @@ from concurrent.futures import ProcessPoolExecutor
 from datetime import UTC, datetime
 from functools import cache
 from multiprocessing import get_context
+from typing import NamedTuple
 
 from pydantic_core import to_json
 
@@ -22,7 +23,13 @@ from model.solution import Solution
 PATIENCE = 3600.0
 """Time limit of a plan that ends after its turns."""
 
-Done = tuple[Planned, list[TripRow]]
+
+class Done(NamedTuple):
+    """A planned task."""
+
+    row: Planned
+    trips: list[TripRow]
+    reply: bytes | None  # of `POST /plan`, for plans of Table 1 that can be made again
 
 
 def plan_all(tasks: Sequence[Task], workers: int) -> Iterator[Done]:
@@ -55,14 +62,11 @@ def plan_one(task: Task) -> Done:
     began, began_cpu = time.perf_counter(), time.process_time()
     result = _planned(ready, problem, task)
     wall, cpu = time.perf_counter() - began, time.process_time() - began_cpu
-    return _row(task, result, wall, cpu), _trips(task, problem, result)
-
-
-def reply_of(task: Task) -> bytes:
-    """Plan a task and return the reply of `POST /plan`."""
-    problem = to_problem(request_of(task))
-    return to_json(plan_reply(problem, PlanOptions(task.policy or DEFAULT_POLICY, seed=task.seed),
-                              _planned(planner(), problem, task)))
+    reply = None
+    if task.section == "table1" and result.deterministic:
+        options = PlanOptions(DEFAULT_POLICY, seed=task.seed)
+        reply = to_json(plan_reply(problem, options, result))
+    return Done(_row(task, result, wall, cpu), _trips(task, problem, result), reply)
 
 
 def _planned(ready: Planner, problem: Problem, task: Task) -> PlanResult:

@@ -11,12 +11,12 @@ from app.convert import to_problem
 from benchmarks.rows import append_rows
 from benchmarks.study import figures, findings, tables
 from benchmarks.study.cases import request_of
-from benchmarks.study.planning import reply_of
 from benchmarks.study.printed import GroupRow, broken_rules, groups, measured, visits
 from benchmarks.study.tables import markdown
 from benchmarks.study.tasks import Planned, TripRow
 
 PLAN = "table1_plan.json"
+"""File of the best plan of Table 1 that can be made again."""
 
 CHOICES = (
     ("all", "places of other cases", "whole, each once, within Table 1's x and y"),
@@ -65,7 +65,7 @@ def write_report(study: Study, page: Path) -> None:
     """Write the page, and the pictures and what was recomputed beside the CSVs."""
     folder = page.with_suffix("")
     folder.mkdir(parents=True, exist_ok=True)
-    plan = _best_plan(study, folder)
+    plan = json.loads((folder / PLAN).read_text("utf-8"))
     _draw(study, plan, folder)
     recomputed = folder / "table2.csv"
     recomputed.unlink(missing_ok=True)
@@ -74,19 +74,6 @@ def write_report(study: Study, page: Path) -> None:
              _hours(study), _drones(study), _policies(study), _files()]
     text = "\n\n".join(parts).replace("](study/", f"]({folder.name}/")
     page.write_text(text + "\n", encoding="utf-8")
-
-
-def _best_plan(study: Study, folder: Path) -> Mapping[str, Any]:
-    """Return the best plan of Table 1 that can be made again, made if it isn't there."""
-    best = min((row for row in study.of("table1") if row.turns), key=lambda row: row.cost)
-    path = folder / PLAN
-    if path.exists():
-        plan: Mapping[str, Any] = json.loads(path.read_text("utf-8"))
-        if round(plan["cost"]["total"], 4) == best.cost:
-            return plan
-    path.write_bytes(reply_of(best.task))
-    made: Mapping[str, Any] = json.loads(path.read_text("utf-8"))
-    return made
 
 
 def _draw(study: Study, plan: Mapping[str, Any], folder: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.convert import to_problem
-from benchmarks.study.__main__ import run
+from benchmarks.study.__main__ import keep_cheaper, run
 from benchmarks.study.cases import customers_of, example, request_of, windows_of
 from benchmarks.study.findings import on_fleets, on_search
 from benchmarks.study.planning import plan_one
@@ -122,11 +122,11 @@ def test_no_task_is_planned_twice(scale: Scale) -> None:
 
 
 def test_search_begins_as_the_task_says() -> None:
-    costs = {policy: plan_one(task("policies", drones=1, policy=policy, turns=0))[0].cost
+    costs = {policy: plan_one(task("policies", drones=1, policy=policy, turns=0)).row.cost
              for policy in ("attention", "pointer")}
     assert costs["attention"] != costs["pointer"]
     for policy in (*costs, NOBODY):
-        row, _ = plan_one(task("policies", drones=1, policy=policy, turns=25))
+        row = plan_one(task("policies", drones=1, policy=policy, turns=25)).row
         assert row.deterministic
         assert row.unassigned == 0
         assert row.cost <= costs.get(policy, row.cost)
@@ -146,6 +146,14 @@ def test_small_study_is_planned_once_and_reported_the_same_again(tmp_path: Path)
         assert f"](study/{name}.svg)" in text
         assert written[f"{name}.svg"].startswith(b"<?xml")
     assert "40 MISSING, 20 DUPLICATE, 2 SERVED_BY" in text
+
+
+def test_cheaper_plan_is_kept(tmp_path: Path) -> None:
+    path = tmp_path / "plan.json"
+    first, dearer, cheaper = (b'{"cost": {"total": %d}}' % cost for cost in (5, 6, 4))
+    for reply, kept in ((first, first), (dearer, first), (cheaper, cheaper)):
+        keep_cheaper(path, reply)
+        assert path.read_bytes() == kept
 
 
 def test_times_are_compared_with_the_reference() -> None:
