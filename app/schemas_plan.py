@@ -8,10 +8,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from model.problem import MAX_QUANTITY
+from model.problem import UNLIMITED
 
-MAX_INSTANT = MAX_QUANTITY // 1000
-"""Farthest instant from the plan's start in seconds."""
+MAX_INSTANT = UNLIMITED / 1000
+"""Farthest instant from the plan's start in seconds; no vehicle returns later."""
 
 NOT_READ = "Not read: it is computed anew."
 

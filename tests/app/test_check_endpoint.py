@@ -178,3 +178,12 @@ def test_a_service_that_is_not_warm_yet_judges(
     client = serve(planner)
     empty = {"routes": [], "unassigned": [{"id": "A"}, {"id": "B"}]}
     assert judged(client, smallest, empty)["feasible"]
+
+
+def test_a_plan_that_takes_decades_can_be_judged_too(client: httpx.Client,
+                                                     smallest: Request) -> None:
+    for customer in smallest["customers"]:
+        customer["service_duration"] = 1e9
+    plan = planned(client, smallest)
+    assert plan["summary"]["makespan"] > 2e9
+    assert judged(client, smallest, plan)["cost"] == plan["cost"]
