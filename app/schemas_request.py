@@ -222,7 +222,10 @@ class VehicleTypeInput(_Input):
 class MatrixInput(_Input):
     """Legs between all places by one kind of vehicle; rows are origins."""
 
-    durations: Table = Field(description="Travel durations in seconds, `durations[from][to]`.")
+    durations: Table = Field(
+        description="Travel durations in seconds, `durations[from][to]`. The diagonal counts only "
+        "between two places that share a row."
+    )
     distances: Table | None = Field(
         None,
         description="Distances in metres, `distances[from][to]`. Null: computed from locations.",

@@ -132,9 +132,15 @@ class Travels:
                              np.where(too_long, np.inf, legs.duration))
 
     def _at_places(self, table: list[list[float]]) -> FloatArray:
-        """Return a client's matrix with one row and column per node."""
+        """Return a client's matrix with one row and column per node.
+
+        Whoever stays at a node travels nothing, whatever the diagonal says; between two nodes in
+        the same row it counts.
+        """
         indices = [place.location_index or 0 for place in self._places]
-        return np.array(table, dtype=np.float64)[np.ix_(indices, indices)]
+        legs = np.array(table, dtype=np.float64)[np.ix_(indices, indices)]
+        np.fill_diagonal(legs, 0.0)
+        return legs
 
     @cached_property
     def _locations(self) -> FloatArray:

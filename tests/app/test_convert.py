@@ -124,6 +124,17 @@ def test_wind_and_no_fly_areas_change_flights_alone(smallest: Request) -> None:
     assert drives.duration[0, 2] == 360_000
 
 
+def test_diagonal_of_a_matrix_counts_between_places_of_one_row_alone(smallest: Request) -> None:
+    for place, index in zip([*smallest["depots"], *smallest["customers"]], (0, 1, 1),
+                            strict=True):
+        place["location_index"] = index
+    table = [[7, 10], [20, 5]]
+    smallest["matrices"] = {"truck": {"durations": table, "distances": table}}
+    (travel,) = problem_of(smallest).travel
+    for matrix in (travel.duration, travel.distance):
+        assert matrix.tolist() == [[0, 10_000, 10_000], [20_000, 0, 5000], [20_000, 5000, 0]]
+
+
 def test_matrices_are_read_by_location_index(smallest: Request) -> None:
     for place, index in zip([*smallest["depots"], *smallest["customers"]], (2, 0, 1),
                             strict=True):
