@@ -82,7 +82,8 @@ test('settled is what has departed, up to where a drone in the air is met', () =
 });
 
 test('a broken vehicle keeps whom it has begun to serve, and loses the rest', () => {
-  const request = setBroken(setPinned(goOnFrom(REQUEST, PLAN, 150), ['C', 'E'], true), 'van-1', true);
+  const pinned = setPinned(goOnFrom(REQUEST, PLAN, 150), ['C', 'E'], true);
+  const request = setBroken(pinned, 'van-1', true);
   assert.deepEqual(request.replan.pinned, ['E']);
   const [first, second] = basisRoutes(request);
   assert.deepEqual(first.open, ['B', 'C', 'F']);
@@ -117,9 +118,11 @@ test('whereabouts are said in words', () => {
 });
 
 test('going on keeps pins of whom the plan serves, and what is broken', () => {
-  const first = setBroken(setPinned(goOnFrom(REQUEST, PLAN, 50), ['E', 'gone'], true), 'van-3', true);
+  const pinned = setPinned(goOnFrom(REQUEST, PLAN, 50), ['E', 'gone'], true);
+  const first = setBroken(pinned, 'van-3', true);
   const { replan } = goOnFrom(first, PLAN, 90);
-  assert.deepEqual(replan, { pinned: ['E'], unavailable: ['van-3'], plan: PLAN, freeze_before: 90 });
+  const kept = { pinned: ['E'], unavailable: ['van-3'] };
+  assert.deepEqual(replan, { ...kept, plan: PLAN, freeze_before: 90 });
   assert.equal(furtherFrom(first, { plan: {} }).replan.freeze_before, 50);
   assert.equal(fromNothing(first).replan, undefined);
 });
@@ -133,8 +136,10 @@ test('vehicles keep their row and number where the reply puts those under way fi
   const index = indexPlan(REQUEST, { routes: [second, first], unassigned: [] });
   assert.deepEqual(index.vehicles.map(({ name, label }) => [name, label]),
     [['van-1', '1'], ['van-2', '2']]);
-  const alone = indexPlan(REQUEST, { routes: [second], unassigned: [] });
-  assert.equal(alone.vehicles[0].label, '2');
+  const later = { ...first, vehicle: 'van-3' };
+  const goesOn = { ...REQUEST, replan: { plan: index.plan } };
+  const next = indexPlan(goesOn, { routes: [second, later], unassigned: [] });
+  assert.deepEqual(next.vehicles.map(({ label }) => label), ['2', '3']);
 });
 
 test('seconds in messages are times', () => {

@@ -5,9 +5,6 @@
  * `t:<vehicle>/<trip>` and `s:<vehicle>/<trip>/<sortie>`; vehicles count in the fleet's order.
  */
 
-/** How many vehicles are told apart by colour, see `palette.js`. */
-const MOST_COLOURS = 10;
-
 /** Return the index of a plan, or null without one. */
 export function indexPlan(request, plan) {
   if (!plan) return null;
@@ -15,29 +12,39 @@ export function indexPlan(request, plan) {
   const depots = new Map(request.depots.map((depot) => [depot.id, depot]));
   const types = new Map(request.fleet.map((type) => [type.id, type]));
   const index = { request, plan, customers, depots, types, vehicles: [], halts: new Map() };
-  const numbers = numbersOf(request.fleet);
-  const place = ({ vehicle }) => numbers.get(vehicle) ?? numbers.size;
-  // Replies put vehicles under way first; here each keeps its row and colour.
-  index.vehicles = [...plan.routes]
-    .sort((first, second) => place(first) - place(second))
-    .map((route, position) => {
-      const number = isFew(request.fleet) ? place(route) : position;
-      return indexRoute(index, route, position, number);
-    });
+  // Replies put vehicles under way first; here each keeps its row, number and colour.
+  const numbers = numbersOf(request, plan);
+  index.vehicles = inOrder(request.fleet, plan).map((route, position) =>
+    indexRoute(index, route, position, numbers.get(route.vehicle)),
+  );
   return index;
 }
 
-/** Return the place of each vehicle in the fleet by its name, counted from 0. */
-function numbersOf(fleet) {
-  const names = fleet.flatMap(({ id, count = 0 }) =>
-    Array.from({ length: count }, (_, number) => `${id}-${number + 1}`),
-  );
-  return new Map(names.map((name, number) => [name, number]));
+/** Return a plan's routes in the order of the fleet. */
+function inOrder(fleet, { routes }) {
+  const types = new Map(fleet.map(({ id }, position) => [id, position]));
+  const place = ({ type, vehicle }) => [
+    types.get(type) ?? fleet.length,
+    Number(vehicle.slice(type.length + 1)),
+  ];
+  return [...routes].sort((first, second) => {
+    const [[type, number], [otherType, otherNumber]] = [place(first), place(second)];
+    return type - otherType || number - otherNumber;
+  });
 }
 
-/** Tell whether vehicles are numbered as in the fleet, whether all are used or not. */
-function isFew(fleet) {
-  return fleet.length === 1 || fleet.reduce((sum, { count }) => sum + count, 0) <= MOST_COLOURS;
+const numberings = new WeakMap();
+
+/** Return the number of each vehicle of a plan, from 0; where it goes on from another, as there. */
+function numbersOf(request, plan) {
+  if (numberings.has(plan)) return numberings.get(plan);
+  const numbers = new Map(request.replan ? numbersOf({ fleet: request.fleet }, request.replan.plan)
+    : []);
+  for (const { vehicle } of inOrder(request.fleet, plan)) {
+    if (!numbers.has(vehicle)) numbers.set(vehicle, numbers.size);
+  }
+  numberings.set(plan, numbers);
+  return numbers;
 }
 
 function indexRoute(index, route, position, number) {

@@ -70,6 +70,7 @@ function ServedBy() {
   const brush = useStore((state) => state.brush);
   return html`<label>Served by <select value=${brush.served_by} onChange=${(event) =>
     store.set({ brush: { ...brush, served_by: event.target.value } })}>
-    ${['either', 'truck', 'drone'].map((value) => html`<option key=${value}>${value}</option>`)}
+    ${['either', 'truck', 'drone'].map((value) => html`<option key=${value}
+      value=${value}>${value}</option>`)}
   </select></label>`;
 }

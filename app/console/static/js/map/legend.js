@@ -2,7 +2,7 @@
 
 import { html, useEffect, useState } from '../libraries.js';
 
-const NARROW = '(max-width: 760px)';
+const NARROW = '(max-width: 1100px)';
 
 /**
  * The legend, folded where there is little room.
@@ -17,26 +17,30 @@ export function MapLegend({ request, index, parts }) {
   useEffect(() => {
     if (replans && !window.matchMedia(NARROW).matches) setOpen(true);
   }, [replans]);
+  const entries = entriesOf(request, index, parts);
+  if (!entries.length) return null;
   return html`<details class="map-legend" open=${open}
       onToggle=${(event) => setOpen(event.currentTarget.open)}>
-    <summary>Legend</summary><ul>${entriesOf(request, index, parts).map(
+    <summary>Legend</summary><ul>${entries.map(
       ([sign, name]) => html`<li key=${name}><${Sign} sign=${sign} />${name}</li>`,
     )}</ul></details>`;
 }
 
 function entriesOf(request, index, parts) {
+  const used = index?.vehicles.length > 0;
   const pinned = (request.replan?.pinned ?? []).length > 0;
   const some = (test) => index?.vehicles.some((vehicle) => vehicle.trips.some(test));
   const isNew = index && request.customers.some(({ id }) => !index.customers.has(id));
   const lost = [...parts.values()].some(({ isBroken, isOver }) => isBroken && !isOver);
   const entries = [
-    [index, 'road', 'Truck, its colour and number'],
+    [used, 'road', 'Truck, its colour and number'],
     [some((trip) => trip.index > 0), 'later', 'Second trip; later ones differ too'],
     [some((trip) => trip.sorties.length > 0), 'flight', 'Flight of a drone'],
-    [index, 'truck', 'Served by truck'],
+    [used, 'truck', 'Served by truck'],
     [some((trip) => trip.sorties.length > 0), 'drone', 'Served by drone'],
     [index?.plan.unassigned.length > 0, 'out', 'Unassigned'],
-    [!index || isNew, 'new', index ? 'New, not planned yet' : 'Customer'],
+    [isNew, 'new', 'New, not planned yet'],
+    [!index && request.customers.length > 0, 'new', 'Customer'],
     [parts.size > 0, 'settled', 'Settled: it has departed'],
     [lost, 'lost', 'Lost with a broken vehicle'],
     [pinned, 'pin', 'Pinned to its vehicle'],

@@ -9,7 +9,7 @@ import { rowWindows, tickStep } from '../core/timeline.js';
 export const AXIS = 20;
 const HEIGHTS = { vehicle: 24, drone: 16 };
 const TICK_PIXELS = 70;
-const KEPT_END = 4; // characters of a long name
+const KEPT_END = 3; // characters of a long name
 
 /** How much of its strength a bar keeps. */
 const STANDINGS = { settled: 0.4, lost: 0.8 };
@@ -32,7 +32,7 @@ export function heightOf(rows) {
 
 /** Return the width of the labels for a canvas of a width. */
 export function gutterOf(width) {
-  return width < 600 ? 78 : 132;
+  return width < 600 ? 92 : 132;
 }
 
 /** Return functions between instants and pixels. */

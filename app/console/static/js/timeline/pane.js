@@ -38,7 +38,7 @@ export function TimelinePane() {
       rows.length
         ? html`<${Rows} index=${index} rows=${rows} range=${shown} whole=${whole}
       setRange=${setRange} parts=${parts} now=${nowOf(entry, request)} />`
-        : html`<p class="empty">Nothing is planned yet.</p>`
+        : html`<p class="empty">${entry ? 'No vehicle is used.' : 'Nothing is planned yet.'}</p>`
     }
   </section>`;
 }

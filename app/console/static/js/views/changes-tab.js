@@ -144,7 +144,7 @@ export function Differences({ entry, former }) {
           show=${SHOWN[key] ?? ((value) => number(value, 0))} />`,
       )}
     </tbody></table>
-    <h4>${count(moved.length, 'customer')} served by another</h4>
+    <h4>${count(moved.length, 'customer')} with another vehicle, or none</h4>
     <table><tbody>${moved.slice(0, MOST_LISTED).map(
       ({ id, before, now }) => html`<tr key=${id}>
       <th scope="row"><button type="button" class="link"

@@ -7,7 +7,7 @@ import { freeName, removeCustomer } from '../core/changes.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { Field, Fields } from './form.js';
-import { LongTable } from './parts.js';
+import { LongTable, Name } from './parts.js';
 import { SheetPreview } from './sheet-preview.js';
 
 /** The tab. */
@@ -35,7 +35,8 @@ function CustomerTable({ request }) {
   );
   const broken = useMemo(() => brokenCells(errors), [errors]);
   const head = html`<tr><th scope="col">Name</th><th scope="col" class="number">Demand</th>
-    <th scope="col">Window</th><th scope="col">For</th><th scope="col">Arrival</th></tr>`;
+    <th scope="col">Window</th><th scope="col"
+      class="roomy">For</th><th scope="col">Arrival</th></tr>`;
   return html`<section class="section">
     <div class="buttons"><h3>${count(request.customers.length, 'customer')}</h3>
       <input type="text" value=${filter} placeholder="Find a name"
@@ -50,6 +51,8 @@ function CustomerTable({ request }) {
         halt=${index?.halts.get(`c:${customer.id}`)} index=${index} errors=${broken.get(position)}
         selected=${selection === `c:${customer.id}`}
           marked=${hovered === `c:${customer.id}`} />`} />
+    ${!request.customers.length && html`<p class="help">None yet: open a file, draw them on the map
+      or add them one by one.</p>`}
   </section>`;
 }
 
@@ -77,11 +80,13 @@ function CustomerRow({ customer, halt, index, selected, marked, errors }) {
       onMouseLeave=${() => hover(null)}>
     <th scope="row" ...${cell('id')}><button type="button" class="link" aria-pressed=${selected}
       title=${customer.id}
-      onClick=${() => select(selected ? null : key)}>${customer.id}</button></th>
+      onClick=${() => select(selected ? null : key)}><${Name}>${customer.id}</${Name}>
+      </button></th>
     <td ...${cell('demand')} class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
       ${amounts(customer.demand ?? [])}</td>
     <td ...${cell('time_window')}>${timeWindow(customer.time_window)}</td>
-    <td ...${cell('served_by')}>${customer.served_by ?? 'either'}</td>
+    <td ...${cell('served_by')} class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
+      ${customer.served_by ?? 'either'}</td>
     <td class=${halt?.lateness > 0 || (index && !halt) ? 'late-text' : ''}>${arrival}</td></tr>`;
 }
 

@@ -29,7 +29,7 @@ function Sheet({ vehicle }) {
         (halt, position) => html`<tr key=${halt.key}><td>${position || ''}</td>
         <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
         <td><strong>${halt.id}</strong>${place(halt)}</td>
-        <td>${halt.kind === 'customer' ? timeWindow(halt.window) : 'depot'}</td>
+        <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
         <td>${halt.kind === 'customer' ? amounts(halt.source.demand) : ''}</td>
         <td>${orders(trip, halt).map((order) => html`<div
           key=${order}>${order}</div>`)}</td><td></td></tr>`,

@@ -32,6 +32,16 @@ export function SelectButton({ of: key, children }) {
     onClick=${() => select(selected ? null : key)}>${children}</button>`;
 }
 
+const LONG = 16; // characters
+const END = 7;
+
+/** A name, the middle of which gives way where there is no room, as ends tell names apart. */
+export function Name({ children: name }) {
+  if (name.length < LONG) return name;
+  return html`<span class="cut-name"><span>${name.slice(0, -END)}</span><span>${name.slice(-END)}
+    </span></span>`;
+}
+
 /** A bar of a share, 0 to 1, beside its number. */
 export function ShareBar({ share, text, label, colour }) {
   return html`<span class="share-bar" role="img" aria-label=${`${label} ${text}`}>

@@ -32,8 +32,8 @@ function Beginning({ entry }) {
   const time = useStore((state) => state.time);
   return html`<section class="section"><h3>The day is under way</h3>
       <p class="help">Say what time it is: what has departed by then stays as it is in plan
-        ${' '}${entry.number}, and the rest is planned anew, with new orders, cancelled ones and broken
-        vehicles.</p>
+        ${' '}${entry.number}, and the rest is planned anew, with new orders, cancelled ones and
+        broken vehicles.</p>
       <${Now} value=${minuteOf(time)} label="Replan from here" onSet=${replanFrom} />
     </section>
     <${Improve} entry=${entry} />`;

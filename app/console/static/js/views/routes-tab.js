@@ -16,6 +16,7 @@ const MOST_OPEN = 3;
 export function RoutesTab() {
   const index = indexOf(useStore(shownPlan));
   if (!index) return html`<p class="empty">Nothing is planned yet.</p>`;
+  if (!index.vehicles.length) return html`<p class="empty">No vehicle is used.</p>`;
   return html`<${Selected} index=${index} /><${Rates} index=${index} />
     ${index.vehicles.map(
       (vehicle) => html`<${Vehicle} key=${vehicle.key} index=${index}

@@ -1,7 +1,7 @@
 /** Scenarios: fleets side by side, and sweeps of one or two fields as a heat map. */
 
 import { withoutDrones } from '../core/changes.js';
-import { clock, money, number, percent } from '../core/format.js';
+import { clock, count, money, number, percent } from '../core/format.js';
 import { heatTable, readValues, variableFields, writeAt } from '../core/grid.js';
 import { heatColour } from '../core/palette.js';
 import { fromNothing } from '../core/replanning.js';
@@ -94,7 +94,7 @@ function Compare() {
         startScenario('compare', {
           base: baseOf(store.get()),
           fleets: Object.fromEntries(chosen),
-        })}>Compare ${chosen.length} fleets</button></div>
+        })}>Compare ${count(chosen.length, 'fleet')}</button></div>
   </section>`;
 }
 
@@ -139,7 +139,7 @@ function Sweep() {
     )}
     <p class="help">Values of all vehicle types alike, commas between.</p>
     <div class="buttons"><button type="button" class="primary" disabled=${!ready} onClick=${start}>
-      Sweep ${size} scenarios</button></div></section>`;
+      Sweep ${count(size, 'scenario')}</button></div></section>`;
 }
 
 function Running({ scenario }) {

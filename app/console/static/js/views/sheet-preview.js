@@ -37,7 +37,9 @@ export function SheetPreview({ sheet }) {
         the file and open it again. Lines with errors come first.</p>
       <ul>${read.errors.slice(0, 5).map(
         (error) => html`<li key=${`${error.row}/${error.column}`}>
-        ${placeOf(error, rows)}${error.message}</li>`,
+        ${error.column === null ? error.message
+          : html`<button type="button" class="link" onClick=${() => goToCell(error, rows)}>
+            Line ${error.row + 1}, ${rows[0][error.column]}</button>: ${error.message}`}</li>`,
       )}</ul></div>`
     }
     <${LongTable} label="Sheet" height=${380} rowHeight=${34} rows=${order}
@@ -47,8 +49,8 @@ export function SheetPreview({ sheet }) {
       )}</tr>`}
       renderRow=${(row) => html`<tr key=${row} class="sheet"><th scope="row">${row + 1}</th>
         ${rows[0].map(
-          (title, column) => html`<${Cell} key=${column} rows=${rows} row=${row}
-          column=${column} title=${title} message=${byCell.get(`${row}/${column}`)} />`,
+          (_, column) => html`<${Cell} key=${column} rows=${rows} row=${row}
+          column=${column} message=${byCell.get(`${row}/${column}`)} />`,
         )}</tr>`} />
     <div class="buttons">
       <button type="button" class="primary"
@@ -58,8 +60,14 @@ export function SheetPreview({ sheet }) {
   </section>`;
 }
 
-function placeOf({ row, column }, rows) {
-  return column === null ? '' : `Line ${row + 1}, ${rows[0][column]}: `;
+/** Go to the cell of an error; lines with errors come first, so it is there. */
+function goToCell({ row, column }, rows) {
+  const label = CSS.escape(labelOf(rows, row, column));
+  document.querySelector(`.sheet [aria-label="${label}"]`)?.focus();
+}
+
+function labelOf(rows, row, column) {
+  return `${rows[0][column]}, line ${row + 1}`;
 }
 
 /** Return the numbers of the lines, those with errors first. */
@@ -69,7 +77,7 @@ function lines(rows, errors) {
   return [...all.filter((row) => broken.has(row)), ...all.filter((row) => !broken.has(row))];
 }
 
-function Cell({ rows, row, column, title, message }) {
+function Cell({ rows, row, column, message }) {
   const value = rows[row][column];
   const text = value instanceof Date ? value.toISOString().slice(11, 16) : (value ?? '');
   const change = (event) => {
@@ -79,6 +87,6 @@ function Cell({ rows, row, column, title, message }) {
     store.set(({ sheet }) => ({ sheet: { ...sheet, rows: changed } }));
   };
   return html`<td class=${message ? 'invalid' : ''} title=${message}>
-    <input type="text" value=${text} aria-label=${`${title}, line ${row + 1}`}
+    <input type="text" value=${text} aria-label=${labelOf(rows, row, column)}
       aria-invalid=${Boolean(message)} onChange=${change} /></td>`;
 }
