@@ -25,7 +25,7 @@ from model.search.layout import (
 from model.search.lean import insert_lean
 from model.search.refresh import locate, refresh
 from model.search.resplit import resplit
-from model.search.retype import change_type, improve_types
+from model.search.retype import change_type, cheapen_types, draw_type, improve_types
 from model.search.rows import clear, copy_some
 from model.search.ruin import choose, remove_marked
 from model.search.state import (
@@ -343,10 +343,14 @@ def anneal(world: World, searcher: Searcher, turns: int) -> None:
     for _ in range(turns):
         first = begin_turn(searcher)
         ruin(world, searcher, first)
+        if world.mixed and searcher.count[I_TOUCHED] > 0 and uniform(searcher.rng) < RETYPED:
+            draw_type(world, searcher)
         sort_absent(world, searcher, first, ORDERS[below(searcher.rng, len(ORDERS))])
         recreate(world, searcher, first, world.scan_all)
         if world.traded and uniform(searcher.rng) < RETYPED:
             improve_types(world, searcher)
+        if world.mixed and uniform(searcher.rng) < RETYPED:
+            cheapen_types(world, searcher)
         cost = turn_cost(world, searcher)
         limit = value[V_COST] - value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
         forced = world.must_serve and searcher.count[I_ABSENT] > 0 and rarer_absences(searcher)

@@ -55,6 +55,9 @@ BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
 """Number of customers from which on a plan with single drones begins with one by trucks alone, and
 the share of the time that this takes."""
 
+MOST_BEGINNING = 0.05
+"""Share of the time after which no other type of vehicle is tried at the beginning."""
+
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
 
@@ -248,6 +251,8 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, world, solution, seeds[0])
     begin_anew(world, whole, fresh)
+    if fresh and world.mixed:
+        _begin_by_types(world, whole, limits)
     costs = _Costs.of(world, whole, by_truck)
     crew = Crew(world, problem.coordinates, whole, seeds[1:])
     workers = [_Worker(world, whole, config, limits, costs) for _ in range(config.threads)]
@@ -263,6 +268,21 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
                 break
     return Improved(read_plan(world, whole), float(whole.value[V_BEST]), costs.first,
                     sum(worker.turns for worker in workers))
+
+
+def _begin_by_types(world: World, whole: Searcher, limits: _Limits) -> None:
+    """Plan anew by vehicles of one type after another as far as they go. In place: the best plan.
+
+    What a route costs its first customer says nothing of how many more a larger vehicle serves.
+    """
+    alone = whole.alone
+    dearest = float(alone[np.isfinite(alone)].max(initial=0.0))
+    for k in range(world.num_types):
+        if limits.turns is None and limits.share() > MOST_BEGINNING:
+            return
+        others_last = alone + dearest
+        others_last[k] = alone[k]
+        begin_anew(world, whole._replace(alone=others_last), True)
 
 
 def trucks_come_first(problem: Problem, moves: Moves = ALL_MOVES) -> bool:

@@ -66,6 +66,7 @@ class World(NamedTuple):
     crossings: bool  # sorties may end elsewhere
     general: bool  # insertions may cost more than their detour
     traded: bool  # vehicles may drive each other's routes
+    mixed: bool  # types of vehicles, some of whose routes are not lean, may drive each other's
     scan_all: bool  # else insertion looks beside neighbours only
     must_serve: bool  # leaving a customer out costs more than any route for one
     blink: float  # how often a better place for a customer is overlooked

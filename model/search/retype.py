@@ -3,12 +3,17 @@
 import math
 
 from model.compiled import inlined
-from model.instance import MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT
-from model.problem import IntArray
-from model.search.layout import (
-    MODE_LEAN, NOWHERE, P_DEMAND, R_LENGTH, R_TYPE, T_DISTANCE, T_LOAD, Fleet, World,
+from model.instance import (
+    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES,
 )
-from model.search.state import I_ACTIVE, I_TOUCHED, Searcher, touch
+from model.problem import IntArray
+from model.search.draw import below
+from model.search.layout import (
+    CUSTOMER, F_COUNT, F_DRONE, F_NODE, MODE_LEAN, NOWHERE, P_DEMAND, R_LENGTH, R_SORTIES, R_TYPE,
+    S_KIND, S_NODE, T_DISTANCE, T_LOAD, Fleet, World,
+)
+from model.search.refresh import refresh
+from model.search.state import I_ACTIVE, I_TOUCHED, Searcher, keep_aside, touch
 
 
 @inlined
@@ -91,3 +96,62 @@ def improve_types(world: World, searcher: Searcher) -> None:
                     and holds(world, k, trip)):
                 change_type(world, now, slot, k)
         trade(world, searcher, slot)
+
+
+@inlined
+def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
+    """Tell whether type `k` has the depot, the drones and the skills that a route needs."""
+    route, stops, sorties = fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]
+    if world.type[k, TYPE_DEPOT] != world.type[route[R_TYPE], TYPE_DEPOT]:
+        return False
+    for p in range(route[R_LENGTH]):
+        if stops[p, S_KIND] == CUSTOMER and not world.can[k, 0, stops[p, S_NODE]]:
+            return False
+    for s in range(route[R_SORTIES]):
+        sortie = sorties[s]
+        if sortie[F_DRONE] >= world.type[k, TYPE_DRONES] or sortie[F_COUNT] > world.visits[k]:
+            return False
+        for visit in range(sortie[F_COUNT]):
+            if not world.can[k, 1, sortie[F_NODE + visit]]:
+                return False
+    return True
+
+
+@inlined
+def give_type(world: World, searcher: Searcher, slot: int, k: int, cheaper: bool) -> None:
+    """Let another type drive a touched route, if that keeps all rules. In place.
+
+    `cheaper`: and only if it costs less.
+    """
+    now = searcher.now
+    former, cost = now.route[slot, R_TYPE], now.cost[slot]
+    if (k == former or world.swap[former, k] or now.used[k] >= world.type[k, TYPE_COUNT]
+            or not may_drive(world, now, slot, k)):
+        return
+    spare = len(now.route) - 2
+    keep_aside(now, slot, spare)
+    now.route[slot, R_TYPE] = k
+    if refresh(world, now, slot, searcher.acc) and not (cheaper and now.cost[slot] >= cost - 1e-9):
+        now.used[former] -= 1
+        now.used[k] += 1
+    else:
+        keep_aside(now, spare, slot)
+        refresh(world, now, slot, searcher.acc)
+
+
+@inlined
+def draw_type(world: World, searcher: Searcher) -> None:
+    """Give one of the routes touched this turn a vehicle of any type. In place."""
+    slot = searcher.touched[below(searcher.rng, searcher.count[I_TOUCHED])]
+    if searcher.now.route[slot, R_LENGTH] > 0:
+        give_type(world, searcher, slot, below(searcher.rng, world.num_types), False)
+
+
+@inlined
+def cheapen_types(world: World, searcher: Searcher) -> None:
+    """Give the routes touched this turn the types that drive them at the least cost. In place."""
+    for index in range(searcher.count[I_TOUCHED]):
+        slot = searcher.touched[index]
+        if searcher.now.route[slot, R_LENGTH] > 0:
+            for k in range(world.num_types):
+                give_type(world, searcher, slot, k, True)

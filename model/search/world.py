@@ -80,6 +80,8 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
         single_drones=has_single_drones(problem, moves),
         loops=moves.loops, crossings=moves.crossings, general=not bool((mode & MODE_LEAN).all()),
         traded=moves.types and bool(swap.any()),
+        mixed=(moves.types and len(problem.vehicle_types) > 1
+               and not bool((mode & MODE_LEAN).all())),
         scan_all=problem.num_customers < SCAN_ALL_BELOW,
         must_serve=_must_serve(problem), blink=_blink(problem.num_customers, most_visits),
         unassigned_cost=float(problem.unassigned_cost),

@@ -179,3 +179,32 @@ def test_trips_joined_by_their_ends_leave_no_empty_trip() -> None:
     for seed in range(40):
         for turns in (5, 40):
             improved_cost(problem, start, turns, seed)
+
+
+SMALL = replace(TRUCK, id="small", capacity=(2000,), fixed_cost=1.0, max_trips=5)
+LARGE = replace(TRUCK, id="large", capacity=(10_000,), fixed_cost=5.0, max_trips=5)
+FAR_OFF = [(10.0, index / 10) for index in range(10)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_routes_of_several_trips_change_their_vehicle(seed: int) -> None:
+    problem = on_a_plane(FAR_OFF, SMALL, LARGE)
+    trips = tuple(TripDecision((0, 1 + first, 2 + first, 0)) for first in range(0, 10, 2))
+    start = Solution((schedule(problem, RouteDecision(0, 0, trips)),))
+    # Five trips by the small one are 1 + 101, one by the large one is 5 + 21.
+    assert improved_cost(problem, start, 400, seed) < 27
+
+
+def test_first_plan_looks_beyond_what_the_first_customer_costs() -> None:
+    problem = on_a_plane(FAR_OFF, replace(SMALL, count=9), replace(LARGE, count=9))
+    found = improve(problem, pack([problem]), Solution((), tuple(range(1, 11))),
+                    SearchConfig(turns=0))
+    assert check(problem, found.solution).cost.total < 27
+
+
+def test_first_plan_uses_other_types_where_one_does_not_suffice() -> None:
+    problem = on_a_plane(FAR_OFF, replace(SMALL, count=1, max_trips=1),
+                         replace(LARGE, count=1, capacity=(8000,), max_trips=1))
+    found = improve(problem, pack([problem]), Solution((), tuple(range(1, 11))),
+                    SearchConfig(turns=0))
+    assert found.solution.unassigned == ()
