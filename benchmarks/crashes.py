@@ -131,7 +131,10 @@ class Study:
         """See what has become of all jobs; return those that run. In place."""
         running = set()
         for job_id in self.open_jobs:
-            job = self._service.client.get(f"/jobs/{job_id}").json()
+            reply = self._service.client.get(f"/jobs/{job_id}")
+            if reply.status_code == 503:
+                continue  # the database is away
+            job = reply.json()
             self.jobs[job_id].see(job)
             if job["state"] == "running":
                 running.add(job_id)

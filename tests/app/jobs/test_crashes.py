@@ -17,6 +17,9 @@ from tests.app.jobs.stepping import (
 
 FULL_COST = 2.0 * NUM_CUSTOMERS
 
+NUM_JOBS = 200
+"""Jobs that two workers share."""
+
 
 def stated(settings: Settings) -> dict[str, Any]:
     """Return settings as a process gets them."""
@@ -117,7 +120,7 @@ def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_pa
           served(tmp_path, "one", role="worker", worker_id="one", **common) as worker,
           served(tmp_path, "two", role="worker", worker_id="two", **common)):
         assert worker.client.post("/plan", json=request_of(0)).status_code == 404
-        jobs = [submit(api.client, request_of(0)) for _ in range(60)]
+        jobs = [submit(api.client, request_of(0)) for _ in range(NUM_JOBS)]
         done = [ended(api.client, job) for job in jobs]
         assert {job["state"] for job in done} == {"done"}
     engine = create_engine(url)
@@ -127,9 +130,9 @@ def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_pa
             "SELECT executor_id, count(*) FROM dbos.workflow_status WHERE name = 'plan_job' "
             "AND status = 'SUCCESS' GROUP BY executor_id")).all()
     engine.dispose()
-    assert list(attempts) == 60 * [1]
+    assert list(attempts) == NUM_JOBS * [1]
     assert {name for name, _ in workers} == {"one-0", "two-0"}
-    assert sum(number for _, number in workers) == 60
+    assert sum(number for _, number in workers) == NUM_JOBS
 
 
 def test_true_planner_goes_on_after_a_kill(tmp_path: Path, with_drones: dict[str, Any]) -> None:
