@@ -1,0 +1,207 @@
+"""Requests of `POST /plan` that fit the schema and make little sense otherwise.
+
+Each fits in kind and range; what it says is extreme, contradictory or hopeless. Most are to be
+planned, some refused with 422. All is drawn from the generator passed.
+"""
+
+import math
+import random
+from collections.abc import Callable, Sequence
+from typing import Any
+
+Data = dict[str, Any]
+Point = list[float]
+
+LONGEST = 10**9
+"""Largest amount, duration and distance that the schema takes; some draws go up to there."""
+
+RICHEST = 1e12
+"""Largest cost of anything."""
+
+SIZES = (0, 1, 1, 2, 3, 5, 8, 13, 30)
+SKILLS = ("cold", "crane", "Führerschein", "")
+NAMES = ("#", "kunde #", "顧客-#", "Ünïcødé #", "🚚#", "a/b?#&=", "'\"#\\", "\u202e#",
+         "truck-#", "[#].x", "-#", "# " * 60)
+
+
+def wild_request(rng: random.Random) -> Data:
+    """Return a request."""
+    dimensions = rng.randint(1, 3)
+    name = rng.choice(NAMES)
+    system, unit, place = _geography(rng)
+    depots = [{"id": f"D{number}", "location": place()} for number in range(rng.randint(1, 3))]
+    customers = [{"id": name.replace("#", str(number)), "location": place(),
+                  **_customer(rng, dimensions)} for number in range(rng.choice(SIZES))]
+    fleet = [{"id": rng.choice(NAMES).replace("#", f"t{number}"), **_vehicle_type(rng, dimensions),
+              **({"depot": rng.choice(depots)["id"]} if rng.random() < 0.5 else {})}
+             for number in range(rng.choice((1, 1, 2, 4)))]
+    request: Data = {
+        "coordinate_system": system, "planar_unit": unit, "depots": depots, "customers": customers,
+        "fleet": fleet, "airspace": _airspace(rng, place, system), "options": _options(rng),
+        "unassigned_cost": rng.choice((None, None, 0, 1e-9, 1.0, 1000, RICHEST))}
+    if rng.random() < 0.25:
+        _add_matrices(rng, request)
+    if rng.random() < 0.5:
+        _tame(rng, request, dimensions)
+    return request
+
+
+def _geography(rng: random.Random) -> tuple[str, float, Callable[[], Point]]:
+    """Return a coordinate system, its unit, and a function that draws places."""
+    if rng.random() < 0.6:
+        unit, spread = rng.choice(((1.0, 3e4), (1000.0, 30.0), (1000.0, 9e3), (1e-3, 5.0),
+                                   (1e6, 9.0), (1.0, 0.001), (1.0, 0.0)))
+        return "planar", unit, lambda: [rng.uniform(-spread, spread), rng.uniform(-spread, spread)]
+    longitude, latitude, spread = rng.choice((
+        (13.4, 52.5, 0.3), (180.0, 0.0, 0.2), (-180.0, 60.0, 0.2), (0.0, 90.0, 0.1),
+        (77.0, -90.0, 0.5), (0.0, 0.0, 180.0), (5.0, 5.0, 0.0)))
+
+    def draw() -> Point:
+        x = longitude + rng.uniform(-spread, spread)
+        y = latitude + rng.uniform(-spread, spread)
+        return [(x + 180) % 360 - 180, max(-90.0, min(90.0, y))]
+
+    return "geographic", 1.0, draw
+
+
+def _amounts(rng: random.Random, dimensions: int, choices: Sequence[float]) -> list[float]:
+    return [rng.choice(choices) for _ in range(dimensions)]
+
+
+def _maybe(rng: random.Random, share: float, **fields: Any) -> Data:
+    """Return fields, or none of them."""
+    return fields if rng.random() < share else {}
+
+
+def _customer(rng: random.Random, dimensions: int) -> Data:
+    return {
+        "demand": _amounts(rng, dimensions, (0, 1, 1, 2, 3, 7.5, 0.0004, 1e-3, 1e3, LONGEST)),
+        "served_by": rng.choice(("either", "either", "truck", "drone")),
+        **_maybe(rng, 0.5, service_duration=rng.choice((0, 1e-4, 60, 900, 1e5, LONGEST))),
+        **_maybe(rng, 0.5, time_window=_window(rng)),
+        **_maybe(rng, 0.1, skills=rng.sample(SKILLS[:3], rng.randint(1, 2))),
+        **_maybe(rng, 0.15, release_time=rng.choice((0, 1, 3600, 86400, LONGEST)))}
+
+
+def _window(rng: random.Random) -> Data:
+    earliest = rng.choice((0, 0, 1.0005, 3600, 30000, 1e6, LONGEST))
+    width = rng.choice((0, 0.0001, 1, 600, 7200, 1e5))
+    latest = min(LONGEST, earliest + width)
+    if rng.random() < 0.02:
+        latest = earliest - 1
+    return {"earliest": earliest, "latest": rng.choice((None, latest, latest, max(0, latest))),
+            "late_cost_per_hour": rng.choice((None, None, 0, 12.5, RICHEST)),
+            "early_cost_per_hour": rng.choice((0, 0, 7, RICHEST))}
+
+
+def _vehicle_type(rng: random.Random, dimensions: int) -> Data:
+    return {
+        "count": rng.choice((1, 1, 2, 3, 10_000)),
+        "capacity": _amounts(rng, dimensions, (0, 5, 10, 10, 40, 1e-3, LONGEST)),
+        **_maybe(rng, 0.6, costs={"fixed": rng.choice((0, 20, RICHEST)),
+                                  "per_km": rng.choice((0, 1, 1e-9, RICHEST)),
+                                  "per_hour": rng.choice((0, 0, 30, RICHEST))}),
+        **_maybe(rng, 0.5, speed_kmh=rng.choice((1, 30, 50.123, 1000))),
+        **_maybe(rng, 0.3, speed_profile=_speed_profile(rng)),
+        **_maybe(rng, 0.5, shift=_shift(rng)),
+        **_maybe(rng, 0.3, max_working_duration=rng.choice((0, 1, 1800, 28800, LONGEST))),
+        **_maybe(rng, 0.3, max_trip_distance=rng.choice((0, 1, 1e4, 1e5, LONGEST))),
+        **_maybe(rng, 0.4, max_trips=rng.choice((1, 2, 3, 1000)),
+                 reload_duration=rng.choice((0, 0, 600, LONGEST))),
+        **_maybe(rng, 0.2, skills=rng.sample(SKILLS[:3], rng.randint(1, 3))),
+        **_maybe(rng, 0.5, drones=_drones(rng, dimensions))}
+
+
+def _shift(rng: random.Random) -> Data:
+    earliest = rng.choice((0, 0, 7200, 1e6, LONGEST))
+    latest = rng.choice((None, earliest, earliest + 1, earliest + 14400, earliest + 1e6))
+    if rng.random() < 0.02:
+        latest = max(0, earliest - 1)
+    return {"earliest": earliest, "latest": None if latest is None else min(latest, LONGEST)}
+
+
+def _speed_profile(rng: random.Random) -> list[Data]:
+    times = sorted(rng.sample((0, 0.001, 1, 59.9, 60, 3600, 7200, 30000, 1e6, LONGEST),
+                              rng.randint(1, 6)))
+    if rng.random() < 0.03:
+        times.append(times[-1])
+    return [{"from": time, **rng.choice(({"factor": rng.choice((0.05, 0.5, 1, 20))},
+                                         {"speed_kmh": rng.choice((1, 17, 1000))}))}
+            for time in times]
+
+
+def _drones(rng: random.Random, dimensions: int) -> Data:
+    return {
+        "count": rng.choice((0, 1, 1, 2, 3, 32)),
+        "capacity": _amounts(rng, dimensions, (0, 1, 3, 10, 10, LONGEST)),
+        **_maybe(rng, 0.5, speed_kmh=rng.choice((1, 40, 120, 1000))),
+        **_maybe(rng, 0.7, endurance=rng.choice((0, 60, 1200, 1800, LONGEST))),
+        **_maybe(rng, 0.3, endurance_includes_waiting=rng.random() < 0.5),
+        **_maybe(rng, 0.5, launch_duration=rng.choice((0, 30, 60, LONGEST)),
+                 recovery_duration=rng.choice((0, 30, 60, LONGEST))),
+        **_maybe(rng, 0.3, service_duration=rng.choice((0, 30, 1e6))),
+        **_maybe(rng, 0.4, max_customers_per_sortie=rng.choice((1, 2, 3, 100))),
+        **_maybe(rng, 0.5, costs={"per_km": rng.choice((0, 0.25, RICHEST)),
+                                  "per_hour": rng.choice((0, 5, RICHEST))})}
+
+
+def _airspace(rng: random.Random, place: Callable[[], Point], system: str) -> Data:
+    """Return none, some or all of the sky, and some wind or more than a drone can bear."""
+    areas = []
+    for _ in range(rng.choice((0, 0, 0, 1, 3))):
+        x, y = place()
+        size = rng.choice((1e-3, 0.1, 1.0, 10.0) if system == "planar" else (1e-3, 0.1, 1.0))
+        corners = rng.choice((3, 4, 7))
+        areas.append([[x + size * math.cos(math.tau * corner / corners),
+                       y + size * math.sin(math.tau * corner / corners)]
+                      for corner in range(corners)])
+    return {"no_fly": areas, "wind": {"speed_kmh": rng.choice((0, 0, 0, 10, 60, 500)),
+                                      "direction_deg": rng.choice((0, 90, 123.4, 360))}}
+
+
+def _options(rng: random.Random) -> Data:
+    return {
+        "policy": rng.choice(("attention", "attention", "attention", "pointer")),
+        "decoding": rng.choice(("greedy", "greedy", "sample")), "num_samples": rng.randint(1, 9),
+        "temperature": rng.choice((0.01, 0.7, 1.0, 100)),
+        "seed": rng.choice((0, 1, 2**63 - 1)), "threads": rng.choice((None, 1, 2)),
+        "time_limit": rng.choice((0, 1e-9, 0.001, 0.03, 0.1)),
+        "search_iterations": rng.choice((None, None, 0, 1, 100))}
+
+
+def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
+    """Have most customers served: by amounts that fit, and fewer limits. In place."""
+    for customer in request["customers"]:
+        customer["demand"] = [rng.randint(0, 4) for _ in range(dimensions)]
+        for name in ("release_time", "skills"):
+            customer.pop(name, None)
+        if rng.random() < 0.7:
+            customer.pop("time_window", None)
+            customer.pop("service_duration", None)
+    for kind in request["fleet"]:
+        kind["capacity"] = [20] * dimensions
+        for name in ("max_working_duration", "max_trip_distance", "shift", "speed_profile"):
+            if rng.random() < 0.6:
+                kind.pop(name, None)
+        if kind.get("drones") is not None:
+            kind["drones"]["capacity"] = [4] * dimensions
+
+
+def _add_matrices(rng: random.Random, request: Data) -> None:
+    """State legs that need not be those of any map. In place."""
+    places = [*request["depots"], *request["customers"]]
+    longest = rng.choice((0, 1, 900, 36000, LONGEST))
+    keeps_locations = rng.random() < 0.5
+    for index, stated in enumerate(places):
+        stated["location_index"] = index
+        if not keeps_locations:
+            del stated["location"]
+
+    def table() -> list[list[float]]:
+        return [[rng.choice((0, rng.uniform(0, longest), longest)) for _ in places]
+                for _ in places]
+
+    request["matrices"] = {profile: {"durations": table(), "distances": table()}
+                           for profile in ("truck", "drone")}
+    if rng.random() < 0.3 and keeps_locations:
+        del request["matrices"][rng.choice(("truck", "drone"))]

@@ -1,0 +1,69 @@
+"""Wild problems are planned or refused, and every plan passes the check.
+
+The study of five thousand is `python -m benchmarks.fuzz_problems`.
+"""
+
+import json
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from benchmarks.fuzz_api import service
+from benchmarks.fuzz_problems import Fault, Study, client_of
+from benchmarks.wild_problems import wild_request
+
+Data = dict[str, Any]
+Answer = Callable[[Data], Data]
+
+PROBLEMS = 40
+
+
+def test_wild_problems_are_planned_soundly_or_refused(tmp_path: Path) -> None:
+    with service(tmp_path) as target, client_of(target) as client:
+        study = Study(client)
+        for seed in range(PROBLEMS):
+            study.try_problem(seed)
+    assert study.checked > PROBLEMS / 2
+    assert 0 < study.left_out < study.checked
+    assert set(study.statuses) == {"/plan 200", "/plan 422", "/check 200", "/check 422"}
+
+
+def answering(**changes: Answer) -> httpx.Client:
+    """Return a client of a service that plans nothing, with some replies changed."""
+    def answer(request: httpx.Request) -> httpx.Response:
+        body = json.loads(request.content)
+        if request.url.path == "/plan":
+            count = len(body["customers"])
+            reply: Data = {"routes": [], "unassigned": [{"reasons": ["none"]}] * count,
+                     "cost": {"total": 7.0}, "summary": {"served": 0}}
+        else:
+            reply = {"feasible": True, "cost": {"total": 7.0}}
+        change = changes.get(request.url.path[1:], lambda reply: reply)
+        reply = change(reply)
+        return httpx.Response(reply.pop("status", 200), json=reply)
+
+    return httpx.Client(transport=httpx.MockTransport(answer), base_url="http://service")
+
+
+@pytest.mark.parametrize(("endpoint", "change", "fault"), [
+    ("plan", {"status": 500}, "answered with 500"),
+    ("plan", {"status": 422, "errors": []}, "answered with 422"),
+    ("plan", {"cost": {"total": 7.1}}, "cost by total"),
+    ("plan", {"summary": {"served": 1}}, "1 served"),
+    ("check", {"feasible": False}, "refused by POST /check"),
+    ("check", {"status": 422, "errors": ["no"]}, "refused by POST /check"),
+    ("check", {"status": 503}, "answered with 503")])
+def test_replies_that_should_not_be_are_faults(endpoint: str, change: Data, fault: str) -> None:
+    Study(answering()).try_problem(0)
+    with pytest.raises(Fault, match=fault):
+        Study(answering(**{endpoint: lambda reply: reply | change})).try_problem(0)
+
+
+def test_wild_requests_are_drawn_from_the_generator_alone() -> None:
+    drawn = [wild_request(random.Random(seed)) for seed in range(50)]
+    assert drawn == [wild_request(random.Random(seed)) for seed in range(50)]
+    assert len({json.dumps(request) for request in drawn}) == 50
