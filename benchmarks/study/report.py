@@ -1,8 +1,9 @@
 """The study's report: text around tables and pictures, `docs/study.md`."""
 
 import json
+import textwrap
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,10 +19,13 @@ from benchmarks.study.tasks import Planned, TripRow
 PLAN = "table1_plan.json"
 """File of the best plan of Table 1 that can be made again."""
 
+WIDTH = 100
+"""Characters of a line of text."""
+
 CHOICES = (
     ("all", "places of other cases", "whole, each once, within Table 1's x and y"),
     ("all", "demands of other cases", "drawn from Table 1's of the same kind (DC, FC, TC)"),
-    ("all", "cases", "10 a size (5 with drones); the first is taken from Table 1 itself"),
+    ("all", "first case", "taken from Table 1 itself, with 100 customers all of it"),
     ("2, 6", "cost", "1 per unit of length, for trucks and drones"),
     ("2, 6", "drones", "one on each truck, payload 10, no limit of endurance; no times"),
     ("6", "trucks", "of 400, as few as Table 1's tightness (97.5 %) allows"),
@@ -72,8 +76,16 @@ def write_report(study: Study, page: Path) -> None:
     append_rows(recomputed, GroupRow, map(measured, groups()))
     parts = [HEAD, _made(study), _inputs(), _table1(), _routes(study, plan), _fleets(study),
              _hours(study), _drones(study), _policies(study), _files()]
-    text = "\n\n".join(parts).replace("](study/", f"]({folder.name}/")
-    page.write_text(text + "\n", encoding="utf-8")
+    text = "\n".join(map(_wrapped, "\n\n".join(parts).splitlines()))
+    page.write_text(text.replace("](study/", f"]({folder.name}/") + "\n", encoding="utf-8")
+
+
+def _wrapped(line: str) -> str:
+    """Return a line of text as lines of 100 characters; tables and pictures stay as they are."""
+    if len(line) <= WIDTH or line[0] in "|!#":
+        return line
+    return textwrap.fill(line, WIDTH, break_long_words=False, break_on_hyphens=False,
+                         subsequent_indent="  " if line.startswith("- ") else "")
 
 
 def _draw(study: Study, plan: Mapping[str, Any], folder: Path) -> None:
@@ -96,10 +108,10 @@ def _made(study: Study) -> str:
     return (
         f"Made on {dates}, {'; '.join(sorted({row.machine for row in rows}))}, beside other work: "
         f"{len(rows):,} plans in {sum(row.cpu_s for row in rows) / 60:.0f} minutes of processor "
-        "time, two processes at a time or one. Tandem's checker, which shares no code with "
-        f"search or policies, judged all {len(rows):,} and found no rule broken. {repeatable:,} "
-        "of them end after so many turns of the search, or have none: with the same version they "
-        "come out the same anywhere. The others are those of Table 1 within times.")
+        "time, one thread each. Tandem's checker, which shares no code with search or policies, "
+        f"judged all {len(rows):,} and found no rule broken. {repeatable:,} of them end after so "
+        "many turns of the search, or have none: the same version makes the same plans again. The "
+        "others are those of Table 1 within times.")
 
 
 def _inputs() -> str:
@@ -136,7 +148,8 @@ def _routes(study: Study, plan: Mapping[str, Any]) -> str:
         f"The least cost found is {least:.2f}, {_beside(least)}. All 100 customers are served by "
         f"four trucks loaded {findings.words_of([100 * rate for rate in rates], '.1f')} %. "
         "The paper says 2135 for its plan.", "",
-        *tables.times_table(rows), "", "![Cost of Table 1 over time](study/times.svg)", "",
+        *tables.times_table(rows), "", _share_of_core(rows), "",
+        "![Cost of Table 1 over time](study/times.svg)", "",
         "The best of the plans that can be made again, as Table 2 prints routes (length in km, "
         f"`study/{PLAN}`):", "", *tables.paths_table(plan), "",
         "### The printed plan is infeasible", "",
@@ -153,6 +166,17 @@ def _routes(study: Study, plan: Mapping[str, Any]) -> str:
         f"{sum(measured(group).truck_length for group in table1):.0f} long, more than the "
         "2135 that it is said to cost.", "",
         "![The printed routes beside planned ones](study/routes.svg)"])
+
+
+def _share_of_core(rows: Sequence[Planned]) -> str:
+    timed = [row for row in rows if row.seconds]
+    share = sum(row.cpu_s for row in timed) / sum(row.wall_s for row in timed)
+    return f"The searches within times had {100 * share:.0f} % of a core, other work the rest."
+
+
+def _num_cases(rows: Sequence[Planned]) -> str:
+    """Return how many cases there are of each size, in words."""
+    return f"{max(row.case for row in rows)} cases of each size"
 
 
 def _beside(cost: float) -> str:
@@ -180,8 +204,8 @@ def _fleets(study: Study) -> str:
     return "\n".join([
         "## 3. Single and mixed fleets", "",
         "Trucks of 150 against as many as wanted of 100, 150 and 200, and of 100 or 200 alone. "
-        "Means over cases and seeds, ± the standard deviation of the seeds' means; the "
-        "working rate is that of each truck, over 8 h.", "",
+        f"Means over {_num_cases(rows)} and {max(row.seed for row in rows)} seeds, ± the standard "
+        "deviation of the seeds' means; the working rate is that of each truck, over 8 h.", "",
         *tables.fleets_table(rows, trips), "", *findings.on_fleets(rows, trips), "",
         "![Total cost of each fleet, and the load of every trip](study/fleets.svg)", "",
         "The best seeds against each other, ± the standard deviation over cases:", "",
@@ -200,7 +224,8 @@ def _hours(study: Study) -> str:
         parts += [f"{size} customers:", "", *tables.hours_table(rows, size), ""]
     return "\n".join([
         "## 4. Working hours and capacity", "",
-        "One capacity at a time, one seed; mean total cost of the cases, the least in bold.", "",
+        f"One capacity at a time; mean total cost of {_num_cases(rows)}, one seed, the least in "
+        "bold.", "",
         *parts, "![Mean total cost over hours and capacity](study/hours.svg)", "",
         *findings.on_hours(rows, study.trips)])
 
@@ -209,8 +234,8 @@ def _drones(study: Study) -> str:
     rows = study.of("drones")
     return "\n".join([
         "## 5. Drones, windows, speeds", "",
-        "Total cost in % of trucks alone without windows at fixed speed, mean of the cases ± their "
-        "standard deviation. Columns are windows and speeds.", "",
+        "Total cost in % of trucks alone without windows at fixed speed, mean of "
+        f"{_num_cases(rows)} ± their standard deviation. Columns are windows and speeds.", "",
         *tables.drones_table(rows), "", *findings.on_drones(rows), "",
         "![Total cost by drones, windows and speeds](study/drones.svg)", "",
         "Both speeds together:", "", *tables.drones_work_table(rows)])
@@ -223,7 +248,9 @@ def _policies(study: Study) -> str:
         "`attention`, the default, beside `pointer`, the paper's: alone, and with a search that "
         "begins with their greedy plan or with nothing (insertion). One drone on each truck, "
         "distances only. Cost above the cheapest plan found of each case, mean ± standard "
-        "deviation over the cases, of plans that serve everybody.", "",
+        f"deviation over {_num_cases(rows)}, of plans that serve everybody. The service itself "
+        "begins without a policy where each truck has one drone and there are 30 customers or "
+        "more.", "",
         *tables.policies_table(rows), "", *findings.on_policies(rows), "",
         "![Cost of each way to plan](study/policies.svg)"])
 

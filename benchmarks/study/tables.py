@@ -43,13 +43,15 @@ def times_table(rows: Sequence[Planned]) -> Lines:
     """Table 1 within times."""
     lines = []
     for turns, seconds in dict.fromkeys((row.turns, row.seconds) for row in rows):
-        costs = [row.cost for row in rows if (row.turns, row.seconds) == (turns, seconds)]
+        group = [row for row in rows if (row.turns, row.seconds) == (turns, seconds)]
+        costs = [row.cost for row in group]
         median = statistics.median(costs)
         lines.append([f"{seconds:g} s" if seconds else f"{turns:,} turns", str(len(costs)),
                       f"{min(costs):.2f}", f"{median:.2f}", f"{max(costs):.2f}",
-                      f"{100 * (median / REFERENCE - 1):+z.2f}"])
+                      f"{100 * (median / REFERENCE - 1):+z.2f}",
+                      f"{statistics.fmean(row.cpu_s for row in group):.2g}"])
     return markdown(["search", "seeds", "least", "median", "most",
-                     f"median to {REFERENCE}, %"], lines)
+                     f"median to {REFERENCE}, %", "seconds of processor time"], lines)
 
 
 def printed_table(rows: Sequence[GroupRow]) -> Lines:

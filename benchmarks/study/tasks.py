@@ -112,12 +112,12 @@ class Scale:
 
 FULL = Scale(
     sizes=(25, 50, 100), cases=10, seeds=3, budgets=(0.1, 0.3, 1.0, 2.0, 10.0),
-    table1_turns=300_000, table1_seeds=5,
+    table1_turns=20_000, table1_seeds=5,
     hours=(4.0, 5.0, 6.0, 6.5, 7.0, 7.5, 8.0, 9.0, 10.0, 11.0), fleet_turns=500, hour_turns=80,
     drone_sizes=(50,), drone_cases=5, drone_turns=60, policy_turns=(20, 100))
 
 QUICK = Scale(
-    sizes=(25, 50), cases=2, seeds=2, budgets=(0.1, 0.3, 1.0), table1_turns=30_000,
+    sizes=(25, 50), cases=2, seeds=2, budgets=(0.1, 0.3, 1.0), table1_turns=2_000,
     table1_seeds=2, hours=(4.0, 6.5, 8.0, 11.0), fleet_turns=200, hour_turns=50,
     drone_sizes=(25,), drone_cases=1, drone_turns=20, policy_turns=(20,))
 
