@@ -1,6 +1,7 @@
 """A page of a running service, which fails its test when something is wrong with it."""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -27,9 +28,9 @@ def browser() -> Iterator[Browser]:
         yield browser
 
 
-@pytest.fixture
-def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
-    """Return a function that opens a page; what its console or network complain of fails the test.
+@contextmanager
+def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
+    """Yield a function that opens a page; what its console or network complain of is an error.
 
     Keywords are those of a browser's context, such as `color_scheme`; `allow` are texts of errors
     that the test provokes.
@@ -58,6 +59,22 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     for context in contexts:
         context.close()
     assert complaints == []
+
+
+@pytest.fixture
+def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
+    """Return what `opening` yields, for one test."""
+    with opening(browser) as opener:
+        yield opener
+
+
+@pytest.fixture(scope="module")
+def console(browser: Browser, service: str) -> Iterator[Page]:
+    """Return a console for the tests of a module that leave nothing behind that others meet."""
+    with opening(browser) as opener:
+        page = opener(service)
+        expect(page.locator("#total-cost")).to_be_visible()
+        yield page
 
 
 @pytest.fixture

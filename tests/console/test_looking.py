@@ -22,26 +22,26 @@ UNSERVABLE = {
 }
 
 
-def test_stop_tells_arrival_window_lateness_and_load(page: Page) -> None:
-    open_example(page, "drones")
-    page.mouse.click(*place_of(page, "c:D"))
-    assert state(page, "state.selection") == "c:D"
-    tip = page.locator(".leaflet-tooltip")
+def test_stop_tells_arrival_window_lateness_and_load(console: Page) -> None:
+    open_example(console, "drones")
+    console.mouse.click(*place_of(console, "c:D"))
+    assert state(console, "state.selection") == "c:D"
+    tip = console.locator(".leaflet-tooltip")
     for text in ("Arrival", "until 0:15", "Served by", re.compile("Load on leaving|Payload")):
         expect(tip).to_contain_text(text)
-    open_tab(page, "routes")
-    expect(page.locator("tr[data-key='c:D']")).to_have_attribute("data-selected", "true")
+    open_tab(console, "routes")
+    expect(console.locator("tr[data-key='c:D']")).to_have_attribute("data-selected", "true")
 
 
-def test_late_stop_is_marked(page: Page) -> None:
+def test_late_stop_is_marked(console: Page) -> None:
     request = json.loads((EXAMPLES / "drones.json").read_text("utf-8"))
     request["customers"][3]["time_window"] = {"latest": 60, "late_cost_per_hour": 1}
-    open_file(page, "late.json", json.dumps(request))
-    planned(page, "4 of 4 served")
-    open_tab(page, "routes")
-    for vehicle in page.locator("details.card:not([open]) > summary").all():
+    open_file(console, "late.json", json.dumps(request))
+    planned(console, "4 of 4 served")
+    open_tab(console, "routes")
+    for vehicle in console.locator("details.card:not([open]) > summary").all():
         vehicle.click()
-    expect(page.locator("tr.late[data-key='c:D'] .lateness")).to_contain_text("min")
+    expect(console.locator("tr.late[data-key='c:D'] .lateness")).to_contain_text("min")
 
 
 def test_map_panel_and_timeline_are_linked_both_ways(page: Page) -> None:
@@ -62,45 +62,45 @@ def test_map_panel_and_timeline_are_linked_both_ways(page: Page) -> None:
     expect(page.locator(".stop-mark span").first).to_be_visible()
 
 
-def test_rates_are_shown_by_trip(page: Page) -> None:
-    open_example(page, "hetero_day")
-    open_tab(page, "routes")
-    trips = state(page, "state.plans.0.plan.summary.trips")
-    expect(page.get_by_role("img", name="Load rate")).to_have_count(trips)
-    expect(page.get_by_role("img", name="Working rate")).to_have_count(trips)
+def test_rates_are_shown_by_trip(console: Page) -> None:
+    open_example(console, "hetero_day")
+    open_tab(console, "routes")
+    trips = state(console, "state.plans.0.plan.summary.trips")
+    expect(console.get_by_role("img", name="Load rate")).to_have_count(trips)
+    expect(console.get_by_role("img", name="Working rate")).to_have_count(trips)
 
 
-def test_costs_are_shown_by_term_and_add_up(page: Page) -> None:
-    open_example(page, "hetero_day")
-    open_tab(page, "costs")
-    rows = page.locator(".tab table").first.locator("tbody tr").all()
+def test_costs_are_shown_by_term_and_add_up(console: Page) -> None:
+    open_example(console, "hetero_day")
+    open_tab(console, "costs")
+    rows = console.locator(".tab table").first.locator("tbody tr").all()
     values = [float(row.locator("td").first.inner_text().replace(",", "")) for row in rows]
     assert len(values) == 7
     assert abs(sum(values[:-1]) - values[-1]) < 0.05
-    expect(page.get_by_text("Cost by vehicle")).to_be_visible()
+    expect(console.get_by_text("Cost by vehicle")).to_be_visible()
 
 
-def test_remedies_are_applied_with_one_click(page: Page) -> None:
-    open_file(page, "hard.json", json.dumps(UNSERVABLE))
-    planned(page, "1 of 3 served")
-    open_tab(page, "unassigned")
-    expect(page.get_by_text("Its demand of 30 exceeds the capacity of 20.")).to_be_visible()
-    page.get_by_role("button", name="Apply and plan again: fits if capacity").click()
-    planned(page, "2 of 3 served")
-    page.get_by_role("button", name="Apply and plan again: fits if its window").click()
-    planned(page, "3 of 3 served")
-    expect(page.get_by_text("Every customer is served.")).to_be_visible()
+def test_remedies_are_applied_with_one_click(console: Page) -> None:
+    open_file(console, "hard.json", json.dumps(UNSERVABLE))
+    planned(console, "1 of 3 served")
+    open_tab(console, "unassigned")
+    expect(console.get_by_text("Its demand of 30 exceeds the capacity of 20.")).to_be_visible()
+    console.get_by_role("button", name="Apply and plan again: fits if capacity").click()
+    planned(console, "2 of 3 served")
+    console.get_by_role("button", name="Apply and plan again: fits if its window").click()
+    planned(console, "3 of 3 served")
+    expect(console.get_by_text("Every customer is served.")).to_be_visible()
 
 
-def test_flights_are_drawn_as_they_are_measured(page: Page) -> None:
+def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
     """A drone flies around a no-fly area, and the line on the map is as long as the reply says."""
     request = json.loads((EXAMPLES / "drones.json").read_text("utf-8"))
     request["customers"] = [{"id": "far", "location": [8, 0], "demand": [1],
                              "served_by": "drone"}]
     request["airspace"] = {"no_fly": [[[3, -2], [5, -3], [5, 4], [3, 3]]]}
-    open_file(page, "around.json", json.dumps(request))
-    planned(page, "1 of 1 served")
-    drawn, measured = page.evaluate("""async () => {
+    open_file(console, "around.json", json.dumps(request))
+    planned(console, "1 of 1 served")
+    drawn, measured = console.evaluate("""async () => {
       const load = (path) => import(`${location.origin}/console/js/${path}.js`);
       const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
       const [{ flightLines }, { lengthOf }] = await Promise.all(
@@ -114,15 +114,15 @@ def test_flights_are_drawn_as_they_are_measured(page: Page) -> None:
     assert measured > 16_500
 
 
-def test_windows_and_lateness_of_a_city_are_on_the_timeline(page: Page) -> None:
-    open_example(page, "city_day")
-    windows = page.evaluate("""async () => {
+def test_windows_and_lateness_of_a_city_are_on_the_timeline(console: Page) -> None:
+    open_example(console, "city_day")
+    windows = console.evaluate("""async () => {
       const load = (path) => import(`${location.origin}/console/js/${path}.js`);
       const [{ store }, { indexOf, shownPlan }, { timelineRows, rowWindows }] =
         await Promise.all(['store', 'actions', 'core/timeline'].map(load));
       return timelineRows(indexOf(shownPlan(store.get()))).flatMap(rowWindows).length;
     }""")
-    served_with_window = [customer for customer in state(page, "state.request.customers")
+    served_with_window = [customer for customer in state(console, "state.request.customers")
                           if "time_window" in customer]
     assert windows == len(served_with_window)
 

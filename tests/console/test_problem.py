@@ -46,57 +46,59 @@ def excel_file(rows: list[list[str | float]]) -> bytes:
     return content.getvalue()
 
 
-def test_problem_is_opened_from_a_file(page: Page) -> None:
-    open_file(page, "mine.json", (EXAMPLES / "smallest.json").read_text("utf-8"))
-    planned(page, "2 of 2 served")
+def test_problem_is_opened_from_a_file(console: Page) -> None:
+    open_file(console, "mine.json", (EXAMPLES / "smallest.json").read_text("utf-8"))
+    planned(console, "2 of 2 served")
 
 
-def test_file_that_is_no_problem_is_refused_in_words(page: Page) -> None:
-    open_file(page, "mine.json", "{")
-    expect(page.get_by_role("alert")).to_contain_text("mine.json is not JSON")
-    open_file(page, "mine.json", '{"customers": []}')
-    expect(page.get_by_role("alert")).to_contain_text("It lacks depots, fleet")
+def test_file_that_is_no_problem_is_refused_in_words(console: Page) -> None:
+    open_file(console, "mine.json", "{")
+    expect(console.get_by_role("alert")).to_contain_text("mine.json is not JSON")
+    open_file(console, "mine.json", '{"customers": []}')
+    expect(console.get_by_role("alert")).to_contain_text("It lacks depots, fleet")
+    console.get_by_role("alert").get_by_role("button", name="Close").click()
 
 
-def test_customers_come_from_csv(page: Page) -> None:
-    open_file(page, "today.csv", SHEET)
-    expect(page.get_by_text("2 customers, longitude and latitude. Not used: note.")).to_be_visible()
-    page.get_by_role("button", name="Use these customers").click()
-    planned(page, "2 of 2 served")
-    assert state(page, "state.request.coordinate_system") == "geographic"
-    assert state(page, "state.request.customers.0.time_window") == {
+def test_customers_come_from_csv(console: Page) -> None:
+    open_file(console, "today.csv", SHEET)
+    expect(console.get_by_text(
+        "2 customers, longitude and latitude. Not used: note.")).to_be_visible()
+    console.get_by_role("button", name="Use these customers").click()
+    planned(console, "2 of 2 served")
+    assert state(console, "state.request.coordinate_system") == "geographic"
+    assert state(console, "state.request.customers.0.time_window") == {
         "earliest": 28800, "latest": 36000}
 
 
-def test_wrong_cell_is_marked_and_corrected_in_place(page: Page) -> None:
-    open_file(page, "today.csv", SHEET.replace("47.39", "47.x").replace("12:30", "noon"))
-    expect(page.get_by_text("2 errors.")).to_be_visible()
-    cell = page.get_by_label("lat, line 3")
+def test_wrong_cell_is_marked_and_corrected_in_place(console: Page) -> None:
+    open_file(console, "today.csv", SHEET.replace("47.39", "47.x").replace("12:30", "noon"))
+    expect(console.get_by_text("2 errors.")).to_be_visible()
+    cell = console.get_by_label("lat, line 3")
     expect(cell).to_have_attribute("aria-invalid", "true")
-    expect(page.get_by_role("button", name="Use these customers")).to_be_disabled()
+    expect(console.get_by_role("button", name="Use these customers")).to_be_disabled()
     cell.fill("47.39")
     cell.press("Tab")
-    expect(page.get_by_text("1 error.")).to_be_visible()
-    page.get_by_label("closes, line 3").fill("12:30")
-    page.get_by_label("closes, line 3").press("Tab")
-    page.get_by_role("button", name="Use these customers").click()
-    planned(page, "2 of 2 served")
+    expect(console.get_by_text("1 error.")).to_be_visible()
+    console.get_by_label("closes, line 3").fill("12:30")
+    console.get_by_label("closes, line 3").press("Tab")
+    console.get_by_role("button", name="Use these customers").click()
+    planned(console, "2 of 2 served")
 
 
-def test_customers_come_from_excel(page: Page) -> None:
-    open_file(page, "today.xlsx", excel_file(
+def test_customers_come_from_excel(console: Page) -> None:
+    open_file(console, "today.xlsx", excel_file(
         [["id", "x", "y", "demand", "from"], ["A", 3, 4, 10, 8 / 24], ["B", 6, 0, 5, 0.4]]))
-    page.get_by_role("button", name="Use these customers").click()
-    planned(page, "2 of 2 served")
-    assert state(page, "state.request.customers.0.time_window.earliest") == 28800
+    console.get_by_role("button", name="Use these customers").click()
+    planned(console, "2 of 2 served")
+    assert state(console, "state.request.customers.0.time_window.earliest") == 28800
 
 
-def test_large_excel_sheet_is_read(page: Page) -> None:
+def test_large_excel_sheet_is_read(console: Page) -> None:
     rows: list[list[str | float]] = [
         [f"customer with a long name {number}", number % 70, number // 70 + 0.5, 1]
         for number in range(3000)]
-    open_file(page, "all.xlsx", excel_file([["id", "x", "y", "demand"], *rows]))
-    expect(page.get_by_text("3,000 customers, planar coordinates.")).to_be_visible()
+    open_file(console, "all.xlsx", excel_file([["id", "x", "y", "demand"], *rows]))
+    expect(console.get_by_text("3,000 customers, planar coordinates.")).to_be_visible()
 
 
 def drawing(page: Page) -> tuple[Locator, tuple[float, float]]:

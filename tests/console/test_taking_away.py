@@ -10,6 +10,16 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import open_example, open_tab, state
 
+DEPOTS = {"drones": "hub", "city_day": "hub-west"}
+
+
+def opened(page: Page, name: str) -> Page:
+    """Return the page with an example's plan to take away."""
+    if state(page, "state.request.depots.0.id") != DEPOTS[name]:
+        open_example(page, name)
+        open_tab(page, "export")
+    return page
+
 
 def saved(page: Page, button: str) -> bytes:
     """Return the file that a button saves."""
@@ -18,25 +28,22 @@ def saved(page: Page, button: str) -> bytes:
     return Path(download.value.path()).read_bytes()
 
 
-def test_plan_and_problem_are_saved_as_json(page: Page) -> None:
-    open_example(page, "drones")
-    open_tab(page, "export")
+def test_plan_and_problem_are_saved_as_json(console: Page) -> None:
+    page = opened(console, "drones")
     plan = json.loads(saved(page, "Plan as JSON"))
     assert plan["status"] == "complete"
     assert json.loads(saved(page, "Problem as JSON")) == state(page, "state.request")
 
 
-def test_stops_are_saved_as_csv(page: Page) -> None:
-    open_example(page, "drones")
-    open_tab(page, "export")
+def test_stops_are_saved_as_csv(console: Page) -> None:
+    page = opened(console, "drones")
     rows = list(csv.DictReader(StringIO(saved(page, "Stops as CSV").decode())))
     assert {row["id"] for row in rows} == {"hub", "A", "B", "C", "D"}
     assert next(row for row in rows if row["id"] == "C")["drone"].startswith("truck-")
 
 
-def test_map_is_saved_as_geojson_and_gpx(page: Page) -> None:
-    open_example(page, "city_day")
-    open_tab(page, "export")
+def test_map_is_saved_as_geojson_and_gpx(console: Page) -> None:
+    page = opened(console, "city_day")
     features = json.loads(saved(page, "GeoJSON"))["features"]
     kinds = {feature["properties"]["kind"] for feature in features}
     assert kinds >= {"depot", "customer", "trip", "no_fly"}
@@ -46,24 +53,21 @@ def test_map_is_saved_as_geojson_and_gpx(page: Page) -> None:
     assert len(gpx.findall(".//{*}rtept")) > 3
 
 
-def test_gpx_is_for_degrees_alone(page: Page) -> None:
-    open_example(page, "drones")
-    open_tab(page, "export")
+def test_gpx_is_for_degrees_alone(console: Page) -> None:
+    page = opened(console, "drones")
     expect(page.get_by_role("button", name="GPX of").first).to_be_disabled()
     expect(page.get_by_text("GPX needs longitudes and latitudes")).to_be_visible()
 
 
-def test_picture_is_saved_as_svg_and_png(page: Page) -> None:
-    open_example(page, "city_day")
-    open_tab(page, "export")
+def test_picture_is_saved_as_svg_and_png(console: Page) -> None:
+    page = opened(console, "city_day")
     picture = ElementTree.fromstring(saved(page, "SVG"))
     assert len(picture.findall(".//{*}polyline")) > 5
     assert saved(page, "PNG").startswith(b"\x89PNG")
 
 
-def test_driver_sheet_is_printed(page: Page) -> None:
-    open_example(page, "drones")
-    open_tab(page, "export")
+def test_driver_sheet_is_printed(console: Page) -> None:
+    page = opened(console, "drones")
     page.evaluate("window.print = () => { window.printed = true; }")
     page.get_by_role("button", name="Print all driver sheets").click()
     assert page.evaluate("window.printed")
