@@ -58,7 +58,7 @@ bench-quick: .venv/benching ## The same on a few instances, in five minutes
 latency: .venv/benching ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency
 
-study: .venv/serving ## Make the paper's study again, docs/study.md (half an hour on 2 cores)
+study: .venv/serving ## Make the paper's study again, docs/study.md (20 minutes on 2 cores)
 	@$(BIN)/tandem warm
 	$(BIN)/python -m benchmarks.study
 

@@ -107,7 +107,7 @@ def _made(study: Study) -> str:
     repeatable = sum(row.deterministic for row in rows)
     return (
         f"Made on {dates}, {'; '.join(sorted({row.machine for row in rows}))}, beside other work: "
-        f"{len(rows):,} plans in {sum(row.cpu_s for row in rows) / 60:.0f} minutes of processor "
+        f"{len(rows):,} plans in {sum(row.cpu_s for row in rows) / 60:.1f} minutes of processor "
         "time, one thread each. Tandem's checker, which shares no code with search or policies, "
         f"judged all {len(rows):,} and found no rule broken. {repeatable:,} of them end after so "
         "many turns of the search, or have none: the same version makes the same plans again. The "
