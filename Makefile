@@ -69,8 +69,9 @@ study-quick: .venv/serving ## The same with few cases, build/study.md
 screenshots: .venv/testing ## Make the pictures of the console in docs/screenshots, with Chromium
 	$(BIN)/python -m tests.console.screenshots
 
-fuzz: .venv/testing ## Send generated requests to the whole API (CASES=10000)
+fuzz: .venv/testing ## Send generated requests to the whole API (CASES=10000), and wild problems
 	$(BIN)/python -m benchmarks.fuzz_api --cases $(CASES)
+	$(BIN)/python -m benchmarks.fuzz_problems
 
 settings: .venv/serving ## Write docs/settings.md
 	$(BIN)/tandem settings > docs/settings.md
