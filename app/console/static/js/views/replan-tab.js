@@ -104,6 +104,11 @@ function Draft({ request, entry }) {
     <${PinnedCustomers} request=${request} errors=${errors} />`;
 }
 
+function judgeOf(change) {
+  if (Math.abs(change) < 0.005) return '';
+  return change > 0 ? 'delta-bad' : 'delta-good';
+}
+
 /** What the plan costs beside the former, in a line. */
 function Verdict() {
   const entry = useStore(shownPlan);
@@ -113,7 +118,7 @@ function Verdict() {
   const [now, before] = [entry, former].map(({ plan: { cost } }) => cost.total);
   const out = entry.plan.unassigned.length;
   return html`<p id="replan-verdict">Plan ${entry.number} costs <strong>${money(now)}</strong>,
-    ${' '}<span class=${now > before + 0.005 ? 'delta-bad' : 'delta-good'}>${signed(now - before)}
+    ${' '}<span class=${judgeOf(now - before)}>${signed(now - before)}
     </span> beside plan ${former.number}${out > 0 && html`; <button type="button" class="link"
       onClick=${() => store.set({ tab: 'unassigned' })}>${number(out, 0)} left out</button>`}.</p>`;
 }
