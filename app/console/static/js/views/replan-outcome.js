@@ -31,7 +31,9 @@ function inWords(plan, { vehicle, trip, stop }) {
   const { stops } = trips[trip];
   const place = stops[stop];
   const which = trips.length > 1 ? `trip ${trip + 1} ` : '';
-  if (!place || stop >= stops.length - 1) return `${vehicle}: all of ${which.trim() || 'its trip'}.`;
+  if (!place || stop >= stops.length - 1) {
+    return `${vehicle}: all of ${which.trim() || 'its trip'}.`;
+  }
   const link = place.kind === 'customer'
     ? html`<button type="button" class="link"
         onClick=${() => select(`c:${place.id}`)}>${place.id}</button>`
