@@ -103,7 +103,9 @@ def test_size_of_chunks_does_not_change_the_gradient(policy: AnyPolicy, batch: B
     assert any(bool(gradient.abs().max() > 1e-4) for gradient in parted.values())
 
 
-def test_a_part_of_the_decisions_estimates_the_gradient(policy: AnyPolicy, batch: Batch) -> None:
+def test_a_part_of_the_decisions_estimates_the_gradient(policy: AnyPolicy) -> None:
+    rng = np.random.default_rng(3)
+    batch = make_batch([generate(rng, 7, name) for name in ("vrptw", "drone")], ["vrptw", "drone"])
     decisions = join(play(policy, batch).record)
     advantage = torch.linspace(-1, 1, batch.num_problems * NUM_ROLLOUTS)
     generator = torch.Generator().manual_seed(3)
