@@ -110,22 +110,12 @@ def new_desk(most: int) -> Desk:
 
 
 @inlined_arithmetic
-def _add_to_actions(x: Float32Array, matrix: Float32Array, result: Float32Array) -> None:
-    """Add `x` times a matrix of width ACTION_WIDTH. In place."""
+def _add_product(x: Float32Array, matrix: Float32Array, result: Float32Array) -> None:
+    """Add `x` times a matrix. In place."""
     for i in range(0, matrix.shape[0], UNROLLED):
         a, b, c, d = x[i], x[i + 1], x[i + 2], x[i + 3]
         row_a, row_b, row_c, row_d = matrix[i], matrix[i + 1], matrix[i + 2], matrix[i + 3]
-        for j in range(ACTION_WIDTH):
-            result[j] += a * row_a[j] + b * row_b[j] + c * row_c[j] + d * row_d[j]
-
-
-@inlined_arithmetic
-def _add_to_query(x: Float32Array, matrix: Float32Array, result: Float32Array) -> None:
-    """Add `x` times a matrix of width WIDTH. In place."""
-    for i in range(0, matrix.shape[0], UNROLLED):
-        a, b, c, d = x[i], x[i + 1], x[i + 2], x[i + 3]
-        row_a, row_b, row_c, row_d = matrix[i], matrix[i + 1], matrix[i + 2], matrix[i + 3]
-        for j in range(WIDTH):
+        for j in range(matrix.shape[1]):
             result[j] += a * row_a[j] + b * row_b[j] + c * row_c[j] + d * row_d[j]
 
 
@@ -136,10 +126,10 @@ def _begin_query(weights: StepWeights, place: Float32Array, glob: Float32Array,
     for j in range(WIDTH):
         desk.hidden[j] = weights.globe_bias[j]
         desk.query[j] = weights.globe_output_bias[j] + place[j]
-    _add_to_query(glob, weights.globe, desk.hidden)
+    _add_product(glob, weights.globe, desk.hidden)
     for j in range(WIDTH):
         desk.hidden[j] = desk.hidden[j] / (np.float32(1.0) + np.exp(-desk.hidden[j]))
-    _add_to_query(desk.hidden, weights.globe_output, desk.query)
+    _add_product(desk.hidden, weights.globe_output, desk.query)
 
 
 @inlined_arithmetic
@@ -149,7 +139,7 @@ def _weigh(weights: StepWeights, token: Float32Array, feature: Float32Array, ind
     action, query = desk.action[index], desk.query
     for j in range(ACTION_WIDTH):
         action[j] = weights.action_bias[j] + token[SHARE + j]
-    _add_to_actions(feature, weights.action, action)
+    _add_product(feature, weights.action, action)
     a = b = c = d = np.float32(0.0)
     for j in range(ACTION_WIDTH):
         action[j] = max(action[j], np.float32(0.0))
@@ -205,7 +195,7 @@ def _score(weights: StepWeights, token: Float32Array, index: int, desk: Desk) ->
     mixed, query = desk.mixed, desk.query
     for j in range(ACTION_WIDTH):
         mixed[j] = desk.asked[j]
-    _add_to_actions(desk.action[index], weights.action_mix, mixed)
+    _add_product(desk.action[index], weights.action_mix, mixed)
     dot = extra = np.float32(0.0)
     for j in range(WIDTH):
         dot += query[j] * token[POINTER + j]
@@ -226,10 +216,10 @@ def _score_all(weights: StepWeights, memory: Float32Array, seen: Observation, r:
     for head in range(NUM_HEADS):
         _normalise(desk.weight[head, :count])
     _glimpse(memory, tokens, desk)
-    _add_to_query(desk.glimpsed, weights.glimpse_output, desk.query)
+    _add_product(desk.glimpsed, weights.glimpse_output, desk.query)
     for j in range(ACTION_WIDTH):
         desk.asked[j] = weights.action_mix_bias[j]
-    _add_to_actions(desk.query, weights.action_query, desk.asked)
+    _add_product(desk.query, weights.action_query, desk.asked)
     for index in range(count):
         scores[index] = _score(weights, memory[tokens[index]], index, desk)
 
