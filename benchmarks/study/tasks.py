@@ -113,7 +113,7 @@ class Scale:
 FULL = Scale(
     sizes=(25, 50, 100), cases=10, seeds=3, budgets=(0.1, 0.3, 1.0, 2.0, 10.0),
     table1_turns=20_000, table1_seeds=5,
-    hours=(4.0, 5.0, 6.0, 6.5, 7.0, 7.5, 8.0, 9.0, 10.0, 11.0), fleet_turns=500, hour_turns=80,
+    hours=(4.0, 5.0, 6.0, 6.5, 7.0, 7.5, 8.0, 9.0, 10.0, 11.0), fleet_turns=1000, hour_turns=240,
     drone_sizes=(50,), drone_cases=5, drone_turns=60, policy_turns=(20, 100))
 
 QUICK = Scale(
