@@ -13,9 +13,9 @@ import onnxruntime as ort
 from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
 from model.features import Observation, empty_observation, step
-from model.rolling import STEP_WEIGHTS, StepWeights, read_weights, roll_out
 from model.instance import Instance
 from model.problem import BoolArray, IntArray, Problem
+from model.rolling import STEP_WEIGHTS, StepWeights, read_weights, roll_out
 from model.simulator import max_steps, reset
 from model.tokens import Float32Array, Scales, Tokens, scales, tokens
 

@@ -1,15 +1,33 @@
-"""Plans on a street, and their times in minutes."""
+"""Plans on a street, their times in minutes, and how they go on."""
 
 from dataclasses import replace
+from typing import Any
 
 from model.past import Vehicle
+from model.planner import Planner, PlanOptions
 from model.problem import Problem
+from model.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from model.timing import RouteDecision, TripDecision, schedule
 
 MINUTE = 60_000
 ONE, TWO = Vehicle(0, 0), Vehicle(0, 1)
 A, B, C, D = 1, 2, 3, 4
+
+OPTIONS = PlanOptions("any", time_limit=60.0, search_iterations=50)
+NO_POLICY: dict[str, Any] = {"any": None}
+"""A plan is always given, so that no policy is asked."""
+
+
+def replan(planner: Planner, problem: Problem, terms: Terms,
+           options: PlanOptions = OPTIONS) -> Solution:
+    """Replan, and hold the result against the checker."""
+    replanning = Replanning(problem, terms)
+    result = replanning.plan(planner, options)
+    assert result.start == "given"
+    assert replanning.check(result.solution).violations == ()
+    assert result.final_cost == result.evaluation.cost.total <= result.decoded_cost
+    return result.solution
 
 
 def planned(problem: Problem, *routes: tuple[tuple[int, ...], ...]) -> Solution:

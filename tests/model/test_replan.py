@@ -2,12 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
 from model.check import check
-from model.planner import Listener, PlanCheckError, Planner, PlanOptions
+from model.planner import Listener, PlanCheckError, Planner
 from model.problem import MAX_QUANTITY, Customer, Problem, VehicleType
 from model.replan import Replanning, Terms
 from model.replanning.workers import MAX_OWN_TYPES, TooManyTypesError
@@ -15,36 +14,9 @@ from model.search.improve import Progress
 from model.solution import Route, Solution, Stop, Trip
 from model.timing import RouteDecision, TripDecision
 from tests.model.street import (
-    MINUTE, ONE, TWO, A, B, C, D, minutes, planned, route_of, served, solution_of, with_customer,
+    MINUTE, NO_POLICY, ONE, OPTIONS, TWO, A, B, C, D, minutes, planned, replan, route_of, served,
+    solution_of, with_customer,
 )
-
-OPTIONS = PlanOptions("any", time_limit=60.0, search_iterations=50)
-NO_POLICY: dict[str, Any] = {"any": None}
-"""A plan is always given, so that no policy is asked."""
-
-
-@pytest.fixture(scope="module")
-def planner() -> Planner:
-    """Return a planner that never asks its policy."""
-    return Planner(NO_POLICY)
-
-
-@pytest.fixture
-def street(tiny_problem: Callable[..., Problem], customers: tuple[Customer, ...],
-           truck: VehicleType) -> Problem:
-    """Four customers along a street, two trucks that cost a unit each km."""
-    return tiny_problem(*customers, truck=replace(truck, cost_per_km=1.0))
-
-
-def replan(planner: Planner, problem: Problem, terms: Terms,
-           options: PlanOptions = OPTIONS) -> Solution:
-    """Replan, and hold the result against the checker."""
-    replanning = Replanning(problem, terms)
-    result = replanning.plan(planner, options)
-    assert result.start == "given"
-    assert replanning.check(result.solution).violations == ()
-    assert result.final_cost == result.evaluation.cost.total <= result.decoded_cost
-    return result.solution
 
 
 @pytest.mark.parametrize("now", [None, 0, 1, 7, 8, 9, 10, 30, 100])

@@ -2,45 +2,18 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
-from model.planner import Planner, PlanOptions
+from model.planner import Planner
 from model.problem import Customer, DroneType, Problem, VehicleType
 from model.replan import Replanning, SettledPartError, Terms
 from model.solution import Route, Solution
 from model.timing import Operation, RouteDecision, SortieDecision, TripDecision, schedule
 from tests.model.street import (
-    MINUTE, ONE, A, B, C, D, minutes, planned, route_of, served, solution_of, with_customer,
+    MINUTE, ONE, OPTIONS, A, B, C, D, minutes, planned, replan, route_of, served, solution_of,
+    with_customer,
 )
-
-OPTIONS = PlanOptions("any", time_limit=60.0, search_iterations=50)
-NO_POLICY: dict[str, Any] = {"any": None}
-
-
-@pytest.fixture(scope="module")
-def planner() -> Planner:
-    """Return a planner that never asks its policy."""
-    return Planner(NO_POLICY)
-
-
-@pytest.fixture
-def street(tiny_problem: Callable[..., Problem], customers: tuple[Customer, ...],
-           truck: VehicleType) -> Problem:
-    """Four customers along a street, two trucks that cost a unit each km."""
-    return tiny_problem(*customers, truck=replace(truck, cost_per_km=1.0))
-
-
-def replan(planner: Planner, problem: Problem, terms: Terms,
-           options: PlanOptions = OPTIONS) -> Solution:
-    """Replan, and hold the result against the checker."""
-    replanning = Replanning(problem, terms)
-    result = replanning.plan(planner, options)
-    assert result.start == "given"
-    assert replanning.check(result.solution).violations == ()
-    assert result.final_cost == result.evaluation.cost.total <= result.decoded_cost
-    return result.solution
 
 
 def _flying(street: Problem, drones: DroneType) -> tuple[Problem, Solution]:

@@ -1,7 +1,6 @@
 """Random problems, planned, changed while under way, and planned on."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,13 +16,6 @@ from tests.model.tiny import draw_tiny
 from training.instances import VARIANTS, generate
 
 OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=40)
-NO_POLICY: dict[str, Any] = {"any": None}
-
-
-@pytest.fixture(scope="module")
-def planner() -> Planner:
-    """Return a planner that never asks its policy."""
-    return Planner(NO_POLICY)
 
 
 def nobody(problem: Problem) -> Solution:
