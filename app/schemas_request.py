@@ -261,7 +261,8 @@ class OptionsInput(_Input):
     decoding: Literal["greedy", "sample"] = Field(
         "greedy",
         description="`greedy` takes the likeliest decision each time, `sample` draws "
-        "`num_samples` plans and keeps the best.",
+        "`num_samples` plans and keeps the best. Most of those that `attention` draws keep a part "
+        "of the best so far.",
     )
     num_samples: int = Field(64, ge=1, le=MAX_NUM_SAMPLES, description="Plans drawn when sampling.")
     temperature: Annotated[float, Field(ge=0.01, le=100)] = Field(

@@ -16,7 +16,7 @@ from typing import Any, TypeVar, cast
 from numba import config, njit
 
 SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", "simulator",
-           "tokens", "prospects", "features", "rolling", *(f"search/{part}" for part in (
+           "tokens", "prospects", "features", "parts", "rolling", *(f"search/{part}" for part in (
                "layout", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
                "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit",
                "anneal", "savings", "translate", "sharing")))

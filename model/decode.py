@@ -15,7 +15,7 @@ from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 from model.features import Observation, empty_observation, step
 from model.instance import Instance
 from model.problem import BoolArray, IntArray, Problem
-from model.rolling import STEP_WEIGHTS, StepWeights, read_weights, roll_out
+from model.rolling import NOTHING, STEP_WEIGHTS, Rollout, StepWeights, read_weights, roll_out
 from model.simulator import max_steps, reset
 from model.tokens import Float32Array, Scales, Tokens, scales, tokens
 
@@ -25,8 +25,12 @@ ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.Inva
 NO_ACTION = -1
 
 BLOCK = 16
-"""Samples planned side by side, in one thread. Blocks run on all cores; each has its own random
-numbers, so the plan doesn't depend on their number, and memory is bounded."""
+"""Samples planned side by side, in one thread, so that memory is bounded."""
+
+LANES = 2
+"""Blocks of samples planned at the same time, each with its own random numbers. The next go on from
+the best of all, so that more at a time would be sooner and worse. A policy whose step isn't
+compiled, whose samples don't go on from one another, plans them all on all cores."""
 
 SYMMETRIES = tuple((swapped, x, y) for swapped in (False, True) for x in (1, -1) for y in (1, -1))
 """Ways to lay the same plane before the policy: axes swapped or not, and their signs. Blocks of
@@ -53,14 +57,6 @@ class Policy:
     hidden_size: int
     num_features: int  # of the action features, the first that it was trained with
     step_weights: StepWeights | None = None  # of a policy whose step is compiled, too
-
-
-@dataclass(frozen=True, eq=False)
-class Decoded:
-    """The best rollout."""
-
-    actions: tuple[int, ...]
-    cost: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +113,7 @@ def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
 
 
 def decode(policy: Policy, scene: Scene, config: DecodeConfig,
-           deadline: float | None = None) -> Decoded:
+           deadline: float | None = None) -> Rollout:
     """Plan by the policy; return the cheapest of the rollouts.
 
     Parameters
@@ -132,39 +128,45 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
         On `time.perf_counter`; no block of samples begins later, but the first. None: no limit.
     """
     if config.decoding == "greedy":
-        return _decode_block(policy, scene, 1, None, 1.0)
+        return _decode_block(policy, scene, [0.0], np.random.default_rng(config.seed), NOTHING)
     if config.num_samples < 1 or config.temperature <= 0:
         raise ValueError(f"num_samples, temperature: {config.num_samples!r}, "
                          f"{config.temperature!r} are not allowed")
     firsts = range(0, config.num_samples, BLOCK)
     seeds = np.random.SeedSequence(config.seed).spawn(len(firsts))
 
-    def plan_block(first: int, seed: np.random.SeedSequence) -> Decoded | None:
+    lanes = len(firsts) if policy.step_weights is None else LANES
+    found = NOTHING
+
+    def plan_block(first: int, seed: np.random.SeedSequence) -> Rollout:
         if first > 0 and deadline is not None and time.perf_counter() >= deadline:
-            return None
+            return found
         symmetry = first // BLOCK % len(SYMMETRIES)
         seen = scene if symmetry == 0 else replace(
             scene, memory=encode(policy, scene.tokens, symmetry))
-        return _decode_block(policy, seen, min(BLOCK, config.num_samples - first),
-                             np.random.default_rng(seed), config.temperature)
+        temperatures = [config.temperature] * min(BLOCK, config.num_samples - first)
+        if config.num_samples > 1:
+            temperatures[0] = 0.0
+        return _decode_block(policy, seen, temperatures, np.random.default_rng(seed), found)
 
-    with ThreadPoolExecutor(min(len(firsts), os.cpu_count() or 1)) as pool:
-        blocks = [block for block in pool.map(plan_block, firsts, seeds) if block is not None]
-    return min(blocks, key=lambda block: block.cost)
+    with ThreadPoolExecutor(min(lanes, len(firsts), os.cpu_count() or 1)) as pool:
+        for begin in range(0, len(firsts), lanes):
+            now = slice(begin, begin + lanes)
+            found = min(pool.map(plan_block, firsts[now], seeds[now]),
+                        key=lambda rollout: rollout.cost)
+    return found
 
 
-def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Generator | None,
-                  temperature: float) -> Decoded:
-    """Plan `rows` rollouts side by side; sampled if there is an `rng`, else greedy.
+def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
+                  rng: np.random.Generator, so_far: Rollout) -> Rollout:
+    """Plan a rollout by each temperature; return the cheapest of them and that so far.
 
-    Of several samples the first is the greedy plan.
+    Those of a policy whose step is compiled go on from the best so far.
     """
     if policy.step_weights is not None:
-        temperatures = [0.0 if rng is None or (row == 0 and rows > 1) else temperature
-                        for row in range(rows)]
-        codes, least = roll_out(policy.step_weights, scene.memory, scene.instance, scene.scale,
-                                scene.tokens.type, temperatures, rng or np.random.default_rng(0))
-        return Decoded(tuple(codes.tolist()), least)
+        return roll_out(policy.step_weights, scene.memory, scene.instance, scene.scale,
+                        scene.tokens.type, temperatures, rng, so_far)
+    rows, warmth = len(temperatures), np.array([temperatures], np.float32).T
     instance = scene.instance
     state = reset(instance, np.zeros(rows, np.int64))
     seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
@@ -176,23 +178,24 @@ def _decode_block(policy: Policy, scene: Scene, rows: int, rng: np.random.Genera
         if most == 0:
             break
         logits, hidden = policy.step.run(None, step_inputs(policy, scene, seen, most, hidden))
-        if rng is not None:
-            noise = rng.standard_exponential(logits.shape, np.float32)
-            if rows > 1:
-                noise[0] = 1.0
-            logits = disturbed(logits, temperature, noise)
-        logits.argmax(axis=1, out=choice)
+        noise = rng.standard_exponential(logits.shape, np.float32)
+        noise[warmth[:, 0] == 0.0] = 1.0
+        disturbed(logits, np.where(warmth > 0.0, warmth, 1.0), noise).argmax(axis=1, out=choice)
         actions.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
     cost = state.cost[:rows].sum(axis=1)
     best = int(cost.argmin())
-    of_best = (int(step_actions[best]) for step_actions in actions)
-    return Decoded(tuple(action for action in of_best if action != NO_ACTION), float(cost[best]))
+    if cost[best] >= so_far.cost:
+        return so_far
+    of_best = np.array([step_actions[best] for step_actions in actions])
+    return Rollout(of_best[of_best != NO_ACTION], float(cost[best]))
 
 
-def disturbed(logits: Float32Array, temperature: float, noise: Float32Array) -> Float32Array:
-    """Return logits whose largest is a draw by their probabilities; `noise` is exponential.
+def disturbed(logits: Float32Array, temperature: Float32Array,
+              noise: Float32Array) -> Float32Array:
+    """Return logits (rollout, candidate) whose largest is a draw by their probabilities.
 
-    Noise may be exactly zero, whose logarithm would let even what is masked win.
+    `temperature` is (rollout, 1), `noise` exponential, like the logits. Noise may be exactly zero,
+    whose logarithm would let even what is masked win.
     """
     return logits / temperature - np.log(np.maximum(noise, np.finfo(np.float32).tiny))
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from model.instance import Instance
-from model.problem import Problem
+from model.problem import IntArray, Problem
 from model.schedule import (
     COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, SORTIE_ARRIVAL, SORTIE_DRONE, SORTIE_LAUNCH_STOP,
     SORTIE_NODE, SORTIE_READY, SORTIE_RECOVERY_END, SORTIE_RECOVERY_START, SORTIE_RECOVERY_STOP,
@@ -16,7 +16,7 @@ from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 from model.transition import NO_VEHICLE, V_INDEX, V_TYPE, State, close_vehicle
 
 
-def extract(problem: Problem, instance: Instance, actions: Sequence[int]) -> Solution:
+def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntArray) -> Solution:
     """Return the plan that a rollout's legal actions make.
 
     Parameters

@@ -16,8 +16,9 @@ from model.features import (
     NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, empty_observation, step,
 )
 from model.instance import Instance
+from model.parts import part_to_keep
 from model.problem import IntArray
-from model.simulator import max_steps, reset
+from model.simulator import apply, max_steps, reset
 from model.tokens import Float32Array, Scales
 from model.transition import State
 
@@ -69,6 +70,19 @@ SHAPES = {
     "action_mix_bias": (ACTION_WIDTH,), "action_score": (ACTION_WIDTH,),
 }
 """Of `StepWeights`; numbers of rows are multiples of UNROLLED."""
+
+
+class Rollout(NamedTuple):
+    """A plan as it was made."""
+
+    actions: IntArray  # (action,) codes
+    cost: float
+
+
+NOTHING = Rollout(np.zeros(0, np.int64), math.inf)
+
+FROM_SCRATCH = 8
+"""Rollouts that plan all before others keep a part of the best."""
 
 
 class Desk(NamedTuple):
@@ -241,13 +255,18 @@ def choose(scores: Float32Array, temperature: float, rng: np.random.Generator) -
 @compiled
 def _roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, scale: Scales,
               state: State, type_token: Float32Array, seen: Observation, r: int,
-              temperature: float, rng: np.random.Generator, actions: IntArray) -> int:
-    """Plan one rollout; write its actions and return how many. In place."""
+              temperature: float, rng: np.random.Generator, kept: int, actions: IntArray) -> int:
+    """Plan one rollout from its `kept` first actions on; write the others and return how many.
+
+    In place.
+    """
+    for index in range(kept):
+        apply(instance, state, r, actions[index])
     desk = new_desk(seen.token.shape[1])
     scores = np.empty(seen.token.shape[1], np.float32)
     choice = np.zeros(len(seen.count), np.int64)
     scratch = len(seen.count)
-    for index in range(len(actions)):
+    for index in range(kept, len(actions)):
         if step(instance, scale, state, type_token, r, r + 1, scratch, choice, seen) == 0:
             return index
         _score_all(weights, memory, seen, r, desk, scores)
@@ -266,8 +285,8 @@ def candidate_scores(weights: StepWeights, memory: Float32Array, seen: Observati
 
 
 def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, scale: Scales,
-             type_token: Float32Array, temperatures: Sequence[float],
-             rng: np.random.Generator) -> tuple[IntArray, float]:
+             type_token: Float32Array, temperatures: Sequence[float], rng: np.random.Generator,
+             so_far: Rollout = NOTHING) -> Rollout:
     """Plan a problem several times; return the cheapest plan.
 
     Parameters
@@ -282,18 +301,23 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
         Of each rollout; 0 for the likeliest action at each step.
     rng
         For all others.
-
-    Returns
-    -------
-    Codes of the actions, and the cost.
+    so_far
+        What was found before. Where nothing was, the first `FROM_SCRATCH` rollouts plan all; every
+        other keeps a part of the cheapest so far.
     """
     rows = len(temperatures)
     state = reset(instance, np.zeros(rows, np.int64))
     seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
-    actions = np.empty((rows, max_steps(instance)), np.int64)
-    counts = [_roll_out(weights, memory, instance, scale, state, type_token, seen, r,
-                        float(temperature), rng, actions[r])
-              for r, temperature in enumerate(temperatures)]
-    cost = state.cost[:rows].sum(axis=1)
-    best = int(cost.argmin())
-    return actions[best, : counts[best]], float(cost[best])
+    actions = np.empty(max_steps(instance), np.int64)
+    scratch = FROM_SCRATCH if so_far is NOTHING else 0
+    for r, temperature in enumerate(temperatures):
+        kept = NOTHING.actions
+        if r >= scratch and temperature > 0:
+            kept = part_to_keep(instance, so_far.actions, rng)
+        actions[: len(kept)] = kept
+        count = _roll_out(weights, memory, instance, scale, state, type_token, seen, r,
+                          float(temperature), rng, len(kept), actions)
+        cost = float(state.cost[r].sum())
+        if cost < so_far.cost:
+            so_far = Rollout(actions[:count].copy(), cost)
+    return so_far

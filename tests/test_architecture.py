@@ -31,14 +31,14 @@ MODEL_ORDER = (
     "compiled", "problem", "solution", "past", "timing", "metrics", "rules", "past_rules", "check",
     "attempt", "explain", *REPLANNING,
     "travel", "airspace", "instance", "schedule", "cost", "transition", "simulator", "tokens",
-    "prospects", "features", "rolling", "extract", *SEARCH, "policy", "policy_pointer",
+    "prospects", "features", "parts", "rolling", "extract", *SEARCH, "policy", "policy_pointer",
     "policy_attention", "decode", "planner", "replan",
 )
 """Each file of `model` imports only files to the left of its name."""
 
 CHECKER = ("past", "timing", "metrics", "rules", "past_rules", "check", "attempt", "explain")
 SIMULATION = ("compiled", "instance", "schedule", "cost", "transition", "simulator", "tokens",
-              "prospects", "features", "rolling", "extract")
+              "prospects", "features", "parts", "rolling", "extract")
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
 

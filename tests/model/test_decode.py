@@ -37,7 +37,7 @@ def problem() -> Problem:
 def plan(policy: Policy, problem: Problem, config: DecodeConfig,
          deadline: float | None = None) -> tuple[tuple[int, ...], float]:
     decoded = decode(policy, prepare(policy, problem, pack([problem])), config, deadline)
-    return decoded.actions, decoded.cost
+    return tuple(decoded.actions.tolist()), decoded.cost
 
 
 def test_cost_of_the_rollout_is_the_checkers(policy: Policy, problem: Problem) -> None:
@@ -87,7 +87,8 @@ def test_draws_follow_the_probabilities_and_never_what_is_masked() -> None:
     logits[:, 2] = MASKED
     noise = np.random.default_rng(0).standard_exponential(logits.shape, np.float32)
     noise[0] = [1.0, 1.0, 0.0]
-    drawn = np.bincount(disturbed(logits, 1.0, noise).argmax(axis=1), minlength=3)
+    warmth = np.ones((len(logits), 1), np.float32)
+    drawn = np.bincount(disturbed(logits, warmth, noise).argmax(axis=1), minlength=3)
     assert drawn[2] == 0
     assert drawn[0] / len(logits) == pytest.approx(0.7, abs=0.02)
 
