@@ -9,15 +9,14 @@ from functools import partial
 
 import numpy as np
 
-from model.instance import TYPE_DRONES, Instance
+from model.instance import Instance
 from model.problem import Problem
 from model.search.anneal import anneal, begin_anew
+from model.search.heat import Heat
 from model.search.layout import World
-from model.search.sharing import Crew
-from model.search.state import (
-    I_CUSTOMERS, I_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher,
-)
-from model.search.translate import first_plan, leg_cost, make_searcher, read_plan
+from model.search.sharing import Crew, Starts, go_on_from_best
+from model.search.state import I_CUSTOMERS, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher
+from model.search.translate import first_plan, make_searcher, read_plan
 from model.search.world import ALL_MOVES, Moves, has_single_drones, make_world
 from model.solution import Solution
 
@@ -33,24 +32,6 @@ LONGEST_ROUND = 0.5
 SLICE = 0.003
 """Seconds between two looks at the clock."""
 
-HOT, COLD = 1.0, 0.1
-"""First temperature by what a customer costs, last by what a leg between customers does."""
-
-FULL_HEAT = 2600
-"""Turns for each customer from which on the first temperature is reached; less, by their root."""
-
-LEAST_HEAT = 0.3
-"""Share of the first temperature that is reached even in the shortest search."""
-
-LEAST_HOT = 1.0
-"""The first temperature is at least this by a leg."""
-
-HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
-"""Both by a leg where trips are split between truck and drone, which many small changes do."""
-
-HOT_FROM_TRUCKS = 0.2
-"""The same where the search began with trucks alone."""
-
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
 """Number of customers from which on a plan with single drones begins with one by trucks alone, and
 the share of the time that this takes."""
@@ -60,6 +41,18 @@ MOST_BEGINNING = 0.05
 
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
+
+STARTS_SHARE = 0.5
+"""Share of the search in which each thread begins several times anew, where that pays."""
+
+START_TURNS = 300
+"""Turns for each customer that such a start has at least."""
+
+MOST_STARTS = 5
+"""How often a thread begins anew at most."""
+
+REHEAT = 0.3
+"""First temperature of what follows from the best of them, by that of a start."""
 
 
 @dataclass(frozen=True)
@@ -94,6 +87,22 @@ class Improved:
 
 
 @dataclass(frozen=True)
+class _Span:
+    """A part of the search in which it cools down once."""
+
+    begin: float  # share of the search
+    end: float
+    heat: float  # of the first temperature
+
+    def share(self, whole: float) -> float:
+        """Return the share of it that is over when one of the whole search is."""
+        return min(1.0, max(0.0, (whole - self.begin) / (self.end - self.begin)))
+
+
+WHOLE = _Span(0.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True)
 class _Limits:
     """When a search ends, for each thread."""
 
@@ -102,41 +111,25 @@ class _Limits:
     turns: int | None
     should_stop: Callable[[], bool]
 
-    def share(self) -> float:
-        """Return how much of the time is over, 0 to 1."""
+    def share(self, turns: int) -> float:
+        """Return the share of the search that is over after `turns`, 0 to 1."""
+        if self.turns is not None:
+            return min(1.0, turns / max(1, self.turns))
         return min(1.0, (time.perf_counter() - self.began) / (self.deadline - self.began))
 
-    def round_end(self, turns: int) -> tuple[float, float]:
+    def round_end(self, turns: int, span: _Span) -> tuple[float, float]:
         """Return after how many turns and when the round ends that begins after `turns`."""
         if self.turns is not None:
-            return min(self.turns, turns + math.ceil(self.turns / ROUNDS)), self.deadline
-        length = (self.deadline - self.began) / ROUNDS
-        length = min(LONGEST_ROUND, max(SHORTEST_ROUND, length))
-        return math.inf, min(self.deadline, time.perf_counter() + length)
+            end = min(math.ceil(self.turns * span.end), turns + math.ceil(self.turns / ROUNDS))
+            return end, self.deadline
+        whole = self.deadline - self.began
+        length = min(LONGEST_ROUND, max(SHORTEST_ROUND, whole / ROUNDS))
+        return math.inf, min(self.began + whole * span.end, time.perf_counter() + length)
 
     def over(self, turns: int) -> bool:
         """Tell whether the search ends after `turns`."""
         return (self.should_stop() or time.perf_counter() >= self.deadline
                 or (self.turns is not None and turns >= self.turns))
-
-
-@dataclass(frozen=True)
-class _Costs:
-    """What the temperature goes by."""
-
-    first: float  # of the routes that the search began with
-    customer: float  # of a customer served, on average
-    leg: float  # between two customers
-    from_trucks: bool  # they were made for trucks alone
-
-    @classmethod
-    def of(cls, world: World, searcher: Searcher, from_trucks: bool) -> "_Costs":
-        """Measure the routes as they are."""
-        first = float(searcher.value[V_COST])
-        missing = int(searcher.count[I_MISSING])
-        served = max(1, int(searcher.count[I_CUSTOMERS]) - missing)
-        return cls(first, (first - missing * world.unassigned_cost) / served,
-                   leg_cost(world, searcher), from_trucks)
 
 
 @dataclass
@@ -145,41 +138,28 @@ class _Worker:
 
     world: World
     searcher: Searcher
-    config: SearchConfig
     limits: _Limits
-    costs: _Costs
+    heat: Heat
+    span: _Span = WHOLE
+    cooling: _Span | None = None  # whose first temperature was set
     turns: int = 0
     pace: float = 0.0  # seconds a turn takes
 
     def run(self) -> None:
         """Search for one round."""
-        most, end = self.limits.round_end(self.turns)
+        most, end = self.limits.round_end(self.turns, self.span)
         while self.turns < most and not self.limits.should_stop():
             now = time.perf_counter()
             if now >= end:
                 return
             self._anneal(int(min(most - self.turns, self._slice(end - now))))
 
-    def _heat(self) -> tuple[float, float]:
-        """Return the first and the last temperature."""
-        costs = self.costs
-        if (self.world.type[:, TYPE_DRONES] == 1).any():
-            hot, cold = HOT_WITH_DRONES, COLD_WITH_DRONES
-            if costs.from_trucks:
-                hot = HOT_FROM_TRUCKS
-        else:
-            hot, cold = max(LEAST_HOT, self._haste() * HOT * costs.customer / costs.leg), COLD
-        return costs.leg * (self.config.hot or hot), costs.leg * (self.config.cold or cold)
-
-    def _haste(self) -> float:
-        """Return the share of the first temperature that there is time for."""
-        if self.world.num_types > 1:
-            return 1.0  # the start by insertion is too far from good
+    def expected(self) -> float:
+        """Return how many turns for each customer the search has in all, as far as is known."""
         turns: float = self.limits.turns or 0
         if self.limits.turns is None and self.pace > 0.0:
             turns = (self.limits.deadline - self.limits.began) / self.pace
-        share = turns / max(1, int(self.searcher.count[I_CUSTOMERS])) / FULL_HEAT
-        return min(1.0, max(LEAST_HEAT, math.sqrt(share)))
+        return turns / max(1, int(self.searcher.count[I_CUSTOMERS]))
 
     def _slice(self, seconds: float) -> float:
         if self.limits.turns is not None and self.limits.deadline == math.inf:
@@ -189,20 +169,53 @@ class _Worker:
         return max(1.0, min(SLICE, seconds) / self.pace)
 
     def _anneal(self, turns: int) -> None:
-        value = self.searcher.value
+        value, span = self.searcher.value, self.span
+        hot, cold = self.heat.ends(self.expected() * (span.end - span.begin), span.heat)
         if self.limits.turns is None:
-            hot, cold = self._heat()
-            value[V_TEMPERATURE] = hot * (cold / hot) ** self.limits.share()
+            value[V_TEMPERATURE] = hot * (cold / hot) ** span.share(self.limits.share(self.turns))
             value[V_COOLING] = 1.0
-        elif self.turns == 0:
+        elif span is not self.cooling:
             # By turns alone, so that the clock changes nothing.
-            hot, cold = self._heat()
             value[V_TEMPERATURE] = hot
-            value[V_COOLING] = (cold / hot) ** (1 / self.limits.turns)
+            value[V_COOLING] = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
+            self.cooling = span
         began = time.perf_counter()
         anneal(self.world, self.searcher, turns)
         self.turns += turns
         self.pace = (time.perf_counter() - began) / turns
+
+
+@dataclass(frozen=True)
+class _Team:
+    """All threads."""
+
+    whole: Searcher
+    workers: list[_Worker]
+    limits: _Limits
+    pool: ThreadPoolExecutor
+    tell: Callable[[int], None]  # after how many turns of all a round ends
+
+    def over(self) -> bool:
+        """Tell whether the search ends."""
+        return self.limits.over(self.workers[0].turns)
+
+    def search(self, crew: Crew | Starts, span: _Span, rounds: float = math.inf) -> None:
+        """Search in rounds until the end of a span, or for a number of rounds; for one at least."""
+        while True:
+            for worker, part in zip(self.workers, crew.spread(), strict=True):
+                worker.searcher, worker.span = part, span
+            list(self.pool.map(_Worker.run, self.workers))
+            crew.gather()
+            self.tell(sum(worker.turns for worker in self.workers))
+            rounds -= 1
+            share = self.limits.share(self.workers[0].turns)
+            if rounds <= 0 or share >= span.end or self.over():
+                return
+
+    def num_starts(self) -> int:
+        """Return how often to begin anew, by how many turns there is time for."""
+        turns = min(worker.expected() for worker in self.workers)
+        return min(MOST_STARTS, int(STARTS_SHARE * turns / START_TURNS))
 
 
 def improve(problem: Problem, instance: Instance, solution: Solution, config: SearchConfig,
@@ -253,21 +266,41 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     begin_anew(world, whole, fresh)
     if fresh and world.mixed:
         _begin_by_types(world, whole, limits)
-    costs = _Costs.of(world, whole, by_truck)
-    crew = Crew(world, problem.coordinates, whole, seeds[1:])
-    workers = [_Worker(world, whole, config, limits, costs) for _ in range(config.threads)]
+    heat = Heat.of(world, whole, by_truck, config.hot, config.cold)
+    first_cost = float(whole.value[V_COST])
+    workers = [_Worker(world, whole, limits, heat) for _ in range(config.threads)]
+
+    def tell(turns: int) -> None:
+        on_progress(Progress(float(whole.value[V_BEST]), turns, partial(read_plan, world, whole)))
+
     with ThreadPoolExecutor(config.threads) as pool:
-        while True:
-            for worker, part in zip(workers, crew.spread(), strict=True):
-                worker.searcher = part
-            list(pool.map(_Worker.run, workers))
-            crew.gather()
-            on_progress(Progress(float(whole.value[V_BEST]), sum(w.turns for w in workers),
-                                 partial(read_plan, world, whole)))
-            if limits.over(workers[0].turns):
-                break
-    return Improved(read_plan(world, whole), float(whole.value[V_BEST]), costs.first,
+        _search(_Team(whole, workers, limits, pool, tell), world, problem, seeds[1:])
+    return Improved(read_plan(world, whole), float(whole.value[V_BEST]), first_cost,
                     sum(worker.turns for worker in workers))
+
+
+def _search(team: _Team, world: World, problem: Problem,
+            seeds: list[np.random.SeedSequence]) -> None:
+    """Search until the end. In place.
+
+    Where there is time, threads begin several times anew, and the search goes on from the best:
+    which plans it can reach is settled while it is hot, however slowly it cools.
+    """
+    whole = team.whole
+    crew = Crew(world, problem.coordinates, whole, seeds)
+    team.search(crew, WHOLE, rounds=1)
+    count, rest = team.num_starts(), WHOLE
+    if count > 1:
+        starts = Starts(world, whole, seeds)
+        for number in range(count):
+            if not team.over():
+                starts.begin()
+                begin = team.limits.share(team.workers[0].turns)
+                team.search(starts, _Span(begin, STARTS_SHARE * (number + 1) / count, 1.0))
+        go_on_from_best(world, whole)
+        rest = _Span(team.limits.share(team.workers[0].turns), 1.0, REHEAT)
+    if not team.over():
+        team.search(crew, rest)
 
 
 def _begin_by_types(world: World, whole: Searcher, limits: _Limits) -> None:
@@ -278,7 +311,7 @@ def _begin_by_types(world: World, whole: Searcher, limits: _Limits) -> None:
     alone = whole.alone
     dearest = float(alone[np.isfinite(alone)].max(initial=0.0))
     for k in range(world.num_types):
-        if limits.turns is None and limits.share() > MOST_BEGINNING:
+        if limits.turns is None and limits.share(0) > MOST_BEGINNING:
             return
         others_last = alone + dearest
         others_last[k] = alone[k]

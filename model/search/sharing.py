@@ -22,6 +22,9 @@ DIVIDED_FROM = 200
 FEWEST_ROUTES = 3
 """Routes for each thread without which there are no regions."""
 
+OTHERS = -1
+"""Stamp of a route that another search has made."""
+
 ROUNDING = 1e-9
 """Costs that differ by less are the same."""
 
@@ -35,13 +38,10 @@ class Crew:
 
         One search alone goes on from the whole.
         """
-        sizes = (len(whole.active), *(table.shape[1] for table in
-                                      (whole.now.stop, whole.now.trip, whole.now.sortie)))
         self.whole = whole
         self._world = world
         self._place = place
-        self._rooms = [whole] if len(seeds) == 1 else [
-            empty_searcher(world, sizes, whole.alone, seed) for seed in seeds]
+        self._rooms = [whole] if len(seeds) == 1 else _rooms(world, whole, seeds)
         self._parts = self._rooms
         self._divided = False
         self._rng = np.random.default_rng(seeds[0])
@@ -58,11 +58,8 @@ class Crew:
             self._divide()
             return self._parts
         self._parts = self._rooms
-        everyone = np.zeros(len(whole.active), np.int64)
-        spare = self._world.type[:, TYPE_COUNT] - whole.now.used
         for part in self._parts:
-            take_part(self._world, whole, part, everyone, 0,
-                      whole.missing[: whole.count[I_MISSING]], spare)
+            take_all(self._world, whole, part)
         return self._parts
 
     def _divide(self) -> None:
@@ -98,13 +95,70 @@ class Crew:
         whole.value[V_COST] = sum(float(part.value[V_COST]) for part in chosen)
         for part in chosen:
             filled = add_routes(whole, part, filled)
-        cost = sum(float(part.value[V_BEST]) for part in best)
-        if cost < float(whole.value[V_BEST]) - ROUNDING:
-            whole.best.route[:, R_LENGTH] = 0
-            whole.count[I_BEST_MISSING] = filled = 0
-            whole.value[V_BEST] = cost
-            for part in best:
-                filled = add_best(whole, part, filled)
+        keep_best_of(whole, best)
+
+
+class Starts:
+    """Searches of several threads that share nothing but where they begin."""
+
+    def __init__(self, world: World, whole: Searcher,
+                 seeds: list[np.random.SeedSequence]) -> None:
+        """Make room for a search by each seed, and keep the routes of the whole to begin with."""
+        self._world = world
+        self._whole = whole
+        self._first, *self._rooms = _rooms(world, whole, [seeds[0], *seeds])
+        take_all(world, whole, self._first)
+
+    def begin(self) -> None:
+        """Let all searches go on from the first routes."""
+        for room in self._rooms:
+            take_all(self._world, self._first, room)
+
+    def spread(self) -> list[Searcher]:
+        """Return the searches as they are."""
+        return self._rooms
+
+    def gather(self) -> None:
+        """Keep the best of all in the whole."""
+        keep_best_of(self._whole, [min(self._rooms, key=lambda room: float(room.value[V_BEST]))])
+
+
+def _rooms(world: World, whole: Searcher,
+           seeds: list[np.random.SeedSequence]) -> list[Searcher]:
+    """Return room for a search by each seed, as large as the whole."""
+    sizes = (len(whole.active), *(table.shape[1] for table in
+                                  (whole.now.stop, whole.now.trip, whole.now.sortie)))
+    return [empty_searcher(world, sizes, whole.alone, seed) for seed in seeds]
+
+
+def take_all(world: World, whole: Searcher, part: Searcher) -> None:
+    """Go on from all routes as they are. In place."""
+    take_part(world, whole, part, np.zeros(len(whole.active), np.int64), 0,
+              whole.missing[: whole.count[I_MISSING]], world.type[:, TYPE_COUNT] - whole.now.used)
+
+
+def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
+    """Let the best routes be those of all parts together if they cost less. In place."""
+    cost = sum(float(part.value[V_BEST]) for part in parts)
+    if cost < float(whole.value[V_BEST]) - ROUNDING:
+        whole.best.route[:, R_LENGTH] = 0
+        whole.count[I_BEST_MISSING] = filled = 0
+        whole.value[V_BEST] = cost
+        for part in parts:
+            filled = add_best(whole, part, filled)
+        whole.best.route[:, R_STAMP] = OTHERS
+
+
+def go_on_from_best(world: World, whole: Searcher) -> None:
+    """Let the routes be the best ones. In place."""
+    best, count = whole.best, whole.count.copy()
+    slots = np.flatnonzero(best.route[: len(whole.active), R_LENGTH] > 0)
+    best.used[:] = np.bincount(best.route[slots, R_TYPE], minlength=world.num_types)
+    count[I_ACTIVE], count[I_MISSING] = len(slots), count[I_BEST_MISSING]
+    active = whole.active.copy()
+    active[: len(slots)] = slots
+    take_all(world, whole._replace(now=best, active=active, missing=whole.best_missing.copy(),
+                                   count=count), whole)
 
 
 def regions(place: FloatArray, whole: Searcher, threads: int,
