@@ -93,11 +93,12 @@ def sample(sizes: Sequence[int], each: int, variants: Iterable[str] = VARIANTS) 
             for number, variant in enumerate(variants) for size in sizes for index in range(each)]
 
 
-def ways(limits: Sequence[float]) -> list[Way]:
-    """Return all ways to plan, each once."""
-    chosen = [Way("insertion", BEST_SECONDS), Way("insertion", MOVES_SECONDS)]
-    chosen += [Way(start, limit) for start in STARTS for limit in limits]
-    chosen += [Way("insertion", MOVES_SECONDS, move) for move in MOVES]
+def ways(limits: Sequence[float], moves: bool = True) -> list[Way]:
+    """Return all ways to plan, each once; without `moves` only those that differ by their start."""
+    chosen = [Way(start, limit) for start in STARTS for limit in limits]
+    if moves:
+        chosen += [Way("insertion", BEST_SECONDS), Way("insertion", MOVES_SECONDS)]
+        chosen += [Way("insertion", MOVES_SECONDS, move) for move in MOVES]
     return list(dict.fromkeys(chosen))
 
 
@@ -193,6 +194,22 @@ def table_of_starts(trials: Sequence[Trial]) -> list[str]:
         for name, group in groups(trials).items()])
 
 
+def table_of_pairs(trials: Sequence[Trial]) -> list[str]:
+    """Return the Markdown table of costs from the policy's plan above those from insertion.
+
+    In percent, with standard errors.
+    """
+    limits = sorted({row.budget_s for row in trials if row.start == "policy"})
+    base = {limit: {row.problem: row.cost for row in trials if row.way == Way("insertion", limit)}
+            for limit in limits}
+    rows = []
+    for name, group in groups(trials).items():
+        cells = [excess(group, Way("policy", limit), base[limit]) for limit in limits]
+        rows.append([name, _count(group), *(f"{more:+z.2f} ± {error:.2f}"
+                                            for more, error in cells)])
+    return _markdown(["%", "problems", *(f"{limit:g} s" for limit in limits)], rows)
+
+
 def table_of_moves(trials: Sequence[Trial]) -> list[str]:
     """Return the Markdown table of costs without a family of moves above those with all.
 
@@ -221,18 +238,22 @@ def main(
     sizes: Annotated[str, typer.Option(help="customers, comma-separated")] = "50,100",
     each: Annotated[int, typer.Option(help="problems of each class and size", min=1)] = 3,
     limits: Annotated[str, typer.Option(help="seconds, comma-separated")] = "0.05,0.1,0.3,1",
+    moves: Annotated[bool, typer.Option(help="also without families of moves")] = True,
     policy: str = DEFAULT_POLICY,
     output: Annotated[Path, typer.Option(help="CSV of all plans")]
     = Path("runs/bench/ablation.csv"),
 ) -> None:
-    """Print both tables in Markdown."""
-    chosen = ways([float(limit) for limit in limits.split(",")])
+    """Print the tables in Markdown."""
+    chosen = ways([float(limit) for limit in limits.split(",")], moves)
     samples = sample([int(size) for size in sizes.split(",")], each)
     loaded = load_policy(Settings().weights_dir / policy)
     known = {(trial.problem, trial.way) for trial in read_rows(output, Trial)}
     append_rows(output, Trial, measure(samples, loaded, chosen, known))
     trials = read_rows(output, Trial)
-    typer.echo("\n".join([*table_of_starts(trials), "", *table_of_moves(trials)]))
+    lines = [*table_of_starts(trials), "", *table_of_pairs(trials)]
+    if moves:
+        lines += ["", *table_of_moves(trials)]
+    typer.echo("\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import pytest
 from app.settings import DEFAULT_POLICY, Settings
 from benchmarks.ablation import (
     BEST_SECONDS, MOVES, MOVES_SECONDS, Sample, Trial, Way, measure, sample, table_of_moves,
-    table_of_starts, trial, ways,
+    table_of_pairs, table_of_starts, trial, ways,
 )
 from benchmarks.rows import append_rows, read_rows
 from model.decode import load_policy
@@ -34,6 +34,7 @@ def test_every_way_is_tried_once() -> None:
     chosen = ways((MOVES_SECONDS, 1.0))
     assert len(chosen) == len(set(chosen)) == 5 + len(MOVES)
     assert Way("insertion", BEST_SECONDS) in chosen
+    assert ways((0.1,), moves=False) == [Way("insertion", 0.1), Way("policy", 0.1)]
 
 
 def test_every_problem_is_planned_once_by_every_way() -> None:
@@ -66,6 +67,17 @@ def test_starts_are_compared_with_the_best_plan_of_all() -> None:
         "| 50 customers | 1 | 0.00 | 21.00 |",
         "| 100 customers | 1 | 10.00 | 0.00 |",
         "| all | 2 | 4.88 | 10.00 |",
+    ]
+
+
+def test_starts_are_compared_with_each_other() -> None:
+    trials = [made_up(name, 50, Way(start, 0.1), cost)
+              for name, costs in {"x": (100, 101), "y": (10, 9.9)}.items()
+              for start, cost in zip(("insertion", "policy"), costs, strict=True)]
+    assert table_of_pairs(trials)[2:] == [
+        "| cvrp | 2 | -0.01 ± 1.00 |",
+        "| 50 customers | 2 | -0.01 ± 1.00 |",
+        "| all | 2 | -0.01 ± 1.00 |",
     ]
 
 
