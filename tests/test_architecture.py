@@ -23,7 +23,7 @@ FORBIDDEN = {
 SEARCH = tuple(f"search/{name}" for name in (
     "layout", "world", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
     "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit", "savings",
-    "translate", "heat", "sharing", "anneal", "improve",
+    "translate", "heat", "sharing", "anneal", "starts", "improve",
 ))
 REPLANNING = tuple(f"replanning/{name}" for name in (
     "amend", "kept", "workers", "remainder", "handover"))

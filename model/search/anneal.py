@@ -294,7 +294,7 @@ def disband(searcher: Searcher) -> None:
     clear(now.used)
     count[I_ABSENT] = 0
     for node in range(len(now.where)):
-        if now.where[node, W_SLOT] != NOWHERE:
+        if now.where[node, W_SLOT] >= 0:
             now.where[node, W_SLOT] = NOWHERE
             searcher.missing[count[I_MISSING]] = node
             count[I_MISSING] += 1
@@ -334,6 +334,13 @@ def begin_anew(world: World, searcher: Searcher, freely: bool) -> None:
         insert_missing(world, searcher, BY_FAR)
     if freely:
         construct(world, searcher)
+
+
+@compiled
+def begin_again(world: World, searcher: Searcher) -> None:
+    """Plan all anew by insertion, whatever there is. In place."""
+    searcher.value[V_BEST] = math.inf
+    construct(world, searcher)
 
 
 @compiled

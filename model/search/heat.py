@@ -34,7 +34,8 @@ class Heat:
     customer: float  # cost of a customer served, on average, where the search began
     leg: float  # cost between two customers
     types: int  # of vehicles
-    single_drones: bool  # some type has one drone
+    drones: bool  # some type has drones
+    single_drones: bool  # some type has one
     from_trucks: bool  # the search began with a plan for trucks alone
     hot: float | None  # first temperature by the cost of a leg, if it is stated
     cold: float | None  # last
@@ -47,6 +48,7 @@ class Heat:
         served = max(1, int(searcher.count[I_CUSTOMERS]) - missing)
         cost = float(searcher.value[V_COST]) - missing * world.unassigned_cost
         return cls(cost / served, leg_cost(world, searcher), world.num_types,
+                   bool((world.type[:, TYPE_DRONES] > 0).any()),
                    bool((world.type[:, TYPE_DRONES] == 1).any()), from_trucks, hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:

@@ -14,7 +14,8 @@ from model.problem import Problem
 from model.search.anneal import anneal, begin_anew
 from model.search.heat import Heat
 from model.search.layout import World
-from model.search.sharing import Crew, Starts, go_on_from_best
+from model.search.sharing import Crew, go_on_from_best
+from model.search.starts import Starts
 from model.search.state import I_CUSTOMERS, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher
 from model.search.translate import first_plan, make_searcher, read_plan
 from model.search.world import ALL_MOVES, Moves, has_single_drones, make_world
@@ -42,14 +43,15 @@ MOST_BEGINNING = 0.05
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
 
-STARTS_SHARE = 0.5
+STARTS_SHARE = 0.4
 """Share of the search in which each thread begins several times anew, where that pays."""
 
-START_TURNS = 300
+START_TURNS = 90
 """Turns for each customer that such a start has at least."""
 
-MOST_STARTS = 5
-"""How often a thread begins anew at most."""
+MOST_STARTS, MOST_STARTS_BY_TYPES = 5, 16
+"""How often a thread begins anew at most, with vehicles of one type and of several: which of them
+drive is settled soon, and rarely well."""
 
 REHEAT = 0.3
 """First temperature of what follows from the best of them, by that of a start."""
@@ -117,19 +119,25 @@ class _Limits:
             return min(1.0, turns / max(1, self.turns))
         return min(1.0, (time.perf_counter() - self.began) / (self.deadline - self.began))
 
+    def span_end(self, span: _Span) -> tuple[float, float]:
+        """Return after how many turns and when a span ends."""
+        if self.turns is not None:
+            return math.ceil(self.turns * span.end), self.deadline
+        return math.inf, self.began + (self.deadline - self.began) * span.end
+
     def round_end(self, turns: int, span: _Span) -> tuple[float, float]:
         """Return after how many turns and when the round ends that begins after `turns`."""
+        most, end = self.span_end(span)
         if self.turns is not None:
-            end = min(math.ceil(self.turns * span.end), turns + math.ceil(self.turns / ROUNDS))
-            return end, self.deadline
-        whole = self.deadline - self.began
-        length = min(LONGEST_ROUND, max(SHORTEST_ROUND, whole / ROUNDS))
-        return math.inf, min(self.began + whole * span.end, time.perf_counter() + length)
+            return min(most, turns + math.ceil(self.turns / ROUNDS)), end
+        length = min(LONGEST_ROUND, max(SHORTEST_ROUND, (self.deadline - self.began) / ROUNDS))
+        return most, min(end, time.perf_counter() + length)
 
-    def over(self, turns: int) -> bool:
-        """Tell whether the search ends after `turns`."""
-        return (self.should_stop() or time.perf_counter() >= self.deadline
-                or (self.turns is not None and turns >= self.turns))
+    def over(self, turns: int, span: _Span = WHOLE) -> bool:
+        """Tell whether the search, or a span of it, ends after `turns`."""
+        most, end = self.span_end(span)
+        return (self.should_stop() or turns >= most
+                or time.perf_counter() >= min(end, self.deadline))
 
 
 @dataclass
@@ -195,9 +203,9 @@ class _Team:
     pool: ThreadPoolExecutor
     tell: Callable[[int], None]  # after how many turns of all a round ends
 
-    def over(self) -> bool:
-        """Tell whether the search ends."""
-        return self.limits.over(self.workers[0].turns)
+    def over(self, span: _Span = WHOLE) -> bool:
+        """Tell whether the search, or a span of it, ends."""
+        return self.limits.over(self.workers[0].turns, span)
 
     def search(self, crew: Crew | Starts, span: _Span, rounds: float = math.inf) -> None:
         """Search in rounds until the end of a span, or for a number of rounds; for one at least."""
@@ -208,14 +216,14 @@ class _Team:
             crew.gather()
             self.tell(sum(worker.turns for worker in self.workers))
             rounds -= 1
-            share = self.limits.share(self.workers[0].turns)
-            if rounds <= 0 or share >= span.end or self.over():
+            if rounds <= 0 or self.over(span):
                 return
 
     def num_starts(self) -> int:
         """Return how often to begin anew, by how many turns there is time for."""
         turns = min(worker.expected() for worker in self.workers)
-        return min(MOST_STARTS, int(STARTS_SHARE * turns / START_TURNS))
+        most = MOST_STARTS if self.workers[0].heat.types == 1 else MOST_STARTS_BY_TYPES
+        return min(most, int(STARTS_SHARE * turns / START_TURNS))
 
 
 def improve(problem: Problem, instance: Instance, solution: Solution, config: SearchConfig,
@@ -284,17 +292,20 @@ def _search(team: _Team, world: World, problem: Problem,
     """Search until the end. In place.
 
     Where there is time, threads begin several times anew, and the search goes on from the best:
-    which plans it can reach is settled while it is hot, however slowly it cools.
+    which plans it can reach is settled while it is hot, however slowly it cools. Where drones fly,
+    one long search came further; in large problems the parts of a plan differ, not the whole.
     """
     whole = team.whole
+    starts = None
+    if world.scan_all and not team.workers[0].heat.drones:
+        starts = Starts(world, whole, seeds)
     crew = Crew(world, problem.coordinates, whole, seeds)
     team.search(crew, WHOLE, rounds=1)
     count, rest = team.num_starts(), WHOLE
-    if count > 1:
-        starts = Starts(world, whole, seeds)
+    if starts is not None and count > 1:
         for number in range(count):
             if not team.over():
-                starts.begin()
+                starts.begin(number > 0)
                 begin = team.limits.share(team.workers[0].turns)
                 team.search(starts, _Span(begin, STARTS_SHARE * (number + 1) / count, 1.0))
         go_on_from_best(world, whole)

@@ -41,7 +41,7 @@ class Crew:
         self.whole = whole
         self._world = world
         self._place = place
-        self._rooms = [whole] if len(seeds) == 1 else _rooms(world, whole, seeds)
+        self._rooms = [whole] if len(seeds) == 1 else make_rooms(world, whole, seeds)
         self._parts = self._rooms
         self._divided = False
         self._rng = np.random.default_rng(seeds[0])
@@ -98,33 +98,8 @@ class Crew:
         keep_best_of(whole, best)
 
 
-class Starts:
-    """Searches of several threads that share nothing but where they begin."""
-
-    def __init__(self, world: World, whole: Searcher,
-                 seeds: list[np.random.SeedSequence]) -> None:
-        """Make room for a search by each seed, and keep the routes of the whole to begin with."""
-        self._world = world
-        self._whole = whole
-        self._first, *self._rooms = _rooms(world, whole, [seeds[0], *seeds])
-        take_all(world, whole, self._first)
-
-    def begin(self) -> None:
-        """Let all searches go on from the first routes."""
-        for room in self._rooms:
-            take_all(self._world, self._first, room)
-
-    def spread(self) -> list[Searcher]:
-        """Return the searches as they are."""
-        return self._rooms
-
-    def gather(self) -> None:
-        """Keep the best of all in the whole."""
-        keep_best_of(self._whole, [min(self._rooms, key=lambda room: float(room.value[V_BEST]))])
-
-
-def _rooms(world: World, whole: Searcher,
-           seeds: list[np.random.SeedSequence]) -> list[Searcher]:
+def make_rooms(world: World, whole: Searcher,
+               seeds: list[np.random.SeedSequence]) -> list[Searcher]:
     """Return room for a search by each seed, as large as the whole."""
     sizes = (len(whole.active), *(table.shape[1] for table in
                                   (whole.now.stop, whole.now.trip, whole.now.sortie)))

@@ -1,0 +1,38 @@
+"""Several searches that begin anew, and the best of them."""
+
+import numpy as np
+
+from model.search.anneal import begin_again
+from model.search.layout import World
+from model.search.sharing import keep_best_of, make_rooms, take_all
+from model.search.state import V_BEST, Searcher
+
+
+class Starts:
+    """Searches of several threads that share nothing but where they begin."""
+
+    def __init__(self, world: World, whole: Searcher,
+                 seeds: list[np.random.SeedSequence]) -> None:
+        """Keep the routes of the whole for searches by each seed to begin with."""
+        self._world = world
+        self._whole = whole
+        self._seeds = seeds
+        self._first, = make_rooms(world, whole, seeds[:1])
+        self._rooms: list[Searcher] = []
+        take_all(world, whole, self._first)
+
+    def begin(self, anew: bool) -> None:
+        """Let all searches go on from the first routes, or plan `anew`, each by itself."""
+        self._rooms = self._rooms or make_rooms(self._world, self._whole, self._seeds)
+        for room in self._rooms:
+            take_all(self._world, self._first, room)
+            if anew:
+                begin_again(self._world, room)
+
+    def spread(self) -> list[Searcher]:
+        """Return the searches as they are."""
+        return self._rooms
+
+    def gather(self) -> None:
+        """Keep the best of all in the whole."""
+        keep_best_of(self._whole, [min(self._rooms, key=lambda room: float(room.value[V_BEST]))])
