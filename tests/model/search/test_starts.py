@@ -1,0 +1,108 @@
+"""Searches that begin anew several times."""
+
+import numpy as np
+import pytest
+
+from model.check import check
+from model.instance import pack
+from model.problem import Problem
+from model.search.anneal import anneal, begin_anew
+from model.search.improve import (
+    MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, STARTS_SHARE, SearchConfig, improve,
+)
+from model.search.layout import World
+from model.search.sharing import go_on_from_best
+from model.search.starts import Starts
+from model.search.state import V_BEST, V_COST, V_TEMPERATURE, Searcher
+from model.search.translate import make_searcher, read_plan
+from model.search.world import make_world
+from model.solution import Solution
+from training.instances import VARIANTS, generate
+
+TRUCKS = [name for name in VARIANTS if name not in ("drone", "table1", "mixed")]
+
+
+def begun(problem: Problem) -> tuple[World, Searcher]:
+    """Return a search that has planned by insertion."""
+    world = make_world(problem, pack([problem]))
+    whole = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
+    begin_anew(world, whole, True)
+    return world, whole
+
+
+@pytest.fixture
+def begins(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
+    """Record how searches begin."""
+    calls: list[bool] = []
+    begin = Starts.begin
+
+    def record(starts: Starts, anew: bool) -> None:
+        calls.append(anew)
+        begin(starts, anew)
+
+    monkeypatch.setattr(Starts, "begin", record)
+    return calls
+
+
+@pytest.mark.parametrize("variant", TRUCKS)
+def test_every_search_begins_with_a_legal_plan_of_its_own(variant: str) -> None:
+    problem = generate(np.random.default_rng(6), 30, variant)
+    world, whole = begun(problem)
+    before = read_plan(world, whole)
+    starts = Starts(world, whole, np.random.SeedSequence(1).spawn(3))
+    for anew in (False, True, True):
+        starts.begin(anew)
+        for room in starts.spread():
+            evaluation = check(problem, read_plan(world, room))
+            assert evaluation.violations == ()
+            assert evaluation.cost.total <= room.value[V_BEST] * (1 + 1e-9)
+            if not anew:
+                assert room.value[V_BEST] == pytest.approx(whole.value[V_COST])
+    assert read_plan(world, whole) == before
+
+
+@pytest.mark.parametrize("variant", TRUCKS)
+def test_the_whole_goes_on_from_the_best_of_all(variant: str) -> None:
+    problem = generate(np.random.default_rng(2), 30, variant)
+    world, whole = begun(problem)
+    starts = Starts(world, whole, np.random.SeedSequence(1).spawn(2))
+    for anew in (False, True):
+        starts.begin(anew)
+        for room in starts.spread():
+            room.value[V_TEMPERATURE] = 1e-3
+            anneal(world, room, 300)
+        starts.gather()
+        least = min(float(room.value[V_BEST]) for room in starts.spread())
+        assert whole.value[V_BEST] <= least * (1 + 1e-9)
+    go_on_from_best(world, whole)
+    assert whole.value[V_COST] == pytest.approx(float(whole.value[V_BEST]))
+    anneal(world, whole, 300)
+    evaluation = check(problem, read_plan(world, whole))
+    assert evaluation.violations == ()
+    assert evaluation.cost.total <= whole.value[V_BEST] * (1 + 1e-9)
+
+
+@pytest.mark.parametrize(("variant", "most"), [
+    ("vrptw", MOST_STARTS), ("hetero", MOST_STARTS_BY_TYPES), ("drone", 0)])
+@pytest.mark.parametrize("threads", [1, 2])
+def test_search_begins_anew_as_often_as_there_is_time(
+    variant: str, most: int, threads: int, begins: list[bool]
+) -> None:
+    problem = generate(np.random.default_rng(9), 10, variant)
+    nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    for count in (1, 2, 20):
+        begins.clear()
+        turns = int((count + 0.5) * START_TURNS / STARTS_SHARE) * 10 * threads
+        found = improve(problem, pack([problem]), nobody,
+                        SearchConfig(turns=turns, threads=threads))
+        assert found.turns == turns
+        assert check(problem, found.solution).violations == ()
+        expected = min(count, most) if count > 1 else 0
+        assert begins == [number > 0 for number in range(expected)]
+
+
+def test_searches_that_begin_anew_are_repeated_exactly() -> None:
+    problem = generate(np.random.default_rng(7), 20, "vrptw")
+    config = SearchConfig(seed=4, threads=2, turns=40 * START_TURNS * 20)
+    found, again = (improve(problem, pack([problem]), Solution((), ()), config) for _ in range(2))
+    assert found.solution == again.solution
