@@ -304,10 +304,11 @@ def _search(team: _Team, world: World, problem: Problem,
     count, rest = team.num_starts(), WHOLE
     if starts is not None and count > 1:
         for number in range(count):
-            if not team.over():
+            begin = team.limits.share(team.workers[0].turns)
+            span = _Span(begin, STARTS_SHARE * (number + 1) / count, 1.0)
+            if not team.over(span):
                 starts.begin(number > 0)
-                begin = team.limits.share(team.workers[0].turns)
-                team.search(starts, _Span(begin, STARTS_SHARE * (number + 1) / count, 1.0))
+                team.search(starts, span)
         go_on_from_best(world, whole)
         rest = _Span(team.limits.share(team.workers[0].turns), 1.0, REHEAT)
     if not team.over():
