@@ -303,9 +303,9 @@ def _search(team: _Team, world: World, problem: Problem,
     team.search(crew, WHOLE, rounds=1)
     count, rest = team.num_starts(), WHOLE
     if starts is not None and count > 1:
-        for number in range(count):
-            begin = team.limits.share(team.workers[0].turns)
-            span = _Span(begin, STARTS_SHARE * (number + 1) / count, 1.0)
+        ends = np.linspace(team.limits.share(team.workers[0].turns), STARTS_SHARE, count + 1)
+        for number, end in enumerate(ends[1:].tolist()):
+            span = _Span(team.limits.share(team.workers[0].turns), end, 1.0)
             if not team.over(span):
                 starts.begin(number > 0)
                 team.search(starts, span)
