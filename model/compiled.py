@@ -14,27 +14,52 @@ from tempfile import TemporaryFile
 from typing import Any, TypeVar, cast
 
 from numba import config, njit
+from numba.core.compiler import Compiler
 
 SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", "simulator",
            "tokens", "prospects", "features", "parts", "rolling", *(f"search/{part}" for part in (
                "layout", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
                "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit",
-               "anneal", "savings", "translate", "sharing")))
+               "recreate", "anneal", "construct", "savings", "translate", "sharing")))
 """Files with compiled functions, and those whose constants are compiled into them."""
 
+LITTLE = type(config.OPT)(1)  # type: ignore[attr-defined]
+
+
+class PartCompiler(Compiler):
+    """Optimises a part but a little, since that is done again in each function it is put into."""
+
+    def compile_extra(self, func: Callable[..., Any]) -> Any:
+        """Compile a Python function. Numba lets one thread at a time do so."""
+        level = config.OPT  # type: ignore[attr-defined]
+        config.OPT = LITTLE  # type: ignore[attr-defined]
+        try:
+            return super().compile_extra(func)  # type: ignore[no-untyped-call]
+        finally:
+            config.OPT = level  # type: ignore[attr-defined]
+
+
 PART: dict[str, Any] = {
-    "nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
+    "nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False,
+    "pipeline_class": PartCompiler}
 """Options of functions that exist only within others."""
+
+PASTED: dict[str, Any] = {"nogil": True, "_nrt": False, "inline": "always"}
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def compiled(function: Function) -> Function:
     """Compile a function at its first call, or load it if that was done before."""
-    folder = compiled_folder()
-    # Numba looks the folder up while it decorates, and nowhere but in its settings.
-    config.CACHE_DIR = str(folder or "")  # type: ignore[attr-defined]
-    return cast(Function, njit(cache=folder is not None, nogil=True)(function))
+    return _kept(function)
+
+
+def compiled_on_arrays(function: Function) -> Function:
+    """Compile like `compiled` what is given all its arrays and makes none.
+
+    References to them need not be counted then, in this function and all parts of it.
+    """
+    return _kept(function, _nrt=False)
 
 
 def inlined(function: Function) -> Function:
@@ -45,12 +70,35 @@ def inlined(function: Function) -> Function:
     return cast(Function, njit(**PART)(function))
 
 
+def spliced(function: Function) -> Function:
+    """Compile like `inlined`, always into the body of the caller.
+
+    For what is called often, in few places, with arrays by the dozen: else each is passed on.
+    """
+    return cast(Function, njit(**PART, forceinline=True)(function))
+
+
+def pasted(function: Function) -> Function:
+    """Put a function's source into its caller's, to the same end as `spliced`.
+
+    It takes less time where much is called from there, and more where there are many branches.
+    """
+    return cast(Function, njit(**PASTED)(function))
+
+
 def inlined_arithmetic(function: Function) -> Function:
     """Compile like `inlined`, and let sums of floats be taken in any order.
 
     Only for what need not be the same to the last bit on every processor.
     """
     return cast(Function, njit(**PART, fastmath={"reassoc", "contract", "nsz", "arcp"})(function))
+
+
+def _kept(function: Function, **options: Any) -> Function:
+    folder = compiled_folder()
+    # Numba looks the folder up while it decorates, and nowhere but in its settings.
+    config.CACHE_DIR = str(folder or "")  # type: ignore[attr-defined]
+    return cast(Function, njit(cache=folder is not None, nogil=True, **options)(function))
 
 
 @cache

@@ -94,8 +94,11 @@ class Planner:
         return tuple(self._policies)
 
     def warm(self, progress: Callable[[str], None] | None = None) -> None:
-        """Plan a small problem by each policy, so that everything is compiled. In place."""
+        """Plan small problems by each policy and by none, so that all is compiled. In place."""
         tell = progress or (lambda _: None)
+        tell("compiling the search")
+        by_truck = small_problem(drones=False)
+        improve(by_truck, pack([by_truck]), Solution((), ()), SearchConfig(turns=4))
         for index, name in enumerate(self._policies, 1):
             tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
             began = time.perf_counter()
@@ -250,12 +253,12 @@ def load_planner(weights: Path, names: Sequence[str]) -> Planner:
     return Planner({name: load_policy(weights / name) for name in names})
 
 
-def small_problem() -> Problem:
-    """Return three customers for a truck with a drone."""
+def small_problem(drones: bool = True) -> Problem:
+    """Return three customers for a truck, with a drone or alone."""
     places = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
     distance = np.rint(np.linalg.norm(places[:, None] - places, axis=2) * 1e6).astype(np.int64)
     customers = tuple(Customer(str(number), (1000,)) for number in range(3))
-    drones = DroneType(count=1, capacity=(1000,), travel=0)
-    truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drones)
+    drone = DroneType(count=1, capacity=(1000,), travel=0) if drones else None
+    truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone)
     return Problem((Depot("depot"),), customers, (truck,), (Travel(distance, distance),), places,
                    1000.0)

@@ -22,8 +22,8 @@ FORBIDDEN = {
 
 SEARCH = tuple(f"search/{name}" for name in (
     "layout", "world", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
-    "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit", "savings",
-    "translate", "heat", "sharing", "anneal", "starts", "improve",
+    "ruin", "state", "retype", "scan", "splitting", "insertion", "recreate", "exchange", "resplit",
+    "savings", "translate", "heat", "sharing", "anneal", "construct", "starts", "improve",
 ))
 REPLANNING = tuple(f"replanning/{name}" for name in (
     "amend", "kept", "workers", "remainder", "handover"))

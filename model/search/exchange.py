@@ -2,7 +2,7 @@
 
 import math
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_MAX_TRIPS,
     TYPE_TRAVEL,
@@ -30,7 +30,7 @@ def rest_distance(fleet: Fleet, slot: int, p: int) -> int:
     return distance
 
 
-@inlined
+@spliced
 def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> float:
     """Return what it costs to swap what follows stop `p` of route `a` and stop `q` of route `b`.
 
@@ -53,7 +53,7 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
     return cost
 
 
-@inlined
+@spliced
 def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) -> tuple[int, int]:
     """Return the route and the stop whose tail is best swapped with that behind stop `p`.
 
@@ -179,7 +179,7 @@ def leaves_nothing(fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
     return nobody and not (q == 0 and p + 2 == fleet.route[a, R_LENGTH])
 
 
-@inlined
+@spliced
 def exchange_tails(world: World, searcher: Searcher, limit: float) -> bool:
     """Swap the tail behind a random stop if that may cost less than `limit`.
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from model.instance import Instance
 from model.problem import Problem
-from model.search.anneal import anneal, begin_anew
+from model.search.anneal import ANY, anneal
+from model.search.construct import begin_anew
 from model.search.heat import Heat
 from model.search.layout import World
 from model.search.sharing import Crew, go_on_from_best
@@ -188,7 +189,7 @@ class _Worker:
             value[V_COOLING] = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
             self.cooling = span
         began = time.perf_counter()
-        anneal(self.world, self.searcher, turns)
+        anneal(self.world, self.searcher, turns, ANY)
         self.turns += turns
         self.pace = (time.perf_counter() - began) / turns
 

@@ -1,6 +1,6 @@
 """The cheapest place for a customer."""
 
-from model.compiled import inlined
+from model.compiled import inlined, pasted, spliced
 from model.instance import (
     MAX_DIMENSIONS, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES,
     TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_MAX_TRIPS,
@@ -30,7 +30,7 @@ MAX_SPAN = 8
 """How many stops after its launch a sortie is recovered at most."""
 
 
-@inlined
+@spliced
 def next_stop(world: World, k: int, back: IntArray, leg: IntArray, stops: IntArray, first: int,
               last: int, place: IntArray, spare: int, best: float) -> int:
     """Return the first stop from `first` to `last` behind which a customer may cost less.
@@ -69,7 +69,7 @@ def take_if_cheaper(world: World, fleet: Fleet, node: int, best: float, move: In
     return best
 
 
-@inlined
+@spliced
 def try_stops(world: World, fleet: Fleet, slot: int, first: int, last: int, node: int,
               best: float, move: IntArray, trial: IntArray, rng: UIntArray,
               acc: IntArray) -> float:
@@ -93,7 +93,7 @@ def try_stops(world: World, fleet: Fleet, slot: int, first: int, last: int, node
         p += 1
 
 
-@inlined
+@spliced
 def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int) -> int:
     """Return a drone that is aboard from stop `launch` to `recovery`; -1 if there is none.
 
@@ -121,7 +121,7 @@ def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int
     return chosen
 
 
-@inlined
+@spliced
 def try_sorties(world: World, fleet: Fleet, slot: int, launch: int, node: int, best: float,
                 move: IntArray, trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
     """Try a customer on sorties of its own from stop `launch`. As `try_stops`."""
@@ -249,7 +249,7 @@ def try_trips(world: World, fleet: Fleet, slot: int, node: int, best: float, mov
     return best
 
 
-@inlined
+@pasted
 def try_new_route(world: World, fleet: Fleet, alone: FloatArray, node: int, best: float,
                   move: IntArray, rng: UIntArray) -> float:
     """Try a customer on a route of its own. As `try_stops`."""
@@ -279,7 +279,7 @@ def try_trip(world: World, fleet: Fleet, slot: int, index: int, node: int, best:
     return best
 
 
-@inlined
+@pasted
 def find_place(world: World, fleet: Fleet, alone: FloatArray, active: IntArray, num_active: int,
                node: int, enlarge: bool, move: IntArray, trial: IntArray, rng: UIntArray,
                acc: IntArray) -> float:
@@ -313,7 +313,7 @@ def find_place(world: World, fleet: Fleet, alone: FloatArray, active: IntArray, 
     return best
 
 
-@inlined
+@pasted
 def find_beside(world: World, fleet: Fleet, alone: FloatArray, node: int, enlarge: bool,
                 move: IntArray, trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
     """Find the cheapest insertion of a customer beside its neighbours. As `find_place`."""

@@ -1,6 +1,6 @@
 """Routes of one trip where distance alone costs: only loads, departures and latest arrivals."""
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL,
 )
@@ -54,7 +54,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     return time <= columns[TYPE_LATEST]
 
 
-@inlined
+@spliced
 def shift_lean(fleet: Fleet, slot: int, p: int) -> None:
     """Move the stops from `p` on by one place. In place."""
     stops = fleet.stop[slot]
@@ -66,7 +66,7 @@ def shift_lean(fleet: Fleet, slot: int, p: int) -> None:
     fleet.route[slot, R_LENGTH] += 1
 
 
-@inlined
+@spliced
 def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> None:
     """Insert a customer behind stop `p` where that is known to keep all rules. In place."""
     shift_lean(fleet, slot, p + 1)
@@ -89,7 +89,7 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     spread(world, stops, trip[T_LAST], p + 1)
 
 
-@inlined
+@spliced
 def spread(world: World, stops: IntArray, last: int, p: int) -> None:
     """Bring departures behind a new stop `p`, and latest arrivals before, up to date. In place."""
     time = stops[p - 1, S_LEAVE]

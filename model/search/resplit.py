@@ -11,7 +11,7 @@ drone, Transportation Science 52:965-981.
 
 import math
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.instance import (
     RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL,
     TYPE_DRONES, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
@@ -71,7 +71,7 @@ def window(fleet: Fleet, slot: int, p: int) -> tuple[int, int]:
     return first, last
 
 
-@inlined
+@spliced
 def line_up(fleet: Fleet, slot: int, first: int, last: int, line: IntArray) -> tuple[int, bool]:
     """Write the places of stops `first` to `last` in the order they are left for.
 
@@ -139,7 +139,7 @@ def shuffle(world: World, searcher: Searcher, length: int) -> None:
         low, high = low + 1, high - 1
 
 
-@inlined
+@spliced
 def measure(world: World, k: int, line: IntArray, length: int) -> None:
     """Write what a truck that served the whole line would drive. In place."""
     legs = world.leg[world.type[k, TYPE_TRAVEL]]
@@ -154,7 +154,7 @@ def measure(world: World, k: int, line: IntArray, length: int) -> None:
             line[j, L_GROUNDED] += 1
 
 
-@inlined
+@spliced
 def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: int) -> float:
     """Return what it costs to go from place `i` to `j` while the drone serves place `flown`."""
     columns, rate = world.type[k], world.rate[k]
@@ -197,7 +197,7 @@ def loop_cost(world: World, k: int, node: int, customer: int) -> float:
             + (flights[node, customer, 1] + flights[customer, node, 1]) * rate[RATE_DRONE_KM])
 
 
-@inlined
+@spliced
 def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, i: int) -> None:
     """Try all operations that begin at place `i`. In place."""
     rate = world.rate[k]
@@ -229,7 +229,7 @@ def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, 
                 loops = math.inf
 
 
-@inlined
+@spliced
 def split(world: World, k: int, line: IntArray, cost: FloatArray, length: int) -> bool:
     """Cut the line into operations at least cost. In place; False if it can't be cut."""
     for j in range(length):
@@ -241,7 +241,7 @@ def split(world: World, k: int, line: IntArray, cost: FloatArray, length: int) -
     return cost[length - 1] < math.inf
 
 
-@inlined
+@spliced
 def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
     """Return what the operations that are noted in the line cost."""
     rate, legs = world.rate[k], world.leg[world.type[k, TYPE_TRAVEL]]
@@ -304,7 +304,7 @@ def is_worth(world: World, k: int, route: IntArray, before: float, after: float,
     return after < before + limit and abs(after - before) > SAME * before
 
 
-@inlined
+@spliced
 def resplit(world: World, searcher: Searcher, limit: float) -> bool:
     """Plan part of a trip with one drone anew from a changed order of its customers.
 

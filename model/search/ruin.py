@@ -1,6 +1,6 @@
 """Removal of strings of adjacent customers."""
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.problem import BoolArray, IntArray, UIntArray
 from model.search.draw import below, uniform
 from model.search.edit import close_ranks, keep_sorties
@@ -33,7 +33,7 @@ def mark(marked: BoolArray, absent: IntArray, num_absent: int, node: int) -> int
     return num_absent + 1
 
 
-@inlined
+@spliced
 def mark_string(fleet: Fleet, slot: int, index: int, p: int, size: int, marked: BoolArray,
                 absent: IntArray, num_absent: int, rng: UIntArray) -> int:
     """Mark `size` adjacent stops of a trip around stop `p`, or all but some within. As `mark`."""
@@ -57,7 +57,7 @@ def mark_string(fleet: Fleet, slot: int, index: int, p: int, size: int, marked: 
     return num_absent
 
 
-@inlined
+@spliced
 def mark_around(fleet: Fleet, customer: int, longest: float, marked: BoolArray, absent: IntArray,
                 num_absent: int, rng: UIntArray) -> int:
     """Mark a string around a customer, or the customer alone if a drone serves it. As `mark`."""
@@ -76,7 +76,7 @@ def mark_around(fleet: Fleet, customer: int, longest: float, marked: BoolArray, 
                        absent, num_absent, rng)
 
 
-@inlined
+@spliced
 def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_customers: int,
            marked: BoolArray, absent: IntArray, num_absent: int, touched: IntArray, hit: IntArray,
            turn: int, rng: UIntArray) -> tuple[int, int]:
@@ -139,7 +139,7 @@ def mark_all(fleet: Fleet, slot: int, marked: BoolArray, absent: IntArray,
     return num_absent
 
 
-@inlined
+@spliced
 def remove_marked(world: World, fleet: Fleet, slot: int, marked: BoolArray, absent: IntArray,
                   num_absent: int, moved: IntArray, acc: IntArray) -> int:
     """Take the marked customers out of a route; all, if the rest breaks a rule. As `mark`."""

@@ -1,6 +1,6 @@
 """The cheapest stop for a customer where only the distance of the detour counts."""
 
-from model.compiled import inlined
+from model.compiled import inlined, pasted, spliced
 from model.instance import MAX_DIMENSIONS, RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE, TYPE_TRAVEL
 from model.problem import IntArray, UIntArray
 from model.search.draw import uniform
@@ -30,7 +30,7 @@ def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntAr
     return True
 
 
-@inlined
+@spliced
 def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last: int,
                place: IntArray, spare: int, rate: float, best: float, blink: float,
                rng: UIntArray) -> tuple[float, int]:
@@ -89,7 +89,7 @@ def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, s
     return best, chosen
 
 
-@inlined
+@spliced
 def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, last: int, node: int,
               rate: float, best: float, rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer on a trip. As `scan_stops`."""
@@ -115,7 +115,7 @@ def exchanged(world: World, fleet: Fleet, slot: int, node: int,
     return by, route_cost(world, by, fleet.trip[slot, 0, T_DISTANCE]) - fleet.cost[slot]
 
 
-@inlined
+@pasted
 def scan_simple(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
                 best: float, enlarge: bool, move: IntArray, rng: UIntArray) -> float:
     """Find the cheapest stop among the routes where only distance counts. As `try_stops`."""
@@ -139,7 +139,7 @@ def scan_simple(world: World, fleet: Fleet, active: IntArray, num_active: int, n
     return best
 
 
-@inlined
+@pasted
 def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
                 move: IntArray, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where only distance counts. As `try_stops`."""

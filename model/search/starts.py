@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from model.search.anneal import begin_again
+from model.search.construct import begin_again
 from model.search.layout import World
 from model.search.sharing import keep_best_of, make_rooms, take_all
 from model.search.state import V_BEST, Searcher

@@ -2,9 +2,9 @@
 
 from typing import NamedTuple
 
-from model.compiled import inlined
+from model.compiled import compiled, inlined, spliced
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
-from model.search.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, Fleet
+from model.search.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, Fleet, World
 from model.search.refresh import locate
 from model.search.rows import copy_row, copy_rows, copy_some
 
@@ -96,21 +96,43 @@ def keep_best(searcher: Searcher) -> None:
     searcher.value[V_BEST] = searcher.value[V_COST]
 
 
-@inlined
-def adopt(searcher: Searcher, other: Fleet, missing: IntArray, num_missing: int,
-          cost: float) -> None:
-    """Go on from other routes. In place."""
-    now = searcher.now
-    searcher.count[I_STAMP] += 1
+@spliced
+def turn_cost(world: World, searcher: Searcher) -> float:
+    """Return the cost of the routes as they are after this turn."""
+    cost = searcher.value[V_COST]
+    for index in range(searcher.count[I_TOUCHED]):
+        slot = searcher.touched[index]
+        cost += searcher.now.cost[slot] - searcher.before.cost[slot]
+    more = searcher.count[I_ABSENT] - searcher.count[I_MISSING]
+    return cost + more * world.unassigned_cost
+
+
+@spliced
+def accept(searcher: Searcher, cost: float) -> None:
+    """Go on from this turn's routes. In place."""
+    count = searcher.count
+    count[I_STAMP] += 1
+    for index in range(count[I_TOUCHED]):
+        searcher.now.route[searcher.touched[index], R_STAMP] = count[I_STAMP]
+    count[I_MISSING] = count[I_ABSENT]
+    copy_some(searcher.absent, searcher.missing, count[I_ABSENT])
+    searcher.value[V_COST] = cost
+
+
+@compiled
+def go_back(searcher: Searcher) -> None:
+    """Go on from the best routes. In place."""
+    now, best, count = searcher.now, searcher.best, searcher.count
+    count[I_STAMP] += 1
     for slot in range(len(searcher.active)):
-        copy_route(other, slot, now, slot)
-        now.route[slot, R_STAMP] = searcher.count[I_STAMP]
-    copy_row(other.used, now.used)
+        copy_route(best, slot, now, slot)
+        now.route[slot, R_STAMP] = count[I_STAMP]
+    copy_row(best.used, now.used)
     for node in range(len(now.where)):
         now.where[node, W_SLOT] = NOWHERE
     list_active(searcher)
-    for index in range(searcher.count[I_ACTIVE]):
+    for index in range(count[I_ACTIVE]):
         locate(now, searcher.active[index])
-    searcher.count[I_MISSING] = num_missing
-    copy_some(missing, searcher.missing, num_missing)
-    searcher.value[V_COST] = cost
+    count[I_MISSING] = count[I_BEST_MISSING]
+    copy_some(searcher.best_missing, searcher.missing, count[I_BEST_MISSING])
+    searcher.value[V_COST] = searcher.value[V_BEST]

@@ -9,7 +9,7 @@ import pytest
 from model.check import check
 from model.instance import pack
 from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel, VehicleType
-from model.search.anneal import begin_anew
+from model.search.construct import begin_anew
 from model.search.improve import SearchConfig, improve
 from model.search.state import I_MISSING, V_COST
 from model.search.translate import make_searcher

@@ -5,7 +5,7 @@ import pytest
 
 from model.check import check
 from model.instance import pack
-from model.search.anneal import begin_anew
+from model.search.construct import begin_anew
 from model.search.improve import SearchConfig, improve
 from model.search.layout import W_SLOT
 from model.search.sharing import DIVIDED_FROM, regions

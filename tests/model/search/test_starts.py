@@ -6,7 +6,8 @@ import pytest
 from model.check import check
 from model.instance import pack
 from model.problem import Problem
-from model.search.anneal import anneal, begin_anew
+from model.search.anneal import ANY, anneal
+from model.search.construct import begin_anew
 from model.search.improve import (
     MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, STARTS_SHARE, SearchConfig, improve,
 )
@@ -70,13 +71,13 @@ def test_the_whole_goes_on_from_the_best_of_all(variant: str) -> None:
         starts.begin(anew)
         for room in starts.spread():
             room.value[V_TEMPERATURE] = 1e-3
-            anneal(world, room, 300)
+            anneal(world, room, 300, ANY)
         starts.gather()
         least = min(float(room.value[V_BEST]) for room in starts.spread())
         assert whole.value[V_BEST] <= least * (1 + 1e-9)
     go_on_from_best(world, whole)
     assert whole.value[V_COST] == pytest.approx(float(whole.value[V_BEST]))
-    anneal(world, whole, 300)
+    anneal(world, whole, 300, ANY)
     evaluation = check(problem, read_plan(world, whole))
     assert evaluation.violations == ()
     assert evaluation.cost.total <= whole.value[V_BEST] * (1 + 1e-9)
