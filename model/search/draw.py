@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from model.compiled import inlined
+from model.compiled import spliced
 from model.problem import UIntArray
 
 STEP = np.uint64(0x9E3779B97F4A7C15)
@@ -11,7 +11,7 @@ SECOND = np.uint64(0x94D049BB133111EB)
 UNIT = 1.0 / 2.0**53
 
 
-@inlined
+@spliced
 def uniform(state: UIntArray) -> float:
     """Draw from [0, 1). In place.
 
@@ -27,7 +27,7 @@ def uniform(state: UIntArray) -> float:
     return (z >> np.uint64(11)) * UNIT
 
 
-@inlined
+@spliced
 def below(state: UIntArray, bound: int) -> int:
     """Draw a whole number from 0 to `bound - 1`. In place."""
     return int(uniform(state) * bound)

@@ -20,7 +20,7 @@ from model.search.layout import (
 )
 from model.search.refresh import idle_time, stop_beside
 from model.search.rows import copy_row
-from model.search.scan import fits, is_simple, scan_beside, scan_simple
+from model.search.scan import fits, is_simple, scan_beside, scan_lean, scan_simple
 from model.search.splitting import more_trips_fit, part_fits
 
 MORE_TRIPS = 0.2
@@ -160,7 +160,7 @@ def try_sorties(world: World, fleet: Fleet, slot: int, launch: int, node: int, b
     return best
 
 
-@inlined
+@spliced
 def lifts(world: World, sortie: IntArray, k: int, node: int) -> bool:
     """Tell whether a customer's demand fits on top of a sortie's payload."""
     for dimension in range(MAX_DIMENSIONS):
@@ -281,16 +281,16 @@ def try_trip(world: World, fleet: Fleet, slot: int, index: int, node: int, best:
 
 @pasted
 def find_place(world: World, fleet: Fleet, alone: FloatArray, active: IntArray, num_active: int,
-               node: int, enlarge: bool, move: IntArray, trial: IntArray, rng: UIntArray,
-               acc: IntArray) -> float:
+               node: int, enlarge: bool, kept: IntArray, move: IntArray, trial: IntArray,
+               rng: UIntArray, acc: IntArray) -> float:
     """Find the cheapest insertion of a customer; return its cost, INFEASIBLE if there is none.
 
-    In place: `move`.
+    In place: `move`, and `kept` as in `Searcher`.
     """
     best = try_new_route(world, fleet, alone, node, INFEASIBLE, move, rng)
-    best = scan_simple(world, fleet, active, num_active, node, best, enlarge, move, rng)
     if not world.general:
-        return best
+        return scan_lean(world, fleet, active, num_active, node, best, enlarge, kept, move, rng)
+    best = scan_simple(world, fleet, active, num_active, node, best, enlarge, move, rng)
     more_trips = best == INFEASIBLE or uniform(rng) < MORE_TRIPS
     for index in range(num_active):
         slot = active[index]

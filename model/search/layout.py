@@ -43,6 +43,13 @@ TRIP_COLUMNS = 8
 (R_TYPE, R_LENGTH, R_TRIPS, R_SORTIES, R_END, R_CUM, R_WORKING, R_OFFSET, R_STAMP) = range(9)
 ROUTE_COLUMNS = 9
 
+CHANGING = 0
+"""Stamp of a route that this turn changes; any other stands for what the route in the slot is."""
+
+K_STAMP, K_DETOUR, K_STOP = range(3)
+"""Stamp of the route, shortest detour for a customer, stop before it; -1 if none is that short."""
+KEPT_COLUMNS = 3
+
 W_SLOT, W_POSITION, W_SORTIE = range(3)
 NOWHERE, ELSEWHERE = -1, -2
 """Slot of a customer who is left out; of one whom another thread deals with."""
@@ -64,7 +71,7 @@ class World(NamedTuple):
     single_drones: bool  # some type has one drone, and trips may be split anew
     loops: bool  # sorties may end where they began
     crossings: bool  # sorties may end elsewhere
-    general: bool  # insertions may cost more than their detour
+    general: bool  # insertions may cost more than their detour; else all routes are lean
     traded: bool  # vehicles may drive each other's routes
     mixed: bool  # types of vehicles, some of whose routes are not lean, may drive each other's
     scan_all: bool  # else insertion looks beside neighbours only

@@ -125,8 +125,8 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool) -> No
                                searcher.move, searcher.trial, searcher.rng, searcher.acc)
         if cost == INFEASIBLE:
             cost = find_place(world, searcher.now, searcher.alone, searcher.active,
-                              count[I_ACTIVE], node, enlarge, searcher.move, searcher.trial,
-                              searcher.rng, searcher.acc)
+                              count[I_ACTIVE], node, enlarge, searcher.kept, searcher.move,
+                              searcher.trial, searcher.rng, searcher.acc)
         wanted = cost < world.unassigned_cost or (opening and index == first)
         if cost == INFEASIBLE or not wanted or not insert(world, searcher, node):
             absent[left] = node

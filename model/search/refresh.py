@@ -1,6 +1,6 @@
 """Bringing a route up to date after its sequence has changed."""
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.instance import TYPE_MAX_WORKING, TYPE_PROFILE
 from model.problem import FULL_SPEED, IntArray, UIntArray
 from model.search.draw import below
@@ -160,13 +160,13 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
     return True
 
 
-@inlined
+@spliced
 def idle_time(route: IntArray) -> int:
     """Return how much of the time that a route works is waiting, which a change may use up."""
     return route[R_WORKING] + route[R_OFFSET] - route[R_CUM]
 
 
-@inlined
+@spliced
 def any_customer(world: World, fleet: Fleet, rng: UIntArray) -> int:
     """Return a random customer whom this thread deals with, served or left out.
 
@@ -181,7 +181,7 @@ def any_customer(world: World, fleet: Fleet, rng: UIntArray) -> int:
     return node
 
 
-@inlined
+@spliced
 def stop_beside(fleet: Fleet, node: int) -> int:
     """Return the stop at a customer, or the one from where a drone flies there."""
     p = fleet.where[node, W_POSITION]

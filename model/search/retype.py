@@ -2,7 +2,7 @@
 
 import math
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES,
 )
@@ -16,7 +16,7 @@ from model.search.refresh import refresh
 from model.search.state import I_ACTIVE, I_TOUCHED, Searcher, keep_aside, touch
 
 
-@inlined
+@spliced
 def route_cost(world: World, k: int, distance: int) -> float:
     """Return the cost of a lean route by a vehicle of type `k`."""
     return world.rate[k, RATE_FIXED] + distance * world.rate[k, RATE_KM]

@@ -23,7 +23,7 @@ FLIGHT_ONLY = 0.5
 """How often a customer of a drone goes alone, as a string of its own."""
 
 
-@inlined
+@spliced
 def mark(marked: BoolArray, absent: IntArray, num_absent: int, node: int) -> int:
     """Mark a customer for removal. In place; return how many there are."""
     if marked[node]:
@@ -116,7 +116,7 @@ def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_cu
     return num_absent, num_touched
 
 
-@inlined
+@spliced
 def listed(slots: IntArray, count: int, slot: int) -> bool:
     """Tell whether a slot is in a list."""
     found = False

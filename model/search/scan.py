@@ -6,21 +6,21 @@ from model.problem import IntArray, UIntArray
 from model.search.draw import uniform
 from model.search.edit import AT_STOP, M_FIRST, M_KIND, M_SLOT, M_TYPE
 from model.search.layout import (
-    MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, R_SORTIES, R_TRIPS,
-    R_TYPE, S_GAP, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST, T_LOAD,
-    W_POSITION, W_SLOT, Fleet, World,
+    CHANGING, FAR, K_DETOUR, K_STAMP, K_STOP, MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST,
+    P_LIMIT, P_RELEASE, P_SERVICE, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_GAP, S_LATEST, S_LEAVE,
+    S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, W_POSITION, W_SLOT, Fleet, World,
 )
 from model.search.retype import larger_type, route_cost
 
 
-@inlined
+@spliced
 def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
     """Tell whether an insertion into a route costs its detour alone."""
     return (world.mode[fleet.route[slot, R_TYPE]] & MODE_SIMPLE > 0
             and fleet.route[slot, R_SORTIES] == 0)
 
 
-@inlined
+@spliced
 def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntArray) -> bool:
     """Tell whether a customer's demand fits on top of a trip's load."""
     for dimension in range(MAX_DIMENSIONS):
@@ -32,13 +32,13 @@ def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntAr
 
 @spliced
 def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last: int,
-               place: IntArray, spare: int, rate: float, best: float, blink: float,
+               skipped: int, place: IntArray, spare: int, rate: float, best: float, blink: float,
                rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
 
-    Where cost is that of the detour, which is at most `spare`. `back` and `leg` are the legs to and
-    from the customer, (node, 2); a better place is overlooked with probability `blink`. Returns its
-    cost and the stop, or `best` and -1 if none costs less.
+    But for stop `skipped`, where cost is that of the detour, which is at most `spare`. `back` and
+    `leg` are the legs to and from the customer, (node, 2); a better place is overlooked with
+    probability `blink`. Returns its cost and the stop, or `best` and -1 if none costs less.
     """
     chosen = -1
     earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
@@ -46,7 +46,7 @@ def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last:
         here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
         detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
         cost = detour * rate
-        if cost >= best or detour > spare:
+        if cost >= best or detour > spare or p == skipped:
             continue
         arrival = stops[p, S_LEAVE] + back[here, 0]
         if arrival > limit:
@@ -100,7 +100,8 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
     if place[P_RELEASE] > stops[trip[T_FIRST], S_LEAVE]:
         return scan_delayed(world, back, leg, stops, trip[T_FIRST], first, last, node, spare, rate,
                             best, rng)
-    return scan_stops(back, leg, stops, first, last, place, spare, rate, best, world.blink, rng)
+    return scan_stops(back, leg, stops, first, last, -1, place, spare, rate, best, world.blink,
+                      rng)
 
 
 @inlined
@@ -113,6 +114,90 @@ def exchanged(world: World, fleet: Fleet, slot: int, node: int,
     if by < 0:
         return by, 0.0
     return by, route_cost(world, by, fleet.trip[slot, 0, T_DISTANCE]) - fleet.cost[slot]
+
+
+@spliced
+def shortest_detour(back: IntArray, leg: IntArray, stops: IntArray, last: int, place: IntArray,
+                    best: int) -> tuple[int, int]:
+    """Return the shortest detour for a customer on a lean route, and the stop before it.
+
+    Or `best` and -1 if there is none shorter.
+    """
+    chosen = -1
+    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    for p in range(last):
+        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+        detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
+        if detour >= best:
+            continue
+        arrival = stops[p, S_LEAVE] + back[here, 0]
+        if arrival > limit:
+            if stops[p, S_LEAVE] > limit:
+                break
+            continue
+        arrival = max(arrival, earliest) + service + leg[there, 0]
+        if arrival <= stops[p + 1, S_LATEST]:
+            chosen, best = p, detour
+    return best, chosen
+
+
+@spliced
+def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, best: float,
+              kept: IntArray) -> tuple[float, int]:
+    """As `scan_stops`, on a lean route that this turn doesn't change, but for overlooking.
+
+    Most turns are undone, so that most routes are as when the customer was inserted before.
+    """
+    stamp = fleet.route[slot, R_STAMP]
+    if kept[K_STAMP] != stamp or (kept[K_STOP] < 0 and kept[K_DETOUR] * rate < best):
+        m = world.type[fleet.route[slot, R_TYPE], TYPE_TRAVEL]
+        most = FAR
+        if best < FAR * rate:
+            most = int(best / rate) + 1
+        kept[K_STAMP] = stamp
+        kept[K_DETOUR], kept[K_STOP] = shortest_detour(
+            world.back[m, node], world.leg[m, node], fleet.stop[slot], fleet.trip[slot, 0, T_LAST],
+            world.place[node], most)
+    cost = kept[K_DETOUR] * rate
+    if cost >= best:
+        return best, -1
+    return cost, kept[K_STOP]
+
+
+@spliced
+def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
+              best: float, enlarge: bool, kept: IntArray, move: IntArray, rng: UIntArray) -> float:
+    """Find the cheapest stop where all routes are lean. As `try_stops`.
+
+    In place: also `kept`, as in `Searcher`.
+    """
+    for index in range(num_active):
+        slot = active[index]
+        k = fleet.route[slot, R_TYPE]
+        if not world.can[k, 0, node]:
+            continue
+        by, base = k, 0.0
+        if not fits(world.place, node, fleet.trip[slot], 0, world.type[k]):
+            by, base = exchanged(world, fleet, slot, node, enlarge)
+            if by < 0 or base >= best:
+                continue
+        rate = world.rate[by, RATE_KM]
+        skipped, changing = -1, not world.scan_all or fleet.route[slot, R_STAMP] == CHANGING
+        cost, p = best, -1
+        if not changing:
+            cost, p = scan_kept(world, fleet, slot, node, rate, best - base, kept[node, slot])
+            if p >= 0 and uniform(rng) < world.blink:
+                skipped, changing = p, True
+        if changing:
+            m = world.type[k, TYPE_TRAVEL]
+            cost, p = scan_stops(
+                world.back[m, node], world.leg[m, node], fleet.stop[slot], 0,
+                fleet.trip[slot, 0, T_LAST] - 1, skipped, world.place[node], FAR, rate, best - base,
+                world.blink, rng)
+        if p >= 0:
+            best = cost + base
+            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+    return best
 
 
 @pasted

@@ -1,6 +1,6 @@
 """Insertions that begin a trip more on a route, or split one, where distance alone costs."""
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.instance import (
     MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_DEPOT, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE,
     TYPE_RELOAD, TYPE_TRAVEL,
@@ -14,7 +14,7 @@ from model.search.layout import (
 )
 
 
-@inlined
+@spliced
 def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: bool) -> bool:
     """Tell whether a customer's demand fits on top of a trip's up to stop `p`, or of the rest."""
     stops, sorties = fleet.stop[slot], fleet.sortie[slot]
@@ -34,7 +34,7 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
     return True
 
 
-@inlined
+@spliced
 def serve_at(world: World, node: int, arrival: int) -> int:
     """Return when a truck that arrives at a customer has served; FAR if it is too late."""
     place = world.place[node]
@@ -43,7 +43,7 @@ def serve_at(world: World, node: int, arrival: int) -> int:
     return max(arrival, place[P_EARLIEST]) + place[P_SERVICE]
 
 
-@inlined
+@spliced
 def drive_to(world: World, stops: IntArray, first: int, last: int, time: int) -> int:
     """Return when a truck that leaves stop `first` at `time` leaves stop `last`; FAR: too late."""
     for p in range(first + 1, last + 1):
@@ -99,7 +99,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
             and max(front_length, rear_length) <= columns[TYPE_MAX_DISTANCE])
 
 
-@inlined
+@spliced
 def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     """Tell whether a customer can be served by a trip of its own behind stop `p`, or -1."""
     route, stops = fleet.route[slot], fleet.stop[slot]
@@ -116,7 +116,7 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
             and legs[depot, node, 1] + legs[node, depot, 1] <= columns[TYPE_MAX_DISTANCE])
 
 
-@inlined
+@spliced
 def more_trips_fit(world: World, fleet: Fleet, slot: int, p: int, node: int, kind: int) -> bool:
     """Tell whether a simple route may have a trip more as a move of `kind` behind stop `p` says."""
     if kind == NEW_TRIP:

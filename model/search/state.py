@@ -4,7 +4,10 @@ from typing import NamedTuple
 
 from model.compiled import compiled, inlined, spliced
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
-from model.search.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, Fleet, World
+from model.search.layout import (
+    CHANGING, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_KIND, S_NODE, W_SLOT, Fleet,
+    World,
+)
 from model.search.refresh import locate
 from model.search.rows import copy_row, copy_rows, copy_some
 
@@ -38,6 +41,7 @@ class Searcher(NamedTuple):
     trial: IntArray  # scratch, insertion tried
     acc: IntArray  # scratch, sums of a block
     alone: FloatArray  # (type, 2, node) cost of a route that serves one customer
+    kept: IntArray  # (node, slot, 3) K_ columns, shortest detours on lean routes
 
 
 @inlined
@@ -49,6 +53,21 @@ def copy_route(source: Fleet, slot: int, target: Fleet, to: int) -> None:
     copy_rows(source.stop[slot], target.stop[to], route[R_LENGTH])
     copy_rows(source.trip[slot], target.trip[to], route[R_TRIPS])
     copy_rows(source.sortie[slot], target.sortie[to], route[R_SORTIES])
+
+
+@inlined
+def is_same(fleet: Fleet, other: Fleet, slot: int) -> bool:
+    """Tell whether a route without sorties is the same in two fleets."""
+    route, before = fleet.route[slot], other.route[slot]
+    length = route[R_LENGTH]
+    if (length != before[R_LENGTH] or route[R_TYPE] != before[R_TYPE]
+            or route[R_SORTIES] + before[R_SORTIES] > 0):
+        return False
+    for p in range(length):
+        for column in (S_NODE, S_KIND):
+            if fleet.stop[slot, p, column] != other.stop[slot, p, column]:
+                return False
+    return True
 
 
 @inlined
@@ -69,6 +88,7 @@ def touch(searcher: Searcher, slot: int) -> None:
         if searcher.touched[index] == slot:
             return
     copy_route(searcher.now, slot, searcher.before, slot)
+    searcher.now.route[slot, R_STAMP] = CHANGING
     searcher.touched[searcher.count[I_TOUCHED]] = slot
     searcher.count[I_TOUCHED] += 1
 
@@ -113,7 +133,11 @@ def accept(searcher: Searcher, cost: float) -> None:
     count = searcher.count
     count[I_STAMP] += 1
     for index in range(count[I_TOUCHED]):
-        searcher.now.route[searcher.touched[index], R_STAMP] = count[I_STAMP]
+        slot = searcher.touched[index]
+        stamp = count[I_STAMP]
+        if len(searcher.kept) > 0 and is_same(searcher.now, searcher.before, slot):
+            stamp = searcher.before.route[slot, R_STAMP]
+        searcher.now.route[slot, R_STAMP] = stamp
     count[I_MISSING] = count[I_ABSENT]
     copy_some(searcher.absent, searcher.missing, count[I_ABSENT])
     searcher.value[V_COST] = cost

@@ -11,10 +11,10 @@ from model.problem import FloatArray, IntArray, Problem
 from model.search.edit import MOVE_COLUMNS, begin_route
 from model.search.evaluate import INFEASIBLE
 from model.search.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, NONE,
-    NOWHERE, P_DEMAND, P_EARLIEST, P_SERVICE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE,
-    S_ARRIVAL, S_GAP, S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, START, T_FIRST, T_LAST,
-    W_SLOT, Fleet, World, empty_fleet,
+    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF,
+    KEPT_COLUMNS, NONE, NOWHERE, P_DEMAND, P_EARLIEST, P_SERVICE, R_LENGTH, R_SORTIES, R_STAMP,
+    R_TRIPS, R_TYPE, S_ARRIVAL, S_GAP, S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, START,
+    T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
 )
 from model.search.refresh import clear_holds, locate, refresh, settle
 from model.search.resplit import LINE_COLUMNS
@@ -48,6 +48,7 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
     slots, stops, trips, sorties = sizes
     now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
     nodes = world.num_nodes
+    kept = (nodes, slots, KEPT_COLUMNS) if world.scan_all and not world.general else (0, 0, 0)
     return Searcher(
         now=now, before=before, best=best, count=_row(8), value=np.zeros(4),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
@@ -56,7 +57,7 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
         hit=np.zeros((slots, trips), np.int64), key=np.zeros(nodes),
         line=np.zeros((nodes + 2, LINE_COLUMNS), np.int64), line_cost=np.zeros(nodes + 2),
         moved=_row(max(slots, stops) + 2), move=_row(MOVE_COLUMNS), trial=_row(MOVE_COLUMNS),
-        acc=_row(8), alone=alone)
+        acc=_row(8), alone=alone, kept=np.zeros(kept, np.int64))
 
 
 def _row(length: int) -> IntArray:

@@ -1,0 +1,62 @@
+"""Insertion places that are kept for as long as their route stays the same."""
+
+import numpy as np
+import pytest
+
+from model.instance import TYPE_TRAVEL, pack
+from model.search.anneal import ANY, anneal
+from model.search.construct import begin_anew
+from model.search.layout import (
+    CHANGING, K_DETOUR, K_STAMP, K_STOP, P_EARLIEST, P_LIMIT, P_SERVICE, R_LENGTH, R_STAMP, R_TYPE,
+    S_LATEST, S_LEAVE, S_LEG, S_NODE, W_SLOT, World,
+)
+from model.search.state import I_ACTIVE, V_COST, V_TEMPERATURE, Searcher
+from model.search.translate import make_searcher
+from model.search.world import make_world
+from model.solution import Solution
+from training.instances import generate
+
+TURNS, ROUNDS = 40, 25
+
+
+def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int, int]:
+    """Return the detour for a customer behind each stop of a route where no rule is broken."""
+    stops = searcher.now.stop[slot]
+    legs = world.leg[world.type[searcher.now.route[slot, R_TYPE], TYPE_TRAVEL]]
+    place, detours = world.place[node], {}
+    for p in range(searcher.now.route[slot, R_LENGTH] - 1):
+        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+        arrival = stops[p, S_LEAVE] + legs[here, node, 0]
+        leave = max(arrival, place[P_EARLIEST]) + place[P_SERVICE]
+        if arrival <= place[P_LIMIT] and leave + legs[node, there, 0] <= stops[p + 1, S_LATEST]:
+            detours[p] = legs[here, node, 1] + legs[node, there, 1] - stops[p, S_LEG]
+    return detours
+
+
+@pytest.mark.parametrize("seed", [8, 9])
+def test_places_kept_are_the_shortest_detours_on_routes_as_they_are(seed: int) -> None:
+    problem = generate(np.random.default_rng(seed), 80, "vrptw")
+    world = make_world(problem, pack([problem]))
+    assert not world.general
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(5))
+    begin_anew(world, searcher, True)
+    searcher.value[V_TEMPERATURE] = searcher.value[V_COST] / 2000
+    found = none = 0
+    for _ in range(ROUNDS):
+        anneal(world, searcher, TURNS, ANY)
+        for slot in searcher.active[: searcher.count[I_ACTIVE]]:
+            stamp = searcher.now.route[slot, R_STAMP]
+            assert stamp != CHANGING
+            for node in np.flatnonzero(searcher.kept[:, slot, K_STAMP] == stamp):
+                if searcher.now.where[node, W_SLOT] == slot:
+                    continue
+                _, detour, p = searcher.kept[node, slot]
+                assert (K_DETOUR, K_STOP) == (1, 2)
+                detours = shortest(world, searcher, slot, node)
+                assert min(detours.values(), default=detour) >= detour
+                if p >= 0:
+                    assert detours[p] == detour
+                    found += 1
+                else:
+                    none += 1
+    assert min(found, none) > ROUNDS
