@@ -20,7 +20,7 @@ from model.search.layout import (
 )
 from model.search.refresh import idle_time, stop_beside
 from model.search.rows import copy_row
-from model.search.scan import fits, is_simple, scan_beside, scan_lean, scan_simple
+from model.search.scan import fits, is_simple, scan_beside, scan_beside_lean, scan_lean, scan_simple
 from model.search.splitting import more_trips_fit, part_fits
 
 MORE_TRIPS = 0.2
@@ -318,9 +318,9 @@ def find_beside(world: World, fleet: Fleet, alone: FloatArray, node: int, enlarg
                 move: IntArray, trial: IntArray, rng: UIntArray, acc: IntArray) -> float:
     """Find the cheapest insertion of a customer beside its neighbours. As `find_place`."""
     best = try_new_route(world, fleet, alone, node, INFEASIBLE, move, rng)
-    best = scan_beside(world, fleet, node, best, enlarge, move, rng)
     if not world.general:
-        return best
+        return scan_beside_lean(world, fleet, node, best, enlarge, move, rng)
+    best = scan_beside(world, fleet, node, best, enlarge, move, rng)
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
         slot = fleet.where[other, W_SLOT]

@@ -249,3 +249,36 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
             best = cost + base
             move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
     return best
+
+
+@spliced
+def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
+                     move: IntArray, rng: UIntArray) -> float:
+    """Find the cheapest stop beside neighbours where all routes are lean. As `try_stops`."""
+    place = world.place[node]
+    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    for rank in range(world.fit.shape[1]):
+        other = world.fit[node, rank]
+        slot, behind = fleet.where[other, W_SLOT], fleet.where[other, W_POSITION]
+        if slot < 0:
+            continue
+        k = fleet.route[slot, R_TYPE]
+        if not world.can[k, 0, node]:
+            continue
+        by, base = k, 0.0
+        if not fits(world.place, node, fleet.trip[slot], 0, world.type[k]):
+            by, base = exchanged(world, fleet, slot, node, enlarge)
+            if by < 0 or base >= best:
+                continue
+        m, rate = world.type[k, TYPE_TRAVEL], world.rate[by, RATE_KM]
+        back, leg, stops = world.back[m, node], world.leg[m, node], fleet.stop[slot]
+        for p in (behind - 1, behind):
+            here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+            cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate + base
+            arrival = stops[p, S_LEAVE] + back[here, 0]
+            leave = max(arrival, earliest) + service
+            if (cost < best and arrival <= limit and leave + leg[there, 0] <= stops[p + 1, S_LATEST]
+                    and uniform(rng) >= world.blink):
+                best = cost
+                move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+    return best
