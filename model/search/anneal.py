@@ -19,8 +19,8 @@ from model.search.retype import cheapen_types, draw_type, improve_types
 from model.search.rows import copy_some
 from model.search.ruin import choose, remove_marked
 from model.search.state import (
-    I_ABSENT, I_ACTIVE, I_CUSTOMERS, I_MISSING, I_TOUCHED, I_TURN, V_BEST, V_COOLING, V_COST,
-    V_TEMPERATURE, Searcher, accept, copy_route, keep_best, list_active, touch, turn_cost,
+    I_ABSENT, I_ACTIVE, I_CUSTOMERS, I_LEAN, I_MISSING, I_TOUCHED, I_TURN, V_BEST, V_COOLING,
+    V_COST, V_TEMPERATURE, Searcher, accept, copy_route, keep_best, list_active, touch, turn_cost,
 )
 
 ANY = -1
@@ -105,7 +105,7 @@ def undo(searcher: Searcher) -> None:
         if now.route[slot, R_LENGTH] > 0:
             now.used[now.route[slot, R_TYPE]] -= 1
         same = same and (now.route[slot, R_LENGTH] > 0) == (before.route[slot, R_LENGTH] > 0)
-        copy_route(before, slot, now, slot)
+        copy_route(before, slot, now, slot, searcher.count[I_LEAN])
         if now.route[slot, R_LENGTH] > 0:
             now.used[now.route[slot, R_TYPE]] += 1
             locate(now, slot)

@@ -11,8 +11,8 @@ from model.search.layout import (
 from model.search.refresh import locate
 from model.search.rows import copy_some
 from model.search.state import (
-    I_ACTIVE, I_BEST_MISSING, I_CUSTOMERS, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher, copy_route,
-    keep_best, list_active,
+    I_ACTIVE, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher,
+    copy_route, keep_best, list_active,
 )
 from model.search.translate import empty_searcher
 
@@ -177,7 +177,7 @@ def take_part(world: World, whole: Searcher, part: Searcher, owner: IntArray, nu
     for index in range(whole.count[I_ACTIVE]):
         slot = whole.active[index]
         if owner[slot] == number:
-            copy_route(whole.now, slot, now, filled)
+            copy_route(whole.now, slot, now, filled, count[I_LEAN])
             locate(now, filled)
             cost += now.cost[filled]
             filled += 1
@@ -209,7 +209,7 @@ def add_routes(whole: Searcher, part: Searcher, filled: int) -> int:
     """
     now, count = whole.now, whole.count
     for index in range(part.count[I_ACTIVE]):
-        copy_route(part.now, part.active[index], now, filled)
+        copy_route(part.now, part.active[index], now, filled, count[I_LEAN])
         now.used[now.route[filled, R_TYPE]] += 1
         locate(now, filled)
         filled += 1
@@ -231,7 +231,7 @@ def add_best(whole: Searcher, part: Searcher, filled: int) -> int:
     count = whole.count
     for slot in range(len(part.active)):
         if part.best.route[slot, R_LENGTH] > 0:
-            copy_route(part.best, slot, whole.best, filled)
+            copy_route(part.best, slot, whole.best, filled, count[I_LEAN])
             filled += 1
     for index in range(part.count[I_BEST_MISSING]):
         whole.best_missing[count[I_BEST_MISSING]] = part.best_missing[index]

@@ -5,14 +5,16 @@ from typing import NamedTuple
 from model.compiled import compiled, inlined, spliced
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
 from model.search.layout import (
-    CHANGING, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_KIND, S_NODE, W_SLOT, Fleet,
-    World,
+    CHANGING, LEAN_COLUMNS, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_KIND,
+    S_NODE, W_SLOT, Fleet, World,
 )
 from model.search.refresh import locate
 from model.search.rows import copy_row, copy_rows, copy_some
 
-(I_ACTIVE, I_MISSING, I_ABSENT, I_TOUCHED, I_TURN, I_STAMP, I_BEST_MISSING,
- I_CUSTOMERS) = range(8)
+(I_ACTIVE, I_MISSING, I_ABSENT, I_TOUCHED, I_TURN, I_STAMP, I_BEST_MISSING, I_CUSTOMERS,
+ I_LEAN) = range(9)
+"""Of these, whether all routes are lean."""
+COUNTS = 9
 V_COST, V_BEST, V_TEMPERATURE, V_COOLING = range(4)
 
 
@@ -22,7 +24,7 @@ class Searcher(NamedTuple):
     now: Fleet
     before: Fleet
     best: Fleet
-    count: IntArray  # type: ignore[assignment]  # (8,) I_ numbers
+    count: IntArray  # type: ignore[assignment]  # (COUNTS,) I_ numbers
     value: FloatArray  # (4,) V_ numbers
     rng: UIntArray  # (1,)
     active: IntArray  # slots in use
@@ -45,11 +47,21 @@ class Searcher(NamedTuple):
 
 
 @inlined
-def copy_route(source: Fleet, slot: int, target: Fleet, to: int) -> None:
-    """Copy a route between fleets, from a slot to a slot. In place."""
+def copy_route(source: Fleet, slot: int, target: Fleet, to: int, lean: int) -> None:
+    """Copy a route between fleets, from a slot to a slot; `lean`, only what lean ones need.
+
+    In place.
+    """
     route = source.route[slot]
     copy_row(route, target.route[to])
     target.cost[to] = source.cost[slot]
+    if lean:
+        stops, copies = source.stop[slot], target.stop[to]
+        for p in range(route[R_LENGTH]):
+            for column in range(LEAN_COLUMNS):
+                copies[p, column] = stops[p, column]
+        copy_row(source.trip[slot, 0], target.trip[to, 0])
+        return
     copy_rows(source.stop[slot], target.stop[to], route[R_LENGTH])
     copy_rows(source.trip[slot], target.trip[to], route[R_TRIPS])
     copy_rows(source.sortie[slot], target.sortie[to], route[R_SORTIES])
@@ -87,7 +99,7 @@ def touch(searcher: Searcher, slot: int) -> None:
     for index in range(searcher.count[I_TOUCHED]):
         if searcher.touched[index] == slot:
             return
-    copy_route(searcher.now, slot, searcher.before, slot)
+    copy_route(searcher.now, slot, searcher.before, slot, searcher.count[I_LEAN])
     searcher.now.route[slot, R_STAMP] = CHANGING
     searcher.touched[searcher.count[I_TOUCHED]] = slot
     searcher.count[I_TOUCHED] += 1
@@ -108,7 +120,7 @@ def keep_best(searcher: Searcher) -> None:
     now, best = searcher.now, searcher.best
     for slot in range(len(searcher.active)):
         if now.route[slot, R_STAMP] != best.route[slot, R_STAMP]:
-            copy_route(now, slot, best, slot)
+            copy_route(now, slot, best, slot, searcher.count[I_LEAN])
     copy_row(now.used, best.used)
     missing = searcher.count[I_MISSING]
     searcher.count[I_BEST_MISSING] = missing
@@ -149,7 +161,7 @@ def go_back(searcher: Searcher) -> None:
     now, best, count = searcher.now, searcher.best, searcher.count
     count[I_STAMP] += 1
     for slot in range(len(searcher.active)):
-        copy_route(best, slot, now, slot)
+        copy_route(best, slot, now, slot, count[I_LEAN])
         now.route[slot, R_STAMP] = count[I_STAMP]
     copy_row(best.used, now.used)
     for node in range(len(now.where)):

@@ -21,7 +21,8 @@ from model.search.resplit import LINE_COLUMNS
 from model.search.routes import drive_forward, load_trips
 from model.search.savings import savings_routes
 from model.search.state import (
-    I_BEST_MISSING, I_CUSTOMERS, I_MISSING, I_STAMP, V_COST, Searcher, keep_best, list_active,
+    COUNTS, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_COST, Searcher,
+    keep_best, list_active,
 )
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
@@ -47,10 +48,11 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
     """Make room for a search: for so many routes, and stops, trips and sorties of one."""
     slots, stops, trips, sorties = sizes
     now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
-    nodes = world.num_nodes
+    nodes, count = world.num_nodes, _row(COUNTS)
+    count[I_LEAN] = not world.general
     kept = (nodes, slots, KEPT_COLUMNS) if world.scan_all and not world.general else (0, 0, 0)
     return Searcher(
-        now=now, before=before, best=best, count=_row(8), value=np.zeros(4),
+        now=now, before=before, best=best, count=count, value=np.zeros(4),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
