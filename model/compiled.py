@@ -24,6 +24,7 @@ SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", 
 """Files with compiled functions, and those whose constants are compiled into them."""
 
 LITTLE = type(config.OPT)(1)  # type: ignore[attr-defined]
+"""Level of optimisation for what is optimised again."""
 
 
 class PartCompiler(Compiler):
@@ -45,6 +46,7 @@ PART: dict[str, Any] = {
 """Options of functions that exist only within others."""
 
 PASTED: dict[str, Any] = {"nogil": True, "_nrt": False, "inline": "always"}
+"""Options of functions whose source becomes a part of others'."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -73,7 +75,8 @@ def inlined(function: Function) -> Function:
 def spliced(function: Function) -> Function:
     """Compile like `inlined`, always into the body of the caller.
 
-    For what is called often, in few places, with arrays by the dozen: else each is passed on.
+    For what is called often, in few places, with arrays by the dozen: a call copies what describes
+    each, two hundred words for a `World` and a `Fleet`.
     """
     return cast(Function, njit(**PART, forceinline=True)(function))
 

@@ -144,7 +144,7 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
     """Ruin and recreate `turns` times. In place.
 
     Given an `order`, nobody is removed, all who are left out are inserted in it, and that is kept
-    whatever it costs; each in a part of this function, since it takes minutes to compile two.
+    whatever it costs. This is one function, not two, since insertion takes a minute to compile.
     """
     value, count = searcher.value, searcher.count
     building = order != ANY

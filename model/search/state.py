@@ -13,7 +13,7 @@ from model.search.rows import copy_row, copy_rows, copy_some
 
 (I_ACTIVE, I_MISSING, I_ABSENT, I_TOUCHED, I_TURN, I_STAMP, I_BEST_MISSING, I_CUSTOMERS,
  I_LEAN) = range(9)
-"""Of these, whether all routes are lean."""
+"""How many there are of each; the turn, the last stamp given, and whether all routes are lean."""
 COUNTS = 9
 V_COST, V_BEST, V_TEMPERATURE, V_COOLING = range(4)
 
