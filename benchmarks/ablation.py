@@ -200,14 +200,8 @@ def table_of_pairs(trials: Sequence[Trial]) -> list[str]:
     In percent, with standard errors.
     """
     limits = sorted({row.budget_s for row in trials if row.start == "policy"})
-    base = {limit: {row.problem: row.cost for row in trials if row.way == Way("insertion", limit)}
-            for limit in limits}
-    rows = []
-    for name, group in groups(trials).items():
-        cells = [excess(group, Way("policy", limit), base[limit]) for limit in limits]
-        rows.append([name, _count(group), *(f"{more:+z.2f} ± {error:.2f}"
-                                            for more, error in cells)])
-    return _markdown(["%", "problems", *(f"{limit:g} s" for limit in limits)], rows)
+    return _excesses(trials, {f"{limit:g} s": (Way("policy", limit), Way("insertion", limit))
+                              for limit in limits})
 
 
 def table_of_moves(trials: Sequence[Trial]) -> list[str]:
@@ -216,13 +210,21 @@ def table_of_moves(trials: Sequence[Trial]) -> list[str]:
     In percent, with standard errors.
     """
     everything = Way("insertion", MOVES_SECONDS)
-    base = {row.problem: row.cost for row in trials if row.way == everything}
+    return _excesses(trials, {f"without {move}": (replace(everything, without=move), everything)
+                              for move in MOVES})
+
+
+def _excesses(trials: Sequence[Trial], columns: Mapping[str, tuple[Way, Way]]) -> list[str]:
+    """Return the table of what plans made one way cost above those made the other."""
+    bases = [{row.problem: row.cost for row in trials if row.way == other}
+             for _, other in columns.values()]
     rows = []
     for name, group in groups(trials).items():
-        cells = [excess(group, Way("insertion", MOVES_SECONDS, move), base) for move in MOVES]
+        cells = [excess(group, way, base)
+                 for (way, _), base in zip(columns.values(), bases, strict=True)]
         rows.append([name, _count(group), *(f"{more:+z.2f} ± {error:.2f}"
                                             for more, error in cells)])
-    return _markdown(["%", "problems", *(f"without {move}" for move in MOVES)], rows)
+    return _markdown(["%", "problems", *columns], rows)
 
 
 def _count(trials: Iterable[Trial]) -> str:

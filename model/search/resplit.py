@@ -27,10 +27,12 @@ from model.search.layout import (
 from model.search.refresh import any_customer, idle_time, locate, refresh, stop_beside
 from model.search.state import Searcher, keep_aside, touch
 
-L_NODE, L_DRIVE, L_DISTANCE, L_GROUNDED, L_BEFORE, L_FLIGHT = range(6)
-LINE_COLUMNS = 6
+(L_NODE, L_DRIVE, L_DISTANCE, L_GROUNDED, L_BEFORE, L_FLIGHT, L_SPARED_DRIVE,
+ L_SPARED_DISTANCE) = range(8)
+LINE_COLUMNS = 8
 """Node; driving and serving up to the arrival there; distance; how many so far no truck may serve;
-the operation that ends there: the stop where it begins, the customer flown to."""
+the operation that ends there: the stop where it begins, the customer flown to; what a truck that
+passes by the place is spared of both."""
 
 NO_FLIGHT = 0
 LONGEST_OPERATION = 12
@@ -152,31 +154,38 @@ def measure(world: World, k: int, line: IntArray, length: int) -> None:
         line[j, L_GROUNDED] = line[j - 1, L_GROUNDED]
         if j < length - 1 and not world.can[k, 0, node]:
             line[j, L_GROUNDED] += 1
+    for j in range(1, length - 1):
+        direct = legs[line[j - 1, L_NODE], line[j + 1, L_NODE]]
+        line[j, L_SPARED_DRIVE] = line[j + 1, L_DRIVE] - line[j - 1, L_DRIVE] - direct[0]
+        line[j, L_SPARED_DRIVE] -= world.place[line[j - 1, L_NODE], P_SERVICE]
+        line[j, L_SPARED_DISTANCE] = line[j + 1, L_DISTANCE] - line[j - 1, L_DISTANCE] - direct[1]
 
 
 @spliced
-def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: int) -> float:
-    """Return what it costs to go from place `i` to `j` while the drone serves place `flown`."""
+def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: int,
+                   most: float) -> float:
+    """Return what it costs to go from place `i` to `j` while the drone serves place `flown`.
+
+    Infinite if that can't be, or if what the truck does alone costs `most` or more.
+    """
     columns, rate = world.type[k], world.rate[k]
     node, customer, to = line[i, L_NODE], line[flown, L_NODE], line[j, L_NODE]
+    drive = line[j, L_DRIVE] - line[i, L_DRIVE] - line[flown, L_SPARED_DRIVE]
+    distance = line[j, L_DISTANCE] - line[i, L_DISTANCE] - line[flown, L_SPARED_DISTANCE]
+    here, handled = world.place[node, P_SERVICE], columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
+    driven = drive - here + max(0, here - columns[TYPE_LAUNCH])
+    if (handled + driven) * rate[RATE_HOUR] + distance * rate[RATE_KM] >= most:
+        return math.inf
     flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
     service = columns[TYPE_DRONE_SERVICE]
     if service < 0:
         service = world.place[customer, P_SERVICE]
     flight = flights[node, customer, 0] + service + flights[customer, to, 0]
-    legs = world.leg[columns[TYPE_TRAVEL]]
-    before, behind = line[flown - 1, L_NODE], line[flown + 1, L_NODE]
-    drive = (line[j, L_DRIVE] - line[i, L_DRIVE] - world.place[customer, P_SERVICE]
-             + legs[before, behind, 0] - legs[before, customer, 0] - legs[customer, behind, 0])
-    distance = (line[j, L_DISTANCE] - line[i, L_DISTANCE] + legs[before, behind, 1]
-                - legs[before, customer, 1] - legs[customer, behind, 1])
-    here = world.place[node, P_SERVICE]
-    airborne = max(flight, drive - here + max(0, here - columns[TYPE_LAUNCH]))
+    airborne = max(flight, driven)
     counted = airborne if columns[TYPE_WAITING_COUNTS] else flight
     if counted > columns[TYPE_ENDURANCE]:
         return math.inf
-    duration = columns[TYPE_LAUNCH] + airborne + columns[TYPE_RECOVERY]
-    return (duration * rate[RATE_HOUR] + distance * rate[RATE_KM]
+    return ((handled + airborne) * rate[RATE_HOUR] + distance * rate[RATE_KM]
             + airborne * rate[RATE_DRONE_HOUR]
             + (flights[node, customer, 1] + flights[customer, to, 1]) * rate[RATE_DRONE_KM])
 
@@ -219,7 +228,8 @@ def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, 
                 customer = line[flown, L_NODE]
                 if not world.can[k, 1, customer] or (grounded == 1 and world.can[k, 0, customer]):
                     continue
-                total = cost[i] + operation_cost(world, k, line, i, j, flown)
+                total = cost[i] + operation_cost(world, k, line, i, j, flown,
+                                                 cost[j] - cost[i])
                 if total < cost[j]:
                     cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, flown
         if loops < math.inf:
@@ -249,7 +259,7 @@ def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
     while j > 0:
         i, flown = line[j, L_BEFORE], line[j, L_FLIGHT]
         if flown != NO_FLIGHT:
-            cost += operation_cost(world, k, line, i, j, flown)
+            cost += operation_cost(world, k, line, i, j, flown, math.inf)
         else:
             here = line[i, L_NODE]
             leg, service = legs[here, line[j, L_NODE]], world.place[here, P_SERVICE]
