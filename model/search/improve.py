@@ -47,7 +47,7 @@ FIRST_SLICE = 8
 STARTS_SHARE = 0.4
 """Share of the search in which each thread begins several times anew, where that pays."""
 
-START_TURNS = 90
+START_TURNS = 30
 """Turns for each customer that such a start has at least."""
 
 MOST_STARTS, MOST_STARTS_BY_TYPES = 5, 16
