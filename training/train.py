@@ -93,6 +93,8 @@ def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
         log.close()
     bar.close()
     if world > 1:
+        # A process that leaves while another still listens to it may be aborted.
+        dist.barrier()
         dist.destroy_process_group()
     return ratios
 
