@@ -63,8 +63,8 @@ def test_hours_and_capacity_are_swept_into_a_heat_map(page: Page) -> None:
     expect(page.locator("#scenario-state")).to_contain_text("done")
     heat = page.locator("#heat-map")
     expect(heat.locator("tbody tr")).to_have_count(2)
-    expect(heat.locator("td.least")).to_have_count(1)
-    heat.locator("td.least button").click()
+    # Scenarios may cost the same.
+    heat.locator("td.least button").first.click()
     expect(page.locator("#differences")).to_be_visible()
     assert state(page, "state.request.fleet.0.max_working_duration") in (21600, 28800)
 
