@@ -37,7 +37,7 @@ class Batch:
     def encoder_inputs(self, device: torch.device) -> tuple[Tensor, ...]:
         """Return node, type and pair features and the token mask as tensors."""
         seen = self.tokens
-        return tuple(torch.from_numpy(array).to(device)
+        return tuple(to_device(array, device)
                      for array in (seen.node, seen.type, seen.pair, seen.mask))
 
 
@@ -48,6 +48,28 @@ class Outcome:
     cost: FloatArray  # (rollout, 6) by term
     num_unserved: IntArray  # (rollout,)
     record: list[Decisions]  # step by step
+
+
+def to_device(array: np.ndarray, device: torch.device) -> Tensor:
+    """Return an array as a tensor; on its way to an accelerator, it may be changed at once."""
+    tensor = torch.from_numpy(array)
+    if device.type == "cuda":
+        return tensor.pin_memory().to(device, non_blocking=True)
+    return tensor.to(device)
+
+
+def to_host(tensor: Tensor) -> Callable[[], IntArray]:
+    """Begin to copy a tensor of integers; return what waits for it, but for no later work."""
+    copy = tensor.to("cpu", non_blocking=True)
+    if tensor.device.type != "cuda":
+        return copy.numpy
+    copied = torch.cuda.Event()
+    copied.record()
+
+    def wait() -> IntArray:
+        copied.synchronize()
+        return copy.numpy()
+    return wait
 
 
 def make_batch(problems: Sequence[Problem], names: Sequence[str],
@@ -80,13 +102,14 @@ def sampler(generator: torch.Generator) -> Chooser:
 
 
 class Simulation:
-    """Rollouts of a batch in the simulator, `num_rollouts` of each problem, by several threads."""
+    """Rollouts of some of a batch's problems in the simulator, by several threads."""
 
-    def __init__(self, batch: Batch, num_rollouts: int, num_threads: int) -> None:
+    def __init__(self, batch: Batch, problems: range, num_rollouts: int, num_threads: int) -> None:
         self.batch = batch
-        self.num_rows = batch.num_problems * num_rollouts
-        self.shape = (batch.num_problems, num_rollouts)
-        self.state = reset(batch.instance, np.repeat(np.arange(batch.num_problems), num_rollouts),
+        self.num_rows = len(problems) * num_rollouts
+        self.shape = (len(problems), num_rollouts)
+        self.first_rollout = problems.start * num_rollouts  # among those of all problems
+        self.state = reset(batch.instance, np.repeat(np.array(problems), num_rollouts),
                            num_threads)
         self.seen: Observation = empty_observation(
             self.num_rows, batch.instance.node.shape[1], batch.instance.type.shape[1])
@@ -113,8 +136,7 @@ class Simulation:
         seen = self.seen
         arrays = (seen.here, seen.token[:, :most], seen.feature[:, :most],
                   np.arange(most) < seen.count[:, None], seen.glob)
-        return tuple(torch.from_numpy(array).to(device).unflatten(0, self.shape)
-                     for array in arrays)
+        return tuple(to_device(array, device).unflatten(0, self.shape) for array in arrays)
 
     def decisions(self, number: int, most: int, logits: Tensor, chosen: Tensor) -> Decisions:
         """Return what the rollouts that go on have seen at step `number` and have chosen."""
@@ -124,39 +146,71 @@ class Simulation:
         is_real = np.arange(most) < count[:, None]
         arrays = (rows, np.full(len(rows), number), count, seen.here[rows], seen.glob[rows],
                   seen.token[rows, :most][is_real], seen.feature[rows, :most][is_real])
-        alive, *tensors = (torch.from_numpy(array).to(logits.device) for array in arrays)
+        alive, *tensors = (to_device(array, logits.device) for array in arrays)
         choice = chosen.flatten()[alive]
         log_probability = torch.log_softmax(logits.flatten(0, 1)[alive], dim=1)
         probability = log_probability.exp()
         of_chosen = probability.gather(1, choice[:, None])[:, 0]
         surprise = (1 - 2 * of_chosen + (probability ** 2).sum(dim=1)).clamp_min(0).sqrt()
         entropy = -(probability * log_probability).sum(dim=1)
-        return Decisions(*(alive, *tensors, choice, surprise, entropy))
+        return Decisions(*(alive + self.first_rollout, *tensors, choice, surprise, entropy))
 
     def close(self) -> None:
         """Let go of the threads. In place."""
         self._pool.shutdown()
 
 
+class Part:
+    """Rollouts of some of a batch's problems by a policy, a decision of each at a time."""
+
+    def __init__(self, simulation: Simulation, memory: Tensor, hidden: Tensor) -> None:
+        self.simulation = simulation
+        self.memory = memory
+        self.hidden = hidden
+        self.chosen = to_host(torch.zeros(simulation.num_rows, dtype=torch.int64))
+        self.record: list[Decisions] = []
+
+    def step(self, policy: PolicyNetwork, choose: Chooser) -> bool:
+        """Do what was chosen and choose again. In place; False once all rollouts have ended."""
+        simulation, device = self.simulation, self.memory.device
+        most = simulation.step(self.chosen())
+        if most == 0:
+            return False
+        here, candidate, feature, allowed, glob = simulation.inputs(most, device)
+        self.hidden = policy.advance(self.memory, here, self.hidden)
+        logits = policy.score(self.memory, here, candidate, feature, allowed, glob,
+                              self.hidden).float()
+        chosen = choose(logits)
+        self.chosen = to_host(chosen.flatten())
+        self.record.append(simulation.decisions(len(self.record), most, logits, chosen))
+        return True
+
+
 @torch.no_grad()
 def roll_out(policy: PolicyNetwork, batch: Batch, num_rollouts: int, choose: Chooser,
-             device: torch.device, num_threads: int = 2) -> Outcome:
-    """Plan each problem of a batch `num_rollouts` times with a policy."""
-    simulation = Simulation(batch, num_rollouts, num_threads)
+             device: torch.device, num_threads: int = 2, num_parts: int | None = None) -> Outcome:
+    """Plan each problem of a batch `num_rollouts` times with a policy.
+
+    On an accelerator in two parts (`num_parts`): it scores what one chooses from while the
+    simulator moves the other.
+    """
+    if num_parts is None:
+        num_parts = 1 if device.type == "cpu" else min(2, batch.num_problems)
     memory = policy.encode(*batch.encoder_inputs(device)).float()
-    hidden = memory.new_zeros(*simulation.shape, policy.hidden_size)
-    choice = np.zeros(simulation.num_rows, np.int64)
-    record = []
-    for number in range(max_steps(batch.instance)):
-        most = simulation.step(choice)
-        if most == 0:
+    parts = []
+    for bounds in np.array_split(np.arange(batch.num_problems), num_parts):
+        problems = range(int(bounds[0]), int(bounds[-1]) + 1)
+        simulation = Simulation(batch, problems, num_rollouts, num_threads)
+        parts.append(Part(simulation, memory[problems.start:problems.stop],
+                          memory.new_zeros(*simulation.shape, policy.hidden_size)))
+    going = parts
+    for _ in range(max_steps(batch.instance)):
+        going = [part for part in going if part.step(policy, choose)]
+        if not going:
             break
-        here, candidate, feature, allowed, glob = simulation.inputs(most, device)
-        hidden = policy.advance(memory, here, hidden)
-        logits = policy.score(memory, here, candidate, feature, allowed, glob, hidden).float()
-        chosen = choose(logits)
-        record.append(simulation.decisions(number, most, logits, chosen))
-        choice = chosen.flatten().cpu().numpy()
-    simulation.close()
-    state, rows = simulation.state, simulation.num_rows
-    return Outcome(state.cost[:rows].copy(), state.num_unserved[:rows].copy(), record)
+    for part in parts:
+        part.simulation.close()
+    states = [(part.simulation.state, part.simulation.num_rows) for part in parts]
+    return Outcome(np.concatenate([state.cost[:rows] for state, rows in states]),
+                   np.concatenate([state.num_unserved[:rows] for state, rows in states]),
+                   [decisions for part in parts for decisions in part.record])

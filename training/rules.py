@@ -26,7 +26,7 @@ def nearest_choice(batch: Batch, seen: Observation, row: int, problem: int) -> i
 
 def nearest_neighbour(batch: Batch) -> FloatArray:
     """Plan each problem by the nearest feasible customer; return the true costs, (problem,)."""
-    simulation = Simulation(batch, 1, 1)
+    simulation = Simulation(batch, range(batch.num_problems), 1, 1)
     choice: IntArray = np.zeros(batch.num_problems, np.int64)
     while simulation.step(choice):
         for row in np.flatnonzero(simulation.seen.count).tolist():

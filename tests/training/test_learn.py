@@ -16,7 +16,7 @@ from training.learn import (
     critic_advantage, critic_step, draw_weights, policy_gradient, shared_advantage, training_costs,
 )
 from training.policies import AnyPolicy
-from training.rollout import Batch, Outcome, make_batch, roll_out, sampler
+from training.rollout import Batch, Outcome, greedy, make_batch, roll_out, sampler
 
 CPU = torch.device("cpu")
 NUM_ROLLOUTS = 3
@@ -67,6 +67,19 @@ def gradient_of(policy: AnyPolicy, batch: Batch, decisions: Decisions, weight: T
     policy_gradient(policy, batch, decisions, weight, advantage, max_candidates, False)
     return {name: parameter.grad.clone() for name, parameter in policy.named_parameters()
             if parameter.grad is not None}
+
+
+def test_rollouts_in_parts_are_those_of_the_whole(policy: AnyPolicy, batch: Batch) -> None:
+    whole, parts = (roll_out(policy, batch, NUM_ROLLOUTS, greedy, CPU, 2, num_parts)
+                    for num_parts in (1, 3))
+    assert np.array_equal(whole.cost, parts.cost)
+    assert np.array_equal(whole.num_unserved, parts.num_unserved)
+    one, other = join(whole.record), join(parts.record)
+    key, other_key = (decisions.rollout * 1000 + decisions.step for decisions in (one, other))
+    in_order, others_in_order = key.argsort(), other_key.argsort()
+    assert torch.equal(key[in_order], other_key[others_in_order])
+    for name in ("count", "here", "choice"):
+        assert torch.equal(getattr(one, name)[in_order], getattr(other, name)[others_in_order])
 
 
 @torch.no_grad()
