@@ -21,6 +21,9 @@ from model.search.layout import (
 NEAR_RUIN = 128
 """How many customers a ruin may spread to."""
 
+ROWS = 64
+"""For how many customers neighbours are ranked together."""
+
 NEAR_INSERTION = 40
 """Beside how many customers an insertion is tried where not everywhere is."""
 
@@ -169,11 +172,16 @@ def _near(problem: Problem) -> IntArray:
     near = np.full((problem.num_nodes, ranks), -1, np.int64)
     if number > 1:
         duration = problem.travel[problem.vehicle_types[0].travel].duration[first:, first:]
-        drive = duration.astype(np.float32)
-        drive = np.minimum(drive, drive.T)
-        np.fill_diagonal(drive, np.inf)
-        near[first:] = _ranked(drive, ranks) + first
+        for rows in _blocks(number):
+            drive = np.minimum(duration[rows], duration[:, rows].T).astype(np.float32)
+            drive[np.arange(len(drive)), np.arange(rows.start, rows.stop)] = np.inf
+            near[first:][rows] = _ranked(drive, ranks) + first
     return near
+
+
+def _blocks(number: int) -> list[slice]:
+    """Return ranges of rows to rank together; pages for all at once would take longer to get."""
+    return [slice(begin, min(number, begin + ROWS)) for begin in range(0, number, ROWS)]
 
 
 def _ranked(weight: NDArray[np.floating], ranks: int) -> IntArray:
@@ -200,7 +208,6 @@ def _fit(problem: Problem, place: IntArray, near: IntArray) -> IntArray:
     if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
         return fit
     duration = problem.travel[problem.vehicle_types[0].travel].duration
-    one, other = np.arange(first, problem.num_nodes)[:, None], near[first:]
 
     def detour(origin: IntArray, to: IntArray) -> FloatArray:
         drive = duration[origin, to]
@@ -209,6 +216,8 @@ def _fit(problem: Problem, place: IntArray, near: IntArray) -> IntArray:
         return (drive + WAITING_WEIGHT * np.maximum(wait, 0.0)
                 + LATENESS_WEIGHT * np.maximum(late, 0.0))
 
-    weight = np.minimum(detour(one, other), detour(other, one))
-    fit[first:] = np.take_along_axis(other, _ranked(weight, ranks), axis=1)
+    for rows in _blocks(number):
+        one, other = np.arange(first + rows.start, first + rows.stop)[:, None], near[first:][rows]
+        weight = np.minimum(detour(one, other), detour(other, one))
+        fit[first:][rows] = np.take_along_axis(other, _ranked(weight, ranks), axis=1)
     return fit
