@@ -5,6 +5,7 @@ import math
 from model.compiled import inlined, spliced
 from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES,
+    TYPE_PAYLOAD,
 )
 from model.problem import IntArray
 from model.search.draw import below
@@ -98,10 +99,23 @@ def improve_types(world: World, searcher: Searcher) -> None:
         trade(world, searcher, slot)
 
 
+@spliced
+def lifts(world: World, sortie: IntArray, k: int, node: int) -> bool:
+    """Tell whether a type's drone lifts a customer's parcel on top of a sortie's."""
+    for dimension in range(MAX_DIMENSIONS):
+        payload = world.place[node, P_DEMAND + dimension]
+        for visit in range(sortie[F_COUNT]):
+            payload += world.place[sortie[F_NODE + visit], P_DEMAND + dimension]
+        if payload > world.type[k, TYPE_PAYLOAD + dimension]:
+            return False
+    return True
+
+
 @inlined
 def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
     """Tell whether type `k` has the depot, the drones and the skills that a route needs."""
     route, stops, sorties = fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]
+    nothing = world.type[k, TYPE_DEPOT]
     if world.type[k, TYPE_DEPOT] != world.type[route[R_TYPE], TYPE_DEPOT]:
         return False
     for p in range(route[R_LENGTH]):
@@ -109,7 +123,8 @@ def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
             return False
     for s in range(route[R_SORTIES]):
         sortie = sorties[s]
-        if sortie[F_DRONE] >= world.type[k, TYPE_DRONES] or sortie[F_COUNT] > world.visits[k]:
+        if (sortie[F_DRONE] >= world.type[k, TYPE_DRONES] or sortie[F_COUNT] > world.visits[k]
+                or not lifts(world, sortie, k, nothing)):
             return False
         for visit in range(sortie[F_COUNT]):
             if not world.can[k, 1, sortie[F_NODE + visit]]:

@@ -195,6 +195,23 @@ def test_routes_of_several_trips_change_their_vehicle(seed: int) -> None:
     assert improved_cost(problem, start, 400, seed) < 27
 
 
+def test_sorties_of_several_change_to_no_drone_that_lifts_less() -> None:
+    places = [(4, 0), (4, 1), (-4, 0), (-4, 1), (0, 5), (1, 5)]
+    kinds = tuple(
+        VehicleType(name, 2, (6000,), 0, fixed_cost=fixed, cost_per_km=10.0, drones=DroneType(
+            1, (payload,), 0, cost_per_km=0.1, max_customers_per_sortie=2))
+        for name, fixed, payload in (("strong", 1.0, 2000), ("weak", 0.0, 1000)))
+    problem = on_a_plane(places, *kinds)
+    nobody = Solution((), tuple(range(1, 7)))
+    pairs = 0
+    for seed in range(6):
+        found = improve(problem, pack([problem]), nobody, SearchConfig(seed=seed, turns=400))
+        assert check(problem, found.solution).violations == ()
+        pairs += sum(len(sortie.visits) > 1 for route in found.solution.routes
+                     for trip in route.trips for sortie in trip.sorties)
+    assert pairs > 0
+
+
 def test_first_plan_looks_beyond_what_the_first_customer_costs() -> None:
     problem = on_a_plane(FAR_OFF, replace(SMALL, count=9), replace(LARGE, count=9))
     found = improve(problem, pack([problem]), Solution((), tuple(range(1, 11))),
