@@ -16,11 +16,11 @@ from typing import Any, TypeVar, cast
 from numba import config, njit
 from numba.core.compiler import Compiler
 
-SOURCES = ("compiled", "problem", "instance", "schedule", "cost", "transition", "simulator",
+SOURCES = ("compiled", "problem", "rows", "instance", "schedule", "cost", "transition", "simulator",
            "tokens", "prospects", "features", "parts", "rolling", *(f"search/{part}" for part in (
-               "layout", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
-               "ruin", "state", "retype", "scan", "splitting", "insertion", "exchange", "resplit",
-               "recreate", "anneal", "construct", "savings", "translate", "sharing")))
+               "layout", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate", "ruin",
+               "state", "retype", "scan", "splitting", "insertion", "places", "exchange",
+               "resplit", "recreate", "anneal", "construct", "savings", "translate", "sharing")))
 """Files with compiled functions, and those whose constants are compiled into them."""
 
 LITTLE = type(config.OPT)(1)  # type: ignore[attr-defined]

@@ -18,6 +18,7 @@ from model.instance import (
     TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, TYPE_TRAVEL, Instance,
 )
 from model.problem import IntArray
+from model.rows import copy_rows
 from model.schedule import (
     COUNT_OPS, COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, IN_FLIGHT, SORTIE_ARRIVAL, SORTIE_START,
     STOP_ARRIVAL, STOP_START, TRIP_START, Setting, first_departure, log_of, setting_of,
@@ -122,25 +123,17 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
 
 
 @inlined
-def _copy_rows(source: IntArray, target: IntArray, count: int) -> None:
-    """Copy the first rows of a table to another of as many columns. In place."""
-    for row in range(count):
-        for column in range(source.shape[1]):
-            target[row, column] = source[row, column]
-
-
-@inlined
 def _copy_vehicle(state: State, r: int, to: int) -> None:
     """Copy the open vehicle of one row to another. In place."""
     logs = state.log
     count = logs.count[r]
-    _copy_rows(state.vehicle[r : r + 1], state.vehicle[to : to + 1], 1)
-    _copy_rows(logs.count[r : r + 1], logs.count[to : to + 1], 1)
-    _copy_rows(state.drone[r], state.drone[to], state.drone.shape[1])
-    _copy_rows(logs.trip[r], logs.trip[to], count[COUNT_TRIPS])
-    _copy_rows(logs.stop[r], logs.stop[to], count[COUNT_STOPS])
-    _copy_rows(logs.op[r], logs.op[to], count[COUNT_OPS])
-    _copy_rows(logs.sortie[r], logs.sortie[to], count[COUNT_SORTIES])
+    copy_rows(state.vehicle[r : r + 1], state.vehicle[to : to + 1], 1)
+    copy_rows(logs.count[r : r + 1], logs.count[to : to + 1], 1)
+    copy_rows(state.drone[r], state.drone[to], state.drone.shape[1])
+    copy_rows(logs.trip[r], logs.trip[to], count[COUNT_TRIPS])
+    copy_rows(logs.stop[r], logs.stop[to], count[COUNT_STOPS])
+    copy_rows(logs.op[r], logs.op[to], count[COUNT_OPS])
+    copy_rows(logs.sortie[r], logs.sortie[to], count[COUNT_SORTIES])
 
 
 @compiled

@@ -21,24 +21,25 @@ FORBIDDEN = {
 }
 
 SEARCH = tuple(f"search/{name}" for name in (
-    "layout", "world", "rows", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
-    "ruin", "state", "retype", "scan", "splitting", "insertion", "recreate", "exchange", "resplit",
-    "savings", "translate", "heat", "sharing", "anneal", "construct", "starts", "improve",
+    "layout", "world", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
+    "ruin", "state", "retype", "scan", "splitting", "insertion", "places", "recreate", "exchange",
+    "resplit", "savings", "translate", "heat", "sharing", "anneal", "construct", "starts",
+    "improve",
 ))
 REPLANNING = tuple(f"replanning/{name}" for name in (
     "amend", "kept", "workers", "remainder", "handover"))
 MODEL_ORDER = (
     "compiled", "problem", "solution", "past", "timing", "metrics", "rules", "past_rules", "check",
     "attempt", "explain", *REPLANNING,
-    "travel", "airspace", "instance", "schedule", "cost", "transition", "simulator", "tokens",
-    "prospects", "features", "parts", "rolling", "extract", *SEARCH, "policy", "policy_pointer",
-    "policy_attention", "decode", "planner", "replan",
+    "rows", "travel", "airspace", "instance", "schedule", "cost", "transition", "simulator",
+    "tokens", "prospects", "features", "parts", "rolling", "extract", *SEARCH, "policy",
+    "policy_pointer", "policy_attention", "decode", "planner", "replan",
 )
 """Each file of `model` imports only files to the left of its name."""
 
 CHECKER = ("past", "timing", "metrics", "rules", "past_rules", "check", "attempt", "explain")
-SIMULATION = ("compiled", "instance", "schedule", "cost", "transition", "simulator", "tokens",
-              "prospects", "features", "parts", "rolling", "extract")
+SIMULATION = ("compiled", "rows", "instance", "schedule", "cost", "transition", "simulator",
+              "tokens", "prospects", "features", "parts", "rolling", "extract")
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
 

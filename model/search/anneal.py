@@ -9,6 +9,7 @@ problems, Transportation Science 54:417-433.
 import math
 
 from model.compiled import compiled_on_arrays, inlined, spliced
+from model.rows import copy_some
 from model.search.draw import below, uniform
 from model.search.exchange import exchange_tails
 from model.search.layout import NOWHERE, R_LENGTH, R_TYPE, W_SLOT, World
@@ -16,7 +17,6 @@ from model.search.recreate import ORDERS, recreate, sort_absent
 from model.search.refresh import locate
 from model.search.resplit import resplit
 from model.search.retype import cheapen_types, draw_type, improve_types
-from model.search.rows import copy_some
 from model.search.ruin import choose, remove_marked
 from model.search.state import (
     I_ABSENT, I_ACTIVE, I_CUSTOMERS, I_LEAN, I_MISSING, I_TOUCHED, I_TURN, V_BEST, V_COOLING,
@@ -164,7 +164,8 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
                 cheapen_types(world, searcher)
         cost = turn_cost(world, searcher)
         limit = value[V_COST] - value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
-        forced = world.must_serve and count[I_ABSENT] > 0 and rarer_absences(searcher)
+        forced = (not building and world.must_serve and count[I_ABSENT] > 0
+                  and rarer_absences(searcher))
         if building or cost < limit or forced:
             accept(searcher, cost)
             if cost < value[V_BEST]:

@@ -3,10 +3,10 @@
 import math
 
 from model.compiled import compiled
+from model.rows import clear
 from model.search.anneal import anneal
 from model.search.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, World
 from model.search.recreate import BY_FAR, BY_WIDTH
-from model.search.rows import clear
 from model.search.state import (
     I_ABSENT, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher, go_back, list_active,
 )

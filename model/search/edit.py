@@ -2,11 +2,11 @@
 
 from model.compiled import inlined
 from model.problem import BoolArray, IntArray
+from model.rows import clear, copy_row
 from model.search.layout import (
     CUSTOMER, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, NONE, R_LENGTH, R_SORTIES,
     R_TYPE, S_HOLD, S_KIND, S_NODE, S_RELEASE, SEQUENCE_COLUMNS, START,
 )
-from model.search.rows import clear, copy_row
 
 (M_KIND, M_SLOT, M_FIRST, M_LAST, M_DRONE, M_SORTIE, M_TYPE) = range(7)
 MOVE_COLUMNS = 8

@@ -1,23 +1,24 @@
 """What an insertion costs: from the blocks around it, or by timing the whole route again."""
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.instance import (
     RATE_HOUR, RATE_KM, TYPE_DEPOT, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL,
 )
 from model.problem import IntArray
+from model.rows import copy_row
 from model.search.block import plain_block, time_block
 from model.search.edit import (
     BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, apply,
 )
 from model.search.layout import (
-    END, F_LAUNCH, F_RECOVERY, F_STATE, FAR, MODE_PRICED, NONE, P_RELEASE, R_LENGTH, R_OFFSET,
-    R_SORTIES, R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_D, S_DEP, S_DEPART, S_EARLY,
-    S_END, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST, S_LATEST, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST,
-    S_TRIP, SEQUENCE_COLUMNS, START, T_FIRST, T_RELEASE, WAITING, Fleet, World,
+    CUSTOMER, END, F_LAUNCH, F_RECOVERY, F_STATE, FAR, MODE_PRICED, MODE_PROFILE, MODE_SETTLED,
+    NONE, P_EARLIEST, P_LATEST, P_LIMIT, P_RELEASE, P_SERVICE, R_LENGTH, R_OFFSET, R_SORTIES,
+    R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY,
+    S_END, S_FLYING, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE,
+    S_RELEASE, S_REST, S_TRIP, SEQUENCE_COLUMNS, START, T_FIRST, T_RELEASE, WAITING, Fleet, World,
 )
 from model.search.refresh import refresh
-from model.search.routes import sortie_cost
-from model.search.rows import copy_row
+from model.search.routes import sortie_cost, window_cost
 
 INFEASIBLE = 1e300
 
@@ -183,10 +184,84 @@ def price_move(world: World, fleet: Fleet, move: IntArray, node: int, acc: IntAr
         trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move[M_SORTIE], F_LAUNCH],
                                            S_TRIP]]
     release = world.place[node, P_RELEASE]
-    alone = kind in (FLIGHT_TRIP, NEW_TRIP, FLIGHT_TRIP)
+    alone = kind in (NEW_TRIP, FLIGHT_TRIP)
     held = not alone and release > trip[T_RELEASE]
     first, last = part_of(fleet, slot, move, held)
     skipped = copy_part(fleet, slot, first, last, to)
     apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, first, skipped)
     give_releases(fleet, to, alone, trip, release)
     return price_part(world, fleet, slot, first, last, to, acc)
+
+
+@spliced
+def stands_alone(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
+    """Tell whether `price_stop` can price a customer behind stop `p`.
+
+    No drone is in the air there, the trip needs not wait for the parcel and, if lateness counts,
+    no drone flies at all, so that stops follow one another in time.
+    """
+    mode = world.mode[fleet.route[slot, R_TYPE]]
+    stop = fleet.stop[slot, p]
+    if mode & MODE_PRICED and (mode & (MODE_SETTLED | MODE_PROFILE)
+                               or fleet.route[slot, R_SORTIES] > 0):
+        return False
+    return (stop[S_FLYING] == 0
+            and world.place[node, P_RELEASE] <= fleet.trip[slot, stop[S_TRIP], T_RELEASE])
+
+
+@inlined
+def follow(world: World, route: IntArray, stops: IntArray, p: int, time: int, cum: int,
+           depart: int) -> tuple[float, int, int, int]:
+    """Return what lateness costs more if stop `p` is reached at `time`, and how the route ends.
+
+    That is its end, the sum of all durations, and the latest departure that costs nothing; `cum`
+    and `depart` are those up to stop `p`. No drone flies.
+    """
+    cost, last = 0.0, route[R_LENGTH] - 1
+    for q in range(p, last + 1):
+        stop = stops[q]
+        leave = time
+        if stop[S_KIND] == CUSTOMER:
+            node = stop[S_NODE]
+            place = world.place[node]
+            cost += window_cost(world, node, time) - window_cost(world, node, stop[S_ARRIVAL])
+            depart = min(depart, max(time, place[P_LATEST]) - cum)
+            leave, cum = max(time, place[P_EARLIEST]) + place[P_SERVICE], cum + place[P_SERVICE]
+        elif stop[S_KIND] == START:
+            leave = max(time, stop[S_RELEASE])
+        time = leave
+        if q < last:
+            time, cum = time + stop[S_GAP], cum + stop[S_GAP]
+    return cost, time, cum, depart
+
+
+@spliced
+def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> float:
+    """Return what it costs to insert a customer behind stop `p`; INFEASIBLE if it can't be.
+
+    For where `stands_alone`; in constant time unless lateness costs.
+    """
+    route, stops, place = fleet.route[slot], fleet.stop[slot], world.place[node]
+    k, here, behind = route[R_TYPE], stops[p], stops[p + 1]
+    m = world.type[k, TYPE_TRAVEL]
+    out, on = world.back[m, node, here[S_NODE]], world.leg[m, node, behind[S_NODE]]
+    time, cum = here[S_LEAVE] + out[0], here[S_CUM] + out[0]
+    if time > place[P_LIMIT]:
+        return INFEASIBLE
+    cost = (out[1] + on[1] - here[S_LEG]) * world.rate[k, RATE_KM]
+    depart = min(here[S_DEPART], max(time, place[P_LATEST]) - cum)
+    late = window_cost(world, node, time)
+    time = max(time, place[P_EARLIEST]) + place[P_SERVICE] + on[0]
+    cum += place[P_SERVICE] + on[0]
+    if time > behind[S_LATEST] or time < behind[S_EARLY]:
+        return INFEASIBLE
+    if world.mode[k] & MODE_PRICED:
+        later, end, cum, depart = follow(world, route, stops, p + 1, time, cum, depart)
+        cost += late + later
+    else:
+        depart = min(depart, behind[S_LATEST] - cum)
+        end, cum = max(time + behind[S_REST], behind[S_END]), cum + behind[S_REST]
+    working = end - min(depart, end - cum) - route[R_OFFSET]
+    if working > world.type[k, TYPE_MAX_WORKING]:
+        return INFEASIBLE
+    return cost + (working - route[R_WORKING]) * world.rate[k, RATE_HOUR]

@@ -7,6 +7,7 @@ from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_MAX_TRIPS,
     TYPE_TRAVEL,
 )
+from model.rows import copy_row
 from model.search.edit import put
 from model.search.layout import (
     CUSTOMER, END, F_LAUNCH, F_RECOVERY, NOWHERE, P_DEMAND, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE,
@@ -14,7 +15,6 @@ from model.search.layout import (
     World,
 )
 from model.search.refresh import any_customer, locate, refresh
-from model.search.rows import copy_row
 from model.search.state import Searcher, keep_aside, touch
 
 NEIGHBOURS = 16

@@ -49,6 +49,11 @@ CHANGING = 0
 K_STAMP, K_DETOUR, K_STOP = range(3)
 """Stamp of the route, shortest detour for a customer, stop before it; -1 if none is that short."""
 KEPT_COLUMNS = 3
+K_MOVE = 1
+"""Where routes are not lean, what follows the stamp is the best insertion, as in `edit`."""
+
+B_BEST, B_BLINK = range(2)
+"""Cost below which insertions are looked for, and how often one is overlooked."""
 
 W_SLOT, W_POSITION, W_SORTIE = range(3)
 NOWHERE, ELSEWHERE = -1, -2
@@ -75,6 +80,7 @@ class World(NamedTuple):
     traded: bool  # vehicles may drive each other's routes
     mixed: bool  # types of vehicles, some of whose routes are not lean, may drive each other's
     scan_all: bool  # else insertion looks beside neighbours only
+    keeps: bool  # customers' best places on routes are kept from turn to turn
     must_serve: bool  # leaving a customer out costs more than any route for one
     blink: float  # how often a better place for a customer is overlooked
     unassigned_cost: float
@@ -99,6 +105,7 @@ class Fleet(NamedTuple):
 
     route: IntArray  # (slot, ROUTE_COLUMNS)
     cost: FloatArray  # (slot,)
+    early: FloatArray  # (slot,) of it, what waiting costs where trips are held back
     stop: IntArray  # (slot, position, STOP_COLUMNS)
     trip: IntArray  # (slot, trip, TRIP_COLUMNS)
     sortie: IntArray  # (slot, sortie, F_NODE + 2 * max_visits) customers, then their arrivals
@@ -111,6 +118,7 @@ def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int) 
     return Fleet(
         route=np.zeros((slots + 2, ROUTE_COLUMNS), np.int64),
         cost=np.zeros(slots + 2),
+        early=np.zeros(slots + 2),
         stop=np.zeros((slots + 2, stops, STOP_COLUMNS), np.int64),
         trip=np.zeros((slots + 2, trips, TRIP_COLUMNS), np.int64),
         sortie=np.zeros((slots + 2, sorties, F_NODE + 2 * world.max_visits), np.int64),

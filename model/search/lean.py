@@ -5,12 +5,12 @@ from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL,
 )
 from model.problem import IntArray
+from model.rows import clear
 from model.search.layout import (
     CUSTOMER, LEAN_COLUMNS, NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_SERVICE, R_LENGTH, R_TRIPS,
     R_TYPE, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_LAST,
     T_LOAD, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
 )
-from model.search.rows import clear
 
 
 @inlined

@@ -8,16 +8,12 @@ from model.search.edit import (
     M_FIRST, M_KIND, M_SLOT, M_TYPE, NEW_FLIGHT, NEW_ROUTE, apply, begin_route,
 )
 from model.search.evaluate import INFEASIBLE
-from model.search.insertion import find_beside, find_place, try_new_route
-from model.search.layout import (
-    MODE_LEAN, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_TYPE, World,
-)
+from model.search.layout import MODE_LEAN, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_TYPE, World
 from model.search.lean import insert_lean
+from model.search.places import find_beside, find_place, try_new_route
 from model.search.refresh import locate, refresh
 from model.search.retype import change_type
-from model.search.state import (
-    I_ABSENT, I_ACTIVE, Searcher, keep_aside, list_active, touch,
-)
+from model.search.state import I_ABSENT, Searcher, keep_aside, list_active, touch
 
 ENLARGED = 0.2
 """How often a full route may take a larger vehicle to serve a customer more."""
@@ -118,15 +114,11 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool) -> No
         node = absent[index]
         cost = INFEASIBLE
         if opening and index == first:
-            cost = try_new_route(world, searcher.now, searcher.alone, node, cost, searcher.move,
-                                 searcher.rng)
+            cost = try_new_route(world, searcher, node)
         elif not scan_all:
-            cost = find_beside(world, searcher.now, searcher.alone, node, enlarge,
-                               searcher.move, searcher.trial, searcher.rng, searcher.acc)
+            cost = find_beside(world, searcher, node, enlarge)
         if cost == INFEASIBLE:
-            cost = find_place(world, searcher.now, searcher.alone, searcher.active,
-                              count[I_ACTIVE], node, enlarge, searcher.kept, searcher.move,
-                              searcher.trial, searcher.rng, searcher.acc)
+            cost = find_place(world, searcher, node, enlarge)
         wanted = cost < world.unassigned_cost or (opening and index == first)
         if cost == INFEASIBLE or not wanted or not insert(world, searcher, node):
             absent[left] = node

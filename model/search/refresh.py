@@ -12,7 +12,7 @@ from model.search.layout import (
 )
 from model.search.lean import refresh_lean
 from model.search.routes import (
-    drive_forward, first_departure, load_trips, look_back, open_up, price_route,
+    drive_forward, first_departure, load_trips, look_back, open_up, price_route, price_windows,
 )
 
 MOST_DRAWS = 64
@@ -142,6 +142,7 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
     if not drive_forward(world, route, stops, sorties, acc):
         return False
     depart = first_departure(world, route, stops, sorties)
+    fleet.early[slot] = 0.0
     if mode & MODE_SETTLED:
         if not settle(world, route, stops, trips, sorties, acc):
             return False
@@ -151,6 +152,7 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
         return False
     fleet.cost[slot] = price_route(world, route, stops, trips, sorties)
     if mode & MODE_SETTLED:
+        _, fleet.early[slot] = price_windows(world, route, stops, sorties)
         clear_holds(route, stops, trips)
         drive_forward(world, route, stops, sorties, acc)
     if mode & MODE_PROFILE:

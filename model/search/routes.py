@@ -1,12 +1,13 @@
 """All that follows from the sequence of a route: loads, times, where it bends, its cost."""
 
-from model.compiled import inlined
+from model.compiled import inlined, spliced
 from model.instance import (
     MAX_DIMENSIONS, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY,
     TYPE_DRONE_TRAVEL, TYPE_EARLIEST, TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RECOVERY,
     TYPE_RELOAD, TYPE_TRAVEL,
 )
 from model.problem import IntArray
+from model.rows import clear
 from model.search.block import plain_block, time_block, travel
 from model.search.layout import (
     CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_STATE, F_TAKEOFF, FAR,
@@ -16,7 +17,6 @@ from model.search.layout import (
     S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, START, T_DISTANCE, T_FIRST, T_LAST, T_LOAD,
     T_RELEASE, WAITING, World,
 )
-from model.search.rows import clear
 
 
 @inlined
@@ -141,15 +141,40 @@ def open_up(route: IntArray, stops: IntArray) -> None:
         stops[p, S_LATEST], stops[p, S_EARLY] = FAR, NONE
 
 
-@inlined
+@spliced
+def lateness_cost(world: World, node: int, arrival: int) -> float:
+    """Return what being late at a customer costs; nothing at a depot."""
+    return max(0, arrival - world.place[node, P_LATEST]) * world.price[node, 0]
+
+
+@spliced
+def waiting_cost(world: World, node: int, arrival: int) -> float:
+    """Return what being early at a customer costs."""
+    return max(0, world.place[node, P_EARLIEST] - arrival) * world.price[node, 1]
+
+
+@spliced
 def window_cost(world: World, node: int, arrival: int) -> float:
     """Return what being late, or early, at a customer costs."""
-    place = world.place[node]
-    if arrival > place[P_LATEST]:
-        return (arrival - place[P_LATEST]) * world.price[node, 0]
-    if arrival < place[P_EARLIEST]:
-        return (place[P_EARLIEST] - arrival) * world.price[node, 1]
-    return 0.0
+    return lateness_cost(world, node, arrival) + waiting_cost(world, node, arrival)
+
+
+@inlined
+def price_windows(world: World, route: IntArray, stops: IntArray,
+                  sorties: IntArray) -> tuple[float, float]:
+    """Return what lateness and what waiting cost on a timed route."""
+    late = early = 0.0
+    for p in range(route[R_LENGTH]):
+        if stops[p, S_KIND] == CUSTOMER:
+            late += lateness_cost(world, stops[p, S_NODE], stops[p, S_ARRIVAL])
+            early += waiting_cost(world, stops[p, S_NODE], stops[p, S_ARRIVAL])
+    for s in range(route[R_SORTIES]):
+        for visit in range(sorties[s, F_COUNT]):
+            node = sorties[s, F_NODE + visit]
+            arrival = sorties[s, F_NODE + world.max_visits + visit]
+            late += lateness_cost(world, node, arrival)
+            early += waiting_cost(world, node, arrival)
+    return late, early
 
 
 @inlined
@@ -189,11 +214,6 @@ def price_route(world: World, route: IntArray, stops: IntArray, trips: IntArray,
     for s in range(route[R_SORTIES]):
         cost += sortie_cost(world, k, stops, sorties[s])
     if world.mode[k] & MODE_PRICED:
-        for p in range(route[R_LENGTH]):
-            if stops[p, S_KIND] == CUSTOMER:
-                cost += window_cost(world, stops[p, S_NODE], stops[p, S_ARRIVAL])
-        for s in range(route[R_SORTIES]):
-            for visit in range(sorties[s, F_COUNT]):
-                cost += window_cost(world, sorties[s, F_NODE + visit],
-                                    sorties[s, F_NODE + world.max_visits + visit])
+        late, early = price_windows(world, route, stops, sorties)
+        cost += late + early
     return cost

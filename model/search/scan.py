@@ -2,13 +2,14 @@
 
 from model.compiled import inlined, pasted, spliced
 from model.instance import MAX_DIMENSIONS, RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE, TYPE_TRAVEL
-from model.problem import IntArray, UIntArray
+from model.problem import FloatArray, IntArray, UIntArray
 from model.search.draw import uniform
 from model.search.edit import AT_STOP, M_FIRST, M_KIND, M_SLOT, M_TYPE
 from model.search.layout import (
-    CHANGING, FAR, K_DETOUR, K_STAMP, K_STOP, MODE_SIMPLE, NOWHERE, P_DEMAND, P_EARLIEST,
-    P_LIMIT, P_RELEASE, P_SERVICE, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_GAP, S_LATEST, S_LEAVE,
-    S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, W_POSITION, W_SLOT, Fleet, World,
+    B_BEST, B_BLINK, CHANGING, FAR, K_DETOUR, K_STAMP, K_STOP, MODE_SIMPLE, NOWHERE, P_DEMAND,
+    P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_GAP, S_LATEST,
+    S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, W_POSITION, W_SLOT, Fleet,
+    World,
 )
 from model.search.retype import larger_type, route_cost
 
@@ -62,7 +63,7 @@ def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last:
 @inlined
 def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, start: int,
                  first: int, last: int, node: int, spare: int, rate: float, best: float,
-                 rng: UIntArray) -> tuple[float, int]:
+                 blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
     chosen, place = -1, world.place[node]
     earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
@@ -84,14 +85,14 @@ def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, s
         if p < first or cost >= best or detour > spare or arrival > limit:
             continue
         arrival = max(arrival, earliest) + service + leg[stops[p + 1, S_NODE], 0]
-        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= world.blink:
+        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
 
 
 @spliced
 def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, last: int, node: int,
-              rate: float, best: float, rng: UIntArray) -> tuple[float, int]:
+              rate: float, best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer on a trip. As `scan_stops`."""
     k, trip, stops = fleet.route[slot, R_TYPE], fleet.trip[slot, index], fleet.stop[slot]
     m = world.type[k, TYPE_TRAVEL]
@@ -99,20 +100,25 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
     spare = world.type[k, TYPE_MAX_DISTANCE] - trip[T_DISTANCE]
     if place[P_RELEASE] > stops[trip[T_FIRST], S_LEAVE]:
         return scan_delayed(world, back, leg, stops, trip[T_FIRST], first, last, node, spare, rate,
-                            best, rng)
-    return scan_stops(back, leg, stops, first, last, -1, place, spare, rate, best, world.blink,
-                      rng)
+                            best, blink, rng)
+    return scan_stops(back, leg, stops, first, last, -1, place, spare, rate, best, blink, rng)
 
 
-@inlined
-def exchanged(world: World, fleet: Fleet, slot: int, node: int,
-              enlarge: bool) -> tuple[int, float]:
-    """Return the type that would serve a customer more on a route, and what it costs more."""
+@spliced
+def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
+                 enlarge: bool) -> tuple[int, float]:
+    """Return the type that would serve a customer more on a trip, and what it costs more.
+
+    A larger one if `enlarge`; or `NOWHERE`.
+    """
+    k = fleet.route[slot, R_TYPE]
+    if fits(world.place, node, fleet.trip[slot], index, world.type[k]):
+        return k, 0.0
     if not enlarge:
         return NOWHERE, 0.0
     by = larger_type(world, fleet, slot, node)
     if by < 0:
-        return by, 0.0
+        return NOWHERE, 0.0
     return by, route_cost(world, by, fleet.trip[slot, 0, T_DISTANCE]) - fleet.cost[slot]
 
 
@@ -167,20 +173,18 @@ def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, bes
 @spliced
 def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
               best: float, enlarge: bool, kept: IntArray, move: IntArray, rng: UIntArray) -> float:
-    """Find the cheapest stop where all routes are lean. As `try_stops`.
+    """Find the cheapest stop where all routes are lean; return the best cost so far.
 
-    In place: also `kept`, as in `Searcher`.
+    In place: `move`, if that is a stop that costs less than `best`; also `kept`, as in `Searcher`.
     """
     for index in range(num_active):
         slot = active[index]
         k = fleet.route[slot, R_TYPE]
         if not world.can[k, 0, node]:
             continue
-        by, base = k, 0.0
-        if not fits(world.place, node, fleet.trip[slot], 0, world.type[k]):
-            by, base = exchanged(world, fleet, slot, node, enlarge)
-            if by < 0 or base >= best:
-                continue
+        by, base = serving_type(world, fleet, slot, 0, node, enlarge)
+        if by < 0 or (by != k and base >= best):
+            continue
         rate = world.rate[by, RATE_KM]
         skipped, changing = -1, not world.scan_all or fleet.route[slot, R_STAMP] == CHANGING
         cost, p = best, -1
@@ -200,34 +204,28 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
     return best
 
 
-@pasted
-def scan_simple(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
-                best: float, enlarge: bool, move: IntArray, rng: UIntArray) -> float:
-    """Find the cheapest stop among the routes where only distance counts. As `try_stops`."""
-    for index in range(num_active):
-        slot = active[index]
-        k = fleet.route[slot, R_TYPE]
-        if not (is_simple(world, fleet, slot) and world.can[k, 0, node]):
+@spliced
+def scan_simple(world: World, fleet: Fleet, slot: int, node: int, enlarge: bool,
+                bound: FloatArray, move: IntArray, rng: UIntArray) -> None:
+    """Find the cheapest stop on a route where only distance counts. As `places.try_route`."""
+    k = fleet.route[slot, R_TYPE]
+    for trip in range(fleet.route[slot, R_TRIPS]):
+        by, base = serving_type(world, fleet, slot, trip, node, enlarge)
+        if by < 0 or (by != k and base >= bound[B_BEST]):
             continue
-        for trip in range(fleet.route[slot, R_TRIPS]):
-            by, base = k, 0.0
-            if not fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
-                by, base = exchanged(world, fleet, slot, node, enlarge)
-                if by < 0 or base >= best:
-                    continue
-            cost, p = scan_trip(
-                world, fleet, slot, trip, fleet.trip[slot, trip, T_FIRST],
-                fleet.trip[slot, trip, T_LAST] - 1, node, world.rate[by, RATE_KM], best - base, rng)
-            if p >= 0:
-                best = cost + base
-                move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
-    return best
+        cost, p = scan_trip(
+            world, fleet, slot, trip, fleet.trip[slot, trip, T_FIRST],
+            fleet.trip[slot, trip, T_LAST] - 1, node, world.rate[by, RATE_KM],
+            bound[B_BEST] - base, bound[B_BLINK], rng)
+        if p >= 0:
+            bound[B_BEST] = cost + base
+            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
 
 
 @pasted
 def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
                 move: IntArray, rng: UIntArray) -> float:
-    """Find the cheapest stop beside neighbours where only distance counts. As `try_stops`."""
+    """Find the cheapest stop beside neighbours where only distance counts. As `scan_lean`."""
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
         slot = fleet.where[other, W_SLOT]
@@ -238,13 +236,11 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
             continue
         p = fleet.where[other, W_POSITION]
         trip = fleet.stop[slot, p, S_TRIP]
-        by, base = k, 0.0
-        if not fits(world.place, node, fleet.trip[slot], trip, world.type[k]):
-            by, base = exchanged(world, fleet, slot, node, enlarge)
-            if by < 0 or base >= best:
-                continue
+        by, base = serving_type(world, fleet, slot, trip, node, enlarge)
+        if by < 0 or (by != k and base >= best):
+            continue
         cost, p = scan_trip(world, fleet, slot, trip, p - 1, p, node, world.rate[by, RATE_KM],
-                            best - base, rng)
+                            best - base, world.blink, rng)
         if p >= 0:
             best = cost + base
             move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
@@ -254,7 +250,7 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
 @spliced
 def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
                      move: IntArray, rng: UIntArray) -> float:
-    """Find the cheapest stop beside neighbours where all routes are lean. As `try_stops`."""
+    """Find the cheapest stop beside neighbours where all routes are lean. As `scan_lean`."""
     place = world.place[node]
     earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
     for rank in range(world.fit.shape[1]):
@@ -265,11 +261,9 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
         k = fleet.route[slot, R_TYPE]
         if not world.can[k, 0, node]:
             continue
-        by, base = k, 0.0
-        if not fits(world.place, node, fleet.trip[slot], 0, world.type[k]):
-            by, base = exchanged(world, fleet, slot, node, enlarge)
-            if by < 0 or base >= best:
-                continue
+        by, base = serving_type(world, fleet, slot, 0, node, enlarge)
+        if by < 0 or (by != k and base >= best):
+            continue
         m, rate = world.type[k, TYPE_TRAVEL], world.rate[by, RATE_KM]
         back, leg, stops = world.back[m, node], world.leg[m, node], fleet.stop[slot]
         for p in (behind - 1, behind):

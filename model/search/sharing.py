@@ -5,11 +5,11 @@ import numpy as np
 from model.compiled import compiled
 from model.instance import TYPE_COUNT
 from model.problem import FloatArray, IntArray
+from model.rows import copy_some
 from model.search.layout import (
     ELSEWHERE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, W_SLOT, World,
 )
 from model.search.refresh import locate
-from model.search.rows import copy_some
 from model.search.state import (
     I_ACTIVE, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher,
     copy_route, keep_best, list_active,

@@ -4,17 +4,17 @@ from typing import NamedTuple
 
 from model.compiled import compiled, inlined, spliced
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
+from model.rows import copy_row, copy_rows, copy_some
 from model.search.layout import (
-    CHANGING, LEAN_COLUMNS, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_KIND,
-    S_NODE, W_SLOT, Fleet, World,
+    CHANGING, LEAN_COLUMNS, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_KIND, S_NODE,
+    W_SLOT, Fleet, World,
 )
 from model.search.refresh import locate
-from model.search.rows import copy_row, copy_rows, copy_some
 
 (I_ACTIVE, I_MISSING, I_ABSENT, I_TOUCHED, I_TURN, I_STAMP, I_BEST_MISSING, I_CUSTOMERS,
- I_LEAN) = range(9)
+ I_LEAN, I_OFFERS) = range(10)
 """How many there are of each; the turn, the last stamp given, and whether all routes are lean."""
-COUNTS = 9
+COUNTS = 10
 V_COST, V_BEST, V_TEMPERATURE, V_COOLING = range(4)
 
 
@@ -40,10 +40,13 @@ class Searcher(NamedTuple):
     key: FloatArray  # (node,) order of insertion
     moved: IntArray  # scratch
     move: IntArray  # scratch, best insertion
-    trial: IntArray  # scratch, insertion tried
+    offer: IntArray  # (offer, MOVE_COLUMNS) scratch, insertions that may be best
+    least: FloatArray  # (offer,) scratch, what each costs at least
     acc: IntArray  # scratch, sums of a block
+    bound: FloatArray  # (2,) scratch, B_ numbers
     alone: FloatArray  # (type, 2, node) cost of a route that serves one customer
-    kept: IntArray  # (node, slot, 3) K_ columns, shortest detours on lean routes
+    kept: IntArray  # (node, slot, column) K_ columns, the best places on routes as they are
+    kept_cost: FloatArray  # (node, slot) where not all routes are lean, what these cost
 
 
 @inlined
@@ -62,6 +65,7 @@ def copy_route(source: Fleet, slot: int, target: Fleet, to: int, lean: int) -> N
                 copies[p, column] = stops[p, column]
         copy_row(source.trip[slot, 0], target.trip[to, 0])
         return
+    target.early[to] = source.early[slot]
     copy_rows(source.stop[slot], target.stop[to], route[R_LENGTH])
     copy_rows(source.trip[slot], target.trip[to], route[R_TRIPS])
     copy_rows(source.sortie[slot], target.sortie[to], route[R_SORTIES])

@@ -10,8 +10,9 @@ from model.instance import (
 from model.problem import FloatArray, IntArray, Problem
 from model.search.edit import MOVE_COLUMNS, begin_route
 from model.search.evaluate import INFEASIBLE
+from model.search.insertion import AT_ONE_STOP
 from model.search.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF,
+    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, K_MOVE,
     KEPT_COLUMNS, NONE, NOWHERE, P_DEMAND, P_EARLIEST, P_SERVICE, R_LENGTH, R_SORTIES, R_STAMP,
     R_TRIPS, R_TYPE, S_ARRIVAL, S_GAP, S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, START,
     T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
@@ -21,8 +22,8 @@ from model.search.resplit import LINE_COLUMNS
 from model.search.routes import drive_forward, load_trips
 from model.search.savings import savings_routes
 from model.search.state import (
-    COUNTS, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_COST, Searcher,
-    keep_best, list_active,
+    COUNTS, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_COST, Searcher, keep_best,
+    list_active,
 )
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
@@ -50,7 +51,12 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
     now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
     nodes, count = world.num_nodes, _row(COUNTS)
     count[I_LEAN] = not world.general
-    kept = (nodes, slots, KEPT_COLUMNS) if world.scan_all and not world.general else (0, 0, 0)
+    columns = K_MOVE + MOVE_COLUMNS if world.general else KEPT_COLUMNS
+    kept = np.zeros((nodes, slots, columns) if world.keeps else (0, 0, 0), np.int64)
+    kept_cost = np.zeros((nodes, slots) if world.keeps and world.general else (0, 0))
+    # On one route, by a trip more on any, beside neighbours.
+    offers = max(AT_ONE_STOP * stops + sorties * (world.max_visits + 1),
+                 nodes + slots * (3 * trips + 2), 2 * AT_ONE_STOP * world.fit.shape[1])
     return Searcher(
         now=now, before=before, best=best, count=count, value=np.zeros(4),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
@@ -58,8 +64,9 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
         hit=np.zeros((slots, trips), np.int64), key=np.zeros(nodes),
         line=np.zeros((nodes + 2, LINE_COLUMNS), np.int64), line_cost=np.zeros(nodes + 2),
-        moved=_row(max(slots, stops) + 2), move=_row(MOVE_COLUMNS), trial=_row(MOVE_COLUMNS),
-        acc=_row(8), alone=alone, kept=np.zeros(kept, np.int64))
+        moved=_row(max(slots, stops) + 2), move=_row(MOVE_COLUMNS),
+        offer=np.zeros((offers, MOVE_COLUMNS), np.int64), least=np.zeros(offers),
+        acc=_row(8), bound=np.zeros(2), alone=alone, kept=kept, kept_cost=kept_cost)
 
 
 def _row(length: int) -> IntArray:

@@ -33,7 +33,7 @@ SCAN_ALL_BELOW = 400
 LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
 """How often a better place is overlooked: the last by the number of customers squared and that on a
 sortie, within the first two. Small problems have so few places that little else would differ from
-turn to turn."""
+turn to turn, so that none are kept there where more than distance counts."""
 
 MOST_VISITS = 8
 """Customers on a sortie that the search puts there at most."""
@@ -76,17 +76,18 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
     rate = rates / np.array([1.0, MM_PER_KM, MS_PER_HOUR, MM_PER_KM, MS_PER_HOUR])
     mode = _modes(instance, columns, place)
     swap = _swaps(problem, mode)
+    general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
+    blink = _blink(problem.num_customers, most_visits)
     return World(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
         tails=moves.tails,
         single_drones=has_single_drones(problem, moves),
-        loops=moves.loops, crossings=moves.crossings, general=not bool((mode & MODE_LEAN).all()),
+        loops=moves.loops, crossings=moves.crossings, general=general,
         traded=moves.types and bool(swap.any()),
-        mixed=(moves.types and len(problem.vehicle_types) > 1
-               and not bool((mode & MODE_LEAN).all())),
-        scan_all=problem.num_customers < SCAN_ALL_BELOW,
-        must_serve=_must_serve(problem), blink=_blink(problem.num_customers, most_visits),
+        mixed=moves.types and len(problem.vehicle_types) > 1 and general,
+        scan_all=scan_all, keeps=scan_all and (not general or blink <= LEAST_BLINK),
+        must_serve=_must_serve(problem), blink=blink,
         unassigned_cost=float(problem.unassigned_cost),
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
         type=columns, rate=rate, mode=mode, visits=visits,

@@ -1,15 +1,22 @@
 """Insertion places that are kept for as long as their route stays the same."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
+from model.compiled import compiled_on_arrays
 from model.instance import TYPE_TRAVEL, pack
+from model.problem import Problem
 from model.search.anneal import ANY, anneal
 from model.search.construct import begin_anew
+from model.search.edit import M_KIND
+from model.search.evaluate import INFEASIBLE
 from model.search.layout import (
-    CHANGING, K_DETOUR, K_STAMP, K_STOP, P_EARLIEST, P_LIMIT, P_SERVICE, R_LENGTH, R_STAMP, R_TYPE,
-    S_LATEST, S_LEAVE, S_LEG, S_NODE, W_SLOT, World,
+    B_BEST, B_BLINK, CHANGING, K_DETOUR, K_MOVE, K_STAMP, K_STOP, P_EARLIEST, P_LIMIT, P_SERVICE,
+    R_LENGTH, R_STAMP, R_TYPE, S_LATEST, S_LEAVE, S_LEG, S_NODE, W_SLOT, World,
 )
+from model.search.places import try_route
 from model.search.state import I_ACTIVE, V_COST, V_TEMPERATURE, Searcher
 from model.search.translate import make_searcher
 from model.search.world import make_world
@@ -17,6 +24,34 @@ from model.solution import Solution
 from training.instances import generate
 
 TURNS, ROUNDS = 40, 25
+
+
+@compiled_on_arrays
+def least_cost(world: World, searcher: Searcher, slot: int, node: int) -> float:
+    """Return what a customer more on a route costs at least. In place: the searcher's scratch."""
+    searcher.bound[B_BEST], searcher.bound[B_BLINK] = INFEASIBLE, 0.0
+    try_route(world, searcher, slot, node, False)
+    return searcher.bound[B_BEST]
+
+
+def begun(problem: Problem, world: World) -> Searcher:
+    """Return a search that has planned once by insertion."""
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(5))
+    begin_anew(world, searcher, True)
+    searcher.value[V_TEMPERATURE] = searcher.value[V_COST] / 2000
+    return searcher
+
+
+def kept_places(world: World, searcher: Searcher) -> Iterator[tuple[int, int]]:
+    """Search in rounds; yield the routes and customers for which a place is kept after each."""
+    for _ in range(ROUNDS):
+        anneal(world, searcher, TURNS, ANY)
+        for slot in searcher.active[: searcher.count[I_ACTIVE]]:
+            stamp = searcher.now.route[slot, R_STAMP]
+            assert stamp != CHANGING
+            for node in np.flatnonzero(searcher.kept[:, slot, K_STAMP] == stamp):
+                if searcher.now.where[node, W_SLOT] != slot:
+                    yield int(slot), int(node)
 
 
 def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int, int]:
@@ -38,25 +73,36 @@ def test_places_kept_are_the_shortest_detours_on_routes_as_they_are(seed: int) -
     problem = generate(np.random.default_rng(seed), 80, "vrptw")
     world = make_world(problem, pack([problem]))
     assert not world.general
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(5))
-    begin_anew(world, searcher, True)
-    searcher.value[V_TEMPERATURE] = searcher.value[V_COST] / 2000
+    searcher = begun(problem, world)
     found = none = 0
-    for _ in range(ROUNDS):
-        anneal(world, searcher, TURNS, ANY)
-        for slot in searcher.active[: searcher.count[I_ACTIVE]]:
-            stamp = searcher.now.route[slot, R_STAMP]
-            assert stamp != CHANGING
-            for node in np.flatnonzero(searcher.kept[:, slot, K_STAMP] == stamp):
-                if searcher.now.where[node, W_SLOT] == slot:
-                    continue
-                _, detour, p = searcher.kept[node, slot]
-                assert (K_DETOUR, K_STOP) == (1, 2)
-                detours = shortest(world, searcher, slot, node)
-                assert min(detours.values(), default=detour) >= detour
-                if p >= 0:
-                    assert detours[p] == detour
-                    found += 1
-                else:
-                    none += 1
+    for slot, node in kept_places(world, searcher):
+        _, detour, p = searcher.kept[node, slot]
+        assert (K_DETOUR, K_STOP) == (1, 2)
+        detours = shortest(world, searcher, slot, node)
+        assert min(detours.values(), default=detour) >= detour
+        if p >= 0:
+            assert detours[p] == detour
+            found += 1
+        else:
+            none += 1
+    assert min(found, none) > ROUNDS
+
+
+@pytest.mark.parametrize(("variant", "seed"), [
+    ("soft", 3), ("soft", 4), ("multitrip", 4), ("drone", 3), ("mixed", 4)])
+def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: str,
+                                                                      seed: int) -> None:
+    problem = generate(np.random.default_rng(seed), 50, variant)
+    world = make_world(problem, pack([problem]))
+    assert world.general
+    searcher = begun(problem, world)
+    found = none = 0
+    for slot, node in kept_places(world, searcher):
+        least = least_cost(world, searcher, slot, node)
+        if searcher.kept[node, slot, K_MOVE + M_KIND] >= 0:
+            assert searcher.kept_cost[node, slot] == pytest.approx(least)
+            found += 1
+        else:
+            assert searcher.kept_cost[node, slot] <= least + 1e-9 * abs(least)
+            none += 1
     assert min(found, none) > ROUNDS
