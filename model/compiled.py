@@ -19,7 +19,7 @@ from numba.core.compiler import Compiler
 SOURCES = ("compiled", "problem", "rows", "instance", "schedule", "cost", "transition", "simulator",
            "tokens", "prospects", "features", "parts", "rolling", *(f"search/{part}" for part in (
                "layout", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate", "ruin",
-               "state", "retype", "scan", "splitting", "insertion", "places", "exchange",
+               "state", "retype", "scan", "splitting", "insertion", "places", "exchange", "line",
                "resplit", "recreate", "anneal", "construct", "savings", "translate", "sharing")))
 """Files with compiled functions, and those whose constants are compiled into them."""
 

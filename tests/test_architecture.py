@@ -23,7 +23,7 @@ FORBIDDEN = {
 SEARCH = tuple(f"search/{name}" for name in (
     "layout", "world", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
     "ruin", "state", "retype", "scan", "splitting", "insertion", "places", "recreate", "exchange",
-    "resplit", "savings", "translate", "heat", "sharing", "anneal", "construct", "starts",
+    "line", "resplit", "savings", "translate", "heat", "sharing", "anneal", "construct", "starts",
     "improve",
 ))
 REPLANNING = tuple(f"replanning/{name}" for name in (

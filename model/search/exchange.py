@@ -4,7 +4,7 @@ import math
 
 from model.compiled import inlined, spliced
 from model.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_MAX_TRIPS,
+    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_DEPOT, TYPE_MAX_TRIPS,
     TYPE_TRAVEL,
 )
 from model.rows import copy_row
@@ -15,7 +15,7 @@ from model.search.layout import (
     World,
 )
 from model.search.refresh import any_customer, locate, refresh
-from model.search.state import Searcher, keep_aside, touch
+from model.search.state import Searcher, free_slot, keep_aside, touch
 
 NEIGHBOURS = 16
 """With how many neighbours' routes a tail is tried."""
@@ -76,14 +76,14 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
         cost = tail_saving(world, now, a, p, b, q)
         if cost < best:
             chosen, place, best = b, q, cost
-    if now.stop[a, p + 1, S_KIND] == CUSTOMER and now.used[k] < world.type[k, TYPE_COUNT]:
+    if now.stop[a, p + 1, S_KIND] == CUSTOMER:
         m, depot = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_DEPOT]
         detour = (world.leg[m, node, depot, 1] - now.stop[a, p, S_LEG]
                   + world.leg[m, depot, now.stop[a, p + 1, S_NODE], 1])
         if world.rate[k, RATE_FIXED] + detour * world.rate[k, RATE_KM] < best:
-            for slot in range(len(searcher.active)):
-                if now.route[slot, R_LENGTH] == 0:
-                    return slot, 0
+            slot = free_slot(world, searcher, k)
+            if slot >= 0:
+                return slot, 0
     return chosen, place
 
 

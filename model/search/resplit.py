@@ -1,55 +1,38 @@
-"""A trip planned anew from one order of its customers, with the drone's split off at best.
+"""Trips with one drone planned anew from an order of their customers.
 
-The order is changed a little, then cut into operations that begin and end with truck and drone
-together, by dynamic programming. Waiting for windows is left to the exact timing that follows.
-
-References
-----------
-Agatz, Bouman and Schmidt (2018), optimization approaches for the traveling salesman problem with
-drone, Transportation Science 52:965-981.
+A part of a trip, or two routes together, the depot between them among what is moved: so a route is
+split in two, or two become one, with the drones' share of each chosen anew at once.
 """
 
 import math
 
 from model.compiled import inlined, spliced
-from model.instance import (
-    RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL,
-    TYPE_DRONES, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
-)
-from model.problem import FloatArray, IntArray
+from model.instance import RATE_FIXED, TYPE_DRONES
+from model.problem import IntArray
 from model.search.draw import below, uniform
 from model.search.edit import add_sortie, put
 from model.search.exchange import append
 from model.search.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, P_SERVICE, R_LENGTH,
-    R_SORTIES, R_TYPE, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST, W_SLOT, Fleet, World,
+    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, R_LENGTH, R_SORTIES,
+    R_TRIPS, R_TYPE, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST, W_SLOT, Fleet, World,
+)
+from model.search.line import (
+    L_BEFORE, L_FLIGHT, L_NODE, NEIGHBOURS, NO_FLIGHT, measure, present_cost, shift, shuffle, split,
 )
 from model.search.refresh import any_customer, idle_time, locate, refresh, stop_beside
-from model.search.state import Searcher, keep_aside, touch
-
-(L_NODE, L_DRIVE, L_DISTANCE, L_GROUNDED, L_BEFORE, L_FLIGHT, L_SPARED_DRIVE,
- L_SPARED_DISTANCE) = range(8)
-LINE_COLUMNS = 8
-"""Node; driving and serving up to the arrival there; distance; how many so far no truck may serve;
-the operation that ends there: the stop where it begins, the customer flown to; what a truck that
-passes by the place is spared of both."""
-
-NO_FLIGHT = 0
-LONGEST_OPERATION = 12
-"""Stops from the beginning of an operation to its end at most."""
+from model.search.state import Searcher, free_slot, keep_aside, touch
 
 WINDOW = 12
 """Stops before, and behind, a random one that are planned anew."""
 
+TOGETHER = 0.2
+"""How often two routes are planned anew together, where both have no more than two `WINDOW`."""
+
+CUT_ELSEWHERE = 0.5
+"""How often of these nothing is moved but the depot between them."""
+
 SAME = 1e-12
 """Costs that differ by a smaller share are the same."""
-
-SWAP, MOVE, REVERSE, KEEP = range(4)
-KINDS = (SWAP, SWAP, MOVE, MOVE, MOVE, REVERSE, REVERSE, KEEP)
-"""Changes of the order, those that pay more often."""
-
-NEIGHBOURLY, NEIGHBOURS = 0.8, 8
-"""How often a place is brought beside one of so many near neighbours, not just anywhere."""
 
 
 @inlined
@@ -103,171 +86,91 @@ def line_up(fleet: Fleet, slot: int, first: int, last: int, line: IntArray) -> t
     return length, exact
 
 
-@inlined
-def place_near(world: World, searcher: Searcher, count: int, one: int) -> int:
-    """Return a random place in the line, most often that of a near neighbour of place `one`."""
-    line, rng = searcher.line, searcher.rng
-    if uniform(rng) < NEIGHBOURLY:
-        wanted = world.near[line[one, L_NODE], below(rng, min(NEIGHBOURS, world.near.shape[1]))]
-        for place in range(1, count + 1):
-            if line[place, L_NODE] == wanted:
-                return place
-    return 1 + below(rng, count)
-
-
-@inlined
-def shuffle(world: World, searcher: Searcher, length: int) -> None:
-    """Change the order of the customers in the line a little. In place."""
-    line, rng = searcher.line, searcher.rng
-    count = length - 2
-    kind = KINDS[below(rng, len(KINDS))]
-    one = 1 + below(rng, count)
-    other = place_near(world, searcher, count, one)
-    if kind == KEEP or other == one:
-        return
-    if kind == MOVE:
-        node, step = line[one, L_NODE], 1 if other > one else -1
-        for position in range(one, other, step):
-            line[position, L_NODE] = line[position + step, L_NODE]
-        line[other, L_NODE] = node
-        return
-    # Either way the neighbour comes beside place `one`, or the other way round.
-    low, high = (one + 1, other) if other > one else (other, one - 1)
-    if kind == SWAP:
-        line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
-        return
-    while low < high:
-        line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
-        low, high = low + 1, high - 1
-
-
 @spliced
-def measure(world: World, k: int, line: IntArray, length: int) -> None:
-    """Write what a truck that served the whole line would drive. In place."""
-    legs = world.leg[world.type[k, TYPE_TRAVEL]]
-    line[0, L_DRIVE] = line[0, L_DISTANCE] = line[0, L_GROUNDED] = 0
-    for j in range(1, length):
-        before, node = line[j - 1, L_NODE], line[j, L_NODE]
-        leg = legs[before, node]
-        line[j, L_DRIVE] = line[j - 1, L_DRIVE] + world.place[before, P_SERVICE] + leg[0]
-        line[j, L_DISTANCE] = line[j - 1, L_DISTANCE] + leg[1]
-        line[j, L_GROUNDED] = line[j - 1, L_GROUNDED]
-        if j < length - 1 and not world.can[k, 0, node]:
-            line[j, L_GROUNDED] += 1
-    for j in range(1, length - 1):
-        direct = legs[line[j - 1, L_NODE], line[j + 1, L_NODE]]
-        line[j, L_SPARED_DRIVE] = line[j + 1, L_DRIVE] - line[j - 1, L_DRIVE] - direct[0]
-        line[j, L_SPARED_DRIVE] -= world.place[line[j - 1, L_NODE], P_SERVICE]
-        line[j, L_SPARED_DISTANCE] = line[j + 1, L_DISTANCE] - line[j - 1, L_DISTANCE] - direct[1]
+def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first: int, last: int,
+                line: IntArray) -> tuple[int, float, bool, int]:
+    """Write the places of stops `first` to `last` of a route, then those of the other, if any.
 
-
-@spliced
-def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: int,
-                   most: float) -> float:
-    """Return what it costs to go from place `i` to `j` while the drone serves place `flown`.
-
-    Infinite if that can't be, or if what the truck does alone costs `most` or more.
+    Returns how many places there are, 0 if that can't be, what the operations cost, whether that
+    is all that the drones do, and how long (ms) trucks wait.
     """
-    columns, rate = world.type[k], world.rate[k]
-    node, customer, to = line[i, L_NODE], line[flown, L_NODE], line[j, L_NODE]
-    drive = line[j, L_DRIVE] - line[i, L_DRIVE] - line[flown, L_SPARED_DRIVE]
-    distance = line[j, L_DISTANCE] - line[i, L_DISTANCE] - line[flown, L_SPARED_DISTANCE]
-    here, handled = world.place[node, P_SERVICE], columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
-    driven = drive - here + max(0, here - columns[TYPE_LAUNCH])
-    if (handled + driven) * rate[RATE_HOUR] + distance * rate[RATE_KM] >= most:
-        return math.inf
-    flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
-    service = columns[TYPE_DRONE_SERVICE]
-    if service < 0:
-        service = world.place[customer, P_SERVICE]
-    flight = flights[node, customer, 0] + service + flights[customer, to, 0]
-    airborne = max(flight, driven)
-    counted = airborne if columns[TYPE_WAITING_COUNTS] else flight
-    if counted > columns[TYPE_ENDURANCE]:
-        return math.inf
-    return ((handled + airborne) * rate[RATE_HOUR] + distance * rate[RATE_KM]
-            + airborne * rate[RATE_DRONE_HOUR]
-            + (flights[node, customer, 1] + flights[customer, to, 1]) * rate[RATE_DRONE_KM])
+    length, before, exact, idle = 1, 0.0, True, 0
+    member = slot
+    while member >= 0:
+        begin = length - 1
+        if fleet.route[member, R_LENGTH] > 0:
+            count, whole = line_up(fleet, member, first, last, line[begin:])
+            if count == 0:
+                return 0, 0.0, False, 0
+            measure(world, k, line[begin:], count)
+            before += present_cost(world, k, line[begin:], count) + world.rate[k, RATE_FIXED]
+            exact, idle = exact and whole, idle + idle_time(fleet.route[member])
+            length = begin + count
+        else:
+            line[length, L_NODE] = line[begin, L_NODE]
+            length += 1
+        member, first = other if member == slot else NOWHERE, 0
+        if member >= 0:
+            last = fleet.route[member, R_LENGTH] - 1
+    return length, before, exact, idle
+
+
+@spliced
+def partner(world: World, searcher: Searcher, slot: int, node: int) -> int:
+    """Return a route to plan anew together with a customer's: that of a near neighbour.
+
+    An empty slot if that is the same route; NOWHERE if there is none.
+    """
+    now = searcher.now
+    route, k = now.route[slot], now.route[slot, R_TYPE]
+    near = world.near[node, below(searcher.rng, min(NEIGHBOURS, world.near.shape[1]))]
+    if near < 0 or route[R_TRIPS] > 1:
+        return NOWHERE
+    other = now.where[near, W_SLOT]
+    if other == slot:
+        other = free_slot(world, searcher, k)
+    if other < 0:
+        return NOWHERE
+    mate = now.route[other]
+    if mate[R_LENGTH] > 0 and (mate[R_TYPE] != k or mate[R_TRIPS] > 1):
+        return NOWHERE
+    return other if route[R_LENGTH] + mate[R_LENGTH] <= 2 * WINDOW else NOWHERE
 
 
 @inlined
-def loop_cost(world: World, k: int, node: int, customer: int) -> float:
-    """Return what a flight costs for which the truck waits at a stop."""
-    columns, rate = world.type[k], world.rate[k]
-    flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
-    service = columns[TYPE_DRONE_SERVICE]
-    if service < 0:
-        service = world.place[customer, P_SERVICE]
-    airborne = flights[node, customer, 0] + service + flights[customer, node, 0]
-    if airborne > columns[TYPE_ENDURANCE] or not world.loops:
-        return math.inf
-    handled = columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
-    return ((airborne + handled) * rate[RATE_HOUR] + airborne * rate[RATE_DRONE_HOUR]
-            + (flights[node, customer, 1] + flights[customer, node, 1]) * rate[RATE_DRONE_KM])
+def depot_between(world: World, line: IntArray, length: int) -> int:
+    """Return where in a line of two routes the first ends, or the end of a line of one."""
+    place = 1
+    while place < length - 1 and line[place, L_NODE] >= world.num_depots:
+        place += 1
+    return place
+
+
+@inlined
+def is_worth(world: World, k: int, idle: int, before: float, after: float, limit: float) -> bool:
+    """Tell whether operations that cost so much before and after may cost less than `limit` more.
+
+    Where windows make trucks wait (`idle`, ms), or count themselves, that says nothing.
+    """
+    if world.mode[k] & MODE_PRICED or idle > 0:
+        return True
+    return after < before + limit and abs(after - before) > SAME * before
 
 
 @spliced
-def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, i: int) -> None:
-    """Try all operations that begin at place `i`. In place."""
-    rate = world.rate[k]
-    legs = world.leg[world.type[k, TYPE_TRAVEL]]
-    here, loops = line[i, L_NODE], 0.0
-    service = world.place[here, P_SERVICE]
-    for j in range(i + 1, min(length, i + LONGEST_OPERATION + 1)):
-        to = line[j, L_NODE]
-        lands = j == length - 1 or world.can[k, 0, to]
-        grounded = line[j - 1, L_GROUNDED] - line[i, L_GROUNDED]
-        if lands:
-            leg = legs[here, to]
-            total = (cost[i] + loops + (leg[0] + service) * rate[RATE_HOUR]
-                     + leg[1] * rate[RATE_KM])
-            if total < cost[j]:
-                cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, NO_FLIGHT
-        if lands and grounded <= 1 and world.crossings:
-            for flown in range(i + 1, j):
-                customer = line[flown, L_NODE]
-                if not world.can[k, 1, customer] or (grounded == 1 and world.can[k, 0, customer]):
-                    continue
-                total = cost[i] + operation_cost(world, k, line, i, j, flown,
-                                                 cost[j] - cost[i])
-                if total < cost[j]:
-                    cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, flown
-        if loops < math.inf:
-            if world.can[k, 1, to]:
-                loops += loop_cost(world, k, here, to)
-            else:
-                loops = math.inf
-
-
-@spliced
-def split(world: World, k: int, line: IntArray, cost: FloatArray, length: int) -> bool:
-    """Cut the line into operations at least cost. In place; False if it can't be cut."""
-    for j in range(length):
-        cost[j] = math.inf
-    cost[0] = 0.0
-    for i in range(length - 1):
-        if cost[i] < math.inf:
-            extend(world, k, line, cost, length, i)
-    return cost[length - 1] < math.inf
-
-
-@spliced
-def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
-    """Return what the operations that are noted in the line cost."""
-    rate, legs = world.rate[k], world.leg[world.type[k, TYPE_TRAVEL]]
-    cost, j = 0.0, length - 1
-    while j > 0:
-        i, flown = line[j, L_BEFORE], line[j, L_FLIGHT]
-        if flown != NO_FLIGHT:
-            cost += operation_cost(world, k, line, i, j, flown, math.inf)
-        else:
-            here = line[i, L_NODE]
-            leg, service = legs[here, line[j, L_NODE]], world.place[here, P_SERVICE]
-            cost += (leg[0] + service) * rate[RATE_HOUR] + leg[1] * rate[RATE_KM]
-            for place in range(i + 1, j):
-                cost += loop_cost(world, k, here, line[place, L_NODE])
-        j = i
-    return cost
+def split_all(world: World, searcher: Searcher, k: int, length: int) -> float:
+    """Cut the line, or both routes in it, at least cost; return that. In place; maybe infinite."""
+    line, cost = searcher.line, searcher.line_cost
+    total, begin, end = 0.0, 0, depot_between(world, line, length)
+    while begin < length - 1:
+        if end > begin + 1:
+            count = end - begin + 1
+            measure(world, k, line[begin:], count)
+            if not split(world, k, line[begin:], cost[begin:], count):
+                return math.inf
+            total += cost[end] + world.rate[k, RATE_FIXED]
+        begin, end = end, length - 1
+    return total
 
 
 @inlined
@@ -302,53 +205,65 @@ def write_operations(route: IntArray, stops: IntArray, sorties: IntArray, line: 
         i = j
 
 
-@inlined
-def is_worth(world: World, k: int, route: IntArray, before: float, after: float,
-             limit: float) -> bool:
-    """Tell whether operations that cost so much before and after may cost less than `limit` more.
+@spliced
+def write_all(world: World, searcher: Searcher, slot: int, other: int, first: int, last: int,
+              length: int) -> bool:
+    """Write what the line says into stops `first` to `last` of a route, and into the other, if any.
 
-    Where windows make the truck wait, or count themselves, that says nothing.
+    In place; False if that breaks a rule.
     """
-    if world.mode[k] & MODE_PRICED or idle_time(route) > 0:
-        return True
-    return after < before + limit and abs(after - before) > SAME * before
+    now, line = searcher.now, searcher.line
+    k, spare, behind = now.route[slot, R_TYPE], len(now.route) - 2, now.route[slot, R_LENGTH]
+    touch(searcher, slot)
+    if other >= 0:
+        touch(searcher, other)
+    keep_aside(now, slot, spare)
+    begin, end, member, done = 0, depot_between(world, line, length), slot, True
+    while member >= 0:
+        route = now.route[member]
+        if route[R_LENGTH] > 0:
+            now.used[k] -= 1
+        route[R_LENGTH] = route[R_SORTIES] = route[R_TRIPS] = 0
+        now.cost[member] = 0.0
+        if end > begin + 1:
+            route[R_TYPE] = k
+            now.used[k] += 1
+            append(now, spare, 0, first, member)
+            write_operations(route, now.stop[member], now.sortie[member], line[begin:],
+                             end - begin + 1, now.stop[spare, first, S_KIND])
+            append(now, spare, last, behind, member)
+            done = refresh(world, now, member, searcher.acc) and done
+            locate(now, member)
+        begin, end, member = end, length - 1, other if member == slot else NOWHERE
+    return done
 
 
 @spliced
 def resplit(world: World, searcher: Searcher, limit: float) -> bool:
-    """Plan part of a trip with one drone anew from a changed order of its customers.
+    """Plan part of a trip with one drone, or two routes, anew from a changed order of customers.
 
-    In place; tells whether the route was changed and keeps all rules; if not, it may be broken.
+    In place; tells whether routes were changed and keep all rules; if not, they may be broken.
     Nothing is changed that would cost more than `limit`.
     """
-    now, line = searcher.now, searcher.line
-    node = any_customer(world, now, searcher.rng)
+    now, line, rng = searcher.now, searcher.line, searcher.rng
+    node = any_customer(world, now, rng)
     slot = now.where[node, W_SLOT]
     if slot < 0 or world.type[now.route[slot, R_TYPE], TYPE_DRONES] != 1:
         return False
-    k = now.route[slot, R_TYPE]
-    first, last = window(now, slot, stop_beside(now, node))
-    length, exact = line_up(now, slot, first, last, line)
+    k, other = now.route[slot, R_TYPE], NOWHERE
+    if uniform(rng) < TOGETHER:
+        other = partner(world, searcher, slot, node)
+    first, last = 0, now.route[slot, R_LENGTH] - 1
+    if other < 0:
+        first, last = window(now, slot, stop_beside(now, node))
+    length, before, exact, idle = line_up_all(world, now, k, slot, other, first, last, line)
     if length < 4:
         return False
-    measure(world, k, line, length)
-    before = present_cost(world, k, line, length) if exact else math.inf
-    shuffle(world, searcher, length)
-    measure(world, k, line, length)
-    if (not split(world, k, line, searcher.line_cost, length)
-            or (exact and not is_worth(world, k, now.route[slot], before,
-                                       searcher.line_cost[length - 1], limit))):
+    if other >= 0 and uniform(rng) < CUT_ELSEWHERE:
+        shift(line, depot_between(world, line, length), 1 + below(rng, length - 2))
+    else:
+        shuffle(world, line, length, rng)
+    after = split_all(world, searcher, k, length)
+    if after == math.inf or (exact and not is_worth(world, k, idle, before, after, limit)):
         return False
-    touch(searcher, slot)
-    spare = len(now.route) - 2
-    keep_aside(now, slot, spare)
-    route = now.route[slot]
-    end = route[R_LENGTH]
-    route[R_LENGTH] = route[R_SORTIES] = 0
-    append(now, spare, 0, first, slot)
-    write_operations(route, now.stop[slot], now.sortie[slot], line, length,
-                     now.stop[spare, first, S_KIND])
-    append(now, spare, last, end, slot)
-    done = refresh(world, now, slot, searcher.acc)
-    locate(now, slot)
-    return done
+    return write_all(world, searcher, slot, other, first, last, length)

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from model.compiled import compiled, inlined, spliced
+from model.instance import TYPE_COUNT
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
 from model.rows import copy_row, copy_rows, copy_some
 from model.search.layout import (
@@ -35,8 +36,8 @@ class Searcher(NamedTuple):
     marked: BoolArray  # (node,) removed this turn
     absences: IntArray  # (node,) turns after which a customer was left out
     hit: IntArray  # (slot, trip) turn of the last string
-    line: IntArray  # (node + 2, LINE_COLUMNS) scratch, a trip's places in order
-    line_cost: FloatArray  # (node + 2,) scratch
+    line: IntArray  # (node + 3, LINE_COLUMNS) scratch, places of a trip or two in order
+    line_cost: FloatArray  # (node + 3,) scratch
     key: FloatArray  # (node,) order of insertion
     moved: IntArray  # scratch
     move: IntArray  # scratch, best insertion
@@ -95,6 +96,17 @@ def list_active(searcher: Searcher) -> None:
             searcher.active[found] = slot
             found += 1
     searcher.count[I_ACTIVE] = found
+
+
+@inlined
+def free_slot(world: World, searcher: Searcher, k: int) -> int:
+    """Return an empty slot for a route more by type `k`; NOWHERE if there is none."""
+    now = searcher.now
+    if now.used[k] < world.type[k, TYPE_COUNT]:
+        for slot in range(len(searcher.active)):
+            if now.route[slot, R_LENGTH] == 0:
+                return slot
+    return NOWHERE
 
 
 @inlined

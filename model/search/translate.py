@@ -18,7 +18,7 @@ from model.search.layout import (
     T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
 )
 from model.search.refresh import clear_holds, locate, refresh, settle
-from model.search.resplit import LINE_COLUMNS
+from model.search.line import LINE_COLUMNS
 from model.search.routes import drive_forward, load_trips
 from model.search.savings import savings_routes
 from model.search.state import (
@@ -63,7 +63,7 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
         hit=np.zeros((slots, trips), np.int64), key=np.zeros(nodes),
-        line=np.zeros((nodes + 2, LINE_COLUMNS), np.int64), line_cost=np.zeros(nodes + 2),
+        line=np.zeros((nodes + 3, LINE_COLUMNS), np.int64), line_cost=np.zeros(nodes + 3),
         moved=_row(max(slots, stops) + 2), move=_row(MOVE_COLUMNS),
         offer=np.zeros((offers, MOVE_COLUMNS), np.int64), least=np.zeros(offers),
         acc=_row(8), bound=np.zeros(2), alone=alone, kept=kept, kept_cost=kept_cost)
