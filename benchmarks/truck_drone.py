@@ -286,7 +286,7 @@ def load_hvdrp_karak(folder: Path) -> list[TruckDroneInstance]:
 
     Differs by the rule "mixed loads" alone: demand is (delivery, pick-up), and `Problem` limits
     each by itself. A plan that breaks the rule may cost less than the optimum (A-2: 43.16, not
-    48.07), or as much and be legal with a sortie flown the other way round.
+    48.07); that its sorties may be flown the other way round is heeded.
     """
     return [_karak_instance(folder, row) for row in _rows(folder / "reference_values.csv")]
 

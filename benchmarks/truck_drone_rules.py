@@ -3,7 +3,7 @@
 A search that is told these rules obeys them; whether a plan does is judged here.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from model.problem import Problem
@@ -77,12 +77,22 @@ def _mixed_loads(problem: Problem, vehicle_type: int, trip: Trip) -> Iterator[tu
         return
     for index, sortie in enumerate(trip.sorties):
         demands = [problem.customer_at(visit.node).demand for visit in sortie.visits]
-        load = sum(delivery for delivery, _ in demands)
-        for visit, (delivery, pickup) in zip(sortie.visits, demands, strict=True):
-            load += pickup - delivery
-            if load > drones.capacity[0]:
-                yield index, (f"carries {decimal(load)} behind node {visit.node}, "
-                              f"capacity is {decimal(drones.capacity[0])}")
+        peaks = [_most_carried(demands)]
+        if sortie.recovery_stop == sortie.launch_stop:
+            # Flown the other way round it costs as much, and no times matter in that set.
+            peaks.append(_most_carried(demands[::-1]))
+        if min(peaks) > drones.capacity[0]:
+            yield index, (f"carries {decimal(min(peaks))}, "
+                          f"capacity is {decimal(drones.capacity[0])}")
+
+
+def _most_carried(demands: Sequence[tuple[int, ...]]) -> int:
+    """Return the most that a drone carries which delivers and picks up in this order."""
+    load = most = sum(delivery for delivery, _ in demands)
+    for delivery, pickup in demands:
+        load += pickup - delivery
+        most = max(most, load)
+    return most
 
 
 RULES: Mapping[str, Callable[[Problem, int, Trip], Iterator[tuple[int, str]]]] = {
