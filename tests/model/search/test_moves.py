@@ -12,7 +12,7 @@ from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel
 from model.search.improve import Improved, SearchConfig, improve
 from model.search.savings import savings_routes
 from model.search.translate import first_plan
-from model.search.world import make_world
+from model.search.world import Moves, make_world
 from model.solution import Solution
 from model.timing import RouteDecision, TripDecision, schedule
 
@@ -210,6 +210,19 @@ def test_sorties_of_several_change_to_no_drone_that_lifts_less() -> None:
         pairs += sum(len(sortie.visits) > 1 for route in found.solution.routes
                      for trip in route.trips for sortie in trip.sorties)
     assert pairs > 0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_customers_are_shared_out_between_two_trucks_and_their_drones(seed: int) -> None:
+    places = [(23, -41), (-5, 20), (-28, 42), (38, -6), (38, -22), (1, -42)]
+    drones = DroneType(1, (1000,), 0, endurance=160 * MINUTE, cost_per_km=0.1)
+    problem = on_a_plane(places, VehicleType("truck", 3, (99_000,), 0, cost_per_km=1.0,
+                                             drones=drones))
+    config = SearchConfig(seed=seed, turns=300, moves=Moves(loops=False))
+    found = improve(problem, pack([problem]), Solution((), tuple(range(1, 7))), config)
+    evaluation = check(problem, found.solution)
+    assert evaluation.violations == ()
+    assert evaluation.cost.total == pytest.approx(127.234, abs=0.001)
 
 
 def test_first_plan_looks_beyond_what_the_first_customer_costs() -> None:
