@@ -118,6 +118,12 @@ def compiled_folder() -> Path | None:
     return next((parent / name for parent in parents if _can_write(parent / name)), None)
 
 
+def is_cold() -> bool:
+    """Tell whether compiled code can be kept and none is yet."""
+    folder = compiled_folder()
+    return folder is not None and not any(folder.rglob("*.nbi"))
+
+
 def fingerprint(source: Path) -> str:
     """Return a short hash of the files in `source` that take part in compilation."""
     digest = hashlib.sha256()

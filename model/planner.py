@@ -1,14 +1,19 @@
 """The planner: decode, improve, check."""
 
+import os
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor, wait
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from model.check import Evaluation, check
+from model.compiled import is_cold
 from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.extract import extract
 from model.instance import Instance, pack
@@ -94,19 +99,25 @@ class Planner:
         return tuple(self._policies)
 
     def warm(self, progress: Callable[[str], None] | None = None) -> None:
-        """Plan small problems by each policy and by none, so that all is compiled. In place."""
+        """Plan small problems by each policy and by none, so that all is compiled. In place.
+
+        Where nothing is yet and there are two cores, a second process compiles the search.
+        """
         tell = progress or (lambda _: None)
-        tell("compiling the search")
-        by_truck = small_problem(drones=False)
-        improve(by_truck, pack([by_truck]), Solution((), ()), SearchConfig(turns=4))
-        for index, name in enumerate(self._policies, 1):
-            tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
-            began = time.perf_counter()
+        aside = is_cold() and (os.cpu_count() or 1) > 1
+        with beside(compile_search) if aside else nullcontext():
+            for index, name in enumerate(self._policies, 1):
+                tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
+                began = time.perf_counter()
+                self.plan(small_problem(), PlanOptions(name, time_limit=0.0))
+                self.plan(small_problem(), PlanOptions(name, "sample", num_samples=4,
+                                                       time_limit=0.0))
+                tell(f"policy {name} is warm after {time.perf_counter() - began:.1f} s")
+            tell("compiling the search")
+        compile_search()
+        for name in self._policies:
             self.plan(small_problem(), PlanOptions(name, time_limit=WARM_LIMIT,
                                                    search_iterations=4, threads=2))
-            options = PlanOptions(name, "sample", num_samples=4, time_limit=0.0)
-            self.plan(small_problem(), options)
-            tell(f"policy {name} is warm after {time.perf_counter() - began:.1f} s")
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -251,6 +262,21 @@ def load_planner(weights: Path, names: Sequence[str]) -> Planner:
         If a policy is missing or can't be read.
     """
     return Planner({name: load_policy(weights / name) for name in names})
+
+
+def compile_search() -> None:
+    """Search for a better plan of a small problem, so that most of the search is compiled."""
+    by_truck = small_problem(drones=False)
+    improve(by_truck, pack([by_truck]), Solution((), ()), SearchConfig(turns=4))
+
+
+@contextmanager
+def beside(work: Callable[[], None]) -> Iterator[None]:
+    """Do work in a process of its own meanwhile, and wait for its end, whatever it comes to."""
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        done = pool.submit(work)
+        yield
+        wait([done])
 
 
 def small_problem(drones: bool = True) -> Problem:

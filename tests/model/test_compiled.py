@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from model.compiled import SOURCES, fingerprint
+from model.compiled import SOURCES, fingerprint, is_cold
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -47,6 +47,16 @@ def test_chosen_folder_holds_the_compiled_code(tmp_path: Path) -> None:
     seen = folder_seen_from(ROOT, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
     assert Path(seen) == tmp_path / "cache" / name
     assert Path(seen).is_dir()
+
+
+def test_folder_is_cold_until_it_holds_compiled_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("model.compiled.compiled_folder", lambda: tmp_path)
+    assert is_cold()
+    (tmp_path / "search").mkdir()
+    (tmp_path / "search" / "anneal.nbi").touch()
+    assert not is_cold()
 
 
 def test_user_cache_serves_where_the_source_cannot_be_written(tmp_path: Path) -> None:

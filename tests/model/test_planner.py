@@ -1,7 +1,11 @@
 """The planner over thousands of random problems, with the policies as committed."""
 
+import os
 import time
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +14,8 @@ import pytest
 from model import planner as planner_module
 from model.check import check
 from model.planner import (
-    Listener, Planner, PlanCheckError, PlanOptions, PlanResult, load_planner, small_problem,
+    Listener, Planner, PlanCheckError, PlanOptions, PlanResult, beside, load_planner,
+    small_problem,
 )
 from model.problem import Problem
 from model.rules import Violation
@@ -198,11 +203,47 @@ def test_unknown_policy_is_refused(planner: Planner) -> None:
         planner.plan(small_problem(), PlanOptions("best"))
 
 
+def note_process() -> None:
+    """Write the number of the process that runs this."""
+    Path("process").write_text(str(os.getpid()))
+
+
 def test_warming_tells_its_progress(planner: Planner) -> None:
     told: list[str] = []
     planner.warm(told.append)
-    assert "search" in told[0]
-    assert [POLICIES[0] in line for line in told[1:3]] == [True, True]
+    assert [POLICIES[0] in line for line in told[:2]] == [True, True]
+    assert "search" in told[-1]
+
+
+def test_second_process_compiles_the_search_where_nothing_is_yet(
+    planner: Planner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    helpers: list[str] = []
+
+    def watch(work: Callable[[], None]) -> AbstractContextManager[None]:
+        helpers.append(work.__name__)
+        return beside(work)
+
+    monkeypatch.setattr(planner_module, "is_cold", lambda: True)
+    monkeypatch.setattr(planner_module, "beside", watch)
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    planner.warm()
+    assert helpers == ["compile_search"]
+
+
+def test_work_beside_is_done_in_a_process_of_its_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with beside(note_process):
+        pass
+    assert int((tmp_path / "process").read_text()) != os.getpid()
+
+
+def test_what_fails_beside_is_left_to_the_process_that_waits() -> None:
+    with beside(partial(os._exit, 1)):
+        done = True
+    assert done
 
 
 def test_a_given_plan_is_improved_in_place_of_the_policys(planner: Planner) -> None:
