@@ -1,6 +1,7 @@
 """Export a trained policy to ONNX: `encoder.onnx`, `step.onnx` and a card.
 
-The weights of `attention`'s step go into `step.npz` too, for `model.rolling`.
+The weights of `attention`'s step go into `step.npz` too, for `model.rolling`, and all weights into
+`weights.pt`, for further training.
 
 Run with `python -m training.export --checkpoint runs/pointer/checkpoint.pt --name pointer`.
 """
@@ -23,6 +24,9 @@ from model.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 from training.policies import POLICIES, AnyPolicy
 
 OPSET = 20
+
+WEIGHTS = "weights.pt"
+"""File in a policy's folder from which training can begin."""
 
 
 class Encoder(nn.Module):
@@ -103,6 +107,7 @@ def export(policy: AnyPolicy, folder: Path, card: dict[str, Any]) -> None:
         arrays: dict[str, Any] = {name: weight.detach().numpy()
                                   for name, weight in policy.decision_weights().items()}
         np.savez(folder / STEP_WEIGHTS, **arrays)
+    torch.save(policy.state_dict(), folder / WEIGHTS)
     content = {**card, "hidden_size": policy.hidden_size}
     (folder / "card.json").write_text(json.dumps(content, indent=2) + "\n")
 

@@ -23,6 +23,7 @@ from tqdm import tqdm
 from model.policy_pointer import Critic
 from training.config import TrainConfig
 from training.dataset import join
+from training.export import WEIGHTS
 from training.instances import generate, sample_variant, validation_set
 from training.learn import (
     BASELINES, critic_step, draw_weights, policy_gradient, training_costs,
@@ -39,7 +40,8 @@ STOP = threading.Event()
 
 
 def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
-          max_steps: int | None = None, validation_size: int = 80) -> dict[str, float]:
+          max_steps: int | None = None, validation_size: int = 80,
+          begin_with: Path | None = None) -> dict[str, float]:
     """Train for some minutes or up to a step; return the last validation's ratios by variant.
 
     Parameters
@@ -56,6 +58,13 @@ def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
         Stop at this step even if time is left.
     validation_size
         How many problems of the fixed validation set to plan at each validation.
+    begin_with
+        Folder of an exported policy, whose weights a run without a checkpoint begins with.
+
+    Raises
+    ------
+    ValueError
+        If that folder has no weights of this policy.
     """
     rank, world = start_processes()
     device = torch.device(device_name)
@@ -64,6 +73,8 @@ def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
     run = Run(config, device, rank)
     if (folder / "checkpoint.pt").exists():
         run.load(folder / "checkpoint.pt")
+    elif begin_with is not None:
+        run.take_weights(begin_with / WEIGHTS)
     validation = validation_batches(validation_size)
     log = Log(folder) if rank == 0 else None
     began = saved = time.monotonic()
@@ -219,6 +230,21 @@ class Run:
         self.past_seconds = content["seconds"]
 
 
+    def take_weights(self, path: Path) -> None:
+        """Begin with an exported policy's weights. In place.
+
+        Raises
+        ------
+        ValueError
+            If they can't be read, or are another policy's.
+        """
+        try:
+            self.policy.load_state_dict(torch.load(path, map_location=self.device,
+                                                   weights_only=True))
+        except (OSError, RuntimeError) as error:
+            raise ValueError(f"begin_with: {str(path)!r} is not usable: {error}") from error
+
+
 def validation_batches(size: int) -> list[tuple[Batch, np.ndarray]]:
     """Pack the fixed validation set by size, each with its nearest-neighbour costs."""
     groups: dict[int, list[tuple[str, Any]]] = {}
@@ -279,6 +305,8 @@ def main(
     max_steps: Annotated[int | None, typer.Option(help="stop at this step")] = None,
     sizes: Annotated[str, typer.Option(help="curriculum, first step:customers")] = "0:20,4000:50",
     decay: Annotated[str, typer.Option(help="steps first:last of the decay")] = "1000000:1000000",
+    begin_with: Annotated[Path | None, typer.Option(
+        help="folder of an exported policy to train further")] = None,
 ) -> None:
     """Train a policy; goes on from the checkpoint in FOLDER if there is one."""
     curriculum = tuple((int(a), int(b)) for a, b in (pair.split(":") for pair in sizes.split(",")))
@@ -290,7 +318,7 @@ def main(
         size_mix=size_mix)
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: STOP.set())
-    print(train(config, folder, minutes, device, max_steps))
+    print(train(config, folder, minutes, device, max_steps, begin_with=begin_with))
 
 
 if __name__ == "__main__":

@@ -5,13 +5,18 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+import onnxruntime as ort
 import pytest
 import torch
 
 from tests.conftest import free_port
 from training.config import TrainConfig
+from training.export import WEIGHTS, Encoder, example_inputs, export
+from training.policies import POLICIES
 from training.rules import nearest_neighbour
 from training.train import train, validation_batches
 
@@ -43,6 +48,38 @@ def test_resumed_run_equals_an_uninterrupted_one(tmp_path: Path) -> None:
     for part in ("policy", "critic"):
         for name, value in first[part].items():
             assert torch.equal(value, second[part][name]), name
+
+
+def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:
+    torch.manual_seed(5)
+    exported = POLICIES["attention"]()
+    export(exported, tmp_path / "exported", {})
+    config = replace(TINY, policy="attention", baseline="shared")
+    train(config, tmp_path / "run", 5.0, "cpu", max_steps=0, validation_size=8,
+          begin_with=tmp_path / "exported")
+    content = torch.load(tmp_path / "run" / "checkpoint.pt", weights_only=False)
+    for name, value in exported.state_dict().items():
+        assert torch.equal(value, content["policy"][name]), name
+
+
+def test_another_policys_weights_are_refused(tmp_path: Path) -> None:
+    export(POLICIES["attention"](), tmp_path / "exported", {})
+    with pytest.raises(ValueError, match="begin_with"):
+        train(TINY, tmp_path / "run", 5.0, "cpu", max_steps=0, validation_size=8,
+              begin_with=tmp_path / "exported")
+
+
+def test_committed_weights_are_those_of_the_graphs() -> None:
+    folder = Path(__file__).parents[2] / "model" / "weights" / "attention"
+    policy = POLICIES["attention"]()
+    policy.load_state_dict(torch.load(folder / WEIGHTS, weights_only=True))
+    inputs, _ = example_inputs(policy, nodes=9, types=2, rollouts=1, candidates=1)
+    with torch.no_grad():
+        memory = Encoder(policy)(*inputs)
+    encoder = ort.InferenceSession(str(folder / "encoder.onnx"))
+    got, = encoder.run(None, dict(zip(("node", "type", "pair"), (x.numpy() for x in inputs),
+                                      strict=True)))
+    np.testing.assert_allclose(got, memory.numpy(), atol=1e-4, rtol=1e-4)
 
 
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:
