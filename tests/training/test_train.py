@@ -13,7 +13,6 @@ import onnxruntime as ort
 import pytest
 import torch
 
-from tests.conftest import free_port
 from training.config import TrainConfig
 from training.export import WEIGHTS, Encoder, example_inputs, export
 from training.policies import POLICIES
@@ -84,7 +83,7 @@ def test_committed_weights_are_those_of_the_graphs() -> None:
 
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "torch.distributed.run", "--nproc-per-node=2",
-               "--master-addr=127.0.0.1", f"--master-port={free_port()}", "-m", "training.train",
+               "--rdzv-backend=c10d", "--rdzv-endpoint=127.0.0.1:0", "-m", "training.train",
                "--folder", str(tmp_path), "--max-steps", "2", "--sizes", "0:6",
                "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]
     result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False,
