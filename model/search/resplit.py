@@ -7,14 +7,14 @@ split in two, or two become one, with the drones' share of each chosen anew at o
 import math
 
 from model.compiled import inlined, spliced
-from model.instance import RATE_FIXED, TYPE_DRONES
+from model.instance import MAX_DIMENSIONS, RATE_FIXED, TYPE_CAPACITY, TYPE_DRONES
 from model.problem import IntArray
 from model.search.draw import below, uniform
 from model.search.edit import add_sortie, put
 from model.search.exchange import append
 from model.search.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, R_LENGTH, R_SORTIES,
-    R_TRIPS, R_TYPE, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST, W_SLOT, Fleet, World,
+    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, P_DEMAND, R_LENGTH,
+    R_SORTIES, R_TRIPS, R_TYPE, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST, W_SLOT, Fleet, World,
 )
 from model.search.line import (
     L_BEFORE, L_FLIGHT, L_NODE, NEIGHBOURS, NO_FLIGHT, measure, present_cost, shift, shuffle, split,
@@ -158,12 +158,29 @@ def is_worth(world: World, k: int, idle: int, before: float, after: float, limit
 
 
 @spliced
+def overloads(world: World, k: int, line: IntArray, begin: int, end: int) -> bool:
+    """Tell whether the customers between two places of the line are too much for a truck.
+
+    There may be no room for so many stops and sorties then, so that it has to be known before.
+    """
+    for dimension in range(MAX_DIMENSIONS):
+        load = 0
+        for place in range(begin + 1, end):
+            load += world.place[line[place, L_NODE], P_DEMAND + dimension]
+        if load > world.type[k, TYPE_CAPACITY + dimension]:
+            return True
+    return False
+
+
+@spliced
 def split_all(world: World, searcher: Searcher, k: int, length: int) -> float:
     """Cut the line, or both routes in it, at least cost; return that. In place; maybe infinite."""
     line, cost = searcher.line, searcher.line_cost
     total, begin, end = 0.0, 0, depot_between(world, line, length)
     while begin < length - 1:
         if end > begin + 1:
+            if overloads(world, k, line, begin, end):
+                return math.inf
             count = end - begin + 1
             measure(world, k, line[begin:], count)
             if not split(world, k, line[begin:], cost[begin:], count):

@@ -225,6 +225,17 @@ def test_customers_are_shared_out_between_two_trucks_and_their_drones(seed: int)
     assert evaluation.cost.total == pytest.approx(127.234, abs=0.001)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_full_trucks_and_their_drones_are_not_given_more(seed: int) -> None:
+    places = np.random.default_rng(seed).uniform(-40, 40, (30, 2)).tolist()
+    truck = VehicleType("truck", 15, (3000,), 0, cost_per_km=1.0,
+                        drones=DroneType(1, (1000,), 0, cost_per_km=0.1))
+    problem = on_a_plane(places, truck)
+    found = improve(problem, pack([problem]), Solution((), tuple(range(1, 31))),
+                    SearchConfig(seed=seed, turns=1500))
+    assert check(problem, found.solution).violations == ()
+
+
 def test_first_plan_looks_beyond_what_the_first_customer_costs() -> None:
     problem = on_a_plane(FAR_OFF, replace(SMALL, count=9), replace(LARGE, count=9))
     found = improve(problem, pack([problem]), Solution((), tuple(range(1, 11))),
