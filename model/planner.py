@@ -1,12 +1,12 @@
 """The planner: decode, improve, check."""
 
 import os
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, wait
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -33,6 +33,9 @@ SECONDS_PER_CUSTOMER = 6e-5
 
 WARM_LIMIT = 3600.0
 """Time limit of the plan that everything is compiled for, which no compiler should need."""
+
+COMPILE_SEARCH = "from model.planner import compile_search; compile_search()"
+"""What a second process does while everything is compiled."""
 
 
 class Listener(NamedTuple):
@@ -105,7 +108,7 @@ class Planner:
         """
         tell = progress or (lambda _: None)
         aside = is_cold() and (os.cpu_count() or 1) > 1
-        with beside(compile_search) if aside else nullcontext():
+        with beside(COMPILE_SEARCH) if aside else nullcontext():
             for index, name in enumerate(self._policies, 1):
                 tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
                 began = time.perf_counter()
@@ -271,12 +274,11 @@ def compile_search() -> None:
 
 
 @contextmanager
-def beside(work: Callable[[], None]) -> Iterator[None]:
-    """Do work in a process of its own meanwhile, and wait for its end, whatever it comes to."""
-    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-        done = pool.submit(work)
+def beside(statement: str) -> Iterator[None]:
+    """Let another Python do something meanwhile, and wait for its end, whatever it comes to."""
+    with subprocess.Popen([sys.executable, "-c", statement], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL):
         yield
-        wait([done])
 
 
 def small_problem(drones: bool = True) -> Problem:

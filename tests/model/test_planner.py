@@ -1,11 +1,11 @@
 """The planner over thousands of random problems, with the policies as committed."""
 
 import os
+import subprocess
+import sys
 import time
-from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +14,8 @@ import pytest
 from model import planner as planner_module
 from model.check import check
 from model.planner import (
-    Listener, Planner, PlanCheckError, PlanOptions, PlanResult, beside, load_planner,
-    small_problem,
+    COMPILE_SEARCH, Listener, Planner, PlanCheckError, PlanOptions, PlanResult, beside,
+    load_planner, small_problem,
 )
 from model.problem import Problem
 from model.rules import Violation
@@ -203,11 +203,6 @@ def test_unknown_policy_is_refused(planner: Planner) -> None:
         planner.plan(small_problem(), PlanOptions("best"))
 
 
-def note_process() -> None:
-    """Write the number of the process that runs this."""
-    Path("process").write_text(str(os.getpid()))
-
-
 def test_warming_tells_its_progress(planner: Planner) -> None:
     told: list[str] = []
     planner.warm(told.append)
@@ -220,28 +215,27 @@ def test_second_process_compiles_the_search_where_nothing_is_yet(
 ) -> None:
     helpers: list[str] = []
 
-    def watch(work: Callable[[], None]) -> AbstractContextManager[None]:
-        helpers.append(work.__name__)
-        return beside(work)
+    def watch(statement: str) -> AbstractContextManager[None]:
+        helpers.append(statement)
+        return beside(statement)
 
     monkeypatch.setattr(planner_module, "is_cold", lambda: True)
     monkeypatch.setattr(planner_module, "beside", watch)
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     planner.warm()
-    assert helpers == ["compile_search"]
+    assert helpers == [COMPILE_SEARCH]
+    subprocess.run([sys.executable, "-c", COMPILE_SEARCH], check=True)
 
 
-def test_work_beside_is_done_in_a_process_of_its_own(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    with beside(note_process):
+def test_work_beside_is_over_at_the_end(tmp_path: Path) -> None:
+    file = tmp_path / "process"
+    with beside(f"import os, pathlib; pathlib.Path({str(file)!r}).write_text(str(os.getpid()))"):
         pass
-    assert int((tmp_path / "process").read_text()) != os.getpid()
+    assert int(file.read_text()) != os.getpid()
 
 
 def test_what_fails_beside_is_left_to_the_process_that_waits() -> None:
-    with beside(partial(os._exit, 1)):
+    with beside("raise SystemExit(1)"):
         done = True
     assert done
 
