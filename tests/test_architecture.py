@@ -42,6 +42,8 @@ SIMULATION = ("compiled", "rows", "instance", "schedule", "cost", "transition", 
               "tokens", "prospects", "features", "parts", "rolling", "extract")
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
+ASKING = {"planner"}
+"""Compiles nothing itself, but asks whether anything is compiled."""
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 40
@@ -138,7 +140,7 @@ def test_simulation_and_search_share_no_code_with_the_checker(name: str) -> None
 
 
 def test_compiled_code_is_filed_under_all_its_sources() -> None:
-    users = {name for name in MODEL_ORDER if "compiled" in imported_siblings(name)}
+    users = {name for name in MODEL_ORDER if "compiled" in imported_siblings(name)} - ASKING
     needed = users.union({"compiled"}, *(imported_siblings(name) for name in users)) - INTERPRETED
     assert set(SOURCES) == needed
 

@@ -71,10 +71,7 @@ def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
     folder.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(config.seed)
     run = Run(config, device, rank)
-    if (folder / "checkpoint.pt").exists():
-        run.load(folder / "checkpoint.pt")
-    elif begin_with is not None:
-        run.take_weights(begin_with / WEIGHTS)
+    run.begin(folder / "checkpoint.pt", begin_with)
     validation = validation_batches(validation_size)
     log = Log(folder) if rank == 0 else None
     began = saved = time.monotonic()
@@ -229,6 +226,13 @@ class Run:
         self.step, self.spread = content["step"], content["spread"]
         self.past_seconds = content["seconds"]
 
+
+    def begin(self, checkpoint: Path, exported: Path | None) -> None:
+        """Go on from a checkpoint; without one, begin with an exported policy, if any. In place."""
+        if checkpoint.exists():
+            self.load(checkpoint)
+        elif exported is not None:
+            self.take_weights(exported / WEIGHTS)
 
     def take_weights(self, path: Path) -> None:
         """Begin with an exported policy's weights. In place.

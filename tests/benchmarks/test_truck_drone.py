@@ -227,13 +227,12 @@ def test_karak_has_a_variant_per_choice_of_stations(tmp_path: Path) -> None:
     assert instance.problem is instance.variants[0]
     assert (instance.size, instance.forbids) == (2, {MIXED_LOADS})
     problem = instance.variants[1]
-    for clients, broken in (((2, 3), set()), ((3, 2), {"MIXED_LOADS"})):
+    for clients in ((2, 3), (3, 2)):
         plan = _plan(problem, (0, 1, 0), SortieDecision(clients, 1, 1))
         evaluation = check(problem, plan)
         assert evaluation.is_feasible
         assert evaluation.cost.total == pytest.approx(10 + 2 * 4)
-        rules = broken_rules(problem, plan, instance.forbids)
-        assert {violation.code for violation in rules} == broken
+        assert broken_rules(problem, plan, instance.forbids) == []
     assert _codes(problem, (0, 1, 0), SortieDecision((2, 3), 0, 1)) >= {"UNREACHABLE"}
     assert _codes(problem, (0, 1, 2, 0), SortieDecision((3,), 1, 1)) == {"SERVED_BY"}
 
