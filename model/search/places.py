@@ -2,6 +2,7 @@
 
 from model.compiled import pasted
 from model.instance import TYPE_COUNT, TYPE_MAX_TRIPS
+from model.rows import copy_row
 from model.search.draw import uniform
 from model.search.edit import M_KIND, M_TYPE, NEW_ROUTE
 from model.search.evaluate import INFEASIBLE
@@ -81,8 +82,7 @@ def take_kept(searcher: Searcher, slot: int, node: int) -> None:
     cost = searcher.kept_cost[node, slot]
     if cost < searcher.bound[B_BEST] and uniform(searcher.rng) >= searcher.bound[B_BLINK]:
         searcher.bound[B_BEST] = cost
-        for column in range(len(searcher.move)):
-            searcher.move[column] = searcher.kept[node, slot, K_MOVE + column]
+        copy_row(searcher.kept[node, slot, K_MOVE:], searcher.move)
 
 
 @pasted
@@ -94,8 +94,7 @@ def keep(searcher: Searcher, slot: int, node: int, before: float) -> None:
     row, best = searcher.kept[node, slot], searcher.bound[B_BEST]
     row[K_STAMP] = searcher.now.route[slot, R_STAMP]
     searcher.kept_cost[node, slot] = best
-    for column in range(len(searcher.move)):
-        row[K_MOVE + column] = searcher.move[column]
+    copy_row(searcher.move, row[K_MOVE:])
     if best >= before:
         row[K_MOVE + M_KIND] = NOWHERE
 

@@ -13,7 +13,7 @@ from model.search.lean import insert_lean
 from model.search.places import find_beside, find_place, try_new_route
 from model.search.refresh import locate, refresh
 from model.search.retype import change_type
-from model.search.state import I_ABSENT, Searcher, keep_aside, list_active, touch
+from model.search.state import I_ABSENT, Searcher, free_slot, keep_aside, list_active, touch
 
 ENLARGED = 0.2
 """How often a full route may take a larger vehicle to serve a customer more."""
@@ -60,21 +60,20 @@ def sort_absent(world: World, searcher: Searcher, first: int, order: int) -> Non
 @spliced
 def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bool) -> bool:
     """Serve a customer by a route of its own. In place; False if no slot is free."""
-    now = searcher.now
-    for slot in range(len(searcher.active)):
-        if now.route[slot, R_LENGTH] == 0:
-            touch(searcher, slot)
-            begin_route(now.route[slot], now.stop[slot], now.sortie[slot], k,
-                        world.type[k, TYPE_DEPOT], node, by_drone)
-            if not refresh(world, now, slot, searcher.acc):
-                now.route[slot, R_LENGTH] = 0
-                now.cost[slot] = 0.0
-                return False
-            now.used[k] += 1
-            locate(now, slot)
-            list_active(searcher)
-            return True
-    return False
+    now, slot = searcher.now, free_slot(world, searcher, k)
+    if slot < 0:
+        return False
+    touch(searcher, slot)
+    begin_route(now.route[slot], now.stop[slot], now.sortie[slot], k, world.type[k, TYPE_DEPOT],
+                node, by_drone)
+    if not refresh(world, now, slot, searcher.acc):
+        now.route[slot, R_LENGTH] = 0
+        now.cost[slot] = 0.0
+        return False
+    now.used[k] += 1
+    locate(now, slot)
+    list_active(searcher)
+    return True
 
 
 @pasted

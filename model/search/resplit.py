@@ -91,8 +91,8 @@ def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first
                 line: IntArray) -> tuple[int, float, bool, int]:
     """Write the places of stops `first` to `last` of a route, then those of the other, if any.
 
-    Returns how many places there are, 0 if that can't be, what the operations cost, whether that
-    is all that the drones do, and how long (ms) trucks wait.
+    Returns how many places there are, 0 if that can't be, what the operations cost if that is all
+    that the drones do, whether it is, and how long (ms) trucks wait.
     """
     length, before, exact, idle = 1, 0.0, True, 0
     member = slot
@@ -102,9 +102,10 @@ def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first
             count, whole = line_up(fleet, member, first, last, line[begin:])
             if count == 0:
                 return 0, 0.0, False, 0
-            measure(world, k, line[begin:], count)
-            before += present_cost(world, k, line[begin:], count) + world.rate[k, RATE_FIXED]
             exact, idle = exact and whole, idle + idle_time(fleet.route[member])
+            if exact:
+                measure(world, k, line[begin:], count)
+                before += present_cost(world, k, line[begin:], count) + world.rate[k, RATE_FIXED]
             length = begin + count
         else:
             line[length, L_NODE] = line[begin, L_NODE]
@@ -173,10 +174,13 @@ def overloads(world: World, k: int, line: IntArray, begin: int, end: int) -> boo
 
 
 @spliced
-def split_all(world: World, searcher: Searcher, k: int, length: int) -> float:
-    """Cut the line, or both routes in it, at least cost; return that. In place; maybe infinite."""
+def split_all(world: World, searcher: Searcher, k: int, cut: int, length: int) -> float:
+    """Cut the line, or both routes in it, at least cost; return that. In place; maybe infinite.
+
+    `cut` is as `depot_between` says.
+    """
     line, cost = searcher.line, searcher.line_cost
-    total, begin, end = 0.0, 0, depot_between(world, line, length)
+    total, begin, end = 0.0, 0, cut
     while begin < length - 1:
         if end > begin + 1:
             if overloads(world, k, line, begin, end):
@@ -224,7 +228,7 @@ def write_operations(route: IntArray, stops: IntArray, sorties: IntArray, line: 
 
 @spliced
 def write_all(world: World, searcher: Searcher, slot: int, other: int, first: int, last: int,
-              length: int) -> bool:
+              cut: int, length: int) -> bool:
     """Write what the line says into stops `first` to `last` of a route, and into the other, if any.
 
     In place; False if that breaks a rule.
@@ -235,7 +239,7 @@ def write_all(world: World, searcher: Searcher, slot: int, other: int, first: in
     if other >= 0:
         touch(searcher, other)
     keep_aside(now, slot, spare)
-    begin, end, member, done = 0, depot_between(world, line, length), slot, True
+    begin, end, member, done = 0, cut, slot, True
     while member >= 0:
         route = now.route[member]
         if route[R_LENGTH] > 0:
@@ -280,7 +284,8 @@ def resplit(world: World, searcher: Searcher, limit: float) -> bool:
         shift(line, depot_between(world, line, length), 1 + below(rng, length - 2))
     else:
         shuffle(world, line, length, rng)
-    after = split_all(world, searcher, k, length)
+    cut = depot_between(world, line, length)
+    after = split_all(world, searcher, k, cut, length)
     if after == math.inf or (exact and not is_worth(world, k, idle, before, after, limit)):
         return False
-    return write_all(world, searcher, slot, other, first, last, length)
+    return write_all(world, searcher, slot, other, first, last, cut, length)
