@@ -12,7 +12,7 @@ from model.search.layout import (
 )
 from model.search.lean import refresh_lean
 from model.search.routes import (
-    drive_forward, first_departure, load_trips, look_back, open_up, price_route, price_windows,
+    drive_forward, first_departure, load_trips, look_back, open_up, price_route,
 )
 
 MOST_DRAWS = 64
@@ -142,7 +142,6 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
     if not drive_forward(world, route, stops, sorties, acc):
         return False
     depart = first_departure(world, route, stops, sorties)
-    fleet.early[slot] = 0.0
     if mode & MODE_SETTLED:
         if not settle(world, route, stops, trips, sorties, acc):
             return False
@@ -150,9 +149,9 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
     route[R_WORKING] = route[R_END] - depart
     if route[R_WORKING] > world.type[route[R_TYPE], TYPE_MAX_WORKING]:
         return False
-    fleet.cost[slot] = price_route(world, route, stops, trips, sorties)
+    fleet.cost[slot], early = price_route(world, route, stops, trips, sorties)
+    fleet.early[slot] = early if mode & MODE_SETTLED else 0.0
     if mode & MODE_SETTLED:
-        _, fleet.early[slot] = price_windows(world, route, stops, sorties)
         clear_holds(route, stops, trips)
         drive_forward(world, route, stops, sorties, acc)
     if mode & MODE_PROFILE:

@@ -204,10 +204,10 @@ def first_departure(world: World, route: IntArray, stops: IntArray, sorties: Int
 
 @inlined
 def price_route(world: World, route: IntArray, stops: IntArray, trips: IntArray,
-                sorties: IntArray) -> float:
-    """Return the cost of a timed route."""
+                sorties: IntArray) -> tuple[float, float]:
+    """Return the cost of a timed route, and what waiting for windows costs of it."""
     k = route[R_TYPE]
-    cost = world.rate[k, RATE_FIXED]
+    cost, early = world.rate[k, RATE_FIXED], 0.0
     for index in range(route[R_TRIPS]):
         cost += trips[index, T_DISTANCE] * world.rate[k, RATE_KM]
     cost += route[R_WORKING] * world.rate[k, RATE_HOUR]
@@ -216,4 +216,4 @@ def price_route(world: World, route: IntArray, stops: IntArray, trips: IntArray,
     if world.mode[k] & MODE_PRICED:
         late, early = price_windows(world, route, stops, sorties)
         cost += late + early
-    return cost
+    return cost, early
