@@ -14,7 +14,7 @@ from model.features import Observation
 from model.rolling import (
     ACTION_WIDTH, CLIP, SHAPES, SHARE, STEP_WEIGHTS, candidate_scores, read_weights,
 )
-from training.export import Encoder, Step, example_inputs, export
+from training.export import WEIGHTS, Encoder, Step, example_inputs, export
 from training.policies import POLICIES
 
 STEP_INPUTS = ("here", "candidate", "feature", "allowed", "glob", "hidden")
@@ -26,21 +26,16 @@ def exported(request: pytest.FixtureRequest,
     torch.manual_seed(2)
     folder = tmp_path_factory.mktemp(request.param)
     policy = POLICIES[request.param]()
-    torch.save(policy.state_dict(), folder / "weights.pt")
     export(policy, folder, {"note": "untrained"})
     return request.param, folder
 
 
-@pytest.mark.parametrize(("nodes", "types", "rollouts", "candidates"),
-                         [(2, 1, 1, 1), (3, 2, 2, 2), (21, 4, 1, 30), (101, 1, 64, 50),
-                          (301, 2, 3, 170)])
-def test_torch_and_onnx_agree(exported: tuple[str, Path], nodes: int, types: int, rollouts: int,
-                              candidates: int) -> None:
-    name, folder = exported
+def compare(name: str, folder: Path, sizes: tuple[int, int, int, int]) -> None:
+    """Compare a policy of the weights kept with its graphs, at sizes as in `example_inputs`."""
     policy = POLICIES[name]()
-    policy.load_state_dict(torch.load(folder / "weights.pt"))
+    policy.load_state_dict(torch.load(folder / WEIGHTS, weights_only=True))
     policy.eval()
-    encoder_inputs, step_inputs = example_inputs(policy, nodes, types, rollouts, candidates, seed=9)
+    encoder_inputs, step_inputs = example_inputs(policy, *sizes, seed=9)
     with torch.no_grad():
         memory = Encoder(policy)(*encoder_inputs)
         logits, hidden = Step(policy)(memory, *step_inputs)
@@ -54,6 +49,19 @@ def test_torch_and_onnx_agree(exported: tuple[str, Path], nodes: int, types: int
                                  in zip(STEP_INPUTS, step_inputs, strict=True)}})
     np.testing.assert_allclose(got_logits, logits.numpy(), atol=1e-4, rtol=1e-4)
     np.testing.assert_allclose(got_hidden, hidden.numpy(), atol=1e-4, rtol=1e-4)
+
+
+@pytest.mark.parametrize(("nodes", "types", "rollouts", "candidates"),
+                         [(2, 1, 1, 1), (3, 2, 2, 2), (21, 4, 1, 30), (101, 1, 64, 50),
+                          (301, 2, 3, 170)])
+def test_torch_and_onnx_agree(exported: tuple[str, Path], nodes: int, types: int, rollouts: int,
+                              candidates: int) -> None:
+    compare(*exported, (nodes, types, rollouts, candidates))
+
+
+def test_weights_committed_for_training_are_those_of_the_graphs() -> None:
+    folder = Path(__file__).parents[2] / "model" / "weights" / "attention"
+    compare("attention", folder, (9, 2, 3, 7))
 
 
 @pytest.mark.parametrize(("nodes", "types", "candidates"), [(2, 1, 1), (21, 4, 30), (301, 2, 170)])

@@ -8,13 +8,11 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-import onnxruntime as ort
 import pytest
 import torch
 
 from training.config import TrainConfig
-from training.export import WEIGHTS, Encoder, example_inputs, export
+from training.export import export
 from training.policies import POLICIES
 from training.rules import nearest_neighbour
 from training.train import train, validation_batches
@@ -66,19 +64,6 @@ def test_another_policys_weights_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="begin_with"):
         train(TINY, tmp_path / "run", 5.0, "cpu", max_steps=0, validation_size=8,
               begin_with=tmp_path / "exported")
-
-
-def test_committed_weights_are_those_of_the_graphs() -> None:
-    folder = Path(__file__).parents[2] / "model" / "weights" / "attention"
-    policy = POLICIES["attention"]()
-    policy.load_state_dict(torch.load(folder / WEIGHTS, weights_only=True))
-    inputs, _ = example_inputs(policy, nodes=9, types=2, rollouts=1, candidates=1)
-    with torch.no_grad():
-        memory = Encoder(policy)(*inputs)
-    encoder = ort.InferenceSession(str(folder / "encoder.onnx"))
-    got, = encoder.run(None, dict(zip(("node", "type", "pair"), (x.numpy() for x in inputs),
-                                      strict=True)))
-    np.testing.assert_allclose(got, memory.numpy(), atol=1e-4, rtol=1e-4)
 
 
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:
