@@ -81,9 +81,9 @@ def _mixed_loads(problem: Problem, vehicle_type: int, trip: Trip) -> Iterator[tu
         if sortie.recovery_stop == sortie.launch_stop:
             # Flown the other way round it costs as much, and no times matter in that set.
             peaks.append(_most_carried(demands[::-1]))
-        if min(peaks) > drones.capacity[0]:
-            yield index, (f"carries {decimal(min(peaks))}, "
-                          f"capacity is {decimal(drones.capacity[0])}")
+        most = min(peaks)
+        if most > drones.capacity[0]:
+            yield index, (f"carries {decimal(most)}, capacity is {decimal(drones.capacity[0])}")
 
 
 def _most_carried(demands: Sequence[tuple[int, ...]]) -> int:

@@ -1,6 +1,7 @@
 """Tests of `benchmarks.truck_drone_rules`."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
@@ -49,6 +50,14 @@ def test_mixed_loads_count_both_ways_together(
 def test_mixed_loads_of_a_loop_may_be_flown_the_other_way_round(problem: Problem) -> None:
     trip = TripDecision((0, 3, 0), (SortieDecision((2, 1), 1, 1),))
     assert _judge(problem, trip, MIXED_LOADS) == []
+
+
+def test_mixed_loads_of_a_loop_that_are_too_much_either_way_round(problem: Problem) -> None:
+    customers = tuple(replace(customer, demand=demand) for customer, demand in zip(
+        problem.customers, ((4000, 0), (0, 9000), (4000, 0)), strict=True))
+    trip = TripDecision((0, 0), (SortieDecision((1, 2, 3), 0, 0),))
+    broken, = _judge(replace(problem, customers=customers), trip, MIXED_LOADS)
+    assert "carries 13," in broken.message
 
 
 def test_trucks_without_drones_break_nothing(
