@@ -47,12 +47,12 @@ FIRST_SLICE = 8
 STARTS_SHARE = 0.4
 """Share of the search in which each thread begins several times anew, where that pays."""
 
-START_TURNS = 30
-"""Turns for each customer that such a start has at least."""
+START_TURNS, START_TURNS_BY_TYPES = 100, 30
+"""Turns for each customer that such a start has at least, with vehicles of one type and of several:
+which of them drive is settled soon, and rarely well."""
 
 MOST_STARTS, MOST_STARTS_BY_TYPES = 5, 16
-"""How often a thread begins anew at most, with vehicles of one type and of several: which of them
-drive is settled soon, and rarely well."""
+"""How often a thread begins anew at most."""
 
 REHEAT = 0.3
 """First temperature of what follows from the best of them, by that of a start."""
@@ -223,8 +223,9 @@ class _Team:
     def num_starts(self) -> int:
         """Return how often to begin anew, by how many turns there is time for."""
         turns = min(worker.expected() for worker in self.workers)
-        most = MOST_STARTS if self.workers[0].heat.types == 1 else MOST_STARTS_BY_TYPES
-        return min(most, int(STARTS_SHARE * turns / START_TURNS))
+        least, most = ((START_TURNS, MOST_STARTS) if self.workers[0].heat.types == 1
+                       else (START_TURNS_BY_TYPES, MOST_STARTS_BY_TYPES))
+        return min(most, int(STARTS_SHARE * turns / least))
 
 
 def improve(problem: Problem, instance: Instance, solution: Solution, config: SearchConfig,

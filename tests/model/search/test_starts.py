@@ -9,7 +9,8 @@ from model.problem import Problem
 from model.search.anneal import ANY, anneal
 from model.search.construct import begin_anew
 from model.search.improve import (
-    MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, STARTS_SHARE, SearchConfig, improve,
+    MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, START_TURNS_BY_TYPES, STARTS_SHARE,
+    SearchConfig, improve,
 )
 from model.search.layout import World
 from model.search.sharing import go_on_from_best
@@ -83,17 +84,18 @@ def test_the_whole_goes_on_from_the_best_of_all(variant: str) -> None:
     assert evaluation.cost.total <= whole.value[V_BEST] * (1 + 1e-9)
 
 
-@pytest.mark.parametrize(("variant", "most"), [
-    ("vrptw", MOST_STARTS), ("hetero", MOST_STARTS_BY_TYPES), ("drone", 0)])
+@pytest.mark.parametrize(("variant", "least", "most"), [
+    ("vrptw", START_TURNS, MOST_STARTS),
+    ("hetero", START_TURNS_BY_TYPES, MOST_STARTS_BY_TYPES), ("drone", START_TURNS, 0)])
 @pytest.mark.parametrize("threads", [1, 2])
 def test_search_begins_anew_as_often_as_there_is_time(
-    variant: str, most: int, threads: int, begins: list[bool]
+    variant: str, least: int, most: int, threads: int, begins: list[bool]
 ) -> None:
     problem = generate(np.random.default_rng(9), 10, variant)
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     for count in (1, 2, 20):
         begins.clear()
-        turns = int((count + 0.5) * START_TURNS / STARTS_SHARE) * 10 * threads
+        turns = int((count + 0.5) * least / STARTS_SHARE) * 10 * threads
         found = improve(problem, pack([problem]), nobody,
                         SearchConfig(turns=turns, threads=threads))
         assert found.turns == turns
@@ -104,6 +106,6 @@ def test_search_begins_anew_as_often_as_there_is_time(
 
 def test_searches_that_begin_anew_are_repeated_exactly() -> None:
     problem = generate(np.random.default_rng(7), 20, "vrptw")
-    config = SearchConfig(seed=4, threads=2, turns=40 * START_TURNS * 20)
+    config = SearchConfig(seed=4, threads=2, turns=12 * START_TURNS * 20)
     found, again = (improve(problem, pack([problem]), Solution((), ()), config) for _ in range(2))
     assert found.solution == again.solution
