@@ -139,6 +139,20 @@ def with_windows(rng: np.random.Generator, orders: Orders, reach: Reach, share: 
                    latest=np.where(chosen, latest, last))
 
 
+def with_appointments(rng: np.random.Generator, orders: Orders, reach: Reach, share: float,
+                      start: IntArray, width: float) -> Orders:
+    """Give a share of the customers windows of a width (ms) about given times, (customer,).
+
+    They are moved to where a vehicle on its own can meet them. The others are open all day.
+    """
+    first, last = reach.opens + reach.outbound, last_start(orders, reach)
+    earliest = np.clip(start - int(0.5 * width), first, last)
+    latest = np.minimum(earliest + int(width), last)
+    chosen = rng.random(len(start)) < share
+    return replace(orders, earliest=np.where(chosen, earliest, 0),
+                   latest=np.where(chosen, latest, last))
+
+
 def with_releases(rng: np.random.Generator, orders: Orders, reach: Reach, share: float) -> Orders:
     """Release a share of the parcels in the first 0.7 of the time in which one can still leave."""
     last_departure = np.minimum(orders.latest, last_start(orders, reach)) - reach.outbound

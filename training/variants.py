@@ -18,6 +18,7 @@ Shared by all, so not restated below:
 | --- | --- |
 | `cvrp` | capacity for 5 to 20 customers, one vehicle per customer, distance only |
 | `vrptw` | hard windows, distance only: the learned-solver papers' uniform set or like Solomon's |
+| `appointed` | hard windows about the times of a plan, like Solomon's classes C; long service |
 | `soft` | soft windows (some hard), waiting may cost, time costs, 1 to 1.6 times the fleet needed |
 | `hetero` | 2 to 4 types of capacity, speed, cost and count; skills; 1 to 3 dimensions |
 | `multitrip` | 1 to 3 trips, reloading, shifts, limits, release times, windows, speed profiles |
@@ -36,7 +37,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from model.problem import DroneType, FloatArray, Problem, VehicleType
+from model.problem import DroneType, FloatArray, IntArray, Problem, VehicleType
 from training.fleets import (
     assemble,
     capacity_for,
@@ -60,6 +61,7 @@ from training.orders import (
     draw_service,
     open_orders,
     reach_of,
+    with_appointments,
     with_modes,
     with_releases,
     with_skills,
@@ -172,6 +174,59 @@ def _with_hard_windows(rng: np.random.Generator, ground: Ground, orders: Orders,
                               day * ground.crossing)
     low, high = width[0] * ground.crossing, width[1] * ground.crossing
     return assemble(ground, with_windows(rng, orders, reach, share, (low, high)), (truck,), travel)
+
+
+def appointed(rng: np.random.Generator, num_customers: int, config: InstanceConfig) -> Problem:
+    """Hard windows about the times at which a plan of nearest neighbours would serve.
+
+    Mostly clustered. Service takes 0.05 to 1.2 crossings, equal or spread. A trip of the plan has 6
+    to 40 customers, and a load 0.9 to 1.5 times their mean demands. Windows at 25 to 100 % of the
+    customers are 3 to 40 % of the day wide, which is the plan's longest trip and up to as much
+    again.
+    """
+    layout = rng.random()
+    points = draw_points(rng, 1, num_customers,
+                         1.0 if layout < 0.5 else 0.5 if layout < 0.75 else 0.0)
+    ground = _scaled(rng, points, config)
+    demand = draw_demand(rng, num_customers)
+    spread = 0.0 if rng.random() < 0.5 else 0.8
+    factor = 1.0 + spread * (rng.random(num_customers) - 0.5)
+    mean = log_uniform(rng, 0.05, 1.2) * ground.crossing
+    orders = open_orders(demand, (mean * factor).astype(np.int64))
+    customers = log_uniform(rng, 6, 40)
+    start, longest = _times_of_plan(rng, ground, orders.service_duration, math.ceil(customers))
+    truck = truck_type("truck", num_customers,
+                       capacity_for(demand, customers * uniform(rng, 0.9, 1.5)),
+                       draw_prices(rng, ground, fixed=0.0, distance=1.0, time=0.0))
+    travel = (ground.road(),)
+    truck, reach = with_shift(truck, reach_of(truck, travel, 1), orders.service_duration, 0,
+                              longest * uniform(rng, 1.05, 2.0))
+    width = log_uniform(rng, 0.03, 0.4) * truck.latest
+    orders = with_appointments(rng, orders, reach, (0.25, 0.5, 0.75, 1.0)[integer(rng, 0, 3)],
+                               start, width)
+    return assemble(ground, orders, (truck,), travel)
+
+
+def _times_of_plan(rng: np.random.Generator, ground: Ground, service: IntArray,
+                   customers: int) -> tuple[IntArray, float]:
+    """Return when each customer's service begins in a plan, and how long its longest trip takes.
+
+    Trips begin with a random customer not yet served and go on to the nearest.
+    """
+    duration = ground.road().duration
+    start, longest = np.zeros(len(service), dtype=np.int64), 0.0
+    left = rng.permutation(len(service)) + 1
+    while left.size:
+        place, now = 0, 0
+        for number in range(min(customers, left.size)):
+            chosen = 0 if number == 0 else int(duration[place, left].argmin())
+            following = int(left[chosen])
+            now += int(duration[place, following])
+            start[following - 1] = now
+            now += int(service[following - 1])
+            place, left = following, np.delete(left, chosen)
+        longest = max(longest, now + float(duration[place, 0]))
+    return start, longest
 
 
 def soft(rng: np.random.Generator, num_customers: int, config: InstanceConfig) -> Problem:

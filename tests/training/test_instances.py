@@ -16,12 +16,14 @@ from model.problem import (
 )
 from training.instances import (
     SHARES,
+    VALIDATED,
     VARIANTS,
     InstanceConfig,
     generate,
     sample_variant,
     validation_set,
 )
+from training.orders import Reach, open_orders, with_appointments
 from training.variants import solomon_vrptw, uniform_vrptw
 
 SOUND = InstanceConfig(spoiled=0.0)
@@ -147,6 +149,26 @@ def test_solomon_vrptw_leaves_some_customers_without_a_window() -> None:
     assert max(open_shares) > 0.5
 
 
+def test_appointed_serves_long_at_times_of_a_plan() -> None:
+    problems = draw("appointed", num_customers=50)
+    service = [p.customers[0].service_duration / p.vehicle_types[0].latest for p in problems]
+    assert min(service) < 0.01
+    assert max(service) > 0.05
+    shares = [np.mean([c.earliest > 0 for c in p.customers]) for p in problems]
+    assert min(shares) < 0.4
+    assert max(shares) > 0.9
+
+
+def test_appointments_lie_about_their_times_where_a_vehicle_can_meet_them() -> None:
+    hours = 3_600_000
+    orders = open_orders(np.ones((4, 1), dtype=np.int64), np.full(4, hours))
+    leg = np.full(4, hours)
+    made = with_appointments(np.random.default_rng(0), orders, Reach(0, 10 * hours, leg, leg), 1.0,
+                             np.array([0, 3, 5, 12]) * hours, 2.0 * hours)
+    assert (made.earliest / hours).tolist() == [1, 2, 4, 8]
+    assert (made.latest / hours).tolist() == [3, 4, 6, 8]
+
+
 def test_soft_has_late_and_early_costs() -> None:
     problems = draw("soft")
     assert all(any(c.late_cost_per_hour for c in p.customers) for p in problems)
@@ -223,7 +245,7 @@ def test_validation_set_is_fixed_and_balanced() -> None:
     assert len(set(names)) == 200
     assert [sizes.count(size) for size in (20, 50, 100)] == [80, 80, 40]
     assert all(sum(name.startswith(f"{variant}-") for name in names) == 25
-               for variant in VARIANTS)
+               for variant in VALIDATED)
     for (name, problem), (same_name, same) in zip(problems, prefix, strict=False):
         assert name == same_name
         assert problem.customers == same.customers
