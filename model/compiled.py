@@ -5,9 +5,11 @@ change in a function or constant that was imported from another file and compile
 fingerprint over all files that take part names the folder, so no stale code is ever run.
 """
 
+import fcntl
 import hashlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -122,6 +124,24 @@ def is_cold() -> bool:
     """Tell whether compiled code can be kept and none is yet."""
     folder = compiled_folder()
     return folder is not None and not any(folder.rglob("*.nbi"))
+
+
+@contextmanager
+def first_to_compile() -> Iterator[bool]:
+    """Let one process at a time compile where nothing is yet; tell whether this one has to.
+
+    The others wait until it is done, or has died, and find everything compiled.
+    """
+    folder = compiled_folder()
+    if folder is None or not is_cold():
+        yield False
+        return
+    with (folder / "compiling.lock").open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        has_to = is_cold()
+        if not has_to:
+            fcntl.flock(file, fcntl.LOCK_UN)
+        yield has_to
 
 
 def fingerprint(source: Path) -> str:

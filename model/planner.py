@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from model.check import Evaluation, check
-from model.compiled import is_cold
+from model.compiled import first_to_compile
 from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.extract import extract
 from model.instance import Instance, pack
@@ -104,11 +104,14 @@ class Planner:
     def warm(self, progress: Callable[[str], None] | None = None) -> None:
         """Plan small problems by each policy and by none, so that all is compiled. In place.
 
-        Where nothing is yet and there are two cores, a second process compiles the search.
+        Where nothing is yet, one of several processes compiles and the others wait; where there are
+        two cores, it has a helper that compiles the search.
         """
-        tell = progress or (lambda _: None)
-        aside = is_cold() and (os.cpu_count() or 1) > 1
-        with beside(COMPILE_SEARCH) if aside else nullcontext():
+        with first_to_compile() as is_first:
+            self._warm(progress or (lambda _: None), is_first and (os.cpu_count() or 1) > 1)
+
+    def _warm(self, tell: Callable[[str], None], with_helper: bool) -> None:
+        with beside(COMPILE_SEARCH) if with_helper else nullcontext():
             for index, name in enumerate(self._policies, 1):
                 tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
                 began = time.perf_counter()

@@ -2,11 +2,13 @@ import os
 import shutil
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
-from model.compiled import SOURCES, fingerprint, is_cold
+from model.compiled import SOURCES, fingerprint, first_to_compile, is_cold
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -57,6 +59,34 @@ def test_folder_is_cold_until_it_holds_compiled_code(
     (tmp_path / "search").mkdir()
     (tmp_path / "search" / "anneal.nbi").touch()
     assert not is_cold()
+
+
+def test_one_of_several_compiles_and_the_others_find_it_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("model.compiled.compiled_folder", lambda: tmp_path)
+
+    def come() -> bool:
+        with first_to_compile() as is_first:
+            if is_first:
+                time.sleep(0.2)
+                (tmp_path / "anneal.nbi").touch()
+            return is_first
+
+    with ThreadPoolExecutor(3) as pool:
+        told = [pool.submit(come) for _ in range(3)]
+    assert sorted(answer.result() for answer in told) == [False, False, True]
+    assert not come()
+
+
+def test_where_one_has_died_the_next_compiles(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("model.compiled.compiled_folder", lambda: tmp_path)
+    with pytest.raises(RuntimeError), first_to_compile():
+        raise RuntimeError
+    with first_to_compile() as is_first:
+        assert is_first
 
 
 def test_user_cache_serves_where_the_source_cannot_be_written(tmp_path: Path) -> None:

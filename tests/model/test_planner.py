@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 import time
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -219,7 +219,7 @@ def test_second_process_compiles_the_search_where_nothing_is_yet(
         helpers.append(statement)
         return beside(statement)
 
-    monkeypatch.setattr(planner_module, "is_cold", lambda: True)
+    monkeypatch.setattr(planner_module, "first_to_compile", lambda: nullcontext(True))
     monkeypatch.setattr(planner_module, "beside", watch)
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     planner.warm()
