@@ -47,11 +47,11 @@ FIRST_SLICE = 8
 STARTS_SHARE = 0.4
 """Share of the search in which each thread begins several times anew, where that pays."""
 
-START_TURNS, START_TURNS_BY_TYPES = 100, 30
+START_TURNS, START_TURNS_BY_TYPES = 100, 12
 """Turns for each customer that such a start has at least, with vehicles of one type and of several:
 which of them drive is settled soon, and rarely well."""
 
-MOST_STARTS, MOST_STARTS_BY_TYPES = 5, 16
+MOST_STARTS, MOST_STARTS_BY_TYPES = 5, 24
 """How often a thread begins anew at most."""
 
 REHEAT = 0.3

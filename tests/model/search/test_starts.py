@@ -93,7 +93,7 @@ def test_search_begins_anew_as_often_as_there_is_time(
 ) -> None:
     problem = generate(np.random.default_rng(9), 10, variant)
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
-    for count in (1, 2, 20):
+    for count in (1, 2, 30):
         begins.clear()
         turns = int((count + 0.5) * least / STARTS_SHARE) * 10 * threads
         found = improve(problem, pack([problem]), nobody,
