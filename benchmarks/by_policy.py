@@ -10,12 +10,10 @@ from benchmarks.tandem import plan_to_answer, problem_of
 from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.extract import extract
 from model.instance import pack
-
-SECONDS_PER_DECISION = 1.2e-4
-"""For the greedy plan, at 100 customers."""
+from model.planner import decoding_seconds
 
 SAMPLES_FOR_GREEDY = {"attention": 16, "pointer": 6}
-"""How many samples cost as much; those of `attention` plan only a part anew."""
+"""How many samples cost as much as the greedy plan; those of `attention` plan only a part anew."""
 
 
 @lru_cache
@@ -25,8 +23,8 @@ def _policy(name: str) -> Policy:
 
 def config(instance: Published, seconds: float, seed: int, policy: str) -> DecodeConfig:
     """Return how many plans to draw in about `seconds`; a single one is the greedy plan."""
-    single = SECONDS_PER_DECISION * instance.num_customers * (1 + instance.num_customers / 300)
-    samples = int(SAMPLES_FOR_GREEDY[policy] * (seconds / single - 1))
+    greedy = decoding_seconds(instance.num_customers, None)
+    samples = int(SAMPLES_FOR_GREEDY[policy] * (seconds / greedy - 1))
     return DecodeConfig("sample", samples, seed=seed) if samples > 1 else DecodeConfig()
 
 
