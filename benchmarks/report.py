@@ -1,6 +1,7 @@
 """Tables and plots of `benchmarks.versus`: `python -m benchmarks.report`.
 
-Writes `docs/benchmarks.md`, in it only what lies between two markers, and two plots beside it.
+Writes `docs/benchmarks.md`, in it only what lies between two markers, and beside it two plots and
+all runs as a CSV, with which `benchmarks.versus` can go on.
 """
 
 import math
@@ -14,7 +15,7 @@ import typer
 
 from benchmarks.plots import draw_anytime, draw_by_size
 from benchmarks.results import Result
-from benchmarks.rows import read_rows
+from benchmarks.rows import append_rows, read_rows
 from benchmarks.workers import SOLVERS
 
 BEGIN, END = "<!-- versus: begin -->", "<!-- versus: end -->"
@@ -120,7 +121,7 @@ def _circumstances(results: Sequence[Result]) -> str:
 
 
 def write(results: Sequence[Result], page: Path) -> None:
-    """Write the page's part between the markers, keeping what is around it, and the plots.
+    """Write the page's part between the markers, keeping what is around it, the plots, the runs.
 
     Raises
     ------
@@ -135,9 +136,13 @@ def write(results: Sequence[Result], page: Path) -> None:
     part = "\n".join([
         BEGIN, "", _circumstances(results), "", *table(results), "", NOTES, "",
         "![Mean gap over time for each set](anytime.svg)", "",
-        "![Gap over the number of customers](by_size.svg)", "", END])
+        "![Gap over the number of customers](by_size.svg)", "",
+        "All runs: [versus.csv](versus.csv).", "", END])
     page.parent.mkdir(parents=True, exist_ok=True)
     page.write_text(before + part + after, encoding="utf-8")
+    runs = page.with_name("versus.csv")
+    runs.unlink(missing_ok=True)
+    append_rows(runs, Result, results)
     draw_anytime(by_group(results), page.with_name("anytime.svg"))
     draw_by_size(results, page.with_name("by_size.svg"))
 

@@ -295,6 +295,7 @@ def test_page_keeps_what_is_around_its_part(tmp_path: Path) -> None:
     assert set(plots) == {"anytime.svg", "by_size.svg"}
     text = page.read_text(encoding="utf-8")
     assert "Measured on 2026-01-01, a machine, 2 cores" in text
+    assert read_rows(page.with_name("versus.csv"), Result) == results
     page.write_text(text.replace(BEGIN, f"Before.\n{BEGIN}") + "After.\n", encoding="utf-8")
     write(results, page)
     assert page.read_text(encoding="utf-8") == text.replace(BEGIN, f"Before.\n{BEGIN}") + "After.\n"
