@@ -1,21 +1,29 @@
 /** Sheets for drivers, one page or more for each vehicle, for the printer alone. */
 
 import { amounts, clock, duration, timeWindow } from '../core/format.js';
+import { standingOf } from '../core/replanning.js';
 import { html, render } from '../libraries.js';
 
-/** Print the sheets of vehicles. */
-export function printSheets(vehicles) {
+const STANDINGS = { settled: 'settled', lost: 'not to be served', open: '' };
+
+/**
+ * Print the sheets of vehicles.
+ *
+ * @param parts what of the plan is settled, of `settledParts`
+ */
+export function printSheets(vehicles, parts) {
   const holder = document.getElementById('sheets') ?? document.createElement('div');
   holder.id = 'sheets';
   document.body.append(holder);
   render(
-    html`${vehicles.map((vehicle) => html`<${Sheet} key=${vehicle.key} vehicle=${vehicle} />`)}`,
+    html`${vehicles.map((vehicle) => html`<${Sheet}
+      key=${vehicle.key} vehicle=${vehicle} parts=${parts} />`)}`,
     holder,
   );
   window.print();
 }
 
-function Sheet({ vehicle }) {
+function Sheet({ vehicle, parts }) {
   return html`<article class="sheet-page">
     <h1>${vehicle.name}</h1>
     <p>Works ${duration(vehicle.route.working_duration)}. Driver: ____________________
@@ -32,7 +40,9 @@ function Sheet({ vehicle }) {
         <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
         <td>${halt.kind === 'customer' ? amounts(halt.source.demand) : ''}</td>
         <td>${orders(trip, halt).map((order) => html`<div
-          key=${order}>${order}</div>`)}</td><td></td></tr>`,
+          key=${order}>${order}</div>`)}</td>
+        <td>${STANDINGS[standingOf(parts, {
+          vehicle: vehicle.name, trip: trip.index, stop: position })]}</td></tr>`,
       )}
       </tbody></table></section>`,
     )}

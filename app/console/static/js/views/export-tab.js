@@ -1,6 +1,6 @@
 /** Take the plan away: files, sheets for drivers, pictures. */
 
-import { indexOf, shownPlan } from '../actions.js';
+import { indexOf, settledOf, shownPlan } from '../actions.js';
 import { geoJson, gpx, stopsCsv } from '../core/exports.js';
 import { flightLines } from '../core/flights.js';
 import { drawPicture, pictureOf, toSvg } from '../core/picture.js';
@@ -21,6 +21,7 @@ export function ExportTab() {
       </button></div></section>`;
   if (!index) return html`${problem}<p class="empty">Nothing is planned yet.</p>`;
   const legsOf = flightLines(entry.request);
+  const parts = settledOf(entry, request);
   const isGeographic = entry.request.coordinate_system === 'geographic';
   return html`${problem}
     <section class="section"><h3>Plan</h3><div class="buttons">
@@ -40,15 +41,16 @@ export function ExportTab() {
       <button type="button" onClick=${() => savePng('plan.png', pictureOf(index, legsOf))}>PNG
         </button></div></section>
     <section class="section"><h3>For drivers</h3>
-      <div class="buttons"><button type="button" onClick=${() => printSheets(index.vehicles)}>
-        Print all driver sheets</button></div>
+      <div class="buttons">
+        <button type="button" onClick=${() => printSheets(index.vehicles, parts)}>
+          Print all driver sheets</button></div>
       ${!isGeographic && html`<p
         class="help">GPX needs longitudes and latitudes; this problem lies on a plane.</p>`}
       <table><tbody>${index.vehicles.map(
         (vehicle) => html`<tr key=${vehicle.key}>
         <th scope="row"><${Badge} vehicle=${vehicle} /> ${vehicle.name}</th>
         <td><div class="buttons">
-          <button type="button" onClick=${() => printSheets([vehicle])}
+          <button type="button" onClick=${() => printSheets([vehicle], parts)}
             aria-label=${`Print the driver sheet of ${vehicle.name}`}>Print sheet</button>
           <button type="button" disabled=${!isGeographic} aria-label=${`GPX of ${vehicle.name}`}
             onClick=${() =>
