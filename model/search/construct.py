@@ -35,8 +35,13 @@ def disband(searcher: Searcher) -> None:
 
 
 def insert_missing(world: World, searcher: Searcher, order: int) -> None:
-    """Insert all customers left out, one after another. In place."""
+    """Insert all customers left out, one after another. In place.
+
+    Once more those for whom the only place, such as a route of their own, was overlooked.
+    """
     anneal(world, searcher, 1, order)
+    if searcher.count[I_MISSING] > 0:
+        anneal(world, searcher, 1, order)
 
 
 def begin_anew(world: World, searcher: Searcher, freely: bool) -> None:

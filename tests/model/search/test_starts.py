@@ -7,15 +7,16 @@ from model.check import check
 from model.instance import pack
 from model.problem import Problem
 from model.search.anneal import ANY, anneal
-from model.search.construct import begin_anew
+from model.search.construct import begin_anew, insert_missing
 from model.search.improve import (
     MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, START_TURNS_BY_TYPES, STARTS_SHARE,
     SearchConfig, improve,
 )
 from model.search.layout import World
+from model.search.recreate import BY_FAR
 from model.search.sharing import go_on_from_best
 from model.search.starts import Starts
-from model.search.state import V_BEST, V_COST, V_TEMPERATURE, Searcher
+from model.search.state import I_MISSING, V_BEST, V_COST, V_TEMPERATURE, Searcher
 from model.search.translate import make_searcher, read_plan
 from model.search.world import make_world
 from model.solution import Solution
@@ -44,6 +45,16 @@ def begins(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
 
     monkeypatch.setattr(Starts, "begin", record)
     return calls
+
+
+def test_nobody_is_left_out_where_there_are_trucks_enough() -> None:
+    problem = generate(np.random.default_rng(1), 100, "vrptw")
+    assert problem.vehicle_types[0].count == 100
+    world = make_world(problem, pack([problem]))
+    for seed in range(60):
+        whole = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(seed))
+        insert_missing(world, whole, BY_FAR)
+        assert whole.count[I_MISSING] == 0
 
 
 @pytest.mark.parametrize("variant", TRUCKS)
