@@ -5,13 +5,13 @@ import math
 from model.compiled import inlined, spliced
 from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES,
-    TYPE_PAYLOAD,
+    TYPE_MAX_TRIPS, TYPE_PAYLOAD,
 )
 from model.problem import IntArray
 from model.search.draw import below
 from model.search.layout import (
-    CUSTOMER, F_COUNT, F_DRONE, F_NODE, MODE_LEAN, NOWHERE, P_DEMAND, R_LENGTH, R_SORTIES, R_TYPE,
-    S_KIND, S_NODE, T_DISTANCE, T_LOAD, Fleet, World,
+    CUSTOMER, F_COUNT, F_DRONE, F_NODE, MODE_LEAN, NOWHERE, P_DEMAND, R_LENGTH, R_SORTIES, R_TRIPS,
+    R_TYPE, S_KIND, S_NODE, T_DISTANCE, T_LOAD, Fleet, World,
 )
 from model.search.refresh import refresh
 from model.search.state import I_ACTIVE, I_TOUCHED, Searcher, keep_aside, touch
@@ -113,10 +113,11 @@ def lifts(world: World, sortie: IntArray, k: int, node: int) -> bool:
 
 @inlined
 def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
-    """Tell whether type `k` has the depot, the drones and the skills that a route needs."""
+    """Tell whether type `k` has the depot, trips, drones and skills that a route needs."""
     route, stops, sorties = fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]
     nothing = world.type[k, TYPE_DEPOT]
-    if world.type[k, TYPE_DEPOT] != world.type[route[R_TYPE], TYPE_DEPOT]:
+    if (world.type[k, TYPE_DEPOT] != world.type[route[R_TYPE], TYPE_DEPOT]
+            or route[R_TRIPS] > world.type[k, TYPE_MAX_TRIPS]):
         return False
     for p in range(route[R_LENGTH]):
         if stops[p, S_KIND] == CUSTOMER and not world.can[k, 0, stops[p, S_NODE]]:

@@ -84,18 +84,21 @@ def test_orders_come_in_and_are_cancelled_while_trucks_are_under_way(page: Page)
     page.get_by_role("button", name="Former plan beside").click()
     expect(page.locator(".map")).to_have_count(2)
     assert findings(page) == []
+    page.get_by_role("button", name="Go on from plan 2").click()
+    expect(page.get_by_role("heading", name="Go on from plan 2, at 0:08")).to_be_visible()
+    page.locator(".tab").get_by_role("button", name="Plan on").click()
+    expect(page.locator("#replan-verdict")).to_contain_text("beside plan 2")
+
+
+def test_driver_sheet_marks_what_is_settled(page: Page) -> None:
+    begin(page)
+    served = customers_of(plan_on(page))
     open_tab(page, "export")
     page.evaluate("window.print = () => undefined")
     page.get_by_role("button", name=f"Print the driver sheet of {served['W1']}").click()
     page.emulate_media(media="print")
     done = page.locator(".sheet-page tbody tr td:last-child")
     assert done.all_text_contents() == ["settled"] * 3 + ["", ""]
-    page.emulate_media(media="screen")
-    open_tab(page, "replan")
-    page.get_by_role("button", name="Go on from plan 2").click()
-    expect(page.get_by_role("heading", name="Go on from plan 2, at 0:08")).to_be_visible()
-    page.locator(".tab").get_by_role("button", name="Plan on").click()
-    expect(page.locator("#replan-verdict")).to_contain_text("beside plan 2")
 
 
 def test_others_serve_whom_a_broken_truck_had_not_reached(page: Page) -> None:

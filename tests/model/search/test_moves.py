@@ -212,6 +212,18 @@ def test_sorties_of_several_change_to_no_drone_that_lifts_less() -> None:
     assert pairs > 0
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_routes_of_two_trips_are_given_to_no_truck_that_drives_one(seed: int) -> None:
+    places = np.random.default_rng(seed).uniform(-9, 9, (16, 2)).tolist()
+    shuttle = VehicleType("shuttle", 3, (4000,), 0, fixed_cost=9.0, cost_per_km=1.0, max_trips=2)
+    single = VehicleType("single", 1, (8000,), 0, fixed_cost=8.0, cost_per_km=1.0)
+    problem = on_a_plane(places, shuttle, single)
+    for turns in range(1, 40):
+        found = improve(problem, pack([problem]), Solution((), tuple(range(1, 17))),
+                        SearchConfig(seed=seed, turns=turns))
+        assert check(problem, found.solution).violations == ()
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_customers_are_shared_out_between_two_trucks_and_their_drones(seed: int) -> None:
     places = [(23, -41), (-5, 20), (-28, 42), (38, -6), (38, -22), (1, -42)]
