@@ -133,10 +133,7 @@ def with_windows(rng: np.random.Generator, orders: Orders, reach: Reach, share: 
     widths = np.rint(width[0] + (width[1] - width[0]) * rng.random(num_customers))
     room = np.maximum(last - first - widths, 0.0)
     earliest = first + (room * rng.random(num_customers)).astype(np.int64)
-    latest = np.minimum(earliest + widths.astype(np.int64), last)
-    chosen = rng.random(num_customers) < share
-    return replace(orders, earliest=np.where(chosen, earliest, 0),
-                   latest=np.where(chosen, latest, last))
+    return _opened(rng, orders, share, earliest, widths.astype(np.int64), last)
 
 
 def with_appointments(rng: np.random.Generator, orders: Orders, reach: Reach, share: float,
@@ -147,10 +144,15 @@ def with_appointments(rng: np.random.Generator, orders: Orders, reach: Reach, sh
     """
     first, last = reach.opens + reach.outbound, last_start(orders, reach)
     earliest = np.clip(start - int(0.5 * width), first, last)
-    latest = np.minimum(earliest + int(width), last)
-    chosen = rng.random(len(start)) < share
+    return _opened(rng, orders, share, earliest, int(width), last)
+
+
+def _opened(rng: np.random.Generator, orders: Orders, share: float, earliest: IntArray,
+            width: IntArray | int, last: IntArray) -> Orders:
+    """Open a share of the customers' windows for a width, until the last start at the latest."""
+    chosen = rng.random(len(earliest)) < share
     return replace(orders, earliest=np.where(chosen, earliest, 0),
-                   latest=np.where(chosen, latest, last))
+                   latest=np.where(chosen, np.minimum(earliest + width, last), last))
 
 
 def with_releases(rng: np.random.Generator, orders: Orders, reach: Reach, share: float) -> Orders:
