@@ -20,7 +20,8 @@ from model.search.retype import cheapen_types, draw_type, improve_types
 from model.search.ruin import choose, remove_marked
 from model.search.state import (
     I_ABSENT, I_ACTIVE, I_CUSTOMERS, I_LEAN, I_MISSING, I_TOUCHED, I_TURN, V_BEST, V_COOLING,
-    V_COST, V_TEMPERATURE, Searcher, accept, copy_route, keep_best, list_active, touch, turn_cost,
+    V_COST, V_TEMPERATURE, Searcher, accept, copy_route, keep_best, list_active, served_cost, touch,
+    turn_cost,
 )
 
 ANY = -1
@@ -143,6 +144,8 @@ def move_parts(world: World, searcher: Searcher, tails: bool) -> None:
 def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
     """Ruin and recreate `turns` times. In place.
 
+    Where no insertion saves anything, a turn is given up once those made cost more than would be
+    accepted.
     Given an `order`, nobody is removed, all who are left out are inserted in it, and that is kept
     whatever it costs. This is one function, not two, since insertion takes a minute to compile.
     """
@@ -156,15 +159,20 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
                 draw_type(world, searcher)
         sort_absent(world, searcher, first,
                     order if building else ORDERS[below(searcher.rng, len(ORDERS))])
-        recreate(world, searcher, first, building or world.scan_all)
-        if not building:
-            if world.traded and uniform(searcher.rng) < RETYPED:
+        limit = value[V_COST] - value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
+        retyped = (not building and (world.traded or world.mixed)
+                   and uniform(searcher.rng) < RETYPED)
+        spare = math.inf
+        if world.adds_up and not (building or retyped) and count[I_MISSING] == 0:
+            spare = limit - served_cost(searcher)
+        done = recreate(world, searcher, first, building or world.scan_all, spare)
+        if done and retyped:
+            if world.traded:
                 improve_types(world, searcher)
-            if world.mixed and uniform(searcher.rng) < RETYPED:
+            if world.mixed:
                 cheapen_types(world, searcher)
         cost = turn_cost(world, searcher)
-        limit = value[V_COST] - value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
-        forced = (not building and world.must_serve and count[I_ABSENT] > 0
+        forced = (done and not building and world.must_serve and count[I_ABSENT] > 0
                   and rarer_absences(searcher))
         if building or cost < limit or forced:
             accept(searcher, cost)

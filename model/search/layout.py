@@ -80,6 +80,7 @@ class World(NamedTuple):
     traded: bool  # vehicles may drive each other's routes
     mixed: bool  # types of vehicles, some of whose routes are not lean, may drive each other's
     scan_all: bool  # else insertion looks beside neighbours only
+    adds_up: bool  # to insert a customer never saves anything, if no detour does
     keeps: bool  # customers' best places on routes are kept from turn to turn
     must_serve: bool  # leaving a customer out costs more than any route for one
     blink: float  # how often a better place for a customer is overlooked

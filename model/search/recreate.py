@@ -103,8 +103,11 @@ def insert(world: World, searcher: Searcher, node: int) -> bool:
 
 
 @pasted
-def recreate(world: World, searcher: Searcher, first: int, scan_all: bool) -> None:
-    """Insert the absent customers from number `first` on, each where it costs least. In place."""
+def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare: float) -> bool:
+    """Insert the absent customers from number `first` on, each where it costs least.
+
+    In place; False, with some inserted, once that costs more than is to `spare`.
+    """
     absent, count = searcher.absent, searcher.count
     enlarge = world.traded and uniform(searcher.rng) < ENLARGED
     opening = uniform(searcher.rng) < OPENING
@@ -122,4 +125,8 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool) -> No
         if cost == INFEASIBLE or not wanted or not insert(world, searcher, node):
             absent[left] = node
             left += 1
+        spare -= min(cost, world.unassigned_cost)
+        if spare < 0.0:
+            return False
     count[I_ABSENT] = left
+    return True

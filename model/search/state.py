@@ -145,14 +145,20 @@ def keep_best(searcher: Searcher) -> None:
 
 
 @spliced
-def turn_cost(world: World, searcher: Searcher) -> float:
-    """Return the cost of the routes as they are after this turn."""
+def served_cost(searcher: Searcher) -> float:
+    """Return the cost of the routes as they are, and of the customers left out before this turn."""
     cost = searcher.value[V_COST]
     for index in range(searcher.count[I_TOUCHED]):
         slot = searcher.touched[index]
         cost += searcher.now.cost[slot] - searcher.before.cost[slot]
+    return cost
+
+
+@spliced
+def turn_cost(world: World, searcher: Searcher) -> float:
+    """Return the cost of the routes as they are after this turn."""
     more = searcher.count[I_ABSENT] - searcher.count[I_MISSING]
-    return cost + more * world.unassigned_cost
+    return served_cost(searcher) + more * world.unassigned_cost
 
 
 @spliced

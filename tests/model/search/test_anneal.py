@@ -1,0 +1,50 @@
+"""Turns that are given up before everyone is inserted."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.instance import pack
+from model.problem import Problem
+from model.search.anneal import ANY, anneal
+from model.search.construct import begin_anew
+from model.search.layout import World
+from model.search.state import I_BEST_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE
+from model.search.translate import make_searcher
+from model.search.world import make_world
+from model.solution import Solution
+from training.instances import generate
+
+TURNS, SEEDS = 1500, 16
+
+
+def found(problem: Problem, world: World, seed: int) -> float:
+    """Return what the best plan of a short search costs."""
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(seed))
+    begin_anew(world, searcher, True)
+    searcher.value[V_TEMPERATURE] = searcher.value[V_COST] / problem.num_customers
+    searcher.value[V_COOLING] = 0.03 ** (1 / TURNS)
+    anneal(world, searcher, TURNS, ANY)
+    assert searcher.count[I_BEST_MISSING] == 0
+    return float(searcher.value[V_BEST])
+
+
+@pytest.mark.parametrize("variant", ["cvrp", "vrptw", "hetero", "table1"])
+def test_giving_a_turn_up_loses_nothing(variant: str) -> None:
+    """It is given up once it costs too much, which it would in the end."""
+    problem = generate(np.random.default_rng(8), 60, variant)
+    world = make_world(problem, pack([problem], neighbours=False))
+    assert world.adds_up
+    through = world._replace(adds_up=False)
+    costs = np.array([[found(problem, each, seed) for seed in range(SEEDS)]
+                      for each in (world, through)])
+    mean, error = costs.mean(axis=1), costs.std(axis=1) / np.sqrt(SEEDS - 1)
+    assert mean[0] <= mean[1] + 4 * np.hypot(*error)
+
+
+def test_waiting_may_get_cheaper_by_a_customer_more() -> None:
+    problem = generate(np.random.default_rng(8), 10, "vrptw")
+    waited_for = replace(problem.customers[0], early_cost_per_hour=10.0)
+    problem = replace(problem, customers=(waited_for, *problem.customers[1:]))
+    assert not make_world(problem, pack([problem], neighbours=False)).adds_up
