@@ -1,6 +1,5 @@
 """One loaded planner: is it ready, and what does it answer."""
 
-import gc
 import logging
 import os
 import time
@@ -101,9 +100,6 @@ class PlanService:
 
     def _warm(self) -> None:
         self._planner.warm(self._note)
-        # What is loaded by now stays, so the collector need not look through it again and again.
-        gc.collect()
-        gc.freeze()
 
     def _note(self, progress: str) -> None:
         logger.info("warming up: %s", progress)

@@ -21,7 +21,7 @@ from model.check import check
 from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.extract import extract
 from model.instance import pack
-from model.planner import PlanCheckError, Start
+from model.planner import PlanCheckError, Start, keep_loaded
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.world import ALL_MOVES
@@ -127,6 +127,7 @@ def measure(samples: Sequence[Sample], policy: Policy, chosen: Sequence[Way],
     for one in samples[::max(1, len(samples) // len(VARIANTS))]:
         for way in chosen:
             plans(one.problem, policy, way, turns=20)  # so that all code is compiled
+    keep_loaded()
     for number, one in enumerate(samples, start=1):
         for way in chosen:
             if (one.name, way) in known:

@@ -1,5 +1,6 @@
 """Solvers in processes of their own, so that a crash or an overrun costs one plan."""
 
+import gc
 import multiprocessing
 import os
 from collections.abc import Callable
@@ -141,5 +142,8 @@ def _serve(solver: Solver, pipe: Connection) -> None:
             for _ in range(WARM_CALLS):
                 solver.solve(instance, min(seconds, WARM_SECONDS), seed)
             warm.add(instance.set_name)
+            # As our service does: to look through what is loaded takes longer than some budgets.
+            gc.collect()
+            gc.freeze()
         pipe.send("warm")
         pipe.send(solver.solve(instance, seconds, seed))

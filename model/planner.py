@@ -1,5 +1,6 @@
 """The planner: decode, improve, check."""
 
+import gc
 import os
 import subprocess
 import sys
@@ -105,10 +106,12 @@ class Planner:
         """Plan small problems by each policy and by none, so that all is compiled. In place.
 
         Where nothing is yet, one of several processes compiles and the others wait; where there are
-        two cores, it has a helper that compiles the search.
+        two cores, it has a helper that compiles the search. What is loaded by then is taken out of
+        the garbage collector's sight.
         """
         with first_to_compile() as is_first:
             self._warm(progress or (lambda _: None), is_first and (os.cpu_count() or 1) > 1)
+        keep_loaded()
 
     def _warm(self, tell: Callable[[str], None], with_helper: bool) -> None:
         with beside(COMPILE_SEARCH) if with_helper else nullcontext():
@@ -268,6 +271,16 @@ def load_planner(weights: Path, names: Sequence[str]) -> Planner:
         If a policy is missing or can't be read.
     """
     return Planner({name: load_policy(weights / name) for name in names})
+
+
+def keep_loaded() -> None:
+    """Let the garbage collector no longer look through what is there.
+
+    The compiler leaves so many objects that to look through them takes a quarter of a second, which
+    might fall into any plan.
+    """
+    gc.collect()
+    gc.freeze()
 
 
 def compile_search() -> None:
