@@ -19,15 +19,17 @@ from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.extract import extract
 from model.instance import Instance, pack
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
-from model.search.improve import (
-    Improved, Progress, SearchConfig, improve, trucks_come_first,
-)
+from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.solution import Solution
 
 Start = Literal["policy", "insertion", "given"]
 
 DECODING_SHARE = 0.1
 """Most of the time limit that the policy may take; else the search plans from nothing."""
+
+MIXED_SHARE, MIXED_UP_TO = 0.4, 200
+"""The same with drones or several types of vehicles, for so many customers at most: there the
+search has no savings to begin with, and what it has is much dearer than the policy's plan."""
 
 SECONDS_PER_CUSTOMER = 6e-5
 """Kept back for checking a plan and writing it down."""
@@ -194,16 +196,16 @@ class Planner:
 
 
 def policy_begins(problem: Problem, options: PlanOptions) -> bool:
-    """Tell whether the policy plans first.
+    """Tell whether the policy plans first, by the share of the time that this takes.
 
-    Only if that leaves the search most of the time, and never where the search would begin with
-    trucks alone: from there it came further in every class measured (`benchmarks.ablation`).
+    From where that share is larger, a search from nothing came further, as far as
+    `benchmarks.ablation` can tell.
     """
-    if trucks_come_first(problem):
-        return False
     samples = options.num_samples if options.decoding == "sample" else None
-    return (decoding_seconds(problem.num_customers, samples)
-            <= DECODING_SHARE * options.time_limit)
+    number, (kind, *others) = problem.num_customers, problem.vehicle_types
+    mixed = kind.drones is not None or bool(others)
+    share = MIXED_SHARE if mixed and number <= MIXED_UP_TO else DECODING_SHARE
+    return decoding_seconds(number, samples) <= share * options.time_limit
 
 
 def decoding_seconds(num_customers: int, num_samples: int | None) -> float:
