@@ -52,7 +52,7 @@ class PlanService:
 
     def start(self) -> None:
         """Warm the planner in the background. In place."""
-        self._warming = self._executor.submit(self._warm)
+        self._warming = self._executor.submit(self._planner.warm, self._note)
 
     def stop(self) -> None:
         """Let go of the background thread. In place."""
@@ -97,9 +97,6 @@ class PlanService:
         if not readiness.is_ready:
             raise NotReadyError(f"The planner is not ready ({readiness.detail}): try again soon.")
         return self._planner
-
-    def _warm(self) -> None:
-        self._planner.warm(self._note)
 
     def _note(self, progress: str) -> None:
         logger.info("warming up: %s", progress)

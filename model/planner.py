@@ -20,6 +20,7 @@ from model.extract import extract
 from model.instance import Instance, pack
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.improve import Improved, Progress, SearchConfig, improve
+from model.search.translate import has_savings
 from model.solution import Solution
 
 Start = Literal["policy", "insertion", "given"]
@@ -202,9 +203,9 @@ def policy_begins(problem: Problem, options: PlanOptions) -> bool:
     `benchmarks.ablation` can tell.
     """
     samples = options.num_samples if options.decoding == "sample" else None
-    number, (kind, *others) = problem.num_customers, problem.vehicle_types
-    mixed = kind.drones is not None or bool(others)
-    share = MIXED_SHARE if mixed and number <= MIXED_UP_TO else DECODING_SHARE
+    number = problem.num_customers
+    is_mixed = not has_savings(problem) and number <= MIXED_UP_TO
+    share = MIXED_SHARE if is_mixed else DECODING_SHARE
     return decoding_seconds(number, samples) <= share * options.time_limit
 
 

@@ -264,7 +264,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
         raise ValueError("deadline, turns: None, None is not allowed")
     limits = _Limits(time.perf_counter(), math.inf if deadline is None else deadline,
                      None if config.turns is None else config.turns // config.threads, should_stop)
-    by_truck = not solution.routes and trucks_come_first(problem, config.moves)
+    by_truck = not solution.routes and _trucks_come_first(problem, config.moves)
     if by_truck:
         solution = _plan_by_truck(problem, instance, config, limits)
     world = make_world(problem, instance, config.moves)
@@ -332,7 +332,7 @@ def _begin_by_types(world: World, whole: Searcher, limits: _Limits) -> None:
         begin_anew(world, whole._replace(alone=others_last), True)
 
 
-def trucks_come_first(problem: Problem, moves: Moves = ALL_MOVES) -> bool:
+def _trucks_come_first(problem: Problem, moves: Moves) -> bool:
     """Tell whether a search that is given no plan begins with one by trucks alone."""
     return problem.num_customers >= BY_TRUCK_FROM and has_single_drones(problem, moves)
 

@@ -73,17 +73,23 @@ def _row(length: int) -> IntArray:
     return np.zeros(length, np.int64)
 
 
+def has_savings(problem: Problem) -> bool:
+    """Tell whether a first plan can be one by savings: all vehicles are alike, without drones."""
+    kind, *others = problem.vehicle_types
+    return kind.drones is None and not others
+
+
 def first_plan(problem: Problem, world: World) -> Solution:
-    """Return routes by savings where all vehicles are alike, else none.
+    """Return routes by savings where a problem has any, else none.
 
     They have no times yet.
     """
     everyone = tuple(range(world.num_depots, world.num_nodes))
-    kinds = problem.vehicle_types
-    if len(kinds) > 1 or kinds[0].drones is not None:
+    if not has_savings(problem):
         return Solution((), everyone)
-    depot = kinds[0].depot
-    routes = sorted(savings_routes(world, 0), key=len, reverse=True)[: kinds[0].count]
+    kind, = problem.vehicle_types
+    depot = kind.depot
+    routes = sorted(savings_routes(world, 0), key=len, reverse=True)[: kind.count]
     return Solution(tuple(
         Route(0, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (depot, *customers, depot))),))
         for number, customers in enumerate(routes)), everyone)
