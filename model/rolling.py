@@ -42,6 +42,8 @@ LEAST_NOISE = float(np.finfo(np.float32).tiny)
 
 UNROLLED = 4
 """Rows of a matrix that are multiplied together."""
+ABREAST = 4
+"""Candidates that are multiplied together, so that a matrix is read once for all of them."""
 
 
 class StepWeights(NamedTuple):
@@ -92,8 +94,8 @@ class Desk(NamedTuple):
     query: Float32Array  # (WIDTH,)
     glimpsed: Float32Array  # (WIDTH,)
     asked: Float32Array  # (ACTION_WIDTH,)
-    mixed: Float32Array  # (ACTION_WIDTH,)
     action: Float32Array  # (candidate, ACTION_WIDTH)
+    mixed: Float32Array  # (candidate, ACTION_WIDTH)
     weight: Float32Array  # (NUM_HEADS, candidate)
 
 
@@ -119,7 +121,8 @@ def new_desk(most: int) -> Desk:
     """Return room for `most` candidates."""
     return Desk(np.empty(WIDTH, np.float32), np.empty(WIDTH, np.float32),
                 np.empty(WIDTH, np.float32), np.empty(ACTION_WIDTH, np.float32),
-                np.empty(ACTION_WIDTH, np.float32), np.empty((most, ACTION_WIDTH), np.float32),
+                np.empty((most, ACTION_WIDTH), np.float32),
+                np.empty((most, ACTION_WIDTH), np.float32),
                 np.empty((NUM_HEADS, most), np.float32))
 
 
@@ -131,6 +134,25 @@ def _add_product(x: Float32Array, matrix: Float32Array, result: Float32Array) ->
         row_a, row_b, row_c, row_d = matrix[i], matrix[i + 1], matrix[i + 2], matrix[i + 3]
         for j in range(matrix.shape[1]):
             result[j] += a * row_a[j] + b * row_b[j] + c * row_c[j] + d * row_d[j]
+
+
+@inlined_arithmetic
+def _add_products(x: Float32Array, matrix: Float32Array, result: Float32Array) -> None:
+    """Add each row of `x` times a matrix of ACTION_WIDTH columns to a row. In place."""
+    abreast = len(x) - len(x) % ABREAST
+    for row in range(0, abreast, ABREAST):
+        first, second, third, fourth = x[row], x[row + 1], x[row + 2], x[row + 3]
+        for i in range(0, matrix.shape[0], 2):
+            upper, lower = matrix[i], matrix[i + 1]
+            a, b, c, d = first[i], second[i], third[i], fourth[i]
+            e, f, g, h = first[i + 1], second[i + 1], third[i + 1], fourth[i + 1]
+            for j in range(ACTION_WIDTH):
+                result[row, j] += a * upper[j] + e * lower[j]
+                result[row + 1, j] += b * upper[j] + f * lower[j]
+                result[row + 2, j] += c * upper[j] + g * lower[j]
+                result[row + 3, j] += d * upper[j] + h * lower[j]
+    for row in range(abreast, len(x)):
+        _add_product(x[row], matrix, result[row])
 
 
 @inlined_arithmetic
@@ -147,16 +169,26 @@ def _begin_query(weights: StepWeights, place: Float32Array, glob: Float32Array,
 
 
 @inlined_arithmetic
-def _weigh(weights: StepWeights, token: Float32Array, feature: Float32Array, index: int,
-           desk: Desk) -> None:
+def _describe_actions(weights: StepWeights, memory: Float32Array, tokens: IntArray,
+                      feature: Float32Array, desk: Desk) -> None:
+    """Begin the network over actions, (candidate, ACTION_WIDTH). In place."""
+    action = desk.action[: len(tokens)]
+    for index in range(len(tokens)):
+        token = memory[tokens[index]]
+        for j in range(ACTION_WIDTH):
+            action[index, j] = weights.action_bias[j] + token[SHARE + j]
+    _add_products(feature, weights.action, action)
+    for index in range(len(tokens)):
+        for j in range(ACTION_WIDTH):
+            action[index, j] = max(action[index, j], np.float32(0.0))
+
+
+@inlined_arithmetic
+def _weigh(weights: StepWeights, token: Float32Array, index: int, desk: Desk) -> None:
     """Find how much each head looks at a candidate, before the softmax. In place."""
     action, query = desk.action[index], desk.query
-    for j in range(ACTION_WIDTH):
-        action[j] = weights.action_bias[j] + token[SHARE + j]
-    _add_product(feature, weights.action, action)
     a = b = c = d = np.float32(0.0)
     for j in range(ACTION_WIDTH):
-        action[j] = max(action[j], np.float32(0.0))
         a += weights.glimpse_bias[0, j] * action[j]
         b += weights.glimpse_bias[1, j] * action[j]
         c += weights.glimpse_bias[2, j] * action[j]
@@ -204,12 +236,21 @@ def _glimpse(memory: Float32Array, tokens: IntArray, desk: Desk) -> None:
 
 
 @inlined_arithmetic
+def _mix_actions(weights: StepWeights, count: int, desk: Desk) -> None:
+    """End the network over actions but for its score, (candidate, ACTION_WIDTH). In place."""
+    for j in range(ACTION_WIDTH):
+        desk.asked[j] = weights.action_mix_bias[j]
+    _add_product(desk.query, weights.action_query, desk.asked)
+    for index in range(count):
+        for j in range(ACTION_WIDTH):
+            desk.mixed[index, j] = desk.asked[j]
+    _add_products(desk.action[:count], weights.action_mix, desk.mixed[:count])
+
+
+@inlined_arithmetic
 def _score(weights: StepWeights, token: Float32Array, index: int, desk: Desk) -> float:
     """Return the score of a candidate, before it is clipped."""
-    mixed, query = desk.mixed, desk.query
-    for j in range(ACTION_WIDTH):
-        mixed[j] = desk.asked[j]
-    _add_product(desk.action[index], weights.action_mix, mixed)
+    mixed, query = desk.mixed[index], desk.query
     dot = extra = np.float32(0.0)
     for j in range(WIDTH):
         dot += query[j] * token[POINTER + j]
@@ -225,15 +266,14 @@ def _score_all(weights: StepWeights, memory: Float32Array, seen: Observation, r:
     count = seen.count[r]
     tokens = seen.token[r, :count]
     _begin_query(weights, memory[seen.here[r]], seen.glob[r], desk)
+    _describe_actions(weights, memory, tokens, seen.feature[r, :count], desk)
     for index in range(count):
-        _weigh(weights, memory[tokens[index]], seen.feature[r, index], index, desk)
+        _weigh(weights, memory[tokens[index]], index, desk)
     for head in range(NUM_HEADS):
         _normalise(desk.weight[head, :count])
     _glimpse(memory, tokens, desk)
     _add_product(desk.glimpsed, weights.glimpse_output, desk.query)
-    for j in range(ACTION_WIDTH):
-        desk.asked[j] = weights.action_mix_bias[j]
-    _add_product(desk.query, weights.action_query, desk.asked)
+    _mix_actions(weights, count, desk)
     for index in range(count):
         scores[index] = _score(weights, memory[tokens[index]], index, desk)
 
