@@ -236,6 +236,19 @@ def improve_departure(setting: Setting, num_depots: int, log: VehicleLog,
 
 
 @inlined
+def works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray) -> bool:
+    """Tell whether a vehicle come home could have left so late as to keep its working duration.
+
+    Cheaper than `improve_departure`: one start is tried, since all before one that costs nothing
+    cost nothing.
+    """
+    needed = vehicle[V_FREE] - setting.type[TYPE_MAX_WORKING]
+    known = vehicle[V_START_BEST]
+    lacking = needed - first_departure(setting, log, known)
+    return lacking <= 0 or replay(setting, num_depots, log, 0, known + lacking, False)
+
+
+@inlined
 def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, node: int,
           takeoff: int) -> int:
     """Put the first drone aboard into the air, to a customer. In place; return which."""
@@ -253,9 +266,9 @@ def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, no
 
 
 @inlined
-def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
-           drones: IntArray, node: int) -> bool:
-    """Launch a drone to a customer. In place; False if a window or a distance forbids it."""
+def launch_on(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+              drones: IntArray, node: int) -> bool:
+    """Launch like `launch`, but don't look for a later departure. In place."""
     release = setting.node[node, NODE_RELEASE]
     if vehicle[V_IDLE]:
         begin_trip(log, vehicle, release)
@@ -282,14 +295,23 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray
     take_load(setting, vehicle, node)
     # The start known so far kept the end of service here, not the arrival, on which launches hang.
     vehicle[V_START_BEST] = log.trip[0, TRIP_START]
+    return True
+
+
+@inlined
+def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+           drones: IntArray, node: int) -> bool:
+    """Launch a drone to a customer. In place; False if a window or a distance forbids it."""
+    if not launch_on(setting, num_depots, log, vehicle, drones, node):
+        return False
     improve_departure(setting, num_depots, log, vehicle)
     return True
 
 
 @inlined
-def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
-          drones: IntArray, node: int) -> bool:
-    """Drive to a customer or home. In place; False if a window or an endurance forbids it."""
+def drive_on(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+             drones: IntArray, node: int) -> bool:
+    """Drive like `drive`, but don't look for a later departure. In place."""
     is_customer = node >= num_depots
     release = setting.node[node, NODE_RELEASE]
     if vehicle[V_IDLE]:
@@ -318,12 +340,21 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
     log_stop(log, node, arrival, start, max(service_end, free))
     vehicle[V_NODE] = node
     vehicle[V_SERVICE_END], vehicle[V_FREE] = service_end, free
-    improve_departure(setting, num_depots, log, vehicle)
     if not is_customer:
         vehicle[V_IDLE] = 1
         vehicle[V_DISTANCE] = 0
         vehicle[V_NEXT_START] = free + setting.type[TYPE_RELOAD]
         fill(vehicle, setting.type)
+    return True
+
+
+@inlined
+def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+          drones: IntArray, node: int) -> bool:
+    """Drive to a customer or home. In place; False if a window or an endurance forbids it."""
+    if not drive_on(setting, num_depots, log, vehicle, drones, node):
+        return False
+    improve_departure(setting, num_depots, log, vehicle)
     return True
 
 
