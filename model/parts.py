@@ -10,8 +10,8 @@ from model.instance import Instance
 from model.problem import IntArray
 from model.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN
 
-LEAST_ANEW, MOST_ANEW = 0.2, 0.7
-"""Bounds of the share of its customers that are planned anew."""
+LEAST_ANEW, MOST_ANEW = 0.15, 0.7
+"""Bounds of the share of its customers that are planned anew, whose logarithm is uniform."""
 
 
 def part_to_keep(instance: Instance, actions: IntArray, rng: np.random.Generator) -> IntArray:
@@ -40,7 +40,7 @@ def part_to_keep(instance: Instance, actions: IntArray, rng: np.random.Generator
     _, first = np.unique(vehicle[services[np.argsort(drive, kind="stable")]], return_index=True)
     nearest_first = np.argsort(first, kind="stable")
     anew = np.cumsum(np.bincount(vehicle[services])[nearest_first])
-    wanted = rng.uniform(LEAST_ANEW, MOST_ANEW) * len(services)
+    wanted = LEAST_ANEW * (MOST_ANEW / LEAST_ANEW) ** rng.random() * len(services)
     last = int(np.searchsorted(anew, wanted))
     whole = np.isin(vehicle, nearest_first[last + 1 :])
     of_last = actions[vehicle == nearest_first[last]]

@@ -85,6 +85,8 @@ NOTHING = Rollout(np.zeros(0, np.int64), math.inf)
 
 FROM_SCRATCH = 8
 """Rollouts that plan all before others keep a part of the best."""
+HOTTER = 1.3
+"""Times the temperature of those that do: what is likely is in the best already."""
 
 
 class Desk(NamedTuple):
@@ -338,7 +340,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
     instance, scale, type_token
         The problem, packed alone, and what `model.tokens` says of it.
     temperatures
-        Of each rollout; 0 for the likeliest action at each step.
+        Of each rollout that plans all; 0 for the likeliest action at each step.
     rng
         For all others.
     so_far
@@ -354,6 +356,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
         kept = NOTHING.actions
         if r >= scratch and temperature > 0:
             kept = part_to_keep(instance, so_far.actions, rng)
+            temperature *= HOTTER
         actions[: len(kept)] = kept
         count = _roll_out(weights, memory, instance, scale, state, type_token, seen, r,
                           float(temperature), rng, len(kept), actions)
