@@ -23,6 +23,7 @@ from benchmarks.truck_drone_rules import TruckDroneInstance, broken_rules
 from benchmarks.versus import machine
 from model.check import check
 from model.instance import pack
+from model.planner import keep_loaded
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.world import Moves
@@ -154,6 +155,7 @@ def measure(planned: Sequence[Run]) -> Iterator[DroneResult]:
         if instance.set_name not in warm:
             _search(instance.problem, SearchConfig(threads=run.threads, turns=WARM_TURNS), math.inf)
             warm.add(instance.set_name)
+            keep_loaded()
         began = time.perf_counter()
         plans = plan(instance, run.budget, run.seed, run.threads)
         seconds = time.perf_counter() - began
