@@ -266,7 +266,9 @@ class OptionsInput(_Input):
     )
     num_samples: int = Field(64, ge=1, le=MAX_NUM_SAMPLES, description="Plans drawn when sampling.")
     temperature: Annotated[float, Field(ge=0.01, le=100)] = Field(
-        1.0, description="Above 1 samples more widely, below 1 more narrowly."
+        1.0,
+        description="Above 1 samples more widely, below 1 more narrowly. Samples that keep a part "
+        "of the best are drawn at 1.3 times this.",
     )
     seed: int = Field(
         0,
