@@ -236,19 +236,6 @@ def improve_departure(setting: Setting, num_depots: int, log: VehicleLog,
 
 
 @inlined
-def works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray) -> bool:
-    """Tell whether a vehicle come home could have left so late as to keep its working duration.
-
-    Cheaper than `improve_departure`: one start is tried, since all before one that costs nothing
-    cost nothing.
-    """
-    needed = vehicle[V_FREE] - setting.type[TYPE_MAX_WORKING]
-    known = vehicle[V_START_BEST]
-    lacking = needed - first_departure(setting, log, known)
-    return lacking <= 0 or replay(setting, num_depots, log, 0, known + lacking, False)
-
-
-@inlined
 def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, node: int,
           takeoff: int) -> int:
     """Put the first drone aboard into the air, to a customer. In place; return which."""
