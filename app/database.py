@@ -1,5 +1,11 @@
 """The service's own database: one SQLite file, or PostgreSQL by a setting."""
 
+import fcntl
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 from sqlalchemy import URL, Engine, MetaData, create_engine, event, make_url, text
@@ -47,7 +53,8 @@ def make_engine(settings: Settings) -> Engine:
         settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
     if url.get_backend_name() == "sqlite":
         engine = create_engine(url)
-        event.listen(engine, "connect", _set_up_sqlite)
+        folder = Path(url.database or "").parent
+        event.listen(engine, "connect", partial(_set_up_sqlite, folder))
         return engine
     return create_engine(url, pool_pre_ping=True,
                          connect_args={"connect_timeout": CONNECT_SECONDS})
@@ -63,11 +70,24 @@ def create_tables(engine: Engine, tables: MetaData) -> None:
         tables.create_all(connection)
 
 
-def _set_up_sqlite(connection: Any, _: object) -> None:
+def _set_up_sqlite(folder: Path, connection: Any, _: object) -> None:
     """Let readers and a writer work side by side."""
     cursor = connection.cursor()
     cursor.execute(f"PRAGMA busy_timeout = {1000 * BUSY_SECONDS}")
-    cursor.execute("PRAGMA journal_mode = WAL")
+    # Of several that change the mode of a new file at once, SQLite lets none wait but one fail.
+    with _alone(folder):
+        cursor.execute("PRAGMA journal_mode = WAL")
     cursor.execute("PRAGMA synchronous = NORMAL")
     cursor.execute("PRAGMA foreign_keys = ON")
     cursor.close()
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Keep out all other threads and processes that come here for the same folder."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)

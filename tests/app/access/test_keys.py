@@ -1,10 +1,13 @@
 """Keys in the database: random, hashed, revocable."""
 
+import fcntl
+import os
 import re
 import sqlite3
 import stat
 import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -120,6 +123,20 @@ def test_processes_may_make_the_tables_at_once(tmp_path: Path) -> None:
     with sqlite3.connect(tmp_path / FILE_NAME) as connection:
         assert connection.execute("SELECT count(*) FROM api_keys").fetchone() == (8,)
     connection.close()
+
+
+def test_a_new_file_is_set_up_by_one_at_a_time(tmp_path: Path) -> None:
+    engine = make_engine(Settings(data_dir=tmp_path))
+    descriptor = os.open(tmp_path, os.O_RDONLY)
+    fcntl.flock(descriptor, fcntl.LOCK_EX)
+    with ThreadPoolExecutor(1) as pool:
+        connecting = pool.submit(engine.connect)
+        with pytest.raises(TimeoutError):
+            connecting.result(timeout=0.2)
+        os.close(descriptor)
+        with connecting.result(timeout=10) as connection:
+            assert connection.exec_driver_sql("PRAGMA journal_mode").scalar() == "wal"
+    engine.dispose()
 
 
 @pytest.mark.parametrize(("stated", "driver"), [
