@@ -30,11 +30,11 @@ DECODING_SHARE = 0.1
 from nothing."""
 
 MIXED_SHARE, MIXED_UP_TO = 0.4, 200
-"""The same with drones or several types of vehicles, for so many customers at most: there the
-search has no savings to begin with, and what it has is much dearer than the policy's plan."""
+"""The same with drones or several types of vehicles, for so many customers at most: what the search
+begins with there is dearer than the policy's plan."""
 
-SECONDS_PER_CUSTOMER = 6e-5
-"""Kept back for checking a plan and writing it down."""
+SECONDS_BEHIND, SECONDS_PER_CUSTOMER = 0.0025, 2e-5
+"""Kept back for checking a plan and writing it down: in all, and for each customer."""
 
 WARM_LIMIT = 3600.0
 """Time limit of the plan that everything is compiled for, which no compiler should need."""
@@ -205,8 +205,11 @@ def policy_begins(problem: Problem, options: PlanOptions) -> bool:
     """
     samples = options.num_samples if options.decoding == "sample" else None
     number = problem.num_customers
-    is_mixed = not has_savings(problem) and number <= MIXED_UP_TO
-    share = MIXED_SHARE if is_mixed else DECODING_SHARE
+    is_mixed, is_large = not has_savings(problem), number > MIXED_UP_TO
+    if is_mixed and is_large and len(problem.vehicle_types) == 1:
+        # Trucks begin alone, by savings, to which drones are added.
+        return False
+    share = MIXED_SHARE if is_mixed and not is_large else DECODING_SHARE
     return decoding_seconds(number, samples) <= share * options.time_limit
 
 
@@ -248,7 +251,7 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     config = SearchConfig(options.seed, options.threads, options.search_iterations)
     if deadline is not None:
-        deadline -= SECONDS_PER_CUSTOMER * problem.num_customers
+        deadline -= SECONDS_BEHIND + SECONDS_PER_CUSTOMER * problem.num_customers
     return improve(problem, instance, nobody if first is None else first.solution, config,
                    deadline, listener.should_stop, listener.on_progress)
 

@@ -19,7 +19,7 @@ from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.state import I_CUSTOMERS, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher
 from model.search.translate import first_plan, make_searcher, read_plan
-from model.search.world import ALL_MOVES, Moves, has_single_drones, make_world
+from model.search.world import ALL_MOVES, Moves, make_world
 from model.solution import Solution
 
 ROUNDS = 40
@@ -35,8 +35,8 @@ SLICE = 0.003
 """Seconds between two looks at the clock."""
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
-"""Number of customers from which on a plan with single drones begins with one by trucks alone, and
-the share of the time that this takes."""
+"""Number of customers from which on a plan with drones begins with one by trucks alone, and the
+share of the time that this takes."""
 
 MOST_BEGINNING = 0.05
 """Share of the time after which no other type of vehicle is tried at the beginning."""
@@ -334,7 +334,9 @@ def _begin_by_types(world: World, whole: Searcher, limits: _Limits) -> None:
 
 def _trucks_come_first(problem: Problem, moves: Moves) -> bool:
     """Tell whether a search that is given no plan begins with one by trucks alone."""
-    return problem.num_customers >= BY_TRUCK_FROM and has_single_drones(problem, moves)
+    has_drones = any(kind.drones is not None for kind in problem.vehicle_types)
+    return (problem.num_customers >= BY_TRUCK_FROM and has_drones
+            and (moves.loops or moves.crossings))
 
 
 def _plan_by_truck(problem: Problem, instance: Instance, config: SearchConfig,

@@ -4,8 +4,8 @@ import numpy as np
 
 from model.compiled import compiled
 from model.instance import (
-    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_SERVICE, TYPE_MAX_TRIPS,
-    TYPE_RECOVERY,
+    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_SERVICE, TYPE_DRONES,
+    TYPE_MAX_TRIPS, TYPE_RECOVERY,
 )
 from model.problem import FloatArray, IntArray, Problem
 from model.search.edit import MOVE_COLUMNS, begin_route
@@ -80,12 +80,12 @@ def has_savings(problem: Problem) -> bool:
 
 
 def first_plan(problem: Problem, world: World) -> Solution:
-    """Return routes by savings where a problem has any, else none.
+    """Return routes by savings where all vehicles are alike, none flies drones; else none.
 
-    They have no times yet.
+    What flies is up to `world`, in which drones may be left aside. Routes have no times yet.
     """
     everyone = tuple(range(world.num_depots, world.num_nodes))
-    if not has_savings(problem):
+    if world.num_types > 1 or world.type[0, TYPE_DRONES] > 0:
         return Solution((), everyone)
     kind, = problem.vehicle_types
     depot = kind.depot

@@ -86,6 +86,21 @@ def test_savings_begin_the_search_only_where_all_vehicles_are_alike() -> None:
         problem = on_a_plane(places, *kinds)
         first = first_plan(problem, make_world(problem, pack([problem])))
         assert (len(first.routes) == 1) == joined
+        grounded = make_world(problem, pack([problem]), Moves(loops=False, crossings=False))
+        assert (len(first_plan(problem, grounded).routes) == 1) == (kinds != (TRUCK, van))
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_trucks_with_drones_begin_hardly_dearer_than_trucks_alone(count: int) -> None:
+    places = np.random.default_rng(4).uniform(-9.0, 9.0, (450, 2)).tolist()
+    truck = replace(TRUCK, count=60, capacity=(10_000,))
+    flying = replace(truck, drones=DroneType(count, (1000,), 0, cost_per_km=0.3))
+    costs = []
+    for kind in (truck, flying):
+        problem = on_a_plane(places, kind)
+        costs.append(improve(problem, pack([problem]), Solution((), ()),
+                             SearchConfig(turns=100)).first_cost)
+    assert costs[1] < 1.02 * costs[0]
 
 
 def crossed(kind: VehicleType) -> tuple[Problem, Solution, float]:
