@@ -3,7 +3,7 @@
 import { clock, parseClock, parseNumber } from '../core/format.js';
 import { getIn, keyOf, removeIn, setIn } from '../core/paths.js';
 import { blank, emptyMeans, helpOf, kindOf, labelOf, resolve, unitOf } from '../core/schema.js';
-import { html, useEffect, useState } from '../libraries.js';
+import { html, useLayoutEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 
 /**
@@ -147,7 +147,7 @@ function TextInput({
   onProblem,
 }) {
   const [text, setText] = useState(textOf(kind, value));
-  useEffect(() => {
+  useLayoutEffect(() => {
     setText(textOf(kind, value));
     onProblem(null);
   }, [textOf(kind, value)]);

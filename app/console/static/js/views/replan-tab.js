@@ -4,7 +4,7 @@ import { besidePlan, edit, replanFrom, shownPlan } from '../actions.js';
 import { clock, money, number, parseClock, signed } from '../core/format.js';
 import { setIn } from '../core/paths.js';
 import { fromNothing } from '../core/replanning.js';
-import { html, useEffect, useState } from '../libraries.js';
+import { html, useLayoutEffect, useState } from '../libraries.js';
 import { improvePlan, plan } from '../planning.js';
 import { store, useStore } from '../store.js';
 import { Differences } from './changes-tab.js';
@@ -55,7 +55,7 @@ function Improve({ entry }) {
 /** A time of day, taken from the clock of the day or typed. */
 function Now({ value, label, onSet, errors = [], primary = true }) {
   const [text, setText] = useState('');
-  useEffect(() => setText(clock(value, { precise: true })), [value]);
+  useLayoutEffect(() => setText(clock(value, { precise: true })), [value]);
   const now = parseClock(text);
   const isWrong = now === null || now < 0;
   const id = 'field-replan-freeze_before';

@@ -10,7 +10,7 @@ import {
   setPinned,
   whereabouts,
 } from '../core/replanning.js';
-import { html, useEffect, useState } from '../libraries.js';
+import { html, useLayoutEffect, useState } from '../libraries.js';
 import { takeTool } from '../map/draw-bar.js';
 import { useStore } from '../store.js';
 import { Badge, SelectButton } from './parts.js';
@@ -90,7 +90,8 @@ function BrokenRow({ name, request, id, errors }) {
 function ParcelsBack({ request, errors }) {
   const { parcels_back: value } = request.replan;
   const [text, setText] = useState('');
-  useEffect(() => setText(clock(value, { precise: true })), [value]);
+  // Before anything can be typed, which a later effect would take away.
+  useLayoutEffect(() => setText(clock(value, { precise: true })), [value]);
   const mine = errorsAt(errors, (keys) => keys[1] === 'parcels_back');
   const parsed = parseClock(text);
   const isWrong = text.trim() !== '' && parsed === null;

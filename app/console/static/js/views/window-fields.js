@@ -1,7 +1,7 @@
 /** Two fields for a customer's window. */
 
 import { clock, parseClock } from '../core/format.js';
-import { html, useEffect, useState } from '../libraries.js';
+import { html, useLayoutEffect, useState } from '../libraries.js';
 
 /**
  * Fields and the button that changes the window.
@@ -13,7 +13,7 @@ export function WindowFields({ customer, onApply }) {
   const window = customer.time_window;
   const stated = [window?.earliest ?? 0, window?.latest ?? null];
   const [text, setText] = useState(['', '']);
-  useEffect(() => setText(stated.map((time) => clock(time))), [customer]);
+  useLayoutEffect(() => setText(stated.map((time) => clock(time))), [customer]);
   const [earliest, latest] = text.map((part) => (part.trim() === '' ? null : parseClock(part)));
   const isWrong = text.map((part, at) => part.trim() !== '' && [earliest, latest][at] === null);
   const apply = () => onApply({ earliest: earliest ?? 0, latest });
