@@ -26,8 +26,8 @@ from model.schedule import (
 )
 from model.transition import (
     DRONE_SORTIE, NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE, V_LOAD,
-    V_NEXT_START, V_NODE, V_START_BEST, V_TYPE, State, board, close_vehicle, drive, drive_on,
-    empty_state, launch, launch_on, leave_for, open_vehicle,
+    V_NEXT_START, V_NODE, V_START_BEST, V_TYPE, State, board, close_vehicle, drive, empty_state,
+    improve_departure, launch, leave_for, open_vehicle,
 )
 
 DRIVE, LAUNCH, RETURN, OPEN = range(4)
@@ -163,16 +163,16 @@ def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind:
     vehicle, log = state.vehicle[scratch], log_of(state.log, scratch)
     drones = state.drone[scratch, : setting.type[TYPE_DRONES]]
     if kind == LAUNCH:
-        if not launch_on(setting, num_depots, log, vehicle, drones, node):
+        if not launch(setting, num_depots, log, vehicle, drones, node):
             return False
         sortie = log.sortie[log.count[COUNT_SORTIES] - 1]
         arrival, start = sortie[SORTIE_ARRIVAL], sortie[SORTIE_START]
     else:
-        if not drive_on(setting, num_depots, log, vehicle, drones, node):
+        if not drive(setting, num_depots, log, vehicle, drones, node):
             return False
         stop = log.stop[log.count[COUNT_STOPS] - 1]
         arrival, start = stop[STOP_ARRIVAL], stop[STOP_START]
-    if not drive_on(setting, num_depots, log, vehicle, drones, setting.type[TYPE_DEPOT]):
+    if not drive(setting, num_depots, log, vehicle, drones, setting.type[TYPE_DEPOT]):
         return False
     end = vehicle[V_FREE]
     outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
@@ -284,6 +284,7 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
         legs = instance.distance[b, setting.type[TYPE_TRAVEL]]
         vehicle[V_DISTANCE] += legs[vehicle[V_NODE], target]
         drive(setting, instance.size[b, 0], log, vehicle, drones, target)
+    improve_departure(setting, instance.size[b, 0], log, vehicle)
     if kind != RETURN:
         state.served[r, target] = True
         state.num_unserved[r] -= 1

@@ -253,9 +253,12 @@ def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, no
 
 
 @inlined
-def launch_on(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
-              drones: IntArray, node: int) -> bool:
-    """Launch like `launch`, but don't look for a later departure. In place."""
+def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+           drones: IntArray, node: int) -> bool:
+    """Launch a drone to a customer. In place; False if a window or a distance forbids it.
+
+    Whether the vehicle could have left later is for `improve_departure`.
+    """
     release = setting.node[node, NODE_RELEASE]
     if vehicle[V_IDLE]:
         begin_trip(log, vehicle, release)
@@ -286,19 +289,12 @@ def launch_on(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntAr
 
 
 @inlined
-def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
-           drones: IntArray, node: int) -> bool:
-    """Launch a drone to a customer. In place; False if a window or a distance forbids it."""
-    if not launch_on(setting, num_depots, log, vehicle, drones, node):
-        return False
-    improve_departure(setting, num_depots, log, vehicle)
-    return True
+def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
+          drones: IntArray, node: int) -> bool:
+    """Drive to a customer or home. In place; False if a window or an endurance forbids it.
 
-
-@inlined
-def drive_on(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
-             drones: IntArray, node: int) -> bool:
-    """Drive like `drive`, but don't look for a later departure. In place."""
+    Whether the vehicle could have left later is for `improve_departure`.
+    """
     is_customer = node >= num_depots
     release = setting.node[node, NODE_RELEASE]
     if vehicle[V_IDLE]:
@@ -332,16 +328,6 @@ def drive_on(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArr
         vehicle[V_DISTANCE] = 0
         vehicle[V_NEXT_START] = free + setting.type[TYPE_RELOAD]
         fill(vehicle, setting.type)
-    return True
-
-
-@inlined
-def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
-          drones: IntArray, node: int) -> bool:
-    """Drive to a customer or home. In place; False if a window or an endurance forbids it."""
-    if not drive_on(setting, num_depots, log, vehicle, drones, node):
-        return False
-    improve_departure(setting, num_depots, log, vehicle)
     return True
 
 
