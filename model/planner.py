@@ -20,7 +20,6 @@ from model.extract import extract
 from model.instance import Instance, pack
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.improve import Improved, Progress, SearchConfig, improve
-from model.search.translate import has_savings
 from model.solution import Solution
 
 Start = Literal["policy", "insertion", "given"]
@@ -205,11 +204,13 @@ def policy_begins(problem: Problem, options: PlanOptions) -> bool:
     """
     samples = options.num_samples if options.decoding == "sample" else None
     number = problem.num_customers
-    is_mixed, is_large = not has_savings(problem), number > MIXED_UP_TO
-    if is_mixed and is_large and len(problem.vehicle_types) == 1:
+    kind, *others = problem.vehicle_types
+    share = DECODING_SHARE
+    if number <= MIXED_UP_TO and (others or kind.drones is not None):
+        share = MIXED_SHARE
+    elif kind.drones is not None and not others:
         # Trucks begin alone, by savings, to which drones are added.
         return False
-    share = MIXED_SHARE if is_mixed and not is_large else DECODING_SHARE
     return decoding_seconds(number, samples) <= share * options.time_limit
 
 

@@ -73,12 +73,6 @@ def _row(length: int) -> IntArray:
     return np.zeros(length, np.int64)
 
 
-def has_savings(problem: Problem) -> bool:
-    """Tell whether a first plan can be one by savings: all vehicles are alike, without drones."""
-    kind, *others = problem.vehicle_types
-    return kind.drones is None and not others
-
-
 def first_plan(problem: Problem, world: World) -> Solution:
     """Return routes by savings where all vehicles are alike, none flies drones; else none.
 
