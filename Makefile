@@ -72,6 +72,8 @@ screenshots: .venv/testing ## Make the pictures of the console in docs/screensho
 fuzz: .venv/testing ## Send generated requests to the whole API (CASES=10000), and wild problems
 	$(BIN)/python -m benchmarks.fuzz_api --cases $(CASES)
 	$(BIN)/python -m benchmarks.fuzz_problems
+	$(BIN)/python -m benchmarks.fuzz_vroom
+	$(BIN)/python -m benchmarks.fuzz_remedies
 
 settings: .venv/serving ## Write docs/settings.md
 	$(BIN)/tandem settings > docs/settings.md

@@ -2,7 +2,8 @@
 
 Each problem is sent to `POST /plan`. Whatever is planned goes to `POST /check`, which must find no
 broken rule and the same cost. Then the day goes on: the plan, whole or damaged, is checked against
-a changed request and planned on from. Fails if a reply is anything but 200 or a documented 422.
+a changed request and planned on from; what had happened by then must stay. Fails if a reply is
+anything but 200 or a documented 422.
 """
 
 import copy
@@ -46,6 +47,7 @@ class Study:
     client: httpx.Client
     statuses: Counter[str] = field(default_factory=Counter)
     checked: int = 0
+    replanned: int = 0
     left_out: int = 0  # plans with customers left out
     longest: float = 0.0  # seconds
 
@@ -63,17 +65,23 @@ class Study:
         if plan is None or rng.random() > GOES_ON:
             return
         later = changed(rng, request, plan)
-        if rng.random() < DAMAGED:
+        is_whole = rng.random() >= DAMAGED
+        if not is_whole:
             plan = damaged(rng, plan)
             self.ask("/check", {"problem": later, "plan": plan})
         day = max((trip["stops"][-1]["departure"] for route in plan["routes"]
                    for trip in route["trips"] if trip["stops"]), default=3600)
         given = {"routes": plan["routes"], "unassigned": plan["unassigned"]}
-        self.planned(later | {"replan": {
-            "plan": given, "freeze_before": rng.choice((None, 0, min(1e9, rng.random() * day))),
-            "pin_all": rng.random() < 0.2,
+        now = rng.choice((None, 0, min(1e9, rng.random() * day)))
+        replanned = self.planned(later | {"replan": {
+            "plan": given, "freeze_before": now, "pin_all": rng.random() < 0.2,
             "unavailable": [route["vehicle"] for route in plan["routes"] if rng.random() < 0.1],
             "parcels_back": rng.choice((None, None, 0, 5e8))}})
+        self.replanned += replanned is not None
+        if is_whole and replanned is not None and now is not None:
+            moved = happened(plan, now) - happened(replanned, now)
+            if moved:
+                raise Fault(f"what had happened by {now} is another past now: {sorted(moved)[:3]}")
 
     def planned(self, request: Data) -> Data | None:
         """Return the plan of a request, found sound; None if it is refused. In place."""
@@ -131,6 +139,23 @@ def changed(rng: random.Random, request: Data, plan: Data) -> Data:
     if rng.random() < 0.1:
         rng.choice(later["fleet"])["count"] = 1
     return later
+
+
+def happened(plan: Data, now: float) -> set[tuple[str, ...]]:
+    """Return what a plan has done by an instant: stops left and flights begun, in words."""
+    done: set[tuple[str, ...]] = set()
+    for route in plan["routes"]:
+        for trip in route["trips"]:
+            if not trip["stops"] or trip["stops"][0]["departure"] > now:
+                continue
+            done |= {(route["vehicle"], "stop", stop["id"], f"{stop['arrival']:.3f}",
+                      f"{stop['departure']:.3f}")
+                     for stop in trip["stops"] if stop["departure"] <= now}
+            done |= {(route["vehicle"], "flight", customer["id"], f"{sortie['launch_time']:.3f}",
+                      f"{customer['arrival']:.3f}")
+                     for sortie in trip["sorties"] for customer in sortie["customers"]
+                     if sortie["launch_time"] <= now}
+    return done
 
 
 def damaged(rng: random.Random, plan: Data) -> Data:
@@ -197,6 +222,7 @@ def main(
                         wild_request(random.Random(number)), indent=1))
         faults += target.process.poll() is not None
     typer.echo(f"{problems} problems, {faults} faults; {study.checked} plans checked, "
+               f"{study.replanned} of them replanned, "
                f"{study.left_out} of them with customers left out; longest reply "
                f"{study.longest:.2f} s; {dict(sorted(study.statuses.items()))}")
     raise typer.Exit(1 if faults else 0)

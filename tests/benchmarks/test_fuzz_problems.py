@@ -6,14 +6,12 @@ The study of five thousand is `python -m benchmarks.fuzz_problems`.
 import json
 import random
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
-from benchmarks.fuzz_api import service
-from benchmarks.fuzz_problems import Fault, Study, client_of
+from benchmarks.fuzz_problems import Fault, Study, happened
 from benchmarks.wild_problems import wild_request
 
 Data = dict[str, Any]
@@ -22,11 +20,10 @@ Answer = Callable[[Data], Data]
 PROBLEMS = 40
 
 
-def test_wild_problems_are_planned_soundly_or_refused(tmp_path: Path) -> None:
-    with service(tmp_path) as target, client_of(target) as client:
-        study = Study(client)
-        for seed in range(PROBLEMS):
-            study.try_problem(seed)
+def test_wild_problems_are_planned_soundly_or_refused(client: httpx.Client) -> None:
+    study = Study(client)
+    for seed in range(PROBLEMS):
+        study.try_problem(seed)
     assert study.checked > PROBLEMS / 2
     assert 0 < study.left_out < study.checked
     assert set(study.statuses) == {"/plan 200", "/plan 422", "/check 200", "/check 422"}
@@ -67,3 +64,18 @@ def test_wild_requests_are_drawn_from_the_generator_alone() -> None:
     drawn = [wild_request(random.Random(seed)) for seed in range(50)]
     assert drawn == [wild_request(random.Random(seed)) for seed in range(50)]
     assert len({json.dumps(request) for request in drawn}) == 50
+
+
+def test_what_has_happened_is_what_was_left_by_then() -> None:
+    """A truck is under way at 50, its drone in the air; another leaves later."""
+    def stop(name: str, arrival: float, departure: float) -> Data:
+        return {"id": name, "arrival": arrival, "departure": departure}
+
+    flight = {"launch_time": 45.0, "customers": [{"id": "C", "arrival": 60.0}]}
+    trip = {"stops": [stop("hub", 0, 10), stop("A", 20, 45), stop("B", 49, 70)],
+            "sorties": [flight, flight | {"launch_time": 70.0}]}
+    later = {"stops": [stop("hub", 40, 51), stop("D", 60, 61)], "sorties": []}
+    plan = {"routes": [{"vehicle": "t-1", "trips": [trip]}, {"vehicle": "t-2", "trips": [later]}]}
+    assert happened(plan, 50.0) == {
+        ("t-1", "stop", "hub", "0.000", "10.000"), ("t-1", "stop", "A", "20.000", "45.000"),
+        ("t-1", "flight", "C", "45.000", "60.000")}
