@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from model.instance import Instance
+from model.meeting import NO_VEHICLE, V_INDEX, V_TYPE
 from model.problem import IntArray, Problem
 from model.schedule import (
     COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, SORTIE_ARRIVAL, SORTIE_DRONE, SORTIE_LAUNCH_STOP,
@@ -13,7 +14,7 @@ from model.schedule import (
 )
 from model.simulator import apply_route, reset
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
-from model.transition import NO_VEHICLE, V_INDEX, V_TYPE, State, close_vehicle
+from model.transition import State, close_vehicle
 
 
 def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntArray) -> Solution:

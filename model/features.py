@@ -14,6 +14,10 @@ from model.instance import (
     TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_TRAVEL, Instance,
 )
+from model.meeting import (
+    NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE, V_LOAD, V_NEXT_START,
+    V_NODE, V_SERVICE_END, V_TYPE,
+)
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 from model.prospects import Unit, describe_neighbours, ratio, slack
 from model.schedule import COUNT_TRIPS, Setting, setting_of
@@ -22,10 +26,7 @@ from model.simulator import (
     finish, legal_actions,
 )
 from model.tokens import NUM_TYPE_FEATURES, Float32Array, Scales
-from model.transition import (
-    NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE, V_LOAD, V_NEXT_START,
-    V_NODE, V_SERVICE_END, V_TYPE, State,
-)
+from model.transition import State
 
 NUM_ACTION_FEATURES = 28
 NUM_STATE_FEATURES = 14

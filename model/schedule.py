@@ -120,6 +120,16 @@ def within_endurance(columns: IntArray, takeoff: int, back: int, recovery_start:
 
 
 @inlined
+def held_until(setting: Setting, customer: int, to: int) -> int:
+    """Return the earliest take-off after which a drone can be at `to` within its endurance.
+
+    That is as far as the customer's window goes; the flight itself may be too long.
+    """
+    return (setting.node[customer, NODE_EARLIEST] + drone_service(setting, customer)
+            + setting.fly[customer, to] - setting.type[TYPE_ENDURANCE])
+
+
+@inlined
 def unreachable(duration: int) -> bool:
     """Tell whether a flight duration marks a flight that can't be flown."""
     return duration >= UNREACHABLE
@@ -134,10 +144,23 @@ def _arrival_allowed(columns: IntArray, arrival: int, before: int, write: bool) 
 
 
 @inlined
-def _replay_launch(setting: Setting, sortie: IntArray, node: int, free: int, write: bool) -> int:
-    """Time one launch begun at `free`; return the take-off, -1 if it is not allowed."""
-    customer = sortie[SORTIE_NODE]
+def take_off(setting: Setting, log: VehicleLog, sortie: IntArray, free: int) -> int:
+    """Return when a sortie takes off whose launch may begin at `free`.
+
+    It is held back for the customer's window once it is known where it is recovered.
+    """
     takeoff = free + setting.type[TYPE_LAUNCH]
+    if sortie[SORTIE_RECOVERY_STOP] != IN_FLIGHT:
+        to = log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE]
+        takeoff = max(takeoff, held_until(setting, sortie[SORTIE_NODE], to))
+    return takeoff
+
+
+@inlined
+def _replay_launch(setting: Setting, sortie: IntArray, node: int, takeoff: int,
+                   write: bool) -> int:
+    """Time one launch; return the take-off, -1 if it is not allowed."""
+    customer = sortie[SORTIE_NODE]
     arrival = takeoff + setting.fly[node, customer]
     if not _arrival_allowed(setting.node[customer], arrival, sortie[SORTIE_ARRIVAL], write):
         return -1
@@ -208,7 +231,8 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                     begin = free if setting.type[TYPE_RECOVERY] > 0 else launched
                     end = _replay_recovery(setting, sortie, node, begin, write)
                 else:
-                    end = launched = _replay_launch(setting, sortie, node, free, write)
+                    takeoff = take_off(setting, log, sortie, free)
+                    end = launched = _replay_launch(setting, sortie, node, takeoff, write)
                 if end < 0:
                     return False
                 free = max(free, end)
@@ -240,5 +264,13 @@ def latest_start(setting: Setting, num_depots: int, log: VehicleLog, trip: int, 
 def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
     """Return when truck or drone first leaves the depot if the first trip begins at `start`."""
     if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
-        return start + setting.type[TYPE_LAUNCH]
+        return take_off(setting, log, log.sortie[log.op[0, OP_SORTIE]], start)
     return start
+
+
+@compiled
+def start_to_depart(setting: Setting, log: VehicleLog, departure: int) -> int:
+    """Return the start of the first trip by which none leaves the depot before `departure`."""
+    if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
+        return departure - setting.type[TYPE_LAUNCH]
+    return departure

@@ -17,17 +17,19 @@ from model.instance import (
     NODE_SERVICE, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES, TYPE_LATEST, TYPE_LAUNCH,
     TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, TYPE_TRAVEL, Instance,
 )
+from model.meeting import (
+    DRONE_SORTIE, DRONE_TAKEOFF, NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE,
+    V_LOAD, V_NEXT_START, V_NODE, V_START_BEST, V_TYPE, leave_for,
+)
 from model.problem import IntArray
 from model.rows import copy_rows
 from model.schedule import (
     COUNT_OPS, COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, IN_FLIGHT, SORTIE_ARRIVAL, SORTIE_START,
     STOP_ARRIVAL, STOP_START, TRIP_START, Setting, VehicleLog, first_departure, log_of, replay,
-    setting_of, travel_arrival, unreachable,
+    setting_of, start_to_depart, travel_arrival, unreachable,
 )
 from model.transition import (
-    DRONE_SORTIE, NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE, V_LOAD,
-    V_NEXT_START, V_NODE, V_START_BEST, V_TYPE, State, board, close_vehicle, drive, empty_state,
-    improve_departure, launch, leave_for, open_vehicle,
+    State, board, close_vehicle, drive, empty_state, improve_departure, launch, open_vehicle,
 )
 
 DRIVE, LAUNCH, RETURN, OPEN = range(4)
@@ -79,7 +81,7 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
         free = arrival
     else:
         leave = vehicle[V_NEXT_START]
-        arrival, free = leave_for(setting, vehicle, drones, node)
+        _, arrival, free = leave_for(setting, vehicle, drones, node)
         if arrival < 0:
             return NO
     if columns[NODE_HARD] and arrival > columns[NODE_LATEST]:
@@ -111,12 +113,13 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
         return NO
     free = vehicle[V_FREE]
     drone = board(setting, vehicle, drones, 0, node, takeoff)
-    home, end = leave_for(setting, vehicle, drones, setting.type[TYPE_DEPOT])
+    _, home, end = leave_for(setting, vehicle, drones, setting.type[TYPE_DEPOT])
     drones[drone, DRONE_SORTIE] = IN_FLIGHT
     vehicle[V_FLYING] -= 1
     vehicle[V_FREE] = free
     if home < 0:
         return NO
+    arrival = drones[drone, DRONE_TAKEOFF] + flight
     outlook[OUTLOOK_ARRIVAL] = arrival
     outlook[OUTLOOK_START], outlook[OUTLOOK_END] = max(arrival, columns[NODE_EARLIEST]), end
     return _judge_end(setting, end, departure, False)
@@ -144,9 +147,9 @@ def _works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: I
     cost nothing.
     """
     needed = vehicle[V_FREE] - setting.type[TYPE_MAX_WORKING]
-    known = vehicle[V_START_BEST]
-    lacking = needed - first_departure(setting, log, known)
-    return lacking <= 0 or replay(setting, num_depots, log, 0, known + lacking, False)
+    if first_departure(setting, log, vehicle[V_START_BEST]) >= needed:
+        return True
+    return replay(setting, num_depots, log, 0, start_to_depart(setting, log, needed), False)
 
 
 @compiled
@@ -165,15 +168,15 @@ def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind:
     if kind == LAUNCH:
         if not launch(setting, num_depots, log, vehicle, drones, node):
             return False
-        sortie = log.sortie[log.count[COUNT_SORTIES] - 1]
-        arrival, start = sortie[SORTIE_ARRIVAL], sortie[SORTIE_START]
-    else:
-        if not drive(setting, num_depots, log, vehicle, drones, node):
-            return False
-        stop = log.stop[log.count[COUNT_STOPS] - 1]
-        arrival, start = stop[STOP_ARRIVAL], stop[STOP_START]
+    elif not drive(setting, num_depots, log, vehicle, drones, node):
+        return False
+    here = log.count[COUNT_STOPS] - 1
     if not drive(setting, num_depots, log, vehicle, drones, setting.type[TYPE_DEPOT]):
         return False
+    arrival, start = log.stop[here, STOP_ARRIVAL], log.stop[here, STOP_START]
+    if kind == LAUNCH:
+        sortie = log.sortie[log.count[COUNT_SORTIES] - 1]
+        arrival, start = sortie[SORTIE_ARRIVAL], sortie[SORTIE_START]
     end = vehicle[V_FREE]
     outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
     return (end <= setting.type[TYPE_LATEST]

@@ -1,7 +1,8 @@
 """When everything in a route happens, from the decisions that leave a choice.
 
 A decision fixes sequences, the order of launches and recoveries at each stop and when a trip
-begins; every other time follows as soon as possible. Times in ms, plain Python integers.
+begins; every other time follows as soon as possible, but for launches: one is held back as long as
+windows would let its flight last longer than the endurance. Times in ms, plain Python integers.
 """
 
 from bisect import bisect_left, bisect_right
@@ -186,6 +187,26 @@ def _flight(problem: Problem, drones: DroneType, decision: TripDecision, sortie:
     return _Flight(launch_time, visits, time + home)
 
 
+def held_until(problem: Problem, drones: DroneType, decision: TripDecision,
+               sortie: SortieDecision) -> int:
+    """Return the earliest take-off after which windows let a drone be back within its endurance.
+
+    0 where the flight is too long in any case, since holding it back wouldn't help.
+    """
+    duration, first = problem.travel[drones.travel].duration, len(problem.depots)
+    place = decision.nodes[sortie.recovery_stop]
+    to_fly = back = 0
+    for node in reversed(sortie.nodes):
+        customer = problem.customers[node - first]
+        service = drones.service_duration
+        to_fly += duration.item(node, place) + (
+            customer.service_duration if service is None else service)
+        back = max(back, customer.earliest + to_fly)
+        place = node
+    to_fly += duration.item(decision.nodes[sortie.launch_stop], place)
+    return back - drones.endurance if to_fly <= drones.endurance else 0
+
+
 def _by_arrival(
     sorties: tuple[SortieDecision, ...], stop: int, flights: dict[int, _Flight]
 ) -> Iterator[Operation]:
@@ -234,7 +255,8 @@ def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: 
             time = fact.launch_time
             flights[index] = _flight(problem, drones, decision, sortie, time, fact.visits)
         elif is_launch:
-            time = max(time, earliest) + drones.launch_duration
+            time = max(max(time, earliest) + drones.launch_duration,
+                       held_until(problem, drones, decision, sortie))
             flights[index] = _fly(problem, drones, decision, sortie, time)
         else:
             flight = flights[index]

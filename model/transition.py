@@ -11,6 +11,12 @@ from model.instance import (
     NODE_SERVICE, TYPE_CAPACITY, TYPE_DEPOT, TYPE_DRONES, TYPE_EARLIEST, TYPE_LAUNCH,
     TYPE_MAX_WORKING, TYPE_RECOVERY, TYPE_RELOAD, Instance,
 )
+from model.meeting import (
+    ABOARD, DRONE_BACK, DRONE_COLUMNS, DRONE_NODE, DRONE_PLACE, DRONE_READY, DRONE_RECOVERY,
+    DRONE_SORTIE, DRONE_TAKEOFF, LOOP, MEET, NO_VEHICLE, V_COLUMNS, V_CREW, V_DEPARTURE_BEST,
+    V_DISTANCE, V_FLYING, V_FREE, V_IDLE, V_INDEX, V_LOAD, V_NEXT_START, V_NODE, V_SERVICE_END,
+    V_START_BEST, V_TYPE, leave_for,
+)
 from model.problem import UNLIMITED, BoolArray, FloatArray, IntArray
 from model.schedule import (
     COUNT_OPS, COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, IN_FLIGHT, OP_IS_RECOVERY, OP_SORTIE,
@@ -18,34 +24,13 @@ from model.schedule import (
     SORTIE_RECOVERY_END, SORTIE_RECOVERY_START, SORTIE_RECOVERY_STOP, SORTIE_START,
     SORTIE_TAKEOFF, STOP_ARRIVAL, STOP_LEAVE, STOP_NODE, STOP_START, TRIP_FIRST_OP,
     TRIP_FIRST_STOP, TRIP_RELEASE, TRIP_START, Setting, VehicleLog, drone_service, empty_logs,
-    first_departure, latest_start, log_of, replay, setting_of, travel_arrival, unreachable,
-    within_endurance,
+    first_departure, latest_start, log_of, replay, setting_of, unreachable,
 )
-
-(V_TYPE, V_INDEX, V_NODE, V_IDLE, V_SERVICE_END, V_FREE, V_DISTANCE, V_START_BEST,
- V_DEPARTURE_BEST, V_NEXT_START, V_FLYING, V_LOAD) = range(12)
-V_COLUMNS = V_LOAD + MAX_DIMENSIONS
-
-(DRONE_SORTIE, DRONE_PLACE, DRONE_NODE, DRONE_TAKEOFF, DRONE_READY, DRONE_BACK,
- DRONE_RECOVERY) = range(7)
-DRONE_COLUMNS = 7
-ABOARD, MEET, LOOP = range(3)
-
-NO_VEHICLE = -1
-
 
 class State(NamedTuple):
     """Running plans, a row per rollout, then scratch rows. Times in ms since plan start.
 
-    `vehicle` columns, of the open vehicle: type (`NO_VEHICLE` before the first opens), index
-    within the type, node, idle (at the depot, no trip begun), end of service here, end of the
-    launches and recoveries here, distance of the trip, the latest known start of the first trip
-    that costs nothing, the departure that follows from it, earliest start of the next trip, drones
-    in flight, load left by dimension.
-
-    `drone` columns: sortie (IN_FLIGHT where aboard), where it is to be recovered (ABOARD, MEET at
-    the next stop, LOOP to this stop), customer, take-off, end of service, arrival at the recovery
-    stop, beginning of recovery.
+    Times of sorties in flight are as if they were launched at once, in the log and in `drone`.
     """
 
     problem: IntArray  # (rollout,) row in the Instance
@@ -53,8 +38,8 @@ class State(NamedTuple):
     num_unserved: IntArray  # (rollout,)
     used: IntArray  # (rollout, type) vehicles opened
     done: BoolArray  # (rollout,)
-    vehicle: IntArray  # (rollout, V_COLUMNS)
-    drone: IntArray  # (rollout, drone, DRONE_COLUMNS)
+    vehicle: IntArray  # (rollout, V_COLUMNS) the open one
+    drone: IntArray  # (rollout, drone, DRONE_COLUMNS) its drones
     log: VehicleLog
     cost: FloatArray  # (rollout, 6) of the vehicles closed so far, by term
     fresh: BoolArray  # (problem, type, node) servable alone by a fresh vehicle
@@ -80,62 +65,6 @@ def empty_state(instance: Instance, rows: int) -> State:
     state.vehicle[:, V_TYPE] = NO_VEHICLE
     state.drone[:, :, DRONE_SORTIE] = IN_FLIGHT
     return state
-
-
-@inlined
-def recover(setting: Setting, drones: IntArray, place: int, node: int, free: int) -> int:
-    """Recover the drones marked `place` one after another at `node`, in order of arrival.
-
-    In place: notes each one's arrival and beginning of recovery. Returns when the last is
-    recovered, `free` if there is none. Where one can't be within its endurance: -1, and in place,
-    if it was to MEET the truck, it is marked LOOP instead.
-    """
-    for d in range(len(drones)):
-        if drones[d, DRONE_PLACE] == place:
-            drones[d, DRONE_BACK] = drones[d, DRONE_READY] + setting.fly[drones[d, DRONE_NODE],
-                                                                         node]
-            drones[d, DRONE_RECOVERY] = -1
-    while True:
-        chosen = -1
-        for d in range(len(drones)):
-            if drones[d, DRONE_PLACE] == place and drones[d, DRONE_RECOVERY] < 0 and (
-                    chosen < 0 or drones[d, DRONE_BACK] < drones[chosen, DRONE_BACK]):
-                chosen = d
-        if chosen < 0:
-            return free
-        back = drones[chosen, DRONE_BACK]
-        begin = max(free, back)
-        if unreachable(back) or not within_endurance(setting.type, drones[chosen, DRONE_TAKEOFF],
-                                                     back, begin):
-            if place == MEET:
-                drones[chosen, DRONE_PLACE] = LOOP
-            return -1
-        drones[chosen, DRONE_RECOVERY] = begin
-        free = begin + setting.type[TYPE_RECOVERY]
-
-
-@inlined
-def leave_for(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) -> tuple[int, int]:
-    """Decide where the sorties in flight are recovered if the truck drives to `to` next.
-
-    In place: marks each as MEET or LOOP with its times. Returns the truck's arrival at `to` and
-    the end of the recoveries there; -1, -1 if some sortie can be recovered neither here nor there.
-    """
-    here = vehicle[V_NODE]
-    if vehicle[V_FLYING] == 0:
-        leave = max(vehicle[V_SERVICE_END], vehicle[V_FREE])
-        arrival = travel_arrival(setting, here, to, leave)
-        return arrival, arrival
-    for d in range(len(drones)):
-        drones[d, DRONE_PLACE] = ABOARD if drones[d, DRONE_SORTIE] == IN_FLIGHT else MEET
-    while True:
-        free = recover(setting, drones, LOOP, here, vehicle[V_FREE])
-        if free < 0:
-            return -1, -1
-        arrival = travel_arrival(setting, here, to, max(vehicle[V_SERVICE_END], free))
-        free = recover(setting, drones, MEET, to, arrival)
-        if free >= 0:
-            return arrival, free
 
 
 @inlined
@@ -180,6 +109,44 @@ def log_recoveries(setting: Setting, log: VehicleLog, drones: IntArray, place: i
 
 
 @inlined
+def op_times(setting: Setting, log: VehicleLog, row: int) -> tuple[int, int]:
+    """Return when a launch or recovery begins and ends."""
+    sortie = log.sortie[log.op[row, OP_SORTIE]]
+    if log.op[row, OP_IS_RECOVERY]:
+        return sortie[SORTIE_RECOVERY_START], sortie[SORTIE_RECOVERY_END]
+    return sortie[SORTIE_TAKEOFF] - setting.type[TYPE_LAUNCH], sortie[SORTIE_TAKEOFF]
+
+
+@inlined
+def sort_ops(setting: Setting, log: VehicleLog, first: int) -> None:
+    """Put the launches and recoveries from row `first` on, all at one stop, in order. In place."""
+    for last in range(first + 1, log.count[COUNT_OPS]):
+        row = last
+        while row > first and op_times(setting, log, row) < op_times(setting, log, row - 1):
+            for column in (OP_SORTIE, OP_IS_RECOVERY):
+                log.op[row, column], log.op[row - 1, column] = (log.op[row - 1, column],
+                                                                log.op[row, column])
+            row -= 1
+
+
+@inlined
+def log_sorties(setting: Setting, log: VehicleLog, vehicle: IntArray, drones: IntArray) -> None:
+    """Write what `leave_for` decided of the sorties in flight. In place."""
+    here, first = log.count[COUNT_STOPS] - 1, log.count[COUNT_OPS] - vehicle[V_FLYING]
+    for d in range(len(drones)):
+        if drones[d, DRONE_PLACE] != ABOARD:
+            node, takeoff = drones[d, DRONE_NODE], drones[d, DRONE_TAKEOFF]
+            sortie = log.sortie[drones[d, DRONE_SORTIE]]
+            arrival = takeoff + setting.fly[vehicle[V_NODE], node]
+            sortie[SORTIE_TAKEOFF], sortie[SORTIE_ARRIVAL] = takeoff, arrival
+            sortie[SORTIE_START] = max(arrival, setting.node[node, NODE_EARLIEST])
+            sortie[SORTIE_READY] = drones[d, DRONE_READY]
+    log_recoveries(setting, log, drones, LOOP, here)
+    sort_ops(setting, log, first)
+    log_recoveries(setting, log, drones, MEET, here + 1)
+
+
+@inlined
 def begin_trip(log: VehicleLog, vehicle: IntArray, release: int) -> None:
     """Begin a trip of the idle vehicle as soon as the parcel is released. In place."""
     start = max(vehicle[V_NEXT_START], release)
@@ -192,7 +159,7 @@ def begin_trip(log: VehicleLog, vehicle: IntArray, release: int) -> None:
         vehicle[V_START_BEST] = start
         vehicle[V_DEPARTURE_BEST] = start
     vehicle[V_IDLE] = 0
-    vehicle[V_SERVICE_END] = vehicle[V_FREE] = start
+    vehicle[V_SERVICE_END] = vehicle[V_FREE] = vehicle[V_CREW] = start
 
 
 @inlined
@@ -210,11 +177,15 @@ def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntAr
     vehicle[V_SERVICE_END] = stop[STOP_START]
     if stop[STOP_NODE] >= num_depots:
         vehicle[V_SERVICE_END] += setting.node[stop[STOP_NODE], NODE_SERVICE]
-    vehicle[V_FREE] = stop[STOP_ARRIVAL]
+    vehicle[V_FREE] = vehicle[V_CREW] = stop[STOP_ARRIVAL]
     last = log.count[COUNT_OPS] - 1
     while last >= 0 and log.op[last, OP_STOP] == here:
-        ended = SORTIE_RECOVERY_END if log.op[last, OP_IS_RECOVERY] else SORTIE_TAKEOFF
-        vehicle[V_FREE] = max(vehicle[V_FREE], log.sortie[log.op[last, OP_SORTIE], ended])
+        sortie = log.sortie[log.op[last, OP_SORTIE]]
+        if log.op[last, OP_IS_RECOVERY]:
+            vehicle[V_CREW] = max(vehicle[V_CREW], sortie[SORTIE_RECOVERY_END])
+            vehicle[V_FREE] = max(vehicle[V_FREE], sortie[SORTIE_RECOVERY_END])
+        else:
+            vehicle[V_FREE] = max(vehicle[V_FREE], sortie[SORTIE_TAKEOFF])
         last -= 1
     for d in range(len(drones)):
         if drones[d, DRONE_SORTIE] != IN_FLIGHT:
@@ -301,16 +272,14 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
         begin_trip(log, vehicle, release)
     elif is_customer and not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
-    arrival, free = leave_for(setting, vehicle, drones, node)
+    left, arrival, free = leave_for(setting, vehicle, drones, node)
     if arrival < 0 or (is_customer and setting.node[node, NODE_HARD]
                        and arrival > setting.node[node, NODE_LATEST]):
         return False
     if vehicle[V_FLYING] > 0:
         here = log.count[COUNT_STOPS] - 1
-        left = recover(setting, drones, LOOP, vehicle[V_NODE], vehicle[V_FREE])
         log.stop[here, STOP_LEAVE] = max(vehicle[V_SERVICE_END], left)
-        log_recoveries(setting, log, drones, LOOP, here)
-        log_recoveries(setting, log, drones, MEET, here + 1)
+        log_sorties(setting, log, vehicle, drones)
         vehicle[V_FLYING] = 0
         # The start known so far kept the drones' return, not the last take-off before recoveries.
         vehicle[V_START_BEST] = log.trip[0, TRIP_START]
@@ -322,7 +291,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
         take_load(setting, vehicle, node)
     log_stop(log, node, arrival, start, max(service_end, free))
     vehicle[V_NODE] = node
-    vehicle[V_SERVICE_END], vehicle[V_FREE] = service_end, free
+    vehicle[V_SERVICE_END], vehicle[V_FREE], vehicle[V_CREW] = service_end, free, free
     if not is_customer:
         vehicle[V_IDLE] = 1
         vehicle[V_DISTANCE] = 0

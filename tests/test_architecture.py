@@ -31,15 +31,15 @@ REPLANNING = tuple(f"replanning/{name}" for name in (
 MODEL_ORDER = (
     "compiled", "problem", "solution", "past", "timing", "metrics", "rules", "past_rules", "check",
     "attempt", "explain", *REPLANNING,
-    "rows", "travel", "airspace", "instance", "schedule", "cost", "transition", "simulator",
-    "tokens", "prospects", "features", "parts", "rolling", "extract", *SEARCH, "policy",
-    "policy_pointer", "policy_attention", "decode", "planner", "replan",
+    "rows", "travel", "airspace", "instance", "schedule", "cost", "meeting", "transition",
+    "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract", *SEARCH,
+    "policy", "policy_pointer", "policy_attention", "decode", "planner", "replan",
 )
 """Each file of `model` imports only files to the left of its name."""
 
 CHECKER = ("past", "timing", "metrics", "rules", "past_rules", "check", "attempt", "explain")
-SIMULATION = ("compiled", "rows", "instance", "schedule", "cost", "transition", "simulator",
-              "tokens", "prospects", "features", "parts", "rolling", "extract")
+SIMULATION = ("compiled", "rows", "instance", "schedule", "cost", "meeting", "transition",
+              "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract")
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
 ASKING = {"planner"}

@@ -8,7 +8,7 @@ from model.instance import (
 from model.problem import UNREACHABLE, IntArray
 from model.schedule import arrival_by_profile
 from model.search.layout import (
-    CUSTOMER, DONE, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_READY_C, F_READY_D,
+    CUSTOMER, DONE, END, F_BEGIN, F_COUNT, F_DRONE, F_HELD, F_LAUNCH, F_NODE, F_READY_C, F_READY_D,
     F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, FAR, FLYING, NONE, P_EARLIEST,
     P_LATEST, P_LIMIT, P_SERVICE, S_ARRIVAL, S_BLOCK, S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP,
     S_HI, S_HOLD, S_IDLE, S_KIND, S_LATEST, S_LEAVE, S_LO, S_NODE, S_RELEASE, START, WAITING, World,
@@ -61,12 +61,33 @@ def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
 
 
 @inlined
+def make_ready(world: World, k: int, stops: IntArray, sorties: IntArray, count: int) -> None:
+    """Have the sorties of a route wait for their launches. In place.
+
+    And write how long each is held back: until windows let it be back within the endurance.
+    """
+    columns = world.type[k]
+    legs, own = world.leg[columns[TYPE_DRONE_TRAVEL]], columns[TYPE_DRONE_SERVICE]
+    for s in range(count):
+        sortie = sorties[s]
+        node = stops[sortie[F_RECOVERY], S_NODE]
+        back = to_fly = 0
+        for index in range(sortie[F_COUNT] - 1, -1, -1):
+            customer = sortie[F_NODE + index]
+            place = world.place[customer]
+            to_fly += legs[customer, node, 0] + (own if own >= 0 else place[P_SERVICE])
+            back = max(back, place[P_EARLIEST] + to_fly)
+            node = customer
+        sortie[F_STATE], sortie[F_HELD] = WAITING, back - columns[TYPE_ENDURANCE]
+
+
+@inlined
 def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArray, node: int,
             acc: IntArray) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
     own, arrivals = columns[TYPE_DRONE_SERVICE], (F_NODE + len(sortie)) // 2
     d = acc[A_FREE_D] + columns[TYPE_LAUNCH]
-    c = acc[A_FREE_C] + columns[TYPE_LAUNCH]
+    c = max(acc[A_FREE_C] + columns[TYPE_LAUNCH], sortie[F_HELD])
     acc[A_FREE_D], acc[A_FREE_C] = d, c
     sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C] = d, c
     sortie[F_TAKEOFF] = max(acc[A_TIME] + d, c)
@@ -144,8 +165,8 @@ def is_aboard(sorties: IntArray, index: int, oldest: int) -> bool:
 
 
 @inlined
-def next_operation(legs: IntArray, sorties: IntArray, count: int, p: int, node: int,
-                   acc: IntArray) -> int:
+def next_operation(legs: IntArray, columns: IntArray, sorties: IntArray, count: int, p: int,
+                   node: int, acc: IntArray) -> int:
     """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 
     A drone that is there is recovered before another is launched.
@@ -164,7 +185,7 @@ def next_operation(legs: IntArray, sorties: IntArray, count: int, p: int, node: 
                                                sorties[index, F_READY_C]) + flight))
         elif (sorties[index, F_STATE] == WAITING and sorties[index, F_LAUNCH] == p
               and is_aboard(sorties, index, acc[A_OLDEST])):
-            begin = 2 * free + 1
+            begin = 2 * max(free, sorties[index, F_HELD] - columns[TYPE_LAUNCH]) + 1
         if begin < earliest:
             chosen, earliest = index, begin
     return chosen
@@ -179,7 +200,7 @@ def operate(places: IntArray, legs: IntArray, columns: IntArray, sorties: IntArr
     """
     # The whole world would be copied at each call.
     while True:
-        index = next_operation(legs, sorties, count, p, node, acc)
+        index = next_operation(legs, columns, sorties, count, p, node, acc)
         if index < 0:
             break
         if sorties[index, F_STATE] == FLYING:

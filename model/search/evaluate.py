@@ -6,16 +6,16 @@ from model.instance import (
 )
 from model.problem import IntArray
 from model.rows import copy_row
-from model.search.block import plain_block, time_block
+from model.search.block import make_ready, plain_block, time_block
 from model.search.edit import (
     BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, apply,
 )
 from model.search.layout import (
-    CUSTOMER, END, F_LAUNCH, F_RECOVERY, F_STATE, FAR, MODE_PRICED, MODE_PROFILE, MODE_SETTLED,
+    CUSTOMER, END, F_LAUNCH, F_RECOVERY, FAR, MODE_PRICED, MODE_PROFILE, MODE_SETTLED,
     NONE, P_EARLIEST, P_LATEST, P_LIMIT, P_RELEASE, P_SERVICE, R_LENGTH, R_OFFSET, R_SORTIES,
     R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY,
     S_END, S_FLYING, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE,
-    S_RELEASE, S_REST, S_TRIP, SEQUENCE_COLUMNS, START, T_FIRST, T_RELEASE, WAITING, Fleet, World,
+    S_RELEASE, S_REST, S_TRIP, SEQUENCE_COLUMNS, START, T_FIRST, T_RELEASE, Fleet, World,
 )
 from model.search.refresh import refresh
 from model.search.routes import sortie_cost, window_cost
@@ -82,8 +82,7 @@ def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: I
     legs = world.leg[world.type[k, TYPE_TRAVEL]]
     time, cum = old[first, S_ARRIVAL], old[first, S_BEFORE]
     depart = old[first - 1, S_DEPART] if first > 0 else FAR
-    for s in range(count):
-        sorties[s, F_STATE] = WAITING
+    make_ready(world, k, stops, sorties, count)
     p = s = driven = 0
     while p < length:
         stop = stops[p]

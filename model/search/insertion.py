@@ -145,7 +145,12 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         away = stops[recovery, S_ARRIVAL] - stops[launch, S_LEAVE]
         flight = out[0] + service + home[0]
         if columns[TYPE_WAITING_COUNTS] and away > columns[TYPE_ENDURANCE]:
-            break
+            # Held back for the window, the truck leaves later and may wait less on its way.
+            held = world.place[node, P_EARLIEST] + service - stops[launch, S_LEAVE]
+            if held <= 0:
+                break
+            if away > max(columns[TYPE_ENDURANCE], held + home[0]):
+                continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         longer = max(0, begun + flight - stops[recovery, S_LEAVE])
         cost = ((out[1] + home[1]) * world.rate[k, RATE_DRONE_KM]

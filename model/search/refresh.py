@@ -5,9 +5,9 @@ from model.instance import TYPE_MAX_WORKING, TYPE_PROFILE
 from model.problem import FULL_SPEED, IntArray, UIntArray
 from model.search.draw import below
 from model.search.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, FAR, MODE_LEAN, MODE_PROFILE, MODE_SETTLED,
-    NONE, P_LATEST, P_SERVICE, R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE,
-    R_WORKING, S_ARRIVAL, S_BEFORE, S_DEP, S_GAP, S_HOLD, S_KIND, S_LAST, S_LEAVE, S_NODE,
+    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, FAR, MODE_LEAN, MODE_PROFILE,
+    MODE_SETTLED, NONE, P_LATEST, P_SERVICE, R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS,
+    R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_DEP, S_GAP, S_HOLD, S_KIND, S_LAST, S_LEAVE, S_NODE,
     S_RELEASE, START, T_FIRST, W_POSITION, W_SLOT, W_SORTIE, ELSEWHERE, NOWHERE, Fleet, World,
 )
 from model.search.lean import refresh_lean
@@ -123,9 +123,15 @@ def settle(world: World, route: IntArray, stops: IntArray, trips: IntArray, sort
 
 
 @inlined
-def beginning(route: IntArray, stops: IntArray) -> int:
-    """Return when the first trip of a settled route begins."""
-    return max(stops[0, S_ARRIVAL], max(stops[0, S_RELEASE], stops[0, S_HOLD]))
+def settled_departure(route: IntArray, stops: IntArray, sorties: IntArray) -> int:
+    """Return when truck or drone first leaves the depot on a settled route."""
+    depart = FAR
+    for s in range(route[R_SORTIES]):
+        if sorties[s, F_LAUNCH] == 0:
+            depart = min(depart, sorties[s, F_TAKEOFF])
+    if depart == FAR:
+        depart = max(stops[0, S_ARRIVAL], max(stops[0, S_RELEASE], stops[0, S_HOLD]))
+    return depart
 
 
 @inlined
@@ -145,7 +151,7 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
     if mode & MODE_SETTLED:
         if not settle(world, route, stops, trips, sorties, acc):
             return False
-        depart = beginning(route, stops) + route[R_OFFSET]
+        depart = settled_departure(route, stops, sorties)
     route[R_WORKING] = route[R_END] - depart
     if route[R_WORKING] > world.type[route[R_TYPE], TYPE_MAX_WORKING]:
         return False

@@ -8,14 +8,14 @@ from model.instance import (
 )
 from model.problem import IntArray
 from model.rows import clear
-from model.search.block import plain_block, time_block, travel
+from model.search.block import make_ready, plain_block, time_block, travel
 from model.search.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_STATE, F_TAKEOFF, FAR,
+    CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, FAR,
     MODE_PRICED, NONE, P_DEMAND, P_EARLIEST, P_LATEST, P_RELEASE, R_CUM, R_END, R_LENGTH, R_OFFSET,
     R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_CUM, S_D, S_DEP,
     S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_IDLE, S_KIND, S_LAST, S_LATEST, S_LEAVE,
     S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, START, T_DISTANCE, T_FIRST, T_LAST, T_LOAD,
-    T_RELEASE, WAITING, World,
+    T_RELEASE, World,
 )
 
 
@@ -77,8 +77,7 @@ def drive_forward(world: World, route: IntArray, stops: IntArray, sorties: IntAr
     k, length, count = route[R_TYPE], route[R_LENGTH], route[R_SORTIES]
     time = world.type[k, TYPE_EARLIEST]
     cum, depart = 0, FAR
-    for s in range(count):
-        sorties[s, F_STATE] = WAITING
+    make_ready(world, k, stops, sorties, count)
     p = s = 0
     while p < length:
         stop = stops[p]

@@ -8,11 +8,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from model.check import Evaluation, check
-from model.problem import UNREACHABLE, Problem
+from model.problem import UNREACHABLE, DroneType, Problem
 from model.rules import airborne_duration
 from model.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Trip
-from model.timing import Operation, RouteDecision, SortieDecision, TripDecision, schedule
+from model.timing import (
+    Operation, RouteDecision, SortieDecision, TripDecision, held_until, schedule,
+)
 
 MINUTE = 60_000
 
@@ -57,17 +59,19 @@ class Vehicle:
     is_idle: bool = True
 
 
-def _recovered(trip: OpenTrip, to: int, loops: list[int], order: list[int]) -> OpenTrip:
-    """Drive on to `to`, recovering the loops here and all others there, in the order given."""
-    here = len(trip.nodes) - 1
+def _recovered(trip: OpenTrip, to: int, loops: list[int], order: list[int],
+               here: list[Operation]) -> OpenTrip:
+    """Drive on to `to`, recovering the loops here and all others there, in the order given.
+
+    `here` are the launches and recoveries of this stop.
+    """
+    last = len(trip.nodes) - 1
     flights = tuple(
         flight if flight.recovery_stop is not None
-        else replace(flight, recovery_stop=here if index in loops else here + 1)
+        else replace(flight, recovery_stop=last if index in loops else last + 1)
         for index, flight in enumerate(trip.flights))
-    before = tuple(Operation(index, False) for index in order if index in loops)
     after = tuple(Operation(index, False) for index in order if index not in loops)
-    operations = (*trip.operations[:-1], trip.operations[-1] + before, after)
-    return OpenTrip((*trip.nodes, to), flights, operations)
+    return OpenTrip((*trip.nodes, to), flights, (*trip.operations[:-1], tuple(here), after))
 
 
 def _timed(problem: Problem, vehicle: Vehicle, trip: OpenTrip) -> Trip:
@@ -79,14 +83,70 @@ def _timed(problem: Problem, vehicle: Vehicle, trip: OpenTrip) -> Trip:
     return schedule(problem, RouteDecision(vehicle.kind, vehicle.index, trips)).trips[-1]
 
 
+def _flight(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: int) -> int:
+    """Return how long a flight takes that ends at `to`, if nobody waits."""
+    flight, legs = trip.flights[index], problem.travel[drones.travel].duration
+    service = drones.service_duration
+    if service is None:
+        service = problem.customer_at(flight.customer).service_duration
+    return legs.item(trip.nodes[flight.launch_stop], flight.customer) + service + legs.item(
+        flight.customer, to)
+
+
+def _at_this_stop(problem: Problem, drones: DroneType, recovered: OpenTrip,
+                  arrived: list[Operation], crew: int, launches: list[int],
+                  loops: list[int]) -> list[Operation]:
+    """Return what is done at the last stop, the crew being free from `crew` on.
+
+    What can be launched first is; loops are recovered behind, or while a launch is held back.
+    """
+    decision, order, back = recovered.decision(), list(arrived), dict[int, int]()
+    while launches or back:
+        take_off = {index: max(crew + drones.launch_duration, held_until(
+            problem, drones, decision, decision.sorties[index])) for index in launches}
+        launch = min(launches, key=lambda index: (take_off[index], index), default=None)
+        loop = min(back, key=lambda index: (back[index], index), default=None)
+        begin = 0 if launch is None else take_off[launch] - drones.launch_duration
+        if loop is not None and (launch is None or (
+                begin > crew and max(crew, back[loop]) <= begin)):
+            crew = max(crew, back.pop(loop)) + drones.recovery_duration
+            order.append(Operation(loop, False))
+        elif launch is not None:
+            crew = take_off[launch]
+            order.append(Operation(launch, True))
+            launches = [index for index in launches if index != launch]
+            if launch in loops:
+                back[launch] = _back(problem, drones, recovered, launch, crew)
+    return order
+
+
+def _back(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, take_off: int) -> int:
+    """Return when a loop is back that takes off then."""
+    flight, legs = trip.flights[index], problem.travel[drones.travel].duration
+    place, customer = trip.nodes[flight.launch_stop], problem.customer_at(flight.customer)
+    arrival = take_off + legs.item(place, flight.customer)
+    waiting = max(0, customer.earliest - arrival)
+    return take_off + waiting + _flight(problem, drones, trip, index, place)
+
+
 def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
     """Drive the vehicle to a node; None if a sortie can be recovered neither here nor there."""
     trip = vehicle.trips[-1]
     drones, flying = problem.vehicle_types[vehicle.kind].drones, trip.flying
-    loops: list[int] = []
+    loops = [index for index in flying
+             if drones is not None and _flight(problem, drones, trip, index, to) > drones.endurance]
     while True:
         here = len(trip.nodes) - 1
-        drafted = _timed(problem, vehicle, _recovered(trip, to, loops, flying))
+        operations = list(trip.operations[-1])
+        if drones is not None and flying:
+            arrived = [operation for operation in operations if not operation.is_launch]
+            rough = _recovered(trip, to, loops, flying, [
+                *operations, *(Operation(index, False) for index in loops)])
+            timed = _timed(problem, vehicle, rough)
+            crew = max([timed.stops[here].arrival,
+                        *(timed.sorties[index].recovery_time for index, _ in arrived)])
+            operations = _at_this_stop(problem, drones, rough, arrived, crew, flying, loops)
+        drafted = _timed(problem, vehicle, _recovered(trip, to, loops, flying, operations))
         arrivals = {}
         for index in flying:
             assert drones is not None
@@ -95,7 +155,7 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
             arrivals[index] = visit.departure + int(
                 problem.travel[drones.travel].duration[visit.node, place])
         order = sorted(flying, key=lambda index: (arrivals[index], index))
-        settled = _recovered(trip, to, loops, order)
+        settled = _recovered(trip, to, loops, order, operations)
         timed = _timed(problem, vehicle, settled)
         late = [index for index in order if drones is not None and (
             arrivals[index] >= UNREACHABLE or drones.endurance

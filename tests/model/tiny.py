@@ -1,5 +1,7 @@
 """Tiny problems that mix all rules; every time is a whole number of minutes."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from model.problem import (
@@ -92,3 +94,20 @@ def draw_tiny(rng: np.random.Generator, drone_share: float = 0.6) -> Problem:
                             for index in range(kinds)),
         travel=(_travel(rng, num_nodes, 8, 0.0), _travel(rng, num_nodes, 5, 0.08)),
         coordinates=rng.random((num_nodes, 2)), unassigned_cost=100.0)
+
+
+def draw_late(rng: np.random.Generator) -> Problem:
+    """Draw a problem with drones some of whose windows open long after all else is done."""
+    problem = draw_tiny(rng, drone_share=1.0)
+
+    def later(customer: Customer) -> Customer:
+        delay = _maybe(rng, 0.6, 20, 90) or 0
+        return replace(customer, earliest=customer.earliest + delay,
+                       latest=min(customer.latest + delay, UNLIMITED))
+
+    return replace(
+        problem, customers=tuple(later(customer) for customer in problem.customers),
+        vehicle_types=tuple(
+            replace(kind, latest=min(kind.latest + 90 * MINUTE, UNLIMITED),
+                    max_working_duration=kind.max_working_duration and _maybe(rng, 0.6, 30, 120))
+            for kind in problem.vehicle_types))
