@@ -157,10 +157,11 @@ def take_off(setting: Setting, log: VehicleLog, sortie: IntArray, free: int) -> 
 
 
 @inlined
-def _replay_launch(setting: Setting, sortie: IntArray, node: int, takeoff: int,
+def _replay_launch(setting: Setting, log: VehicleLog, sortie: IntArray, node: int, free: int,
                    write: bool) -> int:
-    """Time one launch; return the take-off, -1 if it is not allowed."""
+    """Time one launch begun at `free`; return the take-off, -1 if it is not allowed."""
     customer = sortie[SORTIE_NODE]
+    takeoff = take_off(setting, log, sortie, free)
     arrival = takeoff + setting.fly[node, customer]
     if not _arrival_allowed(setting.node[customer], arrival, sortie[SORTIE_ARRIVAL], write):
         return -1
@@ -231,8 +232,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                     begin = free if setting.type[TYPE_RECOVERY] > 0 else launched
                     end = _replay_recovery(setting, sortie, node, begin, write)
                 else:
-                    takeoff = take_off(setting, log, sortie, free)
-                    end = launched = _replay_launch(setting, sortie, node, takeoff, write)
+                    end = launched = _replay_launch(setting, log, sortie, node, free, write)
                 if end < 0:
                     return False
                 free = max(free, end)
