@@ -1,0 +1,71 @@
+"""Problems as the remedies say that they would have to be."""
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+from model.explain import Reason
+from model.problem import Customer, DroneType, Problem, VehicleType
+
+MINUTE = 60_000
+KM = 1_000_000
+
+
+def applied(problem: Problem, reason: Reason, node: int) -> Problem:
+    """Return a problem changed as a remedy for a customer says."""
+    remedy, kind = reason.remedy or "", problem.vehicle_types[reason.vehicle_type]
+    for pattern, change in ON_TYPE.items():
+        if found := re.fullmatch(pattern, remedy):
+            kinds = list(problem.vehicle_types)
+            kinds[reason.vehicle_type] = change(kind, found[1])
+            return replace(problem, vehicle_types=tuple(kinds))
+    for pattern, alter in ON_CUSTOMER.items():
+        if found := re.fullmatch(pattern, remedy):
+            customers = list(problem.customers)
+            index = node - problem.num_depots
+            customers[index] = alter(customers[index], found[1])
+            return replace(problem, customers=tuple(customers))
+    found = re.fullmatch("served if unassigned_cost were above (.+)", remedy)
+    assert found, remedy
+    return replace(problem, unassigned_cost=float(found[1]) + 0.01)
+
+
+def _amounts(text: str) -> tuple[int, ...]:
+    return tuple(round(float(amount) * 1000) for amount in text.split(", "))
+
+
+def _units(text: str, unit: int) -> int:
+    return round(float(text) * unit)
+
+
+def _drones(kind: VehicleType) -> DroneType:
+    assert kind.drones is not None
+    return kind.drones
+
+
+def _longer_endurance(kind: VehicleType, text: str) -> VehicleType:
+    drones = _drones(kind)
+    return replace(kind, drones=replace(drones, endurance=drones.endurance + _units(text, MINUTE)))
+
+
+ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
+    "fits if endurance were (.+) minutes? longer": _longer_endurance,
+    "fits if the drone capacity were at least (.+)": lambda kind, text: replace(
+        kind, drones=replace(_drones(kind), capacity=_amounts(text))),
+    "fits if capacity were at least (.+)": lambda kind, text: replace(
+        kind, capacity=_amounts(text)),
+    "fits if .+ had (.+)": lambda kind, text: replace(
+        kind, skills=kind.skills | set(text.split(", "))),
+    "fits if .+'s shift ended (.+) minutes? later": lambda kind, text: replace(
+        kind, latest=kind.latest + _units(text, MINUTE)),
+    "fits if .+ could work (.+) minutes? longer": lambda kind, text: replace(
+        kind, max_working_duration=(kind.max_working_duration or 0) + _units(text, MINUTE)),
+    "fits if trips could be (.+) km longer": lambda kind, text: replace(
+        kind, max_trip_distance=(kind.max_trip_distance or 0) + _units(text, KM)),
+    "fits with one more vehicl(e)": lambda kind, _: replace(kind, count=kind.count + 1),
+}
+ON_CUSTOMER: dict[str, Callable[[Customer, str], Customer]] = {
+    "fits if its window closed (.+) minutes? later": lambda customer, text: replace(
+        customer, latest=customer.latest + _units(text, MINUTE)),
+    "fits if a truck may serve (it)": lambda customer, _: replace(customer, served_by="either"),
+}
