@@ -89,3 +89,30 @@ def test_documentation_needs_no_other_host(client: httpx.Client) -> None:
     assert "swagger" in page.lower()
     assert "https://" not in page
     assert "http://" not in page
+
+
+@pytest.mark.parametrize("policy", ["attention", "pointer"])
+@pytest.mark.parametrize("options", [
+    {"decoding": "greedy", "time_limit": 0}, {"decoding": "sample", "time_limit": 0},
+    {"search_iterations": 20, "time_limit": 60}], ids=str)
+@pytest.mark.parametrize("served_by", ["drone", "either"])
+def test_a_launch_waits_for_a_window_that_opens_late(
+        client: httpx.Client, policy: str, options: dict[str, Any], served_by: str) -> None:
+    request = {
+        "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
+        "customers": [{"id": "late", "location": [1, 0], "demand": [1], "served_by": served_by,
+                       "time_window": {"earliest": 7200}}],
+        "fleet": [{"id": "truck", "count": 1, "capacity": [5], "speed_kmh": 60, "max_trip_distance": 1000,
+                   "drones": {"count": 1, "capacity": [5], "speed_kmh": 60, "endurance": 600}}],
+        "options": options | {"policy": policy}}
+    reply = client.post("/plan", json=request)
+    assert reply.status_code == 200, reply.text
+    plan = reply.json()
+    assert plan["unassigned"] == []
+    verdict = client.post("/check", json={"problem": request, "plan": plan}).json()
+    assert verdict["feasible"]
+    given = {"routes": plan["routes"], "unassigned": plan["unassigned"]}
+    for freeze_before in (None, 3600, 7199):
+        replan = {"plan": given, "freeze_before": freeze_before}
+        later = client.post("/plan", json=request | {"replan": replan}).json()
+        assert later["unassigned"] == [], freeze_before
