@@ -158,7 +158,8 @@ def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, bes
     if kept[K_STAMP] != stamp or (kept[K_STOP] < 0 and kept[K_DETOUR] * rate < best):
         m = world.type[fleet.route[slot, R_TYPE], TYPE_TRAVEL]
         most = FAR
-        if best < FAR * rate:
+        # Also where distance costs nothing, or a larger vehicle saves more than any detour costs.
+        if abs(best) < FAR * rate:
             most = int(best / rate) + 1
         kept[K_STAMP] = stamp
         kept[K_DETOUR], kept[K_STOP] = shortest_detour(

@@ -276,3 +276,21 @@ def test_first_plan_uses_other_types_where_one_does_not_suffice() -> None:
     found = improve(problem, pack([problem]), Solution((), tuple(range(1, 11))),
                     SearchConfig(turns=0))
     assert found.solution.unassigned == ()
+
+
+@pytest.mark.parametrize("seed", [1, 2, 4, 9])
+def test_vehicles_that_drive_for_nothing_are_all_used(seed: int) -> None:
+    # To take one of them for a full one of the others then costs less than nothing.
+    rng = np.random.default_rng(seed)
+    places = [(float(x), float(y)) for x, y in rng.uniform(-20, 20, (60, 2))]
+    free = replace(TRUCK, id="free", count=5, capacity=(30_000,), cost_per_km=0.0)
+    paid = replace(TRUCK, id="paid", count=30, capacity=(20_000,))
+    problem = on_a_plane(places, free, paid)
+    problem = replace(problem, customers=tuple(
+        replace(customer, demand=(int(rng.integers(1, 11)) * 1000,))
+        for customer in problem.customers))
+    found = improve(problem, pack([problem]), Solution((), ()),
+                    SearchConfig(seed=seed, turns=5000))
+    assert check(problem, found.solution).violations == ()
+    assert found.solution.unassigned == ()
+    assert sum(route.vehicle_type == 0 for route in found.solution.routes) == free.count
