@@ -1,6 +1,7 @@
 """Endpoints of jobs."""
 
 import binascii
+import re
 from base64 import urlsafe_b64decode, urlsafe_b64encode
 from typing import Annotated, Any
 
@@ -16,7 +17,7 @@ from app.jobs.schemas import (
     CompareRequest, JobListReply, JobReply, JobSummaryReply, Kind, ProgressEvent, State,
     SweepRequest,
 )
-from app.jobs.service import JobService, Submission
+from app.jobs.service import JobService, Submission, is_job_id
 from app.jobs.setup import JobDesk
 from app.jobs.store import JobRow
 from app.jobs.webhook import check_url
@@ -31,6 +32,11 @@ HEARTBEAT = 10
 """Seconds between two signs of life where nothing changes, so that proxies keep a stream open."""
 
 MAX_PAGE = 500
+
+MAX_INSTANT = 2**63 - 1
+"""Latest `created_at` that the database can be asked for."""
+
+_CURSOR = re.compile("([0-9]{1,19}) (.*)")
 
 
 def _problems(*statuses: int, **described: str) -> dict[int | str, dict[str, Any]]:
@@ -199,9 +205,11 @@ def _read_cursor(cursor: str) -> tuple[int, str]:
         If it is none.
     """
     try:
-        created_at, job_id = urlsafe_b64decode(cursor).decode().split(" ")
-        return int(created_at), job_id
-    except (binascii.Error, ValueError) as error:
+        match = _CURSOR.fullmatch(urlsafe_b64decode(cursor).decode())
+    except (binascii.Error, ValueError):
+        match = None
+    if match is None or int(match[1]) > MAX_INSTANT or not is_job_id(match[2]):
         message = "This is no cursor: send `next` of a page as it is."
         raise InvalidRequestError([InputError(code="WRONG_PARAMETER", path="query.cursor",
-                                              message=message)]) from error
+                                              message=message)])
+    return int(match[1]), match[2]

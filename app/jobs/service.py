@@ -1,6 +1,7 @@
 """Jobs as endpoints see them: submit, read, stop."""
 
 import hashlib
+import re
 import time
 import uuid
 from collections.abc import Callable, Collection, Sequence
@@ -48,6 +49,9 @@ class Submission:
 
 _KEYS = uuid.UUID("6f1d5c1e-9d0b-4f57-8f0e-0c5d6a1b2c3d")
 """Namespace of the ids of jobs with a key; any, but always the same."""
+
+
+_JOB_ID = re.compile("[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 
 
 class JobService:
@@ -109,7 +113,8 @@ class JobService:
         UnknownJobError
             If `owner` has none with that id.
         """
-        row = self._store.find(job_id)
+        # Not every text is one that a database takes.
+        row = self._store.find(job_id) if is_job_id(job_id) else None
         if row is None or row.owner != owner:
             raise UnknownJobError(job_id)
         return row
@@ -202,6 +207,11 @@ class JobService:
         if row is None:
             raise UnknownJobError(job_id)
         return row
+
+
+def is_job_id(text: str) -> bool:
+    """Tell whether a text looks like the id of a job."""
+    return _JOB_ID.fullmatch(text) is not None
 
 
 def _same(row: JobRow, submission: Submission) -> JobRow:

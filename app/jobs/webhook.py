@@ -63,6 +63,8 @@ def _is_callable(url: str) -> bool:
     try:
         parts = urlsplit(url)
         httpx.URL(url)
+        # A name that can't be looked up: with a part that is empty or too long.
+        (parts.hostname or "").encode("idna")
         return (parts.scheme in ("http", "https") and bool(parts.hostname)
                 and parts.username is None and parts.password is None and parts.port != 0)
     except (ValueError, httpx.InvalidURL):
