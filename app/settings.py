@@ -32,6 +32,10 @@ MAX_TIME_LIMIT = 3600
 """Longest time limit of any request in seconds."""
 
 
+HOST_NAME = r"^(\*|(\*\.)?[A-Za-z0-9_-]+(\.[A-Za-z0-9_-]+)*)$"
+"""What names of hosts look like; an asterisk stands for any."""
+
+
 def memory_bytes() -> int:
     """Return how much memory this machine, or the container on it, has."""
     machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
@@ -131,6 +135,12 @@ class Settings(BaseSettings):
     wrong_keys_per_minute: int = Field(
         60, ge=0, description="Wrong keys a minute from one address, in each process, before they "
         "are answered with 429. 0: no limit.",
+    )
+    trusted_hosts: tuple[Annotated[str, Field(pattern=HOST_NAME)], ...] = Field(
+        (), description="Names by which the service is called where no keys are needed, besides "
+        "`localhost` and addresses, as a JSON list such as `[\"tandem.example.org\"]`, without "
+        "port; `*.example.org` stands for all names below, `*` for any. Requests for others are "
+        "refused with 421. Where keys are needed: any, unless some are listed.",
     )
     cors_origins: tuple[str, ...] = Field(
         (), description="Origins whose pages may call the service, as a JSON list such as "

@@ -1,4 +1,4 @@
-"""What is refused before any endpoint is looked for: keys in addresses, pages of other origins."""
+"""What is refused before any endpoint is looked for, by a request's head alone."""
 
 import re
 from collections.abc import Collection
@@ -7,6 +7,7 @@ from urllib.parse import unquote_to_bytes
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from app.access.hosts import TrustedHosts, is_same_host
 from app.access.keys import PREFIX
 from app.errors import problem_response
 from app.observe.metrics import Metrics
@@ -21,6 +22,9 @@ _KEY_PARAMETER = re.compile(
     rb"(x-)?(api[-_]?key|key|access[-_]?token|token|authorization)", re.IGNORECASE)
 
 _READING = frozenset({"GET", "HEAD", "OPTIONS"})
+
+HEALTH = "/health/"
+"""Begins the paths that tell nothing of anybody, so probes may ask under whatever name."""
 
 
 class KeyScrubber:
@@ -45,44 +49,60 @@ class Gate:
 
     Parameters
     ----------
+    hosts
+        Names by which the service may be called.
     origins
         Other origins whose pages may call the service.
     metrics
         Where refusals are counted.
     """
 
-    def __init__(self, app: ASGIApp, origins: Collection[str], metrics: Metrics) -> None:
+    def __init__(self, app: ASGIApp, hosts: TrustedHosts, origins: Collection[str],
+                 metrics: Metrics) -> None:
         self._app = app
+        self._hosts = hosts
         self._origins = frozenset(origins)
         self._metrics = metrics
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        app = self._app
-        if scope["type"] == "http":
-            if scope.get("state", {}).get(KEY_IN_URL):
-                app = problem_response(
-                    400, "key-in-url", "A key must not be in the URL",
-                    "Addresses end up in logs and histories: send the key as 'Authorization: "
-                    "Bearer <key>' or as 'X-API-Key: <key>', and revoke this one if it is real.")
-            elif self._is_foreign(scope):
-                app = problem_response(
-                    403, "foreign-page", "Pages of other origins may not do this",
-                    "A page of another origin sent this request: list its origin in "
-                    "TANDEM_CORS_ORIGINS if it should be allowed.")
-            if app is not self._app:
-                self._metrics.count_refusal("access")
-        await app(scope, receive, send)
+        refusal = self._refusal(scope) if scope["type"] == "http" else None
+        if refusal is not None:
+            self._metrics.count_refusal("access")
+        await (refusal or self._app)(scope, receive, send)
 
-    def _is_foreign(self, scope: Scope) -> bool:
+    def _refusal(self, scope: Scope) -> ASGIApp | None:
+        """Return what refuses a request; None: it may pass."""
+        if scope.get("state", {}).get(KEY_IN_URL):
+            return problem_response(
+                400, "key-in-url", "A key must not be in the URL",
+                "Addresses end up in logs and histories: send the key as 'Authorization: "
+                "Bearer <key>' or as 'X-API-Key: <key>', and revoke this one if it is real.")
+        headers = Headers(scope=scope)
+        if not (scope["path"].startswith(HEALTH) or self._hosts.trusts(headers.get("host", ""))):
+            return problem_response(
+                421, "untrusted-host", "The service is not called by this name",
+                "The header Host has a name that this service doesn't go by: list it in "
+                "TANDEM_TRUSTED_HOSTS if it should be.")
+        if scope["method"] not in _READING and self._is_foreign(headers):
+            return problem_response(
+                403, "foreign-page", "Pages of other origins may not do this",
+                "A page of another origin sent this request: list its origin in "
+                "TANDEM_CORS_ORIGINS if it should be allowed.")
+        return None
+
+    def _is_foreign(self, headers: Headers) -> bool:
         """Tell whether a browser sends this for a page that may not change anything here.
 
         Without it, any page could have plans computed by a service on its visitor's machine.
+        Over plain HTTP browsers tell `Sec-Fetch-Site` to loopback names alone, so `Origin` counts.
         """
-        if scope["method"] in _READING:
+        origin = headers.get("origin")
+        if origin in self._origins:
             return False
-        headers = Headers(scope=scope)
-        return (headers.get("sec-fetch-site", "none") not in ("none", "same-origin")
-                and headers.get("origin") not in self._origins)
+        site = headers.get("sec-fetch-site")
+        if site is not None:
+            return site not in ("none", "same-origin")
+        return origin is not None and not is_same_host(origin, headers.get("host", ""))
 
 
 def _has_key(query: bytes) -> bool:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from ipaddress import ip_address
 from urllib.parse import urlsplit
 
 from fastapi import FastAPI
@@ -11,6 +10,7 @@ from starlette.middleware.cors import CORSMiddleware
 from app.access.gate import Gate
 from app.access.guard import Guard
 from app.access.headers import SecurityHeaders
+from app.access.hosts import ANY, TrustedHosts, is_loopback
 from app.access.keys import KeyStore
 from app.access.limits import Limits, Rates
 from app.database import make_engine
@@ -40,14 +40,6 @@ def check_exposure(settings: Settings, host: str) -> None:
             "with a key from 'tandem keys create', or TANDEM_ACCESS=open to let in everybody.")
 
 
-def is_loopback(host: str) -> bool:
-    """Tell whether only this machine can reach an address."""
-    try:
-        return ip_address(host.strip("[]")).is_loopback
-    except ValueError:
-        return host == "localhost"
-
-
 @contextmanager
 def guarding(settings: Settings) -> Iterator[Guard]:
     """Yield the guard that the settings ask for; its database is open until the block ends."""
@@ -65,7 +57,11 @@ def guarding(settings: Settings) -> Iterator[Guard]:
 
 def control_access(app: FastAPI, settings: Settings) -> None:
     """Put what is refused, allowed and told around the endpoints. In place."""
-    app.add_middleware(Gate, origins=settings.cors_origins, metrics=app.state.metrics)
+    # Where keys are needed, a page under a name that was turned this way has none.
+    needs_no_key = settings.access != "keys"
+    trusted = TrustedHosts(settings.trusted_hosts or (() if needs_no_key else (ANY,)))
+    app.add_middleware(Gate, hosts=trusted, origins=settings.cors_origins,
+                       metrics=app.state.metrics)
     if settings.cors_origins:
         app.add_middleware(
             CORSMiddleware, allow_origins=settings.cors_origins,

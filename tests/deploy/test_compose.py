@@ -1,13 +1,16 @@
 """compose.yaml is valid, keeps to this machine and states settings that exist."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import pytest
 import yaml
 from compose_spec import PyCompose
 
+from app.access.hosts import TrustedHosts
 from app.settings import Settings
 
 ROOT = Path(__file__).parents[2]
@@ -61,6 +64,19 @@ def test_settings_exist_and_are_valid(monkeypatch: pytest.MonkeyPatch) -> None:
         for name, value in stated.items():
             monkeypatch.setenv(name, value)
         Settings()
+
+
+def test_health_checks_and_other_containers_ask_under_trusted_names(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("api", "worker-1", "worker-2"):
+        for variable, value in SERVICES[name]["environment"].items():
+            monkeypatch.setenv(variable, value)
+        trusted = TrustedHosts(Settings().trusted_hosts)
+        (url,) = re.findall(r"http://[^']+", " ".join(SERVICES[name]["healthcheck"]["test"]))
+        assert trusted.trusts(urlsplit(url).netloc)
+        assert trusted.trusts("api:8000")
+        for published in SERVICES[name].get("ports", []):
+            assert trusted.trusts(published.rpartition(":")[0])
 
 
 def test_each_worker_has_a_name_of_its_own() -> None:

@@ -7,9 +7,11 @@ from typing import Any
 
 import httpx
 import pytest
+from pydantic import ValidationError
 from typer.testing import CliRunner
 
 from app.access.headers import SecurityHeaders
+from app.access.hosts import TrustedHosts
 from app.access.setup import ExposedError, check_exposure
 from app.cli import cli
 from app.settings import Settings
@@ -128,6 +130,77 @@ def test_listed_origins_may_plan(serve: Serve, smallest: dict[str, Any]) -> None
         "Origin": "https://other.example.org", "Sec-Fetch-Site": "cross-site"})
     assert other.status_code == 403
     assert "access-control-allow-origin" not in other.headers
+
+
+def test_page_under_a_name_of_its_own_reads_nothing(client: httpx.Client) -> None:
+    for path in ("/jobs", "/", "/openapi.json", "/metrics", "/console/config.json"):
+        reply = client.get(path, headers={"Host": "turned.example.org:8000"})
+        assert (reply.status_code, reply.json()["type"]) == (421, "urn:tandem:error:untrusted-host")
+        assert reply.headers["content-type"] == "application/problem+json"
+        assert reply.headers["x-content-type-options"] == "nosniff"
+    assert client.get("/jobs").status_code == 200
+
+
+def test_probes_ask_under_whatever_name(client: httpx.Client) -> None:
+    for path in ("/health/live", "/health/ready"):
+        assert client.get(path, headers={"Host": "turned.example.org"}).status_code == 200
+
+
+@pytest.mark.parametrize("host", [
+    "localhost", "LOCALHOST:8000", "localhost.", "a.localhost", "127.0.0.1:80", "[::1]:8000",
+    "192.0.2.7", "[2001:db8::1]", "fleet.example.org", "a.wild.example", "a.b.wild.example:81"])
+def test_addresses_and_listed_names_are_trusted(host: str) -> None:
+    assert TrustedHosts(["fleet.example.org", "*.wild.example"]).trusts(host)
+
+
+@pytest.mark.parametrize("host", [
+    "", "example.org", "localhost.example.org", "127.0.0.1.example.org", "xfleet.example.org",
+    "a.fleet.example.org", "wild.example", "a@127.0.0.1", "127.0.0.1/x", "[::1", "notlocalhost"])
+def test_other_names_are_not_trusted(host: str) -> None:
+    assert not TrustedHosts(["fleet.example.org", "*.wild.example"]).trusts(host)
+
+
+def test_names_are_the_operators_choice(serve: Serve, tmp_path: Path) -> None:
+    def status(host: str, **stated: Any) -> int:
+        client = serve(FirstFitPlanner(), Settings(data_dir=tmp_path, **stated))
+        return client.get("/openapi.json", headers={"Host": host}).status_code
+
+    assert status("fleet", access="open") == 421
+    assert status("fleet", access="open", trusted_hosts=["fleet"]) == 200
+    assert status("other", access="open", trusted_hosts=["*"]) == 200
+    # A page that was turned to a service with keys has none.
+    assert status("fleet", access="keys") == 200
+    assert status("fleet", access="keys", trusted_hosts=["other"]) == 421
+
+
+@pytest.mark.parametrize("name", ["https://a.example", "a.example:80", "a.*.example", "", "a b"])
+def test_trusted_hosts_are_names_alone(name: str) -> None:
+    with pytest.raises(ValidationError):
+        Settings(trusted_hosts=[name])
+
+
+@pytest.mark.parametrize(("origin", "status"), [
+    ("http://fleet.example.org:8000", 200), ("https://fleet.example.org:8000", 200),
+    ("http://fleet.example.org", 403), ("http://fleet.example.org:9000", 403),
+    ("http://other.example.org:8000", 403), ("null", 403), ("http://[", 403)])
+def test_origin_counts_where_browsers_say_nothing_else(
+        serve: Serve, smallest: dict[str, Any], origin: str, status: int) -> None:
+    client = serve(FirstFitPlanner(), Settings(access="open",
+                                               trusted_hosts=["fleet.example.org"]))
+    while client.get("/health/ready").status_code != 200:
+        pass
+    headers = {"Host": "fleet.example.org:8000", "Origin": origin}
+    assert client.post("/plan", json=smallest, headers=headers).status_code == status
+    assert client.get("/docs", headers=headers).status_code == 200
+
+
+def test_origin_of_a_listed_page_counts_over_plain_http(
+        serve: Serve, smallest: dict[str, Any]) -> None:
+    client = serve(FirstFitPlanner(), Settings(cors_origins=["http://dispatch.local"]))
+    while client.get("/health/ready").status_code != 200:
+        pass
+    for origin, status in (("http://dispatch.local", 200), ("http://other.local", 403)):
+        assert client.post("/plan", json=smallest, headers={"Origin": origin}).status_code == status
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.3.2.1", "::1", "localhost"])
