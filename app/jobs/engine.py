@@ -20,8 +20,8 @@ from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 from app.jobs.identity import Identity
 from app.jobs.planning import NOT_COMPUTED, PlanWork, Slice, Stopping
 from app.jobs.queues import (
-    APPLICATION, APPLICATION_VERSION, EXPIRY_WORKFLOW, PLAN_WORKFLOW, PLANS, SERIALIZER, STUDIES,
-    STUDY_WORKFLOW, WEBHOOK_WORKFLOW, WEBHOOKS, webhook_options,
+    APPLICATION, APPLICATION_VERSION, EXPIRY_WORKFLOW, FORMER_WEBHOOKS, PLAN_WORKFLOW, PLANS,
+    SERIALIZER, STUDIES, STUDY_WORKFLOW, WEBHOOK_WORKFLOW, WEBHOOKS, webhook_options,
 )
 from app.jobs.replies import summary
 from app.jobs.store import JobStore
@@ -31,10 +31,13 @@ from app.jobs.webhook import Caller, UnreachableError, wait_after
 
 logger = logging.getLogger(__name__)
 
-POLLING = 0.2
-"""Seconds between two looks into a queue."""
+POLLING, FORMER_POLLING = 0.2, 5.0
+"""Seconds between two looks into a queue, and into one that nothing is added to any more."""
 
-STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE = 100, 10
+STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE = 100, 20
+
+CALLS_OF_A_HOST = 2
+"""Of all webhooks called at once: a host that is slow to answer keeps the places of no other."""
 
 WARDEN_PERIOD = 5.0
 """Seconds between two looks for jobs whose process is gone."""
@@ -126,9 +129,13 @@ class JobEngine:
         DBOS(config=self._config())
         self._register()
         DBOS.launch()
-        for queue, limit in ((PLANS, self._duties.slots), (STUDIES, STUDIES_AT_ONCE),
-                             (WEBHOOKS, WEBHOOKS_AT_ONCE)):
+        for queue, limit in ((PLANS, self._duties.slots), (STUDIES, STUDIES_AT_ONCE)):
             DBOS.register_queue(queue, worker_concurrency=limit, polling_interval_sec=POLLING)
+        DBOS.register_queue(WEBHOOKS, worker_concurrency=WEBHOOKS_AT_ONCE,
+                            partition_worker_concurrency=CALLS_OF_A_HOST,
+                            polling_interval_sec=POLLING)
+        DBOS.register_queue(FORMER_WEBHOOKS, worker_concurrency=CALLS_OF_A_HOST,
+                            polling_interval_sec=FORMER_POLLING)
         DBOS.apply_schedules([self._expiry])
 
     def _end(self) -> None:
@@ -199,15 +206,21 @@ class JobEngine:
         wait = wait_after(failures + 1)
         logger.warning("webhook of job %s: %s; %s", job_id, problem,
                        "given up" if wait is None else f"tried again after {wait:g} s")
-        if wait is not None:
-            options: EnqueueOptions = {**webhook_options(job_id, failures + 1),
+        url = DBOS.run_step(self._step, self._webhook, job_id)
+        if wait is not None and url is not None:
+            options: EnqueueOptions = {**webhook_options(job_id, url, failures + 1),
                                        "delay_seconds": wait}
             DBOS.enqueue_workflow_with_options(options, job_id, failures + 1)
+
+    def _webhook(self, job_id: str) -> str | None:
+        """Return a job's webhook, if it is there and over."""
+        row = self._duties.store.find(job_id)
+        return row.webhook if row is not None and row.is_over else None
 
     def _call(self, job_id: str) -> str | None:
         """Call a job's webhook; return what went wrong."""
         row = self._duties.store.find(job_id)
-        if row is None or row.webhook is None:
+        if row is None or row.webhook is None or not row.is_over:
             return None
         if self._duties.caller is None:
             return "there is no TANDEM_WEBHOOK_SECRET to sign it with"

@@ -8,15 +8,19 @@ from dbos import DBOSClient, DBOSPortableJSONSerializer, EnqueueOptions
 from sqlalchemy import Connection, Engine
 
 from app.jobs.store import NewJob
+from app.jobs.webhook import host_of
 
 APPLICATION = "tandem"
 
 APPLICATION_VERSION = "1"
 """Jobs are taken by processes of this version only: raise it when the steps of workflows change."""
 
-PLANS, STUDIES, WEBHOOKS = "plans", "studies", "webhooks"
+PLANS, STUDIES, WEBHOOKS = "plans", "studies", "webhooks-by-host"
 """Queues. Comparisons and sweeps wait for their scenarios, so they must not take the plans' slots.
 """
+
+FORMER_WEBHOOKS = "webhooks"
+"""Where earlier versions enqueued calls, which may wait for hours until they are repeated."""
 
 PLAN_WORKFLOW, STUDY_WORKFLOW = "plan_job", "study_job"
 WEBHOOK_WORKFLOW, EXPIRY_WORKFLOW = "call_webhook", "expire_jobs"
@@ -55,9 +59,9 @@ class Queues:
             options |= {"workflow_name": STUDY_WORKFLOW, "queue_name": STUDIES}
         self.client.enqueue_in_transaction(connection, options, job.id)
 
-    def add_webhook(self, connection: Connection, job_id: str) -> None:
+    def add_webhook(self, connection: Connection, job_id: str, url: str) -> None:
         """Enqueue the call of a job's webhook when the transaction commits. In place."""
-        self.client.enqueue_in_transaction(connection, webhook_options(job_id, 0), job_id, 0)
+        self.client.enqueue_in_transaction(connection, webhook_options(job_id, url, 0), job_id, 0)
 
     def put_back(self, job_id: str, is_plan: bool) -> None:
         """Have a job that some process took begun again by any. In place."""
@@ -93,9 +97,10 @@ class Queues:
         self.client.delete_workflows(list(ids))
 
 
-def webhook_options(job_id: str, failures: int) -> EnqueueOptions:
-    """Return how a webhook is enqueued that failed some times already."""
+def webhook_options(job_id: str, url: str, failures: int) -> EnqueueOptions:
+    """Return how a webhook is enqueued that failed some times already: beside its host's others."""
     return {"workflow_name": WEBHOOK_WORKFLOW, "queue_name": WEBHOOKS,
+            "queue_partition_key": host_of(url),
             "workflow_id": f"{job_id}:webhook:{failures}", "app_version": APPLICATION_VERSION}
 
 

@@ -98,12 +98,13 @@ class JobStore:
     expiry
         How long jobs are kept after their end in milliseconds.
     announce
-        Called in the transaction that ends a job with a webhook, with the job's id.
+        Called in the transaction that ends a job with a webhook, with the job's id and the webhook.
     count
         Called after a job ended, with its kind, its state and how many seconds it ran, if it did.
     """
 
-    def __init__(self, engine: Engine, expiry: int, announce: Callable[[Connection, str], None],
+    def __init__(self, engine: Engine, expiry: int,
+                 announce: Callable[[Connection, str, str], None],
                  count: Callable[[Kind, State, float | None], None]) -> None:
         self._engine = engine
         self._expiry = expiry
@@ -276,7 +277,7 @@ class JobStore:
             if state == "failed":
                 connection.execute(delete(RESULTS).where(RESULTS.c.job == job_id))
             if row.webhook is not None:
-                self._announce(connection, job_id)
+                self._announce(connection, job_id, row.webhook)
         seconds = None if row.started_at is None else (at - row.started_at) / 1000
         self._count(row.kind, state, seconds)
         return True

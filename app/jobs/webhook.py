@@ -1,22 +1,24 @@
 """Calls of a client's address when its job has ended: signed, tried again, to public hosts only."""
 
-import ipaddress
 import logging
 import socket
 from datetime import UTC, datetime
 from urllib.parse import urlsplit
 
+import anyio
 import httpx
+from anyio import to_thread
 from pydantic import SecretStr
 from standardwebhooks import Webhook
 
 from app.errors import InputError, InvalidRequestError
+from app.jobs.addresses import is_public
 from app.settings import Settings
 
 logger = logging.getLogger(__name__)
 
 TIMEOUT = 10.0
-"""Seconds that a receiver may take for each part of an exchange."""
+"""Seconds for a call as a whole: its name, its connection, the request, and the answer's head."""
 
 FIRST_WAIT, WAIT_FACTOR, MAX_FAILURES = 2.0, 3.0, 10
 """Seconds until the second call, by how much more until each further one, and when to give up:
@@ -51,12 +53,17 @@ def check_url(url: str, settings: Settings) -> None:
     elif not _is_callable(url):
         problem = "This is no URL to call: state one such as 'https://example.org/hook', without " \
                   "user and password."
-    elif not may_call_private(settings) and _is_private(urlsplit(url).hostname or ""):
+    elif not may_call_private(settings) and _is_private(host_of(url)):
         problem = "The host is in a private network, which this service doesn't call " \
                   "(TANDEM_WEBHOOK_PRIVATE): state a public one."
     if problem is not None:
         raise InvalidRequestError([InputError(code="WEBHOOK", path="query.webhook",
                                               message=problem)])
+
+
+def host_of(url: str) -> str:
+    """Return the host that a webhook calls."""
+    return urlsplit(url).hostname or ""
 
 
 def _is_callable(url: str) -> bool:
@@ -96,11 +103,16 @@ class Caller:
         What calls are signed with, `whsec_` and base64 as Standard Webhooks has it.
     may_call_private
         Whether hosts of this machine and of private networks may be called.
+    patience
+        Seconds for a call as a whole.
     """
 
-    def __init__(self, secret: SecretStr, may_call_private: bool) -> None:
+    def __init__(self, secret: SecretStr, may_call_private: bool,
+                 patience: float = TIMEOUT) -> None:
         self._webhook = Webhook(secret.get_secret_value())
         self._may_call_private = may_call_private
+        self._patience = patience
+        self._tls = httpx.create_ssl_context(trust_env=False)
 
     def call(self, url: str, message_id: str, body: str) -> None:
         """Send a message.
@@ -118,42 +130,41 @@ class Caller:
             "webhook-timestamp": str(int(now.timestamp())),
             "webhook-signature": self._webhook.sign(message_id, now, body),
         }
-        target = httpx.URL(url)
-        address = self._resolved(target)
-        # The address that was checked is the one that is called, whatever the name means next.
+        # What httpx calls a timeout begins anew with each byte that comes.
         try:
-            with (httpx.Client(timeout=TIMEOUT, trust_env=False) as client,
-                  client.stream("POST", target.copy_with(host=address), content=body,
-                                headers={**headers, "Host": target.netloc.decode()},
-                                extensions={"sni_hostname": target.host}) as response):
-                status = response.status_code  # its body, however long, is not read
+            status = anyio.run(self._post, httpx.URL(url), headers, body)
+        except TimeoutError as error:
+            raise UnreachableError(f"the call took more than {self._patience:g} s") from error
         except httpx.HTTPError as error:
             raise UnreachableError(f"{type(error).__name__}: {error}") from error
         if not 200 <= status < 300:
             raise UnreachableError(f"the answer was {status}")
 
-    def _resolved(self, target: httpx.URL) -> str:
+    async def _post(self, target: httpx.URL, headers: dict[str, str], body: str) -> int:
+        """Return the status of the answer, whose body, however long, is not read."""
+        with anyio.fail_after(self._patience):
+            address = await self._resolved(target)
+            # What was checked is what is called, whatever the name means next.
+            async with (
+                httpx.AsyncClient(timeout=None, trust_env=False, verify=self._tls,
+                                  follow_redirects=False) as client,
+                client.stream("POST", target.copy_with(host=address), content=body,
+                              headers={**headers, "Host": target.netloc.decode()},
+                              extensions={"sni_hostname": target.host}) as response,
+            ):
+                return response.status_code
+
+    async def _resolved(self, target: httpx.URL) -> str:
         """Return an address of a host that may be called."""
         try:
-            found = socket.getaddrinfo(target.host, target.port, type=socket.SOCK_STREAM)
+            found = await to_thread.run_sync(_look_up, target, abandon_on_cancel=True)
         except OSError as error:
             raise UnreachableError(f"the host is not known: {error}") from error
-        addresses = [str(info[4][0]) for info in found]
-        if not self._may_call_private and not all(map(is_public, addresses)):
+        if not self._may_call_private and not all(map(is_public, found)):
             raise UnreachableError("the host is in a private network, which is not called")
-        return addresses[0]
+        return found[0]
 
 
-def is_public(address: str) -> bool:
-    """Tell whether an address belongs to the public internet."""
-    parsed = ipaddress.ip_address(address.partition("%")[0])
-    embedded = getattr(parsed, "ipv4_mapped", None) or getattr(parsed, "sixtofour", None)
-    if embedded is not None:
-        return is_public(str(embedded))
-    # Translated to any IPv4 address by some networks' gateways.
-    if parsed in _NAT64:
-        return False
-    return parsed.is_global and not parsed.is_multicast
-
-
-_NAT64 = ipaddress.ip_network("64:ff9b::/96")
+def _look_up(target: httpx.URL) -> list[str]:
+    found = socket.getaddrinfo(target.host, target.port, type=socket.SOCK_STREAM)
+    return [str(info[4][0]) for info in found]

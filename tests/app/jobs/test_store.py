@@ -16,7 +16,7 @@ class Books:
 
     def __init__(self) -> None:
         self.enqueued: list[str] = []
-        self.announced: list[str] = []
+        self.announced: list[tuple[str, str]] = []
         self.ended: list[tuple[str, str]] = []
 
     def enqueue(self, connection: Connection, job: NewJob) -> None:
@@ -34,7 +34,7 @@ def books() -> Books:
 def store(settings: Settings, books: Books) -> Iterator[JobStore]:
     """Return an empty store."""
     engine = connect(settings)
-    store = JobStore(engine, 1000, lambda _, job: books.announced.append(job),
+    store = JobStore(engine, 1000, lambda _, job, url: books.announced.append((job, url)),
                      lambda kind, state, _: books.ended.append((kind, state)))
     store.prepare()
     yield store
@@ -135,7 +135,7 @@ def test_job_ends_once(store: JobStore, books: Books) -> None:
     assert seen.state == "cancelled"
     assert seen.finished_at is not None
     assert seen.expires_at == seen.finished_at + 1000
-    assert books.announced == [job]
+    assert books.announced == [(job, "https://example.org")]
     assert books.ended == [("plan", "cancelled")]
 
 
