@@ -13,6 +13,7 @@ from app.file_errors import EXIT_BAD_INPUT, refuse
 from app.importers import FileFormat, convert_file
 from app.instance_files import Rounding
 from app.load.serving import run_server
+from app.migrations.cli import database_cli
 from app.pictures.cli import plot
 from app.plan_reading import plan_to_solution
 from app.reading import read_request
@@ -28,6 +29,7 @@ EXIT_INFEASIBLE = 1
 cli = typer.Typer(help="Plan deliveries for trucks that carry drones.", no_args_is_help=True,
                   add_completion=False)
 cli.add_typer(keys_cli, name="keys")
+cli.add_typer(database_cli, name="database")
 cli.command()(plot)
 
 ProblemFile = Annotated[Path, typer.Argument(help="Request of POST /plan as JSON.", exists=True,

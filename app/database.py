@@ -2,14 +2,17 @@
 
 import fcntl
 import os
+import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import URL, Engine, MetaData, create_engine, event, make_url, text
-from sqlalchemy.exc import ArgumentError
+from psycopg.errors import UndefinedColumn, UndefinedTable
+from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url, text
+from sqlalchemy.exc import ArgumentError, DBAPIError, InterfaceError, OperationalError
+from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 
 from app.settings import Settings
 
@@ -22,7 +25,7 @@ CONNECT_SECONDS = 5
 """How long PostgreSQL may take to accept a connection."""
 
 _SCHEMA_LOCK = 7_236_101
-"""Key of PostgreSQL's advisory lock for making tables; any number, the same everywhere."""
+"""Key of PostgreSQL's advisory lock for changing tables; any number, the same everywhere."""
 
 
 def database_url(settings: Settings) -> URL:
@@ -60,14 +63,37 @@ def make_engine(settings: Settings) -> Engine:
                          connect_args={"connect_timeout": CONNECT_SECONDS})
 
 
-def create_tables(engine: Engine, tables: MetaData) -> None:
-    """Make the tables that aren't there yet; several processes may do so at once. In place."""
+@contextmanager
+def changing_tables(engine: Engine) -> Iterator[Connection]:
+    """Yield a transaction in which no other process changes tables: all of it counts, or none."""
     with engine.begin() as connection:
         if engine.dialect.name == "postgresql":
             connection.execute(text("SELECT pg_advisory_xact_lock(:key)"), {"key": _SCHEMA_LOCK})
         elif engine.dialect.name == "sqlite":
             connection.exec_driver_sql("BEGIN IMMEDIATE")
-        tables.create_all(connection)
+        yield connection
+
+
+def is_outage(error: BaseException) -> bool:
+    """Tell whether an error means that the database can't be reached, or not now."""
+    if is_misfit(error):
+        return False
+    if isinstance(error, OperationalError | InterfaceError | PoolTimeoutError):
+        return True
+    return isinstance(error, DBAPIError) and error.connection_invalidated
+
+
+def is_misfit(error: BaseException) -> bool:
+    """Tell whether an error means that a table or a column isn't there."""
+    if not isinstance(error, DBAPIError):
+        return False
+    if isinstance(error.orig, sqlite3.OperationalError):
+        return any(words in str(error.orig) for words in _NOT_THERE)
+    return isinstance(error.orig, UndefinedTable | UndefinedColumn)
+
+
+_NOT_THERE = ("no such column", "no such table", "has no column named")
+"""SQLite's words, which come with a code that stands for all faults of statements."""
 
 
 def _set_up_sqlite(folder: Path, connection: Any, _: object) -> None:

@@ -69,13 +69,17 @@ async def live() -> dict[str, str]:
 
 @router.get("/health/ready", summary="Can it plan now?", tags=["operations"],
             response_model=ReadinessReply, responses={503: {
-                "model": ReadinessReply, "description": "The service is starting or stopping."}})
+                "model": ReadinessReply, "description": "The service is starting or stopping, or "
+                "its database is not as it has to be."}})
 async def ready(request: Request, service: Service) -> JSONResponse:
     """Answer 200 while plans can be computed and jobs taken, 503 before and after."""
     if request.app.state.shutdown.has_begun:
         return JSONResponse({"status": "stopping", "detail": "this process is about to end"}, 503)
     if request.app.state.jobs.is_preparing:
         return JSONResponse({"status": "starting", "detail": "the database is being prepared"}, 503)
+    trouble = await request.app.state.jobs.misfit() or await request.app.state.guard.trouble()
+    if trouble is not None:
+        return JSONResponse({"status": "unavailable", "detail": trouble}, 503)
     readiness = service.readiness()
     content = {"status": "ready" if readiness.is_ready else "starting", "detail": readiness.detail}
     return JSONResponse(content, 200 if readiness.is_ready else 503)

@@ -218,7 +218,8 @@ class LivenessReply(_Reply):
 class ReadinessReply(_Reply):
     """Whether plans can be computed now."""
 
-    status: Literal["ready", "starting", "stopping"] = Field(
-        description="`ready` if plans can be computed."
+    status: Literal["ready", "starting", "stopping", "unavailable"] = Field(
+        description="`ready` if plans can be computed; `unavailable` while the database's tables "
+        "don't fit this version, or keys are needed and can't be read."
     )
     detail: str = Field(description="The same in words.")

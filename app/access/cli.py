@@ -4,16 +4,12 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
-from sqlalchemy.exc import SQLAlchemyError
 
 from app.access.keys import KeyStore
-from app.database import make_engine
-from app.settings import Settings
-
-EXIT_FAILED = 1
+from app.migrations.cli import database, fail
 
 keys_cli = typer.Typer(help="Make, list and revoke API keys.", no_args_is_help=True)
 
@@ -62,30 +58,17 @@ def revoke(
     with _key_store() as store:
         is_revoked = store.revoke(key_id)
     if not is_revoked:
-        _fail(f"There is no valid key with the id {key_id!r}.")
+        fail(f"There is no valid key with the id {key_id!r}.")
     typer.echo(f"{key_id} is revoked.")
 
 
 @contextmanager
 def _key_store() -> Iterator[KeyStore]:
     """Yield the keys in the database that the settings name."""
-    try:
-        engine = make_engine(Settings())
-        try:
-            yield KeyStore(engine)
-        finally:
-            engine.dispose()
-    except (SQLAlchemyError, OSError, ValueError) as error:
-        # The class alone: messages may repeat the URL, and so its password.
-        _fail(f"The database can't be used ({type(error).__name__}): see TANDEM_DATABASE_URL and "
-              "TANDEM_DATA_DIR.")
+    with database() as engine:
+        yield KeyStore(engine)
 
 
 def _moment(seconds: int | None) -> str:
     """Return a time in UTC, to the minute."""
     return "-" if seconds is None else time.strftime("%Y-%m-%d %H:%M", time.gmtime(seconds))
-
-
-def _fail(message: str) -> NoReturn:
-    typer.echo(message, err=True)
-    raise typer.Exit(EXIT_FAILED)

@@ -14,7 +14,9 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from app.access.keys import LAST_USED_STEP, SCOPES, Keys, KeyStore, Scope, StoredKey, find_key
 from app.access.limits import Limits, client_address
+from app.database import is_misfit
 from app.errors import RequestError
+from app.migrations.running import SchemaError
 
 logger = logging.getLogger(__name__)
 
@@ -94,6 +96,7 @@ class Guard:
         self._read_at = -float("inf")
         self._tried_at = -float("inf")
         self._reading: asyncio.Task[None] | None = None
+        self._trouble = "they were not read yet"
         self._noted: dict[str, float] = {}
 
     async def admit(self, request: Request, presented: str, needed: frozenset[Scope]) -> Principal:
@@ -129,6 +132,30 @@ class Guard:
             self._limits.take(request, principal.key_id if self._store else None, needed)
         return principal
 
+    async def trouble(self) -> str | None:
+        """Return why keys can't be checked now; None: they can, or none are needed."""
+        if self._store is None or time.monotonic() - self._read_at < STALE_SECONDS / 2:
+            return None
+        try:
+            await self._refresh(self._store)
+        except KeysUnreadableError as error:
+            return str(error)
+        # Whoever comes next with a key made meanwhile is let in at once, as if nobody had asked.
+        self._read_at -= REFRESH_SECONDS
+        self._tried_at -= REFRESH_SECONDS
+        return None
+
+    async def still_admits(self, principal: Principal) -> bool:
+        """Tell whether the key of whoever was let in is valid still, as far as can be told."""
+        if self._store is None:
+            return True
+        try:
+            await self._refresh(self._store)
+        except KeysUnreadableError:
+            return False
+        key = self._keys.get(principal.key_id)
+        return key is not None and key.revoked_at is None
+
     async def _identify(self, request: Request, presented: str, store: KeyStore) -> Principal:
         await self._refresh(store)
         key = find_key(self._keys, presented)
@@ -152,14 +179,20 @@ class Guard:
         if self._reading is not None:
             await asyncio.wait({self._reading}, timeout=max(0.0, self._tried_at + PATIENCE - now))
         if time.monotonic() - self._read_at > STALE_SECONDS:
-            raise KeysUnreadableError("The keys can't be read: try again soon.")
+            raise KeysUnreadableError(f"The API keys can't be read ({self._trouble}): try again "
+                                      "soon.")
 
     async def _read(self, store: KeyStore) -> None:
         began = time.monotonic()
         try:
             self._keys = await asyncio.to_thread(store.load)
             self._read_at = began
+        except SchemaError as error:
+            self._trouble = str(error)
         except SQLAlchemyError as error:
+            # The class alone goes to the log: messages may repeat the URL, and so its password.
+            self._trouble = ("the database's tables don't fit" if is_misfit(error)
+                             else "the database can't be reached")
             logger.error("keys can't be read: %s", type(error).__name__)
 
     async def _note_use(self, store: KeyStore, key: StoredKey) -> None:

@@ -9,11 +9,10 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from sqlalchemy import (
-    BigInteger, Column, Engine, LargeBinary, MetaData, String, Table, Text, insert, select, update,
-)
+from sqlalchemy import Engine, insert, select, update
 
-from app.database import create_tables
+from app.migrations.running import upgrade
+from app.tables import KEYS
 
 Scope = Literal["plan", "jobs", "admin"]
 SCOPES: tuple[Scope, ...] = ("plan", "jobs", "admin")
@@ -27,18 +26,6 @@ LAST_USED_STEP = 600
 """Seconds by which the time of the last use may be too old; noting each use would cost a write."""
 
 _KEY = re.compile(rf"{PREFIX}([0-9a-f]{{{2 * ID_BYTES}}})_[0-9a-f]{{{2 * SECRET_BYTES}}}")
-
-_TABLES = MetaData()
-_KEYS = Table(
-    "api_keys", _TABLES,
-    Column("id", String(2 * ID_BYTES), primary_key=True),
-    Column("name", Text, nullable=False),
-    Column("digest", LargeBinary(32), nullable=False),
-    Column("scopes", String(100), nullable=False),
-    Column("created_at", BigInteger, nullable=False),
-    Column("revoked_at", BigInteger),
-    Column("last_used_at", BigInteger),
-)
 
 
 @dataclass(frozen=True)
@@ -62,11 +49,11 @@ _NOBODY = StoredKey("", "", bytes(32), frozenset(), 0, revoked_at=0)
 
 
 class KeyStore:
-    """The keys in the service's database."""
+    """The keys in the service's database, whose tables are made at the first use."""
 
     def __init__(self, engine: Engine) -> None:
-        create_tables(engine, _TABLES)
         self._engine = engine
+        self._is_prepared = False
 
     def create(self, name: str, scopes: Collection[Scope]) -> str:
         """Add a key and return it: it can't be read again. In place.
@@ -82,30 +69,43 @@ class KeyStore:
         key = f"{PREFIX}{key_id}_{secrets.token_hex(SECRET_BYTES)}"
         row = {"id": key_id, "name": name, "digest": _digest(key), "created_at": int(time.time()),
                "scopes": " ".join(scope for scope in SCOPES if scope in scopes)}
-        with self._engine.begin() as connection:
-            connection.execute(insert(_KEYS).values(row))
+        with self._prepared().begin() as connection:
+            connection.execute(insert(KEYS).values(row))
         return key
 
     def load(self) -> Keys:
         """Return all keys, the oldest first, revoked ones included."""
-        order = select(_KEYS).order_by(_KEYS.c.created_at, _KEYS.c.id)
-        with self._engine.connect() as connection:
+        order = select(KEYS).order_by(KEYS.c.created_at, KEYS.c.id)
+        with self._prepared().connect() as connection:
             rows = connection.execute(order).mappings().all()
         return {row["id"]: StoredKey(**{**row, "scopes": frozenset(row["scopes"].split())})
                 for row in rows}
 
     def revoke(self, key_id: str) -> bool:
         """Revoke a key for good; False if there is none that is valid. In place."""
-        change = (update(_KEYS).where(_KEYS.c.id == key_id, _KEYS.c.revoked_at.is_(None))
+        change = (update(KEYS).where(KEYS.c.id == key_id, KEYS.c.revoked_at.is_(None))
                   .values(revoked_at=int(time.time())))
-        with self._engine.begin() as connection:
+        with self._prepared().begin() as connection:
             return connection.execute(change).rowcount == 1
 
     def note_use(self, key_id: str) -> None:
         """Note that a key was used now. In place."""
-        change = update(_KEYS).where(_KEYS.c.id == key_id).values(last_used_at=int(time.time()))
-        with self._engine.begin() as connection:
+        change = update(KEYS).where(KEYS.c.id == key_id).values(last_used_at=int(time.time()))
+        with self._prepared().begin() as connection:
             connection.execute(change)
+
+    def _prepared(self) -> Engine:
+        """Return the database, brought to this version.
+
+        Raises
+        ------
+        SchemaError
+            If that can't be done.
+        """
+        if not self._is_prepared:
+            upgrade(self._engine)
+            self._is_prepared = True
+        return self._engine
 
 
 def find_key(keys: Keys, presented: str) -> StoredKey | None:

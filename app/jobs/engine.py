@@ -14,9 +14,9 @@ from typing import Any
 from dbos import DBOS, DBOSConfig, EnqueueOptions, ScheduleInput, StepOptions
 from pydantic_core import to_json
 from sqlalchemy import Engine, event
-from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError, SQLAlchemyError
-from sqlalchemy.exc import TimeoutError as PoolTimeoutError
+from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 
+from app.database import is_misfit, is_outage
 from app.jobs.identity import Identity
 from app.jobs.planning import NOT_COMPUTED, PlanWork, Slice, Stopping
 from app.jobs.queues import (
@@ -241,17 +241,10 @@ class JobEngine:
                 logger.warning("the database can't be reached: %s", type(error).__name__)
 
     def _is_outage(self, error: BaseException) -> bool:
-        """Tell whether a step failed only because the database can't be reached."""
+        """Tell whether a step failed only because of the database, which somebody will mend."""
         if self._stopping.is_set():
             raise Stopping from error
-        return is_outage(error)
-
-
-def is_outage(error: BaseException) -> bool:
-    """Tell whether an error means that the database can't be reached, or not now."""
-    if isinstance(error, OperationalError | InterfaceError | PoolTimeoutError):
-        return True
-    return isinstance(error, DBAPIError) and error.connection_invalidated
+        return is_outage(error) or is_misfit(error)
 
 
 def _refuse(*_: object) -> None:

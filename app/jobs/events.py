@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections import Counter
-from collections.abc import AsyncGenerator, AsyncIterator, Awaitable, Callable, Collection, Iterable
+from collections.abc import AsyncGenerator, Awaitable, Callable, Collection, Iterable
 from contextlib import aclosing, suppress
 
 from pydantic_core import to_json
@@ -17,6 +17,9 @@ logger = logging.getLogger(__name__)
 
 PERIOD = 0.2
 """Seconds between two looks at the jobs that are followed."""
+
+ADMISSION_PERIOD = 1.0
+"""Seconds between two looks whether whoever follows a job still may."""
 
 
 class Watcher:
@@ -85,7 +88,34 @@ class Watcher:
             self._news.notify_all()
 
 
-async def events(watcher: Watcher, row: JobRow, seen: int) -> AsyncIterator[ServerSentEvent]:
+async def while_admitted(stream: AsyncGenerator[ServerSentEvent],
+                         is_admitted: Callable[[], Awaitable[bool]]
+                         ) -> AsyncGenerator[ServerSentEvent]:
+    """Yield what `stream` does, until whoever reads it may not any more."""
+    async with aclosing(stream):
+        while await is_admitted():
+            coming = asyncio.ensure_future(anext(stream, None))
+            try:
+                while not (await asyncio.wait({coming}, timeout=ADMISSION_PERIOD))[0]:
+                    if not await is_admitted():
+                        return
+            finally:
+                await _given_up(coming)
+            event = coming.result()
+            if event is None:
+                return
+            yield event
+
+
+async def _given_up(coming: asyncio.Future[ServerSentEvent | None]) -> None:
+    """Wait no longer for an event, so that its stream can be closed. In place."""
+    if not coming.done():
+        coming.cancel()
+        with suppress(asyncio.CancelledError):
+            await coming
+
+
+async def events(watcher: Watcher, row: JobRow, seen: int) -> AsyncGenerator[ServerSentEvent]:
     """Yield the events of a job.
 
     Their numbers are the job's revisions, the same in every process: what has changed while nobody

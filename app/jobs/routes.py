@@ -9,9 +9,9 @@ from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
 from pydantic_core import to_json
 from sse_starlette import EventSourceResponse
 
-from app.access.guard import Jobs, Principal
+from app.access.guard import Guard, Jobs, Principal
 from app.errors import InputError, InvalidRequestError
-from app.jobs.events import events
+from app.jobs.events import events, while_admitted
 from app.jobs.replies import summary
 from app.jobs.schemas import (
     CompareRequest, JobListReply, JobReply, JobSummaryReply, Kind, ProgressEvent, State,
@@ -145,15 +145,18 @@ async def read_job(job_id: JobId, principal: Jobs, desk: Desk) -> Response:
                 "improvement: a `ProgressEvent`. `end`, once: the job as `GET /jobs` lists it.",
                 "content": event_stream(progress=ProgressEvent, end=JobSummaryReply)}, **FOUND})
 async def follow_job(
-    job_id: JobId, principal: Jobs, desk: Desk,
+    request: Request, job_id: JobId, principal: Jobs, desk: Desk,
     last_event_id: Annotated[str | None, Header(
         alias="Last-Event-ID", max_length=40,
         description="Number of the last event received, after which to go on.")] = None,
 ) -> EventSourceResponse:
-    """Stream what becomes of a job, until it is over."""
+    """Stream what becomes of a job, until it is over or the key is revoked."""
+    guard: Guard = request.app.state.guard
     row = await desk.ask(lambda service: service.find(job_id, principal.key_id))
     seen = int(last_event_id) if last_event_id and last_event_id.isdecimal() else 0
-    return EventSourceResponse(events(desk.watcher, row, seen), ping=HEARTBEAT)
+    stream = while_admitted(events(desk.watcher, row, seen),
+                            lambda: guard.still_admits(principal))
+    return EventSourceResponse(stream, ping=HEARTBEAT)
 
 
 @router.get("/jobs/{job_id}/plan.svg", summary="See a job's plan", response_class=Response,

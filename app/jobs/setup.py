@@ -3,21 +3,23 @@
 import logging
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TypeVar
 
 from anyio import CapacityLimiter, to_thread
 from dbos import DBOS
 from sqlalchemy.exc import SQLAlchemyError
 
+from app.database import is_misfit, is_outage
 from app.jobs.connections import connect
-from app.jobs.engine import JobEngine, is_outage
+from app.jobs.engine import JobEngine
 from app.jobs.errors import JobsUnavailableError
 from app.jobs.events import Watcher
 from app.jobs.planning import PlanWork
 from app.jobs.queues import Queues
 from app.jobs.service import JobService
 from app.jobs.working import Surroundings, make_engine, make_store
+from app.migrations.running import SchemaError
 from app.observe.metrics import JobCounts
 from app.pictures.scene import Scene
 from app.schemas_request import PlanRequest
@@ -54,6 +56,7 @@ class JobDesk:
         self._engine: JobEngine | None = None
         self._plans: PlanWork | None = None
         self._is_prepared = False
+        self._misfit: str | None = None
         self._has_tried = threading.Event()
         self._threads = CapacityLimiter(THREADS)
         self._drawing = CapacityLimiter(1)
@@ -82,6 +85,12 @@ class JobDesk:
         """
         return not self._has_tried.is_set()
 
+    async def misfit(self) -> str | None:
+        """Return why the tables can't be used, if they were found not to fit, and still don't."""
+        if self._misfit is not None and self._is_prepared:
+            await to_thread.run_sync(self._look_at_tables, limiter=self._threads)
+        return self._misfit
+
     async def ask(self, question: Callable[[JobService], Result]) -> Result:
         """Ask in a thread, as the database has to be waited for.
 
@@ -93,10 +102,15 @@ class JobDesk:
             If the question has no answer.
         """
         if not self._is_prepared:
-            raise JobsUnavailableError("The database is being prepared: try again soon.")
+            raise JobsUnavailableError(self._misfit or "The database is being prepared: try again "
+                                       "soon.")
         try:
             return await to_thread.run_sync(question, self._service, limiter=self._threads)
         except SQLAlchemyError as error:
+            if is_misfit(error):
+                await to_thread.run_sync(self._look_at_tables, limiter=self._threads)
+                raise JobsUnavailableError(self._misfit or "The database's tables have changed: "
+                                           "try again.") from error
             if not is_outage(error):
                 raise
             logger.warning("the database can't be reached: %s", type(error).__name__)
@@ -137,11 +151,25 @@ class JobDesk:
         try:
             self._store.prepare()
             DBOS.migrate(self._queues.engine.url.render_as_string(hide_password=False))
+        except SchemaError as error:
+            self._note_misfit(str(error))
+            return False
         except SQLAlchemyError as error:
             logger.warning("the database can't be prepared: %s", type(error).__name__)
             return False
+        self._note_misfit(None)
         self._is_prepared = True
         return True
+
+    def _look_at_tables(self) -> None:
+        """See whether the tables fit, as far as the database can be reached. In place."""
+        with suppress(SQLAlchemyError):
+            self._note_misfit(self._store.find_misfit())
+
+    def _note_misfit(self, misfit: str | None) -> None:
+        if misfit is not None and misfit != self._misfit:
+            logger.error("%s", misfit)
+        self._misfit = misfit
 
     def _stop_here(self, job_id: str) -> None:
         if self._plans is not None:

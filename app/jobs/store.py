@@ -15,9 +15,9 @@ from sqlalchemy import (
 )
 from sqlalchemy.exc import IntegrityError
 
-from app.database import create_tables
 from app.jobs.schemas import Kind, State
-from app.jobs.tables import JOBS, REQUESTS, RESULTS, TABLES
+from app.migrations.running import find_misfit, upgrade
+from app.tables import JOBS, REQUESTS, RESULTS
 
 OPEN: tuple[State, ...] = ("queued", "running")
 
@@ -112,8 +112,12 @@ class JobStore:
         self._count = count
 
     def prepare(self) -> None:
-        """Make the tables. In place."""
-        create_tables(self._engine, TABLES)
+        """Make the tables, or bring them to this version; raises as `upgrade` does. In place."""
+        upgrade(self._engine)
+
+    def find_misfit(self) -> str | None:
+        """Return how the tables differ from what this version needs; None: they fit."""
+        return find_misfit(self._engine)
 
     def add(self, jobs: Sequence[NewJob],
             enqueue: Callable[[Connection, NewJob], None]) -> bool:

@@ -1,5 +1,6 @@
 """Jobs belong to the key that made them."""
 
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -58,3 +59,33 @@ def test_jobs_need_a_key_with_their_scope(client: httpx.Client, settings: Settin
                          ("POST", "/sweep")):
         assert client.request(method, path).status_code == 401
         assert client.request(method, path, headers=planner).status_code == 403
+
+
+def test_stream_of_a_revoked_key_ends(client: httpx.Client, settings: Settings) -> None:
+    mine = key_for(settings, "jobs")
+    job = submit(client, request_of(1), headers=mine)
+    with client.stream("GET", f"/jobs/{job}/events", headers=mine) as stream:
+        lines = stream.iter_lines()
+        assert next(lines).startswith("id:")
+        engine = make_engine(settings)
+        assert KeyStore(engine).revoke(mine["Authorization"].split("_")[1])
+        engine.dispose()
+        began = time.monotonic()
+        rest = list(lines)
+        # As promised, with some patience for a busy machine.
+        assert time.monotonic() - began < 5
+    assert "event: end" not in rest
+    assert client.get(f"/jobs/{job}/events", headers=mine).status_code == 401
+
+
+def test_stream_of_a_valid_key_goes_on(client: httpx.Client, settings: Settings) -> None:
+    mine, other = key_for(settings, "jobs"), key_for(settings, "jobs")
+    job = submit(client, request_of(1), headers=mine)
+    with client.stream("GET", f"/jobs/{job}/events", headers=mine) as stream:
+        lines = stream.iter_lines()
+        assert next(lines).startswith("id:")
+        engine = make_engine(settings)
+        KeyStore(engine).revoke(other["Authorization"].split("_")[1])
+        engine.dispose()
+        client.delete(f"/jobs/{job}", headers=mine)
+        assert "event: end" in list(lines)

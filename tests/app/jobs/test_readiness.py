@@ -1,14 +1,21 @@
 """When a service says that it is ready, beside jobs."""
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import httpx
 import pytest
 from dbos import DBOS
+from sqlalchemy import Engine, text
 
+from app.access.keys import KeyStore
+from app.database import make_engine
+from app.migrations.running import newest, upgrade
+from app.migrations.version import VERSION_TABLE
 from app.settings import Settings
+from tests.app.jobs.conftest import Postgres
 from tests.app.jobs.stepping import SteppingPlanner, eventually, request_of
 from tests.conftest import free_port
 
@@ -41,3 +48,88 @@ def test_service_without_its_database_is_ready_for_plans(serve: Serve, tmp_path:
     assert client.post("/plan", json=request_of(0)).status_code == 200
     refused = client.post("/jobs", json=request_of(0))
     assert (refused.status_code, "retry-after" in refused.headers) == (503, True)
+
+
+def test_keys_are_read_as_soon_as_the_database_comes(
+        serve: Serve, tmp_path: Path, postgres: Postgres) -> None:
+    settings = Settings(data_dir=tmp_path, database_url=postgres.create("late"), access="keys")
+    postgres.stop()
+    try:
+        client = serve(SteppingPlanner(), settings)
+        detail = eventually(lambda: client.get("/health/ready").json()["detail"].count(
+            "the database can't be reached") and client.get("/health/ready").json()["detail"])
+        assert detail.startswith("The API keys can't be read")
+        assert client.get("/health/ready").status_code == 503
+        refused = client.post("/plan", json=request_of(0), headers={"X-API-Key": "any"})
+        assert (refused.status_code, refused.json()["type"]) == (
+            503, "urn:tandem:error:keys-unreadable")
+        assert "can't be reached" in refused.json()["detail"]
+        assert client.get("/health/live").status_code == 200
+    finally:
+        postgres.start()
+    eventually(lambda: client.get("/health/ready").status_code == 200)
+    with opened(settings) as engine:
+        key = {"X-API-Key": KeyStore(engine).create("ann", ["plan", "jobs"])}
+    for path, status in (("/plan", 200), ("/jobs", 202)):
+        eventually(lambda path=path, status=status: client.post(
+            path, json=request_of(0), headers=key).status_code == status)
+
+
+MISFITS = [("ALTER TABLE jobs DROP COLUMN webhook", "ALTER TABLE jobs ADD COLUMN webhook TEXT",
+            "The database's table jobs lacks the column webhook"),
+           (f"UPDATE {VERSION_TABLE} SET version_num = '9999'",
+            f"UPDATE {VERSION_TABLE} SET version_num = '{newest()}'",
+            "The database has the version 9999")]
+
+
+@pytest.mark.parametrize(("spoil", "mend", "words"), MISFITS)
+def test_tables_that_do_not_fit_at_the_start_are_told_in_words(
+        serve: Serve, settings: Settings, spoil: str, mend: str, words: str) -> None:
+    settings = settings.model_copy(update={"role": "api"})
+    with opened(settings) as engine:
+        upgrade(engine)
+    change(settings, spoil)
+    client = serve(SteppingPlanner(), settings)
+    ready = eventually(lambda: (reply := client.get("/health/ready")).json()["detail"]
+                       .startswith(words) and reply)
+    assert (ready.status_code, ready.json()["status"]) == (503, "unavailable")
+    refused = client.post("/jobs", json=request_of(0))
+    assert refused.status_code == 503
+    assert words in refused.json()["detail"]
+    change(settings, mend)
+    eventually(lambda: client.get("/health/ready").status_code == 200)
+    assert client.post("/jobs", json=request_of(0)).status_code == 202
+
+
+def test_column_that_is_lost_under_way_is_told_in_words(
+        serve: Serve, settings: Settings) -> None:
+    settings = settings.model_copy(update={"role": "api"})
+    client = serve(SteppingPlanner(), settings)
+    eventually(lambda: client.get("/health/ready").status_code == 200)
+    spoil, mend, words = MISFITS[0]
+    change(settings, spoil)
+    refused = client.post("/jobs", json=request_of(0))
+    assert refused.status_code == 503
+    assert words in refused.json()["detail"]
+    ready = client.get("/health/ready")
+    assert (ready.status_code, ready.json()["status"]) == (503, "unavailable")
+    assert words in ready.json()["detail"]
+    change(settings, mend)
+    assert client.get("/health/ready").status_code == 200
+    assert client.post("/jobs", json=request_of(0)).status_code == 202
+
+
+def change(settings: Settings, statement: str) -> None:
+    """Change the database."""
+    with opened(settings) as engine, engine.begin() as connection:
+        connection.execute(text(statement))
+
+
+@contextmanager
+def opened(settings: Settings) -> Iterator[Engine]:
+    """Yield connections to the database."""
+    engine = make_engine(settings)
+    try:
+        yield engine
+    finally:
+        engine.dispose()

@@ -1,10 +1,25 @@
-"""The tables that jobs are kept in."""
+"""The tables of the service's own database, as this version has them.
+
+`app/migrations/versions` leads from those of earlier versions to these.
+"""
 
 from sqlalchemy import (
     BigInteger, Boolean, Column, Float, Index, Integer, LargeBinary, MetaData, String, Table, Text,
 )
 
 TABLES = MetaData()
+
+KEYS = Table(
+    "api_keys", TABLES,
+    Column("id", String(12), primary_key=True),
+    Column("name", Text, nullable=False),
+    Column("digest", LargeBinary(32), nullable=False),
+    Column("scopes", String(100), nullable=False),
+    # Seconds since 1970.
+    Column("created_at", BigInteger, nullable=False),
+    Column("revoked_at", BigInteger),
+    Column("last_used_at", BigInteger),
+)
 
 JOBS = Table(
     "jobs", TABLES,

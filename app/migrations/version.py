@@ -1,0 +1,3 @@
+"""Where a database says which version its tables have."""
+
+VERSION_TABLE = "tandem_version"
