@@ -4,7 +4,8 @@ import fcntl
 import os
 import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from enum import Enum
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,8 +25,15 @@ BUSY_SECONDS = 10
 CONNECT_SECONDS = 5
 """How long PostgreSQL may take to accept a connection."""
 
-_SCHEMA_LOCK = 7_236_101
-"""Key of PostgreSQL's advisory lock for changing tables; any number, the same everywhere."""
+
+class Purpose(Enum):
+    """What one process does at a time, by the key of PostgreSQL's advisory lock for it.
+
+    Any numbers, but the same everywhere.
+    """
+
+    CHANGING_TABLES = 7_236_101
+    ADMITTING_JOBS = 7_236_102
 
 
 def database_url(settings: Settings) -> URL:
@@ -52,9 +60,9 @@ def make_engine(settings: Settings) -> Engine:
     """Return a pool of connections to the database; makes the data folder if it is needed."""
     url = database_url(settings)
     if settings.database_url is None:
-        # The database holds customers' addresses, so no other user may read it.
         settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
     if url.get_backend_name() == "sqlite":
+        _keep_to_owner(Path(url.database or ""), is_ours=settings.database_url is None)
         engine = create_engine(url)
         folder = Path(url.database or "").parent
         event.listen(engine, "connect", partial(_set_up_sqlite, folder))
@@ -64,11 +72,11 @@ def make_engine(settings: Settings) -> Engine:
 
 
 @contextmanager
-def changing_tables(engine: Engine) -> Iterator[Connection]:
-    """Yield a transaction in which no other process changes tables: all of it counts, or none."""
+def alone(engine: Engine, purpose: Purpose) -> Iterator[Connection]:
+    """Yield a transaction beside which no other process has one for the same purpose."""
     with engine.begin() as connection:
         if engine.dialect.name == "postgresql":
-            connection.execute(text("SELECT pg_advisory_xact_lock(:key)"), {"key": _SCHEMA_LOCK})
+            connection.execute(text("SELECT pg_advisory_xact_lock(:key)"), {"key": purpose.value})
         elif engine.dialect.name == "sqlite":
             connection.exec_driver_sql("BEGIN IMMEDIATE")
         yield connection
@@ -94,6 +102,21 @@ def is_misfit(error: BaseException) -> bool:
 
 _NOT_THERE = ("no such column", "no such table", "has no column named")
 """SQLite's words, which come with a code that stands for all faults of statements."""
+
+
+def _keep_to_owner(file: Path, is_ours: bool) -> None:
+    """Let no other user read a file that is made here: it has customers' addresses. In place.
+
+    SQLite gives the files beside it the same permissions. One of our own, which earlier versions
+    left open to others, is closed too; how somebody else's is shared is theirs to say.
+    """
+    try:
+        os.close(os.open(file, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600))
+    except FileExistsError:
+        if is_ours:
+            for each in (file, *file.parent.glob(f"{file.name}-*")):
+                with suppress(FileNotFoundError, PermissionError):
+                    each.chmod(0o600)
 
 
 def _set_up_sqlite(folder: Path, connection: Any, _: object) -> None:

@@ -45,8 +45,8 @@ REFUSALS = {
     "400": "There is a key in the URL, or the request can't be read.",
     "401": "There is no valid API key.",
     "403": "The API key lacks the scope, or a page of another origin asks.",
-    "429": "A rate limit is used up, or too many keys were wrong: try again after `Retry-After` "
-    "seconds.",
+    "429": "A rate limit or a share of the open jobs is used up, or too many keys were wrong: try "
+    "again after `Retry-After` seconds.",
     "503": "The service is busy, or about to stop: try again after `Retry-After` seconds.",
 }
 """What every endpoint that needs a key may answer before it looks at a request."""

@@ -216,6 +216,15 @@ class Settings(BaseSettings):
     max_scenarios: int = Field(
         500, ge=1, le=10_000, description="Most scenarios of a comparison or sweep."
     )
+    max_open_jobs_per_client: int = Field(
+        default_factory=lambda known: min(
+            known.get("max_open_jobs", 1),
+            max(known.get("max_open_jobs", 1) // 4, known.get("max_scenarios", 1))),
+        ge=1,
+        description="As `TANDEM_MAX_OPEN_JOBS`, for each key, or for each address where access is "
+        "open; what comes beyond is refused with 429. Usually a quarter of it, but not below "
+        "`TANDEM_MAX_SCENARIOS`.",
+    )
     job_expiry_hours: float = Field(
         72.0, gt=0, description="Hours after their end when jobs and their results are deleted."
     )

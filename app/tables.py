@@ -49,8 +49,14 @@ JOBS = Table(
     # Raised when a process takes the job: what an earlier one still writes is refused.
     Column("attempt", Integer, nullable=False),
     Column("crashes", Integer, nullable=False),  # attempts in a row that wrote no progress
+    # Who sent the job: a key, or an address where access is open. Scenarios have none.
+    Column("client", String(200)),
+    Column("plans", Integer, nullable=False, server_default="1"),  # that it stands for
+    # Of the owner and the idempotency key, if there is one.
+    Column("key", String(36)),
     Index("jobs_by_owner", "owner", "created_at", "id"),
     Index("jobs_by_state", "state"),
+    Index("jobs_by_key", "key", unique=True),
 )
 
 # Apart from JOBS, whose rows are written each second: SQLite writes rows as a whole.

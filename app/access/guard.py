@@ -40,10 +40,11 @@ class Principal:
 
     key_id: str
     scopes: frozenset[Scope]
+    client: str  # whose share of what is limited it takes: the key's, or that of an address
 
 
-ANYBODY = Principal("anonymous", frozenset(SCOPES))
-"""Whoever asks where access is open."""
+ANYBODY = "anonymous"
+"""Id in place of a key's where access is open."""
 
 
 class UnauthorizedError(RequestError):
@@ -120,8 +121,9 @@ class Guard:
         KeysUnreadableError
             If there is no telling which keys are valid.
         """
-        principal = ANYBODY
-        if self._store is not None:
+        if self._store is None:
+            principal = Principal(ANYBODY, frozenset(SCOPES), client_address(request))
+        else:
             principal = await self._identify(request, presented, self._store)
         if missing := needed - principal.scopes:
             raise ForbiddenError(f"The key lacks the scope {' and '.join(sorted(missing))}: use a "
@@ -129,7 +131,7 @@ class Guard:
         # Logs name the key by its id.
         request.state.key_id = principal.key_id
         if request.method == "POST":
-            self._limits.take(request, principal.key_id if self._store else None, needed)
+            self._limits.take(request, principal.client, needed)
         return principal
 
     async def trouble(self) -> str | None:
@@ -165,7 +167,7 @@ class Guard:
             self._limits.count_failure(client_address(request))
             raise UnauthorizedError
         await self._note_use(store, key)
-        return Principal(key.id, key.scopes)
+        return Principal(key.id, key.scopes, key.id)
 
     async def _refresh(self, store: KeyStore) -> None:
         """Read the keys again if that is due, once for all that wait. In place."""

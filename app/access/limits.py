@@ -55,13 +55,13 @@ class Limits:
         self._failures = (RateLimitItemPerMinute(rates.failures, namespace="failures")
                           if rates.failures else None)
 
-    def take(self, request: Request, key_id: str | None, scopes: frozenset[Scope]) -> None:
+    def take(self, request: Request, client: str, scopes: frozenset[Scope]) -> None:
         """Count a request, and have its reply tell what is left.
 
         Parameters
         ----------
-        key_id
-            Whose request it is; None: its address counts.
+        client
+            Whose request it is: a key, or an address.
         scopes
             Those that the endpoint needs, which tell the limit that holds.
 
@@ -71,10 +71,9 @@ class Limits:
             If the limit is used up.
         """
         for scope in scopes & self._by_scope.keys():
-            who = key_id or client_address(request)
             item = self._by_scope[scope]
-            taken = self._limiter.hit(item, who)
-            headers = self._headers(item, who)
+            taken = self._limiter.hit(item, client)
+            headers = self._headers(item, client)
             if not taken:
                 self._refuse(f"No more than {item.amount} requests a minute are allowed here",
                              headers)

@@ -2,6 +2,9 @@
 
 from app.errors import InputError, InvalidRequestError, RequestError
 
+RETRY_SECONDS = 5
+"""When to try again where a client's jobs have to end first."""
+
 
 class JobsUnavailableError(RequestError):
     """The database with the jobs can't be reached, or isn't prepared yet."""
@@ -18,6 +21,21 @@ class TooManyJobsError(RequestError):
     name = "too-many-jobs"
     title = "Too many jobs are waiting"
     refusal = "overload"
+
+
+class JobShareError(RequestError):
+    """As many jobs of one client wait as may."""
+
+    status = 429
+    name = "job-share-used-up"
+    title = "Too many of your jobs are waiting"
+    refusal = "rate_limit"
+
+    def __init__(self, share: int, there: int) -> None:
+        super().__init__(f"{there} plans of yours wait or run, and {share} at most may "
+                         "(TANDEM_MAX_OPEN_JOBS_PER_CLIENT): try again when some have ended, or "
+                         "send fewer scenarios.")
+        self.headers = {"Retry-After": str(RETRY_SECONDS)}
 
 
 class UnknownJobError(RequestError):

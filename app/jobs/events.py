@@ -11,7 +11,7 @@ from sse_starlette import ServerSentEvent
 
 from app.errors import RequestError
 from app.jobs.replies import progress, summary
-from app.jobs.store import JobRow
+from app.jobs.rows import JobRow
 
 logger = logging.getLogger(__name__)
 

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from pydantic_core import from_json, to_json
 
 from app.errors import RequestError
+from app.jobs.rows import JobRow, Standing
 from app.jobs.schemas import State
 from app.jobs.search import Find, Past, Search
-from app.jobs.store import JobRow, JobStore, Standing, now_ms
+from app.jobs.store import JobStore, now_ms
 from app.replanning import task_of
 from app.replies import Data
 from app.schemas_request import PlanRequest

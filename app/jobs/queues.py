@@ -7,7 +7,7 @@ from datetime import datetime
 from dbos import DBOSClient, DBOSPortableJSONSerializer, EnqueueOptions
 from sqlalchemy import Connection, Engine
 
-from app.jobs.store import NewJob
+from app.jobs.rows import NewJob
 from app.jobs.webhook import host_of
 
 APPLICATION = "tandem"

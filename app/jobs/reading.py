@@ -3,11 +3,12 @@
 from collections.abc import Sequence
 
 from app.jobs.errors import TooManyScenariosError
+from app.jobs.rows import JobRow
 from app.jobs.scenarios import (
     Scenarios, Sweep, apply, check_replan, read_study, validate,
 )
 from app.jobs.schemas import Kind
-from app.jobs.store import JobRow, JobStore
+from app.jobs.store import JobStore
 from app.load.bounds import Bounds
 from app.reading import read_request
 from app.schemas_request import PlanRequest

@@ -2,8 +2,8 @@
 
 from datetime import UTC, datetime
 
+from app.jobs.rows import JobRow
 from app.jobs.schemas import Data
-from app.jobs.store import JobRow
 
 
 def summary(row: JobRow) -> Data:

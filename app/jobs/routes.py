@@ -13,13 +13,13 @@ from app.access.guard import Guard, Jobs, Principal
 from app.errors import InputError, InvalidRequestError
 from app.jobs.events import events, while_admitted
 from app.jobs.replies import summary
+from app.jobs.rows import JobRow
 from app.jobs.schemas import (
     CompareRequest, JobListReply, JobReply, JobSummaryReply, Kind, ProgressEvent, State,
     SweepRequest,
 )
 from app.jobs.service import JobService, Submission, is_job_id
 from app.jobs.setup import JobDesk
-from app.jobs.store import JobRow
 from app.jobs.webhook import check_url
 from app.openapi import ERROR_RESPONSES, EXAMPLES, event_stream, json_body
 from app.routes import Body
@@ -176,7 +176,7 @@ async def stop_job(job_id: JobId, principal: Jobs, desk: Desk) -> Response:
 
 def _submission(kind: Kind, body: ReceivedBody, principal: Principal, key: str | None,
                 webhook: str | None) -> Submission:
-    return Submission(kind, body.content, principal.key_id, key, webhook)
+    return Submission(kind, body.content, principal.key_id, principal.client, key, webhook)
 
 
 async def _submit(request: Request, desk: JobDesk, submission: Submission) -> Response:

@@ -9,12 +9,15 @@ from dataclasses import dataclass
 
 from pydantic_core import from_json, to_json
 
-from app.jobs.errors import KeyReusedError, NoPlanError, TooManyJobsError, UnknownJobError
+from app.jobs.errors import (
+    JobShareError, KeyReusedError, NoPlanError, TooManyJobsError, UnknownJobError,
+)
 from app.jobs.queues import Queues
 from app.jobs.reading import JobReader
 from app.jobs.replies import summary
+from app.jobs.rows import JobRow, NewJob, OpenPlans, Standing
 from app.jobs.schemas import Kind, State
-from app.jobs.store import JobRow, JobStore, NewJob, Standing
+from app.jobs.store import JobStore
 from app.jobs.studies import study_result
 from app.schemas_request import PlanRequest
 
@@ -31,6 +34,7 @@ class Submission:
     kind: Kind
     body: bytes
     owner: str
+    client: str  # whose share of the open jobs it takes
     key: str | None  # of idempotency
     webhook: str | None
 
@@ -40,15 +44,38 @@ class Submission:
         told = f"{self.kind}\n{self.webhook or ''}\n".encode()
         return hashlib.sha256(told + self.body).hexdigest()
 
-    def new_id(self) -> str:
-        """Return an id for the job, the same for the same owner and key."""
-        if self.key is None:
-            return str(uuid.uuid4())
-        return str(uuid.uuid5(_KEYS, f"{self.owner}\n{self.key}"))
+    @property
+    def key_id(self) -> str | None:
+        """Name of the owner and the key together, if there is one."""
+        return None if self.key is None else str(uuid.uuid5(_KEYS, f"{self.owner}\n{self.key}"))
 
 
 _KEYS = uuid.UUID("6f1d5c1e-9d0b-4f57-8f0e-0c5d6a1b2c3d")
-"""Namespace of the ids of jobs with a key; any, but always the same."""
+"""Namespace of keys' names; any, but always the same."""
+
+
+@dataclass(frozen=True)
+class OpenLimits:
+    """How many plans may wait or run at once, in all processes."""
+
+    total: int
+    of_client: int
+
+    def check(self, there: OpenPlans, plans: int) -> None:
+        """Refuse so many more plans of a client.
+
+        Raises
+        ------
+        JobShareError
+            If the client would have more than its share.
+        TooManyJobsError
+            If there would be too many altogether.
+        """
+        if there.of_client + plans > self.of_client:
+            raise JobShareError(self.of_client, there.of_client)
+        if there.total + plans > self.total:
+            raise TooManyJobsError("As many jobs wait as may (TANDEM_MAX_OPEN_JOBS): try again "
+                                   "when some have ended.")
 
 
 _JOB_ID = re.compile("[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
@@ -65,18 +92,18 @@ class JobService:
         Where they wait.
     reader
         What reads requests.
-    most_open
-        How many plans may wait or run at once, in all processes.
+    limits
+        How many plans may wait or run at once.
     stop_here
         Stops a plan job at once if this process works on it.
     """
 
-    def __init__(self, store: JobStore, queues: Queues, reader: JobReader, most_open: int,
+    def __init__(self, store: JobStore, queues: Queues, reader: JobReader, limits: OpenLimits,
                  stop_here: Callable[[str], None]) -> None:
         self._store = store
         self._queues = queues
         self._reader = reader
-        self._most_open = most_open
+        self._limits = limits
         self._stop_here = stop_here
 
     def submit(self, submission: Submission) -> tuple[JobRow, bool]:
@@ -91,19 +118,20 @@ class JobService:
         RequestError
             If the request is not valid, its key belongs to another or too many jobs wait.
         """
-        job_id = submission.new_id()
-        if submission.key is not None:
-            row = self._store.find(job_id)
-            if row is not None:
-                return _same(row, submission), False
+        key_id = submission.key_id
+        if key_id is not None and (row := self._store.find_by_key(key_id)) is not None:
+            return _same(row, submission), False
         plans = self._reader.validate(submission.kind, submission.body)
-        if self._store.count_open() + plans > self._most_open:
-            raise TooManyJobsError("As many jobs wait as may (TANDEM_MAX_OPEN_JOBS): try again "
-                                   "when some have ended.")
-        job = NewJob(job_id, submission.kind, submission.owner, submission.fingerprint,
-                     submission.body, submission.webhook)
-        is_new = self._store.add([job], self._queues.add_job)
-        return _same(self._existing(job_id), submission), is_new
+        # Never an id of before, under which queues and processes may know an earlier job still.
+        job = NewJob(str(uuid.uuid4()), submission.kind, submission.owner, submission.fingerprint,
+                     submission.body, submission.webhook, client=submission.client, plans=plans,
+                     key=key_id)
+        is_new = self._store.admit(job, self._queues.add_job,
+                                   lambda there: self._limits.check(there, plans))
+        row = self._store.find_by_key(key_id) if key_id is not None else self._store.find(job.id)
+        if row is None:
+            raise UnknownJobError(job.id)
+        return _same(row, submission), is_new
 
     def find(self, job_id: str, owner: str) -> JobRow:
         """Return a job.

@@ -18,7 +18,7 @@ from app.jobs.events import Watcher
 from app.jobs.planning import PlanWork
 from app.jobs.queues import Queues
 from app.jobs.service import JobService
-from app.jobs.working import Surroundings, make_engine, make_store
+from app.jobs.working import Surroundings, make_engine, make_store, open_limits
 from app.migrations.running import SchemaError
 from app.observe.metrics import JobCounts
 from app.pictures.scene import Scene
@@ -52,7 +52,7 @@ class JobDesk:
         self._queues = Queues(connect(around.settings))
         self._store = make_store(around, self._queues)
         self._service = JobService(self._store, self._queues, around.reader,
-                                   around.settings.max_open_jobs, self._stop_here)
+                                   open_limits(around.settings), self._stop_here)
         self._engine: JobEngine | None = None
         self._plans: PlanWork | None = None
         self._is_prepared = False

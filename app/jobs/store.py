@@ -7,7 +7,6 @@ frozen, cut off or given up for dead meanwhile so changes nothing any more.
 import time
 import zlib
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
 
 from sqlalchemy import (
     ColumnElement, Connection, Engine, Select, Table, and_, case, delete, func, insert, or_, select,
@@ -15,72 +14,14 @@ from sqlalchemy import (
 )
 from sqlalchemy.exc import IntegrityError
 
+from app.database import Purpose, alone
+from app.jobs.rows import OPEN, JobRow, NewJob, OpenPlans, Standing
 from app.jobs.schemas import Kind, State
 from app.migrations.running import find_misfit, upgrade
 from app.tables import JOBS, REQUESTS, RESULTS
 
-OPEN: tuple[State, ...] = ("queued", "running")
-
 FAST = 1
 """zlib's level: plans are written each second."""
-
-
-@dataclass(frozen=True)
-class JobRow:
-    """A job as the database has it. Times in milliseconds since 1970."""
-
-    id: str
-    kind: Kind
-    owner: str
-    state: State
-    parent: str | None
-    position: int | None
-    fingerprint: str
-    webhook: str | None
-    created_at: int
-    started_at: int | None
-    finished_at: int | None
-    expires_at: int | None
-    progress: float
-    cost: float | None
-    search_iterations: int
-    searched: float  # seconds
-    error: str | None
-    cancel_requested: bool
-    revision: int
-    improved_revision: int
-    attempt: int
-    crashes: int
-
-    @property
-    def is_over(self) -> bool:
-        """Tell whether nothing will change any more."""
-        return self.state not in OPEN
-
-
-@dataclass(frozen=True)
-class NewJob:
-    """A job to be kept."""
-
-    id: str
-    kind: Kind
-    owner: str
-    fingerprint: str
-    body: bytes | None  # None: that of the parent
-    webhook: str | None = None
-    parent: str | None = None
-    position: int | None = None
-
-
-@dataclass(frozen=True)
-class Standing:
-    """How far a job has come."""
-
-    progress: float
-    search_iterations: int
-    searched: float  # seconds
-    cost: float | None = None  # None: unknown, or without meaning for the result
-    result: bytes | None = None  # JSON, of that cost
 
 
 def now_ms() -> int:
@@ -122,25 +63,37 @@ class JobStore:
     def add(self, jobs: Sequence[NewJob],
             enqueue: Callable[[Connection, NewJob], None]) -> bool:
         """Keep and enqueue jobs, all or none; False if the first is there already. In place."""
-        at = now_ms()
-        bodies = [{"job": job.id, "body": zlib.compress(job.body)} for job in jobs
-                  if job.body is not None]
         try:
             with self._engine.begin() as connection:
-                connection.execute(insert(JOBS), [_first_values(job, at) for job in jobs])
-                if bodies:
-                    connection.execute(insert(REQUESTS), bodies)
-                for job in jobs:
-                    enqueue(connection, job)
+                _insert(connection, jobs, enqueue)
         except IntegrityError:
             if self.find(jobs[0].id) is None:
                 raise
             return False
         return True
 
+    def admit(self, job: NewJob, enqueue: Callable[[Connection, NewJob], None],
+              refuse: Callable[[OpenPlans], None]) -> bool:
+        """Keep and enqueue a job unless `refuse` raises; False if its key is taken. In place.
+
+        `refuse` is told of the plans that are open, while no other process admits any.
+        """
+        with alone(self._engine, Purpose.ADMITTING_JOBS) as connection:
+            taken = select(JOBS.c.id).where(JOBS.c.key == job.key)
+            if job.key is not None and connection.scalar(taken) is not None:
+                return False
+            refuse(_open_plans(connection, job.client))
+            _insert(connection, [job], enqueue)
+        return True
+
     def find(self, job_id: str) -> JobRow | None:
         """Return a job."""
         rows = self._rows(select(JOBS).where(JOBS.c.id == job_id))
+        return rows[0] if rows else None
+
+    def find_by_key(self, key: str) -> JobRow | None:
+        """Return the job of a key; before there were keys, they were the jobs' ids."""
+        rows = self._rows(select(JOBS).where(or_(JOBS.c.key == key, JOBS.c.id == key)))
         return rows[0] if rows else None
 
     def find_all(self, ids: Collection[str]) -> list[JobRow]:
@@ -172,12 +125,6 @@ class JobStore:
         if state is not None:
             query = query.where(JOBS.c.state == state)
         return self._rows(query.order_by(JOBS.c.created_at.desc(), JOBS.c.id.desc()).limit(limit))
-
-    def count_open(self) -> int:
-        """Return how many jobs wait or run, scenarios included."""
-        with self._engine.connect() as connection:
-            return connection.scalar(
-                select(func.count()).select_from(JOBS).where(JOBS.c.state.in_(OPEN))) or 0
 
     def count_by_state(self) -> dict[tuple[str, str], int]:
         """Return how many jobs there are by kind and state, without scenarios."""
@@ -355,6 +302,29 @@ class JobStore:
             connection.execute(insert(RESULTS).values(body))
 
 
+def _insert(connection: Connection, jobs: Sequence[NewJob],
+            enqueue: Callable[[Connection, NewJob], None]) -> None:
+    """Keep and enqueue jobs. In place."""
+    at = now_ms()
+    bodies = [{"job": job.id, "body": zlib.compress(job.body)} for job in jobs
+              if job.body is not None]
+    connection.execute(insert(JOBS), [_first_values(job, at) for job in jobs])
+    if bodies:
+        connection.execute(insert(REQUESTS), bodies)
+    for job in jobs:
+        enqueue(connection, job)
+
+
+def _open_plans(connection: Connection, client: str | None) -> OpenPlans:
+    """Return how many plans wait or run; comparisons and sweeps count whole until they end."""
+    of_client = case((JOBS.c.client == client, JOBS.c.plans), else_=0)
+    query = (select(func.coalesce(func.sum(JOBS.c.plans), 0),
+                    func.coalesce(func.sum(of_client), 0))
+             .where(JOBS.c.state.in_(OPEN), JOBS.c.parent.is_(None)))
+    total, own = connection.execute(query).one()
+    return OpenPlans(int(total), int(own))
+
+
 def _held(job_id: str, attempt: int) -> ColumnElement[bool]:
     """Return the condition that a job still is an attempt's."""
     return and_(JOBS.c.id == job_id, JOBS.c.attempt == attempt, JOBS.c.state == "running")
@@ -365,4 +335,5 @@ def _first_values(job: NewJob, at: int) -> dict[str, object]:
             "parent": job.parent, "position": job.position, "fingerprint": job.fingerprint,
             "webhook": job.webhook, "created_at": at, "progress": 0.0, "search_iterations": 0,
             "searched": 0.0, "cancel_requested": False, "revision": 1, "improved_revision": 0,
-            "attempt": 0, "crashes": 0}
+            "attempt": 0, "crashes": 0, "client": job.client, "plans": job.plans,
+            "key": job.key}

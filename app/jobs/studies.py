@@ -9,9 +9,10 @@ from dataclasses import replace
 from pydantic_core import from_json, to_json
 
 from app.jobs.planning import MAX_CRASHES, OVER, POISONOUS, SLICE, Slice, Stopping
+from app.jobs.rows import JobRow, NewJob, Standing
 from app.jobs.scenarios import Comparison, Scenarios
 from app.jobs.schemas import Data, State
-from app.jobs.store import JobRow, JobStore, NewJob, Standing
+from app.jobs.store import JobStore
 
 logger = logging.getLogger(__name__)
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
 from app.jobs.queues import Queues
-from app.jobs.store import JobRow, JobStore, now_ms
+from app.jobs.rows import JobRow
+from app.jobs.store import JobStore, now_ms
 
 logger = logging.getLogger(__name__)
 

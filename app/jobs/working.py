@@ -12,7 +12,7 @@ from app.jobs.planning import PlanWork
 from app.jobs.queues import Queues
 from app.jobs.reading import JobReader
 from app.jobs.schemas import Data
-from app.jobs.service import JobService
+from app.jobs.service import JobService, OpenLimits
 from app.jobs.store import JobStore
 from app.jobs.studies import StudyWork
 from app.jobs.warden import Warden
@@ -43,6 +43,11 @@ class Surroundings:
         return JobReader(self.planner.policies, self.settings)
 
 
+def open_limits(settings: Settings) -> OpenLimits:
+    """Return how many plans may be open."""
+    return OpenLimits(settings.max_open_jobs, settings.max_open_jobs_per_client)
+
+
 def make_store(around: Surroundings, queues: Queues) -> JobStore:
     """Return the jobs in the database."""
     return JobStore(queues.engine, int(around.settings.job_expiry_hours * HOUR_MS),
@@ -60,7 +65,7 @@ def make_engine(around: Surroundings) -> tuple[JobEngine, PlanWork]:
     plans = PlanWork(around.planner, store, lambda row: reader.plan_request(store, row),
                      settings.search_threads, lambda job_id: queues.put_back(job_id, True),
                      around.on_plan)
-    service = JobService(store, queues, reader, settings.max_open_jobs, plans.cancel)
+    service = JobService(store, queues, reader, open_limits(settings), plans.cancel)
     studies = StudyWork(store, lambda row: reader.scenarios(store, row),
                         lambda jobs: store.add(jobs, queues.add_job), service.stop_jobs,
                         lambda job_id: queues.put_back(job_id, False))

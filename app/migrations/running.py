@@ -11,7 +11,7 @@ from alembic.script import ScriptDirectory
 from sqlalchemy import Connection, Engine, Inspector, Table, inspect
 from sqlalchemy.exc import DBAPIError
 
-from app.database import changing_tables, is_outage
+from app.database import Purpose, alone, is_outage
 from app.migrations.version import VERSION_TABLE
 from app.tables import TABLES
 
@@ -37,7 +37,7 @@ def upgrade(engine: Engine) -> None:
     SQLAlchemyError
         If the database can't be reached.
     """
-    with _ONE_AT_A_TIME, changing_tables(engine) as connection:
+    with _ONE_AT_A_TIME, alone(engine, Purpose.CHANGING_TABLES) as connection:
         before = _checked_version(connection)
         _run(connection, "upgrade", newest())
         misfit = _misfit(connection)
@@ -58,7 +58,7 @@ def downgrade(engine: Engine, version: str) -> None:
     SQLAlchemyError
         If the database can't be reached.
     """
-    with _ONE_AT_A_TIME, changing_tables(engine) as connection:
+    with _ONE_AT_A_TIME, alone(engine, Purpose.CHANGING_TABLES) as connection:
         before = _checked_version(connection)
         if before is None or version not in _versions() or version > before:
             raise SchemaError(f"The database has the version {before or 'none'}, from which none "

@@ -6,7 +6,7 @@ import re
 import sqlite3
 import stat
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -123,6 +123,44 @@ def test_processes_may_make_the_tables_at_once(tmp_path: Path) -> None:
     with sqlite3.connect(tmp_path / FILE_NAME) as connection:
         assert connection.execute("SELECT count(*) FROM api_keys").fetchone() == (8,)
     connection.close()
+
+
+@pytest.fixture
+def usual_mask() -> Iterator[None]:
+    """Let new files be read by everybody, as is usual."""
+    before = os.umask(0o022)
+    yield
+    os.umask(before)
+
+
+def modes(folder: Path) -> dict[str, int]:
+    """Return the permissions of the database's files."""
+    return {path.name: stat.S_IMODE(path.stat().st_mode) for path in folder.glob("*.db*")}
+
+
+@pytest.mark.usefixtures("usual_mask")
+@pytest.mark.parametrize("is_named", [False, True])
+def test_a_new_file_is_its_owners_alone(tmp_path: Path, is_named: bool) -> None:
+    url = f"sqlite:///{tmp_path / FILE_NAME}" if is_named else None
+    tmp_path.chmod(0o755)
+    engine = make_engine(Settings(data_dir=tmp_path, database_url=url))
+    KeyStore(engine).create("ann", ["plan"])
+    with engine.connect() as connection:
+        connection.exec_driver_sql("SELECT * FROM api_keys").all()
+        assert modes(tmp_path) == {f"{FILE_NAME}{end}": 0o600 for end in ("", "-wal", "-shm")}
+    engine.dispose()
+
+
+@pytest.mark.usefixtures("usual_mask")
+def test_a_file_of_an_earlier_version_is_closed_and_that_of_others_is_left(tmp_path: Path) -> None:
+    ours, theirs = tmp_path / FILE_NAME, tmp_path / "theirs.db"
+    for file in (ours, theirs):
+        sqlite3.connect(file).close()
+        file.touch()
+        file.chmod(0o640)
+    make_engine(Settings(data_dir=tmp_path)).dispose()
+    make_engine(Settings(database_url=f"sqlite:///{theirs}")).dispose()
+    assert modes(tmp_path) == {FILE_NAME: 0o600, "theirs.db": 0o640}
 
 
 def test_a_new_file_is_set_up_by_one_at_a_time(tmp_path: Path) -> None:

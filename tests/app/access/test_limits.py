@@ -36,7 +36,7 @@ def request_from(host: str | None) -> Request:
 def headers_of(limits: Limits, host: str, key: str | None = None) -> dict[str, str]:
     """Return what the reply to one more request tells of its limit."""
     request = request_from(host)
-    limits.take(request, key, PLAN)
+    limits.take(request, key or client_address(request), PLAN)
     headers: dict[str, str] = getattr(request.state, "rate_limit_headers", {})
     return headers
 

@@ -13,6 +13,7 @@ from app.settings import Settings
 from tests.app.jobs.stepping import SteppingPlanner, eventually, request_of, submit
 
 Headers = dict[str, str]
+Serve = Callable[..., httpx.Client]
 
 
 @pytest.fixture
@@ -89,3 +90,44 @@ def test_stream_of_a_valid_key_goes_on(client: httpx.Client, settings: Settings)
         engine.dispose()
         client.delete(f"/jobs/{job}", headers=mine)
         assert "event: end" in list(lines)
+
+
+def test_a_key_has_its_share_of_the_open_jobs(serve: Serve, tmp_path: Path) -> None:
+    settings = Settings(data_dir=tmp_path, access="keys", drain_seconds=0, max_open_jobs=5,
+                        max_open_jobs_per_client=3)
+    client = serve(SteppingPlanner(), settings)
+    eventually(lambda: client.get("/health/ready").status_code == 200)
+    mine, other = key_for(settings, "jobs"), key_for(settings, "jobs")
+    first = submit(client, request_of(1), headers=mine)
+    sweep = {"base": request_of(1), "grid": {"unassigned_cost": [50, 60, 70]}}
+    refused = client.post("/sweep", json=sweep, headers=mine)
+    assert (refused.status_code, refused.json()["type"]) == (
+        429, "urn:tandem:error:job-share-used-up")
+    assert "TANDEM_MAX_OPEN_JOBS_PER_CLIENT" in refused.json()["detail"]
+    assert int(refused.headers["retry-after"]) > 0
+    assert client.post("/sweep", json=sweep, headers=other).status_code == 202
+    submit(client, request_of(1), headers=mine)
+    # As many as may, whosever they are; a sweep counts whole before its scenarios are begun.
+    full = client.post("/jobs", json=request_of(1), headers=mine)
+    assert (full.status_code, full.json()["type"]) == (503, "urn:tandem:error:too-many-jobs")
+    client.delete(f"/jobs/{first}", headers=mine)
+    submit(client, request_of(1), headers=mine)
+
+
+def test_an_address_has_its_share_where_access_is_open(serve: Serve, tmp_path: Path) -> None:
+    client = serve(SteppingPlanner(), Settings(data_dir=tmp_path, max_open_jobs_per_client=1))
+    eventually(lambda: client.get("/health/ready").status_code == 200)
+
+    def status(address: str) -> int:
+        return client.post("/jobs", json=request_of(1),
+                           headers={"X-Forwarded-For": address}).status_code
+
+    assert [status(address) for address in ("192.0.2.1", "192.0.2.1", "192.0.2.2")] == [
+        202, 429, 202]
+    assert [status(address) for address in ("2001:db8::1", "2001:db8::2")] == [202, 429]
+
+
+def test_share_is_a_quarter_but_holds_the_largest_sweep() -> None:
+    assert Settings().max_open_jobs_per_client == 2500
+    assert Settings(max_open_jobs=1000).max_open_jobs_per_client == 500
+    assert Settings(max_open_jobs=100).max_open_jobs_per_client == 100

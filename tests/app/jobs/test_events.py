@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from app.jobs.errors import JobsUnavailableError
 from app.jobs.events import Watcher, events
-from app.jobs.store import JobRow
+from app.jobs.rows import JobRow
 
 ROW = JobRow(
     id="j", kind="plan", owner="me", state="running", parent=None, position=None, fingerprint="f",

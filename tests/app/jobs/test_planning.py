@@ -11,7 +11,8 @@ from app.jobs import planning
 from app.jobs.connections import connect
 from app.jobs.planning import MAX_CRASHES, POISONOUS, PlanWork, Slice, Stopping
 from app.jobs.reading import JobReader
-from app.jobs.store import JobRow, JobStore, NewJob, Standing
+from app.jobs.rows import JobRow, NewJob, Standing
+from app.jobs.store import JobStore
 from app.settings import Settings
 from tests.app.jobs.stepping import NUM_CUSTOMERS, SteppingPlanner, request_of
 

@@ -2,12 +2,14 @@
 
 import uuid
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from sqlalchemy import Connection
 
 from app.jobs.connections import connect
-from app.jobs.store import JobStore, NewJob, Standing, now_ms
+from app.jobs.rows import NewJob, OpenPlans, Standing
+from app.jobs.store import JobStore, now_ms
 from app.settings import Settings
 
 
@@ -187,8 +189,57 @@ def test_scenarios_belong_to_their_parent(store: JobStore, books: Books) -> None
     assert not store.add(scenarios, books.enqueue)
     assert [row.id for row in store.children(parent)] == [job.id for job in scenarios]
     assert [row.id for row in store.page("me", 10, None, None)] == [parent]
-    assert store.count_open() == 4
     assert store.count_by_state() == {("sweep", "queued"): 1}
+
+
+def test_open_plans_are_told_before_one_is_admitted(store: JobStore, books: Books) -> None:
+    parent = added(store, books, kind="sweep", client="ann", plans=3)
+    store.add([new_job(parent=parent, position=0, body=None)], books.enqueue)
+    added(store, books, client="bob")
+    over = added(store, books, client="ann")
+    store.finish(over, None, "done")
+    told: list[OpenPlans] = []
+    assert store.admit(new_job(client="ann"), books.enqueue, told.append)
+    assert store.admit(new_job(client="ann"), books.enqueue, told.append)
+    assert told == [OpenPlans(4, 3), OpenPlans(5, 4)]
+
+
+def test_plan_that_is_refused_is_not_kept(store: JobStore, books: Books) -> None:
+    job = new_job()
+
+    def refuse(_: OpenPlans) -> None:
+        raise OSError("no")
+
+    with pytest.raises(OSError, match="no"):
+        store.admit(job, books.enqueue, refuse)
+    assert store.find(job.id) is None
+    assert store.admit(job, books.enqueue, lambda _: None)
+
+
+def test_a_key_has_one_job(store: JobStore, books: Books) -> None:
+    first, second = new_job(key="k"), new_job(key="k")
+    assert store.admit(first, books.enqueue, lambda _: None)
+    assert not store.admit(second, books.enqueue, lambda _: pytest.fail("it is there already"))
+    assert store.find(second.id) is None
+    row = store.find_by_key("k")
+    assert row is not None
+    assert row.id == first.id
+    assert store.find_by_key("other") is None
+
+
+def test_as_many_are_admitted_at_once_as_may(store: JobStore, books: Books) -> None:
+    def submit(_: int) -> bool:
+        def refuse(there: OpenPlans) -> None:
+            if there.of_client >= 5:
+                raise OSError
+
+        try:
+            return store.admit(new_job(client="ann"), books.enqueue, refuse)
+        except OSError:
+            return False
+
+    with ThreadPoolExecutor(8) as pool:
+        assert sum(pool.map(submit, range(16))) == 5
 
 
 def test_pages_have_the_owners_jobs_the_youngest_first(store: JobStore, books: Books) -> None:

@@ -10,7 +10,9 @@ from dbos import DBOS
 
 from app.jobs.connections import connect
 from app.jobs.queues import Queues
-from app.jobs.store import JobRow, JobStore, NewJob, Standing
+from app.jobs.rows import JobRow, NewJob, Standing
+from app.jobs.service import JobService, OpenLimits, Submission
+from app.jobs.store import JobStore
 from app.jobs.warden import LOST, PATIENCE, Warden
 from app.settings import Settings
 
@@ -122,6 +124,38 @@ def test_expired_jobs_are_deleted(office: Office, monkeypatch: pytest.MonkeyPatc
     office.warden().expire()
     assert office.store.find(old) is None
     assert office.store.find(young) is not None
+
+
+def test_key_may_be_used_again_once_its_job_expired(
+        office: Office, monkeypatch: pytest.MonkeyPatch) -> None:
+    def submit() -> tuple[JobRow, bool]:
+        return service.submit(Submission("plan", b"{}", "me", "me", "key", None))
+
+    service = JobService(office.store, office.queues, OnePlan(), OpenLimits(10, 10),
+                         lambda _: None)
+    job, is_new = submit()
+    assert is_new
+    assert submit() == (job, False)
+    office.store.finish(job.id, None, "cancelled")
+    office.queues.drop([job.id])
+    later = office.row(job.id).expires_at
+    assert later is not None
+    monkeypatch.setattr("app.jobs.warden.now_ms", lambda: later + 1)
+    warden = office.warden()
+    warden.expire()
+    assert office.store.find(job.id) is None
+    again, is_new = submit()
+    assert is_new
+    warden.reconcile()
+    assert office.row(again.id).state == "queued"
+    assert office.queues.alive([again.id]) == {again.id}
+
+
+class OnePlan:
+    """A reader to whom every request is valid."""
+
+    def validate(self, *_: object) -> int:
+        return 1
 
 
 def test_queues_forget_what_ended_long_ago(office: Office) -> None:

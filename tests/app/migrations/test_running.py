@@ -89,6 +89,16 @@ def test_tables_of_before_there_were_versions_are_taken_over(engine: Engine) -> 
     assert run(engine, "SELECT id, state FROM jobs") == [("j1", "queued")]
 
 
+def test_open_sweeps_count_with_their_scenarios_after_the_upgrade(engine: Engine) -> None:
+    forget_version(engine)
+    add_job(engine)
+    for scenario in ("a", "b", "c"):
+        run(engine, f"INSERT INTO jobs ({', '.join(JOB)}, parent) "
+            f"VALUES (:{', :'.join(JOB)}, 'j1')", JOB | {"id": scenario})
+    upgrade(engine)
+    assert run(engine, "SELECT plans FROM jobs ORDER BY id") == [(1,), (1,), (1,), (3,)]
+
+
 def test_half_of_the_tables_are_taken_over_too(engine: Engine) -> None:
     forget_version(engine)
     for table in ("jobs", "job_requests", "job_results"):
