@@ -1,6 +1,5 @@
 # `make serve` runs the service, `make test` the tests; `make` alone lists everything.
 
-PYTHON ?= $(firstword $(foreach name,python3.11 python3.12 python3,$(shell command -v $(name))))
 HOST ?= 127.0.0.1
 PORT ?= 8000
 MINUTES ?= 60
@@ -12,7 +11,8 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
-.PHONY: help serve plan test lint train bench bench-quick latency study study-quick screenshots fuzz settings clean
+.NOTPARALLEL:
+.PHONY: help serve plan test prepared lint train bench bench-quick latency study study-quick screenshots fuzz settings clean
 
 help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -32,10 +32,13 @@ plan: .venv/serving ## Plan examples/table1.json, write plan.json and check it
 	@$(BIN)/tandem check examples/table1.json plan.json
 	@echo "The plan is in plan.json."
 
-test: .venv/testing ## Install what the tests need and run them
+test: prepared .venv/testing ## Install what the tests need and run them
 	@echo "Compiling what is tested, so that no test waits for that."
 	@$(BIN)/tandem warm
 	$(BIN)/pytest
+
+prepared:
+	@.ci/prepare
 
 lint: .venv/testing ## Check style and types
 	$(BIN)/ruff check
@@ -98,11 +101,5 @@ clean: ## Remove caches, compiled code and plan.json; keep .venv and training ru
 	@touch $@ .venv/serving
 
 .venv/created:
-	@test -n "$(PYTHON)" || { echo "Python 3.11 or 3.12 is needed." >&2; exit 1; }
-	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' || { \
-		echo "Python 3.11 or 3.12 is needed: choose one with 'make ... PYTHON=<path>'." >&2; exit 1; }
-	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
-		echo "This Python can't make virtual environments. On Debian or Ubuntu, run" >&2; \
-		echo "  sudo apt-get install python3-venv" >&2; exit 1; }
-	@$(PYTHON) -m venv .venv
+	@python=$$(.ci/find-python) && "$$python" -m venv .venv
 	@touch $@

@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -101,14 +100,12 @@ def test_python_example_runs(server: Server, tmp_path: Path) -> None:
         assert f"\n{line}" in f"\n{printed}"
 
 
-@pytest.mark.skipif(shutil.which("node") is None, reason="needs Node.js")
 def test_javascript_example_runs(server: Server, tmp_path: Path) -> None:
     printed = run(["node", "--input-type=module"], example("js"), tmp_path, server)
     for line in ("plan: ", "end done ", "job: done ", "fleet: one ", "fleet: two "):
         assert f"\n{line}" in f"\n{printed}"
 
 
-@pytest.mark.skipif(shutil.which("curl") is None, reason="needs curl")
 def test_curl_example_runs(server: Server, tmp_path: Path) -> None:
     printed = run(["bash", "-eu"], example("sh"), tmp_path, server)
     assert '"status":"complete"' in printed

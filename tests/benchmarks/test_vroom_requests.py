@@ -14,8 +14,6 @@ from benchmarks.vroom_requests import (
 from model.planner import Planner, load_planner
 from tests.app.vroom.judge import judge
 
-pytest.importorskip("vroom")
-
 Data = dict[str, Any]
 
 SIZE, SECONDS = 30, 1.0

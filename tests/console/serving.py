@@ -64,7 +64,7 @@ def chromium() -> Iterator[Browser]:
     """Yield Debian's Chromium, or the one that the variable CHROMIUM names."""
     path = os.environ.get("CHROMIUM") or shutil.which("chromium")
     if path is None:
-        raise RuntimeError("the console is tested with Chromium: apt-get install chromium")
+        raise RuntimeError("the console is tested with Chromium: .ci/prepare says how to get it")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=list(ARGUMENTS))
         yield browser

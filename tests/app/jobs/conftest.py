@@ -20,9 +20,6 @@ from app.settings import Settings
 from tests.app.jobs.stepping import SteppingPlanner, eventually
 from tests.conftest import free_port
 
-REQUIRED = os.environ.get("TANDEM_REQUIRE_POSTGRES") == "1"
-"""Whether tests with PostgreSQL must run; else they are skipped where it isn't installed."""
-
 
 class Postgres:
     """A PostgreSQL server of Debian's packages, on loopback, with its data in a folder."""
@@ -64,25 +61,26 @@ class Postgres:
         subprocess.run(command, check=True, cwd=self._folder, stdout=subprocess.DEVNULL)
 
 
-def find_programs() -> Path | None:
-    """Return the folder of PostgreSQL's programs, the newest."""
+def find_programs() -> Path:
+    """Return the folder of PostgreSQL's programs: the variable POSTGRESQL, or Debian's newest."""
+    chosen = os.environ.get("POSTGRESQL")
+    if chosen is not None:
+        return Path(chosen)
     folders = sorted(Path("/usr/lib/postgresql").glob("*/bin"),
                      key=lambda folder: int(folder.parent.name))
-    return folders[-1] if folders else None
+    if not folders:
+        raise RuntimeError("PostgreSQL is not installed: .ci/prepare says how")
+    return folders[-1]
 
 
 @pytest.fixture(scope="session")
 def postgres() -> Iterator[Postgres]:
     """Return a running PostgreSQL server."""
-    programs = find_programs()
-    if programs is None:
-        assert not REQUIRED, "PostgreSQL is not installed"
-        pytest.skip("PostgreSQL is not installed")
     # Not in pytest's folder, which is closed to other users.
     with TemporaryDirectory(prefix="tandem-postgres-") as folder:
         if os.geteuid() == 0:
             shutil.chown(folder, "postgres")
-        server = Postgres(programs, Path(folder))
+        server = Postgres(find_programs(), Path(folder))
         server.start()
         yield server
         server.stop()
