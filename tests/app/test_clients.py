@@ -7,7 +7,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -66,12 +66,44 @@ def example(language: str) -> str:
     return str(blocks[0])
 
 
-def run(command: list[str], script: str, folder: Path, server: Server) -> str:
+class Visitor(NamedTuple):
+    """A server and what to say there."""
+
+    server: Server
+    key: str | None
+
+
+@pytest.fixture(scope="module")
+def guarded(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Visitor]:
+    """Return a server with jobs that asks for keys, and one of them."""
+    settings = {"TANDEM_DATA_DIR": str(tmp_path_factory.mktemp("data")), "TANDEM_ROLE": "all",
+                "TANDEM_ACCESS": "keys"}
+    made = subprocess.run([sys.executable, "-m", "app", "keys", "create", "a client"], cwd=ROOT,
+                          env={**os.environ, **settings}, text=True, capture_output=True,
+                          check=True)
+    with running(**settings) as server:
+        yield Visitor(server, made.stdout.strip())
+
+
+@pytest.fixture(params=["without a key", "with an idle key", "with a key that is asked for"])
+def visitor(request: pytest.FixtureRequest, server: Server) -> Visitor:
+    """Return a server and the key with which its clients come."""
+    if request.param == "without a key":
+        return Visitor(server, None)
+    if request.param == "with an idle key":
+        return Visitor(server, "unused")
+    guarded: Visitor = request.getfixturevalue("guarded")
+    return guarded
+
+
+def run(command: list[str], script: str, folder: Path, visitor: Visitor) -> str:
     """Run an example against a server and return what it prints."""
-    url = str(server.client.base_url).rstrip("/")
+    url = str(visitor.server.client.base_url).rstrip("/")
+    environment = {name: value for name, value in os.environ.items() if name != "TANDEM_KEY"}
+    key = {} if visitor.key is None else {"TANDEM_KEY": visitor.key}
     done = subprocess.run(command, input=script.replace(GUIDE_URL, url), cwd=folder, text=True,
                           capture_output=True, timeout=60, check=False,
-                          env={**os.environ, "NO_PROXY": "*", "TANDEM_KEY": "unused"})
+                          env={**environment, "NO_PROXY": "*", **key})
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -90,24 +122,25 @@ def test_generated_client_plans_and_follows_a_job(
     (warned,) = re.findall(r"^WARNING.*", made.stdout, re.MULTILINE)
     assert "/plan.svg" in warned
     (tmp_path / "request.json").write_text(json.dumps(smallest))
-    printed = run([sys.executable, "-", str(server.client.base_url)], SCRIPT, tmp_path, server)
+    printed = run([sys.executable, "-", str(server.client.base_url)], SCRIPT, tmp_path,
+                  Visitor(server, None))
     assert printed.splitlines() == ["A 16.0", "done 16.0", "True", "DIMENSION_MISMATCH"]
 
 
-def test_python_example_runs(server: Server, tmp_path: Path) -> None:
-    printed = run([sys.executable, "-"], example("python"), tmp_path, server)
+def test_python_example_runs(visitor: Visitor, tmp_path: Path) -> None:
+    printed = run([sys.executable, "-"], example("python"), tmp_path, visitor)
     for line in ("plan: ", "end done ", "job: done ", "fleet: one ", "fleet: two "):
         assert f"\n{line}" in f"\n{printed}"
 
 
-def test_javascript_example_runs(server: Server, tmp_path: Path) -> None:
-    printed = run(["node", "--input-type=module"], example("js"), tmp_path, server)
+def test_javascript_example_runs(visitor: Visitor, tmp_path: Path) -> None:
+    printed = run(["node", "--input-type=module"], example("js"), tmp_path, visitor)
     for line in ("plan: ", "end done ", "job: done ", "fleet: one ", "fleet: two "):
         assert f"\n{line}" in f"\n{printed}"
 
 
-def test_curl_example_runs(server: Server, tmp_path: Path) -> None:
-    printed = run(["bash", "-eu"], example("sh"), tmp_path, server)
+def test_curl_example_runs(visitor: Visitor, tmp_path: Path) -> None:
+    printed = run(["bash", "-eu"], example("sh"), tmp_path, visitor)
     assert '"status":"complete"' in printed
     assert "event: end" in printed
     assert '"state":"done"' in printed
