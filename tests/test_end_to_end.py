@@ -102,7 +102,7 @@ def test_a_launch_waits_for_a_window_that_opens_late(
         "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
         "customers": [{"id": "late", "location": [1, 0], "demand": [1], "served_by": served_by,
                        "time_window": {"earliest": 7200}}],
-        "fleet": [{"id": "truck", "count": 1, "capacity": [5], "speed_kmh": 60, "max_trip_distance": 1000,
+        "fleet": [{"id": "truck", "count": 1, "capacity": [5], "max_trip_distance": 1000,
                    "drones": {"count": 1, "capacity": [5], "speed_kmh": 60, "endurance": 600}}],
         "options": options | {"policy": policy}}
     reply = client.post("/plan", json=request)

@@ -1,7 +1,7 @@
 """The cheapest insertion of a customer, on all routes or beside neighbours."""
 
 from model.compiled import pasted
-from model.instance import TYPE_COUNT, TYPE_MAX_TRIPS
+from model.instance import TYPE_COUNT, TYPE_ENDURANCE, TYPE_MAX_TRIPS
 from model.rows import copy_row
 from model.search.draw import uniform
 from model.search.edit import M_KIND, M_TYPE, NEW_ROUTE
@@ -10,8 +10,8 @@ from model.search.insertion import (
     offer_flight_trips, offer_joining, offer_sorties, offer_stops, offer_trips, take_cheapest,
 )
 from model.search.layout import (
-    B_BEST, B_BLINK, CHANGING, K_MOVE, K_STAMP, NOWHERE, R_STAMP, R_TRIPS, R_TYPE, S_TRIP, T_FIRST,
-    T_LAST, W_SLOT, World,
+    B_BEST, B_BLINK, CHANGING, K_MOVE, K_STAMP, NOWHERE, P_EARLIEST, R_STAMP, R_TRIPS, R_TYPE,
+    S_LEAVE, S_TRIP, T_FIRST, T_LAST, W_SLOT, World,
 )
 from model.search.refresh import stop_beside
 from model.search.scan import fits, is_simple, scan_beside, scan_beside_lean, scan_lean, scan_simple
@@ -62,6 +62,10 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
         if by_drone:
             for p in range(first, last):
                 offer_sorties(world, searcher, slot, p, node)
+            # Who would have to wait for a flight from the depot may fly when the trip is over.
+            soonest = world.place[node, P_EARLIEST] - world.type[k, TYPE_ENDURANCE]
+            if now.stop[slot, first, S_LEAVE] < soonest:
+                offer_sorties(world, searcher, slot, last, node)
     if world.visits[k] > 1 and by_drone:
         offer_joining(world, searcher, slot, node)
     take_cheapest(world, searcher, node)

@@ -116,6 +116,13 @@ def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first
     return length, before, exact, idle
 
 
+@inlined
+def ends_in_flight(fleet: Fleet, slot: int) -> bool:
+    """Tell whether a drone is launched at the last stop of a route, which no line knows of."""
+    last = fleet.route[slot, R_SORTIES] - 1
+    return last >= 0 and fleet.sortie[slot, last, F_LAUNCH] == fleet.route[slot, R_LENGTH] - 1
+
+
 @spliced
 def partner(world: World, searcher: Searcher, slot: int, node: int) -> int:
     """Return a route to plan anew together with a customer's: that of a near neighbour.
@@ -125,7 +132,7 @@ def partner(world: World, searcher: Searcher, slot: int, node: int) -> int:
     now = searcher.now
     route, k = now.route[slot], now.route[slot, R_TYPE]
     near = world.near[node, below(searcher.rng, min(NEIGHBOURS, world.near.shape[1]))]
-    if near < 0 or route[R_TRIPS] > 1:
+    if near < 0 or route[R_TRIPS] > 1 or ends_in_flight(now, slot):
         return NOWHERE
     other = now.where[near, W_SLOT]
     if other == slot:
@@ -133,7 +140,8 @@ def partner(world: World, searcher: Searcher, slot: int, node: int) -> int:
     if other < 0:
         return NOWHERE
     mate = now.route[other]
-    if mate[R_LENGTH] > 0 and (mate[R_TYPE] != k or mate[R_TRIPS] > 1):
+    if mate[R_LENGTH] > 0 and (mate[R_TYPE] != k or mate[R_TRIPS] > 1
+                               or ends_in_flight(now, other)):
         return NOWHERE
     return other if route[R_LENGTH] + mate[R_LENGTH] <= 2 * WINDOW else NOWHERE
 
