@@ -12,7 +12,7 @@ from model.problem import Problem, Travel
 from model.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
-from tests.model.tiny import draw_tiny
+from tests.model.tiny import draw_late, draw_tiny
 from training.instances import VARIANTS, generate
 
 OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=40)
@@ -171,6 +171,12 @@ def replan_later(planner: Planner, problem: Problem, plan: Solution, now: int,
 def test_tiny_plans_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 5))
     replan_and_check(planner, draw_tiny(rng), rng)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_tiny_plans_whose_launches_are_held_back_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 8))
+    replan_and_check(planner, draw_late(rng), rng)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
