@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from app.amounts import counted, decimals_of
 from app.schemas_request import CustomerInput, DronesInput, PlanRequest, VehicleTypeInput
 from app.travels import Travels
-from app.units import all_thousandths, optional_thousandths, thousandths
+from app.units import optional_thousandths, thousandths
 from model.problem import (
     FULL_SPEED,
     MM_PER_KM,
@@ -29,12 +30,13 @@ def to_problem(request: PlanRequest) -> Problem:
     """Convert a valid request."""
     travels = Travels(request)
     depots = {depot.id: node for node, depot in enumerate(request.depots)}
+    decimals = decimals_of(request.customers, request.fleet)
     vehicle_types = tuple(
         _vehicle_type(vehicle_type, 0 if vehicle_type.depot is None else depots[vehicle_type.depot],
-                      travels)
+                      travels, decimals)
         for vehicle_type in request.fleet
     )
-    customers = tuple([_customer(customer) for customer in request.customers])
+    customers = tuple([_customer(customer, decimals) for customer in request.customers])
     unassigned_cost = request.unassigned_cost
     if unassigned_cost is None:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built())
@@ -45,6 +47,7 @@ def to_problem(request: PlanRequest) -> Problem:
         travel=travels.built(),
         coordinates=travels.coordinates(),
         unassigned_cost=unassigned_cost,
+        amount_decimals=decimals,
     )
 
 
@@ -86,11 +89,11 @@ def _longest_leg(travel: Travel) -> tuple[float, float]:
             float(np.max(travel.duration, where=reachable, initial=0)) / MS_PER_HOUR)
 
 
-def _customer(stated: CustomerInput) -> Customer:
+def _customer(stated: CustomerInput, decimals: Sequence[int]) -> Customer:
     window = stated.time_window
     return Customer(
         id=stated.id,
-        demand=all_thousandths(stated.demand),
+        demand=counted(stated.demand, decimals),
         service_duration=thousandths(stated.service_duration),
         earliest=thousandths(window.earliest),
         latest=UNLIMITED if window.latest is None else thousandths(window.latest),
@@ -102,13 +105,14 @@ def _customer(stated: CustomerInput) -> Customer:
     )
 
 
-def _vehicle_type(stated: VehicleTypeInput, depot: int, travels: Travels) -> VehicleType:
+def _vehicle_type(stated: VehicleTypeInput, depot: int, travels: Travels,
+                  decimals: Sequence[int]) -> VehicleType:
     travel, speed_profile = travels.drive(stated)
     shift = stated.shift
     return VehicleType(
         id=stated.id,
         count=stated.count,
-        capacity=all_thousandths(stated.capacity),
+        capacity=counted(stated.capacity, decimals),
         travel=travel,
         depot=depot,
         fixed_cost=stated.costs.fixed,
@@ -122,16 +126,17 @@ def _vehicle_type(stated: VehicleTypeInput, depot: int, travels: Travels) -> Veh
         max_trips=stated.max_trips,
         reload_duration=thousandths(stated.reload_duration),
         skills=frozenset(stated.skills),
-        drones=_drones(stated.drones, travels),
+        drones=_drones(stated.drones, travels, decimals),
     )
 
 
-def _drones(stated: DronesInput | None, travels: Travels) -> DroneType | None:
+def _drones(stated: DronesInput | None, travels: Travels,
+            decimals: Sequence[int]) -> DroneType | None:
     if stated is None or stated.count == 0:
         return None
     return DroneType(
         count=stated.count,
-        capacity=all_thousandths(stated.capacity),
+        capacity=counted(stated.capacity, decimals),
         travel=travels.fly(stated),
         endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
         endurance_includes_waiting=stated.endurance_includes_waiting,

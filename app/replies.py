@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
-from app.units import all_whole, whole
+from app.units import whole
 from model.check import Evaluation
 from model.explain import Reason, explain
 from model.metrics import RouteMetrics, SortieMetrics, TripMetrics
@@ -80,7 +80,7 @@ def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
 
 def _trip(problem: Problem, vehicle: str, trip: Trip, metrics: TripMetrics) -> Data:
     return {
-        "load": all_whole(metrics.load),
+        "load": _amounts(problem, metrics.load),
         "load_rate": metrics.load_rate,
         "distance": whole(metrics.distance),
         "duration": whole(metrics.duration),
@@ -103,8 +103,14 @@ def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
         "departure": stop.departure / 1000,
         "waiting": (stop.service_start - stop.arrival) / 1000,
         "lateness": 0.0 if is_depot else _lateness(problem, stop),
-        "load": [amount / 1000 for amount in load],
+        "load": _amounts(problem, load),
     }
+
+
+def _amounts(problem: Problem, load: Sequence[int]) -> list[float]:
+    """Return amounts in the client's unit."""
+    return [amount / 10**places
+            for amount, places in zip(load, problem.amount_decimals, strict=True)]
 
 
 def _lateness(problem: Problem, halt: Stop | Visit) -> float:

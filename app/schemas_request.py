@@ -89,7 +89,7 @@ class CustomerInput(_Input):
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
     demand: Demand = Field(
         description="Amount to deliver in 1 to 3 dimensions (such as kg and litres), in your "
-        "units; as many as every `capacity`."
+        "units; as many as every `capacity`. Counted exactly, with up to nine decimals."
     )
     service_duration: Seconds = Field(0.0, description="Time spent at the customer in seconds.")
     time_window: TimeWindowInput = Field(

@@ -1,10 +1,8 @@
 """Between the wire's units and the integer thousandths inside `model`."""
 
-from collections.abc import Iterable
-
 
 def thousandths(value: float) -> int:
-    """Return seconds as ms, metres as mm or an amount as thousandths, rounded to the nearest."""
+    """Return seconds as ms or metres as mm, rounded to the nearest."""
     return round(value * 1000)
 
 
@@ -13,16 +11,6 @@ def optional_thousandths(value: float | None) -> int | None:
     return None if value is None else round(value * 1000)
 
 
-def all_thousandths(values: Iterable[float]) -> tuple[int, ...]:
-    """Return the `thousandths` of several amounts."""
-    return tuple([round(value * 1000) for value in values])
-
-
 def whole(value: int) -> float:
-    """Return ms as seconds, mm as metres or thousandths as an amount."""
+    """Return ms as seconds or mm as metres."""
     return value / 1000
-
-
-def all_whole(values: Iterable[int]) -> list[float]:
-    """Return the `whole` of several amounts."""
-    return [value / 1000 for value in values]

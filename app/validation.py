@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.amounts import amount_errors
 from app.errors import ErrorCode, InputError, json_path
 from app.plan_validation import Names, replan_errors
 from app.schemas_request import (
@@ -77,6 +78,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *_emptiness_errors(draft),
         *_window_errors(draft),
         *_dimension_errors(draft),
+        *amount_errors(draft.customers or (), draft.fleet or ()),
         *_depot_errors(draft),
         *_matrix_errors(draft),
         *_location_errors(draft),

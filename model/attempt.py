@@ -54,6 +54,7 @@ def small_problem(problem: Problem, vehicle_type: VehicleType, nodes: list[int])
         travel=tuple([Travel(kind.duration[grid], kind.distance[grid]) for kind in kinds]),
         coordinates=problem.coordinates[places],
         unassigned_cost=problem.unassigned_cost,
+        amount_decimals=problem.amount_decimals,
     )
 
 

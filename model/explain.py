@@ -135,9 +135,9 @@ def _capacity(attempt: Attempt) -> _Diagnosis:
     needed = tuple(map(max, vehicle_type.capacity, demand))
     return _Diagnosis(
         "CAPACITY",
-        f"Its demand of {amounts(demand)} exceeds the capacity of "
-        f"{amounts(vehicle_type.capacity)}.",
-        f"fits if capacity were at least {amounts(needed)}",
+        f"Its demand of {amounts(attempt.problem, demand)} exceeds the capacity of "
+        f"{amounts(attempt.problem, vehicle_type.capacity)}.",
+        f"fits if capacity were at least {amounts(attempt.problem, needed)}",
         _with_type(attempt, replace(vehicle_type, capacity=needed)),
     )
 
@@ -149,9 +149,9 @@ def _payload(attempt: Attempt) -> _Diagnosis:
     changed = replace(vehicle_type, drones=replace(drones, capacity=needed))
     return _Diagnosis(
         "CAPACITY",
-        f"Its demand of {amounts(demand)} exceeds the drone capacity of "
-        f"{amounts(drones.capacity)}.",
-        f"fits if the drone capacity were at least {amounts(needed)}",
+        f"Its demand of {amounts(attempt.problem, demand)} exceeds the drone capacity of "
+        f"{amounts(attempt.problem, drones.capacity)}.",
+        f"fits if the drone capacity were at least {amounts(attempt.problem, needed)}",
         _with_type(attempt, changed),
     )
 

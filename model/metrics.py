@@ -19,7 +19,7 @@ class SortieMetrics:
 class TripMetrics:
     """One trip; distance and duration are the truck's."""
 
-    load: tuple[int, ...]  # (dimension,) thousandths, drones' parcels too
+    load: tuple[int, ...]  # (dimension,) parts, drones' parcels too
     load_rate: float  # load / capacity, the largest over dimensions
     distance: int  # mm
     duration: int  # ms from the first departure or take-off to the end

@@ -1,7 +1,8 @@
 """What is to be planned: depots, customers, a fleet and its travel matrices.
 
 Inside `model`, times are integer milliseconds since plan start, distances integer millimetres,
-amounts integer thousandths, so that simulator, search and checker agree exactly. Costs are floats.
+amounts integer thousandths or smaller parts, so that simulator, search and checker agree exactly.
+Costs are floats.
 """
 
 from dataclasses import dataclass, field
@@ -22,7 +23,10 @@ UNREACHABLE = 2**50
 """Duration and distance of a flight that can't be flown."""
 
 MAX_QUANTITY = 10**12
-"""Largest time (ms), distance (mm) or amount (thousandths) that a problem may state."""
+"""Largest time (ms), distance (mm) or amount (parts) that a problem may state."""
+
+USUAL_DECIMALS = 3
+"""Decimals of amounts, unless a problem states others."""
 
 FULL_SPEED = 1_000_000
 """Factor of a speed profile at which a leg takes its matrix duration."""
@@ -59,7 +63,7 @@ class Customer:
     """Place with a demand, served once by a truck or a drone."""
 
     id: str
-    demand: tuple[int, ...]  # (dimension,) thousandths
+    demand: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
     service_duration: int = 0
     earliest: int = 0  # first start of service that needs no waiting
     latest: int = UNLIMITED  # last arrival that is not late
@@ -104,7 +108,7 @@ class DroneType:
     """The drones that ride on each truck of a type."""
 
     count: int
-    capacity: tuple[int, ...]  # (dimension,) thousandths
+    capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
     travel: int  # index into Problem.travel
     endurance: int = UNLIMITED  # ms from take-off to the beginning of recovery
     endurance_includes_waiting: bool = True  # False: to the drone's arrival there
@@ -136,7 +140,7 @@ class VehicleType:
 
     id: str
     count: int
-    capacity: tuple[int, ...]  # (dimension,) thousandths
+    capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
     travel: int  # index into Problem.travel
     depot: int = 0  # home depot, a node
     fixed_cost: float = 0.0  # per vehicle used
@@ -202,6 +206,7 @@ class Problem:
     travel: tuple[Travel, ...]
     coordinates: FloatArray  # (node, 2) any planar unit, seen by the policy alone
     unassigned_cost: float  # per customer left out
+    amount_decimals: tuple[int, ...] = ()  # (dimension,) of demands and capacities; for people
     num_dimensions: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -211,6 +216,9 @@ class Problem:
         dimensions = len(self.vehicle_types[0].capacity)
         _require(1 <= dimensions <= 3, "capacity dimensions", dimensions)
         object.__setattr__(self, "num_dimensions", dimensions)
+        if not self.amount_decimals:
+            object.__setattr__(self, "amount_decimals", (USUAL_DECIMALS,) * dimensions)
+        _require(len(self.amount_decimals) == dimensions, "amount decimals", self.amount_decimals)
         _require(self.coordinates.shape == (self.num_nodes, 2), "coordinates shape",
                  self.coordinates.shape)
         _require(bool(np.isfinite(self.coordinates).all()), "coordinates", "not finite")

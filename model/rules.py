@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from operator import gt
 
 from model.metrics import RouteMetrics, TripMetrics
-from model.problem import DroneType, Problem, VehicleType
+from model.problem import USUAL_DECIMALS, DroneType, Problem, VehicleType
 from model.solution import Sortie, Stop, Trip, Visit
 from model.timing import TripDecision, latest_release
 
@@ -29,9 +29,9 @@ class TimedTrip:
     path: str
 
 
-def decimal(thousandths: int) -> str:
-    """Return thousandths as a decimal number for people."""
-    return f"{thousandths / 1000:.3f}".rstrip("0").rstrip(".")
+def decimal(parts: int, places: int = USUAL_DECIMALS) -> str:
+    """Return thousandths, or other decimal parts, as a decimal number for people."""
+    return f"{parts / 10**places:.{places}f}".rstrip("0").rstrip(".")
 
 
 def seconds(time: int) -> str:
@@ -39,9 +39,10 @@ def seconds(time: int) -> str:
     return f"{decimal(time)} s"
 
 
-def amounts(load: tuple[int, ...]) -> str:
+def amounts(problem: Problem, load: tuple[int, ...]) -> str:
     """Return the amounts of a load or capacity for people."""
-    return ", ".join(map(decimal, load))
+    return ", ".join(decimal(amount, places) for amount, places
+                     in zip(load, problem.amount_decimals, strict=True))
 
 
 def _exceeds(load: tuple[int, ...], limits: tuple[int, ...]) -> bool:
@@ -60,7 +61,8 @@ def trip_violations(
             message = f"depot {trip.stops[index].node} is not home of {vehicle_type.id}"
             yield Violation("DEPOT", message, f"{path}.stops[{index % len(trip.stops)}]")
     if _exceeds(metrics.load, vehicle_type.capacity):
-        message = f"load {amounts(metrics.load)} exceeds {amounts(vehicle_type.capacity)}"
+        message = (f"load {amounts(problem, metrics.load)} exceeds "
+                   f"{amounts(problem, vehicle_type.capacity)}")
         yield Violation("CAPACITY", message, path)
     limit = vehicle_type.max_trip_distance
     if limit is not None and metrics.distance > limit:
@@ -135,7 +137,8 @@ def _sortie_violations(
     demands = [problem.customer_at(visit.node).demand for visit in sortie.visits]
     payload = tuple(map(sum, zip(*demands, strict=True)))
     if _exceeds(payload, drones.capacity):
-        message = f"payload {amounts(payload)} exceeds {amounts(drones.capacity)}"
+        message = (f"payload {amounts(problem, payload)} exceeds "
+                   f"{amounts(problem, drones.capacity)}")
         yield Violation("PAYLOAD", message, path)
     flight = airborne_duration(problem, drones, trip, sortie)
     if flight > drones.endurance:

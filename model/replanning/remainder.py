@@ -85,7 +85,8 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     customers += [_anchor_customer(types[kind], anchor, marks.of_type(owners[kind]))
                   for kind, anchor in places.items()]
     left = Problem(problem.depots, tuple(customers), tuple(types), travels.built(),
-                   problem.coordinates[source], problem.unassigned_cost)
+                   problem.coordinates[source], problem.unassigned_cost,
+                   problem.amount_decimals)
     return Remainder(left, tuple(source), (*plain, *(own.vehicle.type for own in workers)),
                      owners, anchors)
 

@@ -40,7 +40,7 @@ def test_planar_legs_at_forty_km_per_hour(smallest: Request) -> None:
 
 def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
     smallest["customers"][0] |= {
-        "demand": [1.2345], "service_duration": 0.0004, "release_time": 7,
+        "demand": [1.234], "service_duration": 0.0004, "release_time": 7,
         "time_window": {"earliest": 1.5, "latest": 2.0004, "late_cost_per_hour": 3,
                         "early_cost_per_hour": 4},
         "skills": ["cold"], "served_by": "drone"}
