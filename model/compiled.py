@@ -18,8 +18,9 @@ from typing import Any, TypeVar, cast
 from numba import config, njit
 from numba.core.compiler import Compiler
 
-SOURCES = ("compiled", "problem", "rows", "instance", "schedule", "cost", "meeting", "transition",
-           "simulator", "tokens", "prospects", "features", "parts", "rolling",
+SOURCES = ("compiled", "problem", "rows", "visibility", "detours", "instance", "schedule", "cost",
+           "meeting", "transition", "simulator", "tokens", "prospects", "features", "parts",
+           "rolling",
            *(f"search/{part}" for part in (
                "layout", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate", "ruin",
                "state", "retype", "scan", "splitting", "insertion", "places", "exchange", "line",

@@ -4,17 +4,17 @@ Distances are rounded to the nearest millimetre and durations up to the next mil
 once, from the exact float values.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from pyproj import Proj
 
+from model.pausing import Pause, go_on, matrix_blocks
 from model.problem import (
     FULL_SPEED,
     MAX_QUANTITY,
     UNREACHABLE,
-    BoolArray,
     FloatArray,
     IntArray,
     SpeedProfile,
@@ -27,9 +27,8 @@ EARTH_RADIUS_M = 6_371_008.8
 FLOAT_NOISE_MS = 5e-7
 """A duration less than this above a whole millisecond is that millisecond."""
 
-ROWS = 256
-"""Rows of a matrix that are worked out at a time: of thousands of nodes, the whole of every
-intermediate result would take gigabytes."""
+COARSE_MS = 2.0**31
+"""Durations below this are told apart more finely than by `FLOAT_NOISE_MS` halved."""
 
 _EMBEDDING_RANK = 10
 _EMBEDDING_ITERATIONS = 12
@@ -77,22 +76,22 @@ def local_coordinates(lon_lat: FloatArray) -> FloatArray:
     return LocalProjection.around(lon_lat).project(lon_lat)
 
 
-def planar_distances(points_m: FloatArray) -> FloatArray:
+def planar_distances(points_m: FloatArray, pause: Pause = go_on) -> FloatArray:
     """Return the (node, node) straight-line distances in metres."""
     x, y = points_m.T
     distances = np.empty((len(x), len(x)))
-    for rows in _row_blocks(distances):
+    for rows in matrix_blocks(len(distances), pause):
         distances[rows] = np.hypot(x[rows, None] - x, y[rows, None] - y)
     return distances
 
 
-def great_circle_distances(lon_lat: FloatArray) -> FloatArray:
+def great_circle_distances(lon_lat: FloatArray, pause: Pause = go_on) -> FloatArray:
     """Return the (node, node) distances in metres on the sphere, by the haversine formula."""
     _require_lon_lat(lon_lat)
     longitude, latitude = np.radians(lon_lat).T
     cosine = np.cos(latitude)
     distances = np.empty((len(longitude), len(longitude)))
-    for rows in _row_blocks(distances):
+    for rows in matrix_blocks(len(distances), pause):
         haversine = np.sin((latitude[rows, None] - latitude) / 2) ** 2
         haversine += (cosine[rows, None] * cosine
                       * np.sin((longitude[rows, None] - longitude) / 2) ** 2)
@@ -100,38 +99,46 @@ def great_circle_distances(lon_lat: FloatArray) -> FloatArray:
     return distances
 
 
-def truck_travel(distances_m: FloatArray, speed_kmh: float) -> Travel:
+def truck_travel(distances_m: FloatArray, speed_kmh: float, pause: Pause = go_on) -> Travel:
     """Drive the distances at one speed (the fastest, where a speed profile applies)."""
     _require_speed(speed_kmh)
-    _require_lengths("distances", distances_m)
-    return Travel(_whole(distances_m, lambda rows: _ceiled(rows * 3600.0 / speed_kmh)),
-                  _whole_mm(distances_m))
+    _require_lengths("distances", distances_m, pause)
+    return Travel(
+        _whole(distances_m, lambda rows: _ceiled(rows * 3600.0 / speed_kmh), pause),
+        _whole(distances_m, _rounded_mm, pause))
 
 
-def matrix_travel(durations_s: FloatArray, distances_m: FloatArray) -> Travel:
+def matrix_travel(durations_s: FloatArray, distances_m: FloatArray,
+                  pause: Pause = go_on) -> Travel:
     """Take a caller's matrices, which need not be symmetric."""
-    _require_lengths("durations", durations_s)
-    _require_lengths("distances", distances_m)
-    return Travel(_whole_ms(durations_s * 1000.0), _whole_mm(distances_m))
+    _require_lengths("durations", durations_s, pause)
+    _require_lengths("distances", distances_m, pause)
+    return Travel(_whole(durations_s, lambda rows: _ceiled(rows * 1000.0), pause),
+                  _whole(distances_m, _rounded_mm, pause))
 
 
-def flight_travel(distances_m: FloatArray, durations_s: FloatArray) -> Travel:
+def flight_travel(distances_m: FloatArray, durations_s: FloatArray,
+                  pause: Pause = go_on) -> Travel:
     """Take the legs of a drone: infinite, or longer than any plan, means no flight.
 
     Raises
     ------
     ValueError
-        If an entry is negative or not a number, or a flight's distance is too large.
+        If an entry is negative or not a number.
     """
-    reachable: BoolArray = (
-        np.isfinite(distances_m) & (durations_s * 1000.0 <= MAX_QUANTITY)
-    )
-    for name, matrix in (("distances", distances_m), ("durations", durations_s)):
-        _require_lengths(name, np.where(np.isposinf(matrix), 0.0, matrix))
-    duration = _whole_ms(np.where(reachable, durations_s * 1000.0, 0.0))
-    distance = _whole_mm(np.where(reachable, distances_m, 0.0))
-    return Travel(np.where(reachable, duration, UNREACHABLE),
-                  np.where(reachable, distance, UNREACHABLE))
+    duration = np.empty(durations_s.shape, np.int64)
+    distance = np.empty(distances_m.shape, np.int64)
+    for rows in matrix_blocks(len(duration), pause):
+        seconds, metres = durations_s[rows], distances_m[rows]
+        for name, lengths in (("distances", metres), ("durations", seconds)):
+            if not lengths.min(initial=0.0) >= 0:
+                raise ValueError(f"{name}: every entry must be a number and not negative")
+        reachable = (metres * 1000.0 <= MAX_QUANTITY) & (seconds * 1000.0 <= MAX_QUANTITY)
+        duration[rows] = _ceiled(np.where(reachable, seconds, 0.0) * 1000.0)
+        distance[rows] = _rounded_mm(np.where(reachable, metres, 0.0))
+        duration[rows][~reachable] = UNREACHABLE
+        distance[rows][~reachable] = UNREACHABLE
+    return Travel(duration, distance)
 
 
 def speed_profile(
@@ -195,31 +202,26 @@ def embed(duration: IntArray | FloatArray) -> FloatArray:
     return coordinates
 
 
-def _row_blocks(matrix: FloatArray) -> Iterator[slice]:
-    """Yield the rows of a matrix, some at a time."""
-    return (slice(first, first + ROWS) for first in range(0, len(matrix), ROWS))
-
-
-def _whole(matrix: FloatArray, rounded: Callable[[FloatArray], FloatArray]) -> IntArray:
+def _whole(matrix: FloatArray, rounded: Callable[[FloatArray], FloatArray],
+           pause: Pause) -> IntArray:
     """Return what `rounded` makes of a matrix, row block by row block."""
     result = np.empty(matrix.shape, np.int64)
-    for rows in _row_blocks(matrix):
+    for rows in matrix_blocks(len(matrix), pause):
         result[rows] = rounded(matrix[rows])
     return result
 
 
 def _ceiled(duration_ms: FloatArray) -> FloatArray:
-    noise = np.maximum(FLOAT_NOISE_MS, 2 * np.spacing(duration_ms))
+    noise: FloatArray | float = FLOAT_NOISE_MS
+    if duration_ms.max(initial=0.0) >= COARSE_MS:
+        noise = np.maximum(FLOAT_NOISE_MS, 2 * np.spacing(duration_ms))
     whole: FloatArray = np.ceil(duration_ms - noise)
     return whole
 
 
-def _whole_ms(duration_ms: FloatArray) -> IntArray:
-    return _whole(duration_ms, _ceiled)
-
-
-def _whole_mm(distance_m: FloatArray) -> IntArray:
-    return _whole(distance_m, lambda rows: np.rint(rows * 1000.0))
+def _rounded_mm(distance_m: FloatArray) -> FloatArray:
+    rounded: FloatArray = np.rint(distance_m * 1000.0)
+    return rounded
 
 
 def _require_speed(speed: float) -> None:
@@ -227,9 +229,10 @@ def _require_speed(speed: float) -> None:
         raise ValueError(f"speed: {speed!r} is not allowed")
 
 
-def _require_lengths(name: str, matrix: FloatArray) -> None:
-    for rows in _row_blocks(matrix):
-        if not (matrix[rows] >= 0).all() or np.isinf(matrix[rows]).any():
+def _require_lengths(name: str, matrix: FloatArray, pause: Pause) -> None:
+    for rows in matrix_blocks(len(matrix), pause):
+        lengths = matrix[rows]
+        if not (lengths.min(initial=0.0) >= 0 and lengths.max(initial=0.0) < np.inf):
             raise ValueError(f"{name}: every entry must be finite and not negative")
 
 

@@ -31,7 +31,8 @@ REPLANNING = tuple(f"replanning/{name}" for name in (
 MODEL_ORDER = (
     "compiled", "problem", "solution", "past", "timing", "metrics", "rules", "past_rules", "check",
     "attempt", "explain", *REPLANNING,
-    "rows", "travel", "airspace", "instance", "schedule", "cost", "meeting", "transition",
+    "rows", "pausing", "travel", "wind", "obstacles", "visibility", "detours", "ways", "airspace",
+    "instance", "schedule", "cost", "meeting", "transition",
     "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract", *SEARCH,
     "policy", "policy_pointer", "policy_attention", "decode", "planner", "replan",
 )

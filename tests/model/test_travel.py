@@ -5,7 +5,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from model import travel
+from model import pausing
 from model.problem import FULL_SPEED, MAX_QUANTITY, UNREACHABLE, SpeedProfile
 from model.travel import (
     EARTH_RADIUS_M,
@@ -198,7 +198,7 @@ def test_matrices_of_many_rows_are_those_of_few(monkeypatch: pytest.MonkeyPatch)
     points = np.random.default_rng(0).random((20, 2)) * 1e4
     whole = truck_travel(planar_distances(points), 37.0)
     around = great_circle_distances(points / 1e3)
-    monkeypatch.setattr(travel, "ROWS", 7)
+    monkeypatch.setattr(pausing, "ENTRIES_AT_ONCE", 7 * len(points))
     parts = truck_travel(planar_distances(points), 37.0)
     assert np.array_equal(parts.duration, whole.duration)
     assert np.array_equal(parts.distance, whole.distance)

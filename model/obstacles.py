@@ -1,0 +1,98 @@
+"""No-fly areas as flights meet them: edges that none may cross, corners where it may bend."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from shapely import MultiPolygon, Polygon
+from shapely.geometry.base import BaseGeometry
+
+from model.problem import BoolArray, FloatArray
+
+TOUCH_M = 0.0005
+"""How deep a flight may cut into a no-fly area and still count as touching its boundary."""
+
+
+class Corners(NamedTuple):
+    """Where alone shortest ways bend."""
+
+    place: FloatArray  # (corner, 2)
+    before: FloatArray  # (corner, 2) the neighbours on the boundary, or itself where areas touch
+    after: FloatArray  # (corner, 2)
+
+
+class Obstacles(NamedTuple):
+    """What flights meet."""
+
+    parts: BaseGeometry  # what no flight may meet
+    edges: FloatArray  # (edge, 4) x and y of both ends of the parts' edges
+    corners: Corners  # outside the parts
+
+    def hold(self, points: FloatArray) -> BoolArray:
+        """Mark the (point, 2) points that lie in a part."""
+        return _inside(self.parts, points)
+
+
+def obstacles_of(rings: Sequence[Sequence[tuple[float, float]]]) -> Obstacles:
+    """Merge areas, each given by its corners."""
+    areas = shapely.union_all([Polygon(ring) for ring in rings])
+    parts = _blocking_parts(areas)
+    corners = _corners(areas)
+    free = ~_inside(parts, corners.place)
+    return Obstacles(parts, _edges(parts), Corners(*(places[free] for places in corners)))
+
+
+def _blocking_parts(areas: BaseGeometry) -> BaseGeometry:
+    """Return what no flight may meet: the areas, a little shrunk, hairline gaps closed.
+
+    Against shrunk areas, flights along an edge or past a corner are clear by a margin, so that no
+    rounding of coordinates decides whether they touch or cut.
+    """
+    closed = areas.buffer(TOUCH_M, join_style="mitre")
+    shrunk = MultiPolygon(_polygons(closed.buffer(-2 * TOUCH_M, join_style="mitre")))
+    shapely.prepare(shrunk)
+    return shrunk
+
+
+def _polygons(geometry: BaseGeometry) -> list[Polygon]:
+    parts = geometry.geoms if isinstance(geometry, MultiPolygon) else (geometry,)
+    return [part for part in parts if isinstance(part, Polygon) and not part.is_empty]
+
+
+def _inside(parts: BaseGeometry, points: FloatArray) -> BoolArray:
+    inside: BoolArray = shapely.intersects_xy(parts, points[:, 0], points[:, 1])
+    return inside
+
+
+def _edges(parts: BaseGeometry) -> FloatArray:
+    edges = [np.empty((0, 4))]
+    for ring in _rings(parts):
+        corners = shapely.get_coordinates(ring)
+        edges.append(np.concatenate([corners[:-1], corners[1:]], axis=1))
+    return np.concatenate(edges)
+
+
+def _corners(areas: BaseGeometry) -> Corners:
+    """Return the areas' convex corners, and where boundaries touch."""
+    corners = [np.empty((0, 3, 2))]
+    for ring in _rings(shapely.orient_polygons(areas)):
+        places = shapely.get_coordinates(ring)[:-1]
+        corners.append(np.stack([places, np.roll(places, 1, axis=0), np.roll(places, -1, axis=0)],
+                                axis=1))
+    together = np.concatenate(corners)
+    places = together[:, 0]
+    to, away = places - together[:, 1], together[:, 2] - places
+    # The area lies on the left of every ring, so its convex corners turn left.
+    convex = to[:, 0] * away[:, 1] - to[:, 1] * away[:, 0] > 0
+    _, which, times = np.unique(places, axis=0, return_inverse=True, return_counts=True)
+    touching = times[which] > 1
+    # Between two areas that touch, a way may bend to either side.
+    together[touching, 1:] = places[touching, None]
+    chosen = together[convex | touching]
+    return Corners(*(np.ascontiguousarray(chosen[:, column]) for column in range(3)))
+
+
+def _rings(areas: BaseGeometry) -> list[BaseGeometry]:
+    return [ring for polygon in _polygons(areas)
+            for ring in (polygon.exterior, *polygon.interiors)]
