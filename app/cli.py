@@ -21,6 +21,7 @@ from app.replanning import task_of
 from app.service import ReceivedBody, answer
 from app.settings import Settings
 from app.settings_table import settings_page
+from app.warming import showing
 from model.check import Evaluation
 from model.planner import Planner, load_planner
 
@@ -137,7 +138,8 @@ def main() -> None:
 
 def _warm_planner(settings: Settings) -> Planner:
     planner = load_planner(settings.weights_dir, settings.policies)
-    planner.warm(lambda progress: typer.echo(progress, err=True))
+    with showing(lambda line: typer.echo(line, err=True)) as show:
+        planner.warm(show)
     return planner
 
 

@@ -14,8 +14,10 @@ from app.load.bounds import UNBOUNDED, Bounds
 from app.reading import read_request
 from app.replanning import task_of
 from app.replies import Data
-from app.schemas_request import OptionsInput
+from app.schemas_request import OptionsInput, PlanRequest
+from app.warming import showing, words
 from model.planner import ALONE, Listener, Planner, PlanOptions
+from model.warming import Warmth
 
 logger = logging.getLogger(__name__)
 
@@ -30,10 +32,12 @@ class ReceivedBody:
 
 @dataclass(frozen=True)
 class Readiness:
-    """Whether plans can be computed now, and if not, why."""
+    """Whether all plans can be computed now, and if not, why."""
 
     is_ready: bool
     detail: str
+    progress: float = 0.0  # of warming up, from 0 to 1
+    decodes: bool = False  # plans that nothing improves can be computed
 
 
 class PlanService:
@@ -48,24 +52,27 @@ class PlanService:
         self._bounds = bounds
         self._executor = ThreadPoolExecutor(1, thread_name_prefix="warm")
         self._warming: Future[None] | None = None
-        self._progress = "not started"
+        self._warmth: Warmth | None = None
 
     def start(self) -> None:
         """Warm the planner in the background. In place."""
-        self._warming = self._executor.submit(self._planner.warm, self._note)
+        self._warming = self._executor.submit(self._warm)
 
     def stop(self) -> None:
         """Let go of the background thread. In place."""
         self._executor.shutdown(wait=False, cancel_futures=True)
 
     def readiness(self) -> Readiness:
-        """Tell whether the planner is warm."""
-        if self._warming is None or not self._warming.done():
-            return Readiness(False, self._progress)
-        error = self._warming.exception()
-        if error is not None:
-            return Readiness(False, f"warming up failed: {error}")
-        return Readiness(True, "ready")
+        """Tell whether the planner is warm, or how far it is."""
+        if self._warming is not None and self._warming.done():
+            error = self._warming.exception()
+            if error is not None:
+                return Readiness(False, f"warming up failed: {error}")
+            return Readiness(True, "ready", 1.0, True)
+        warmth = self._warmth
+        if warmth is None:
+            return Readiness(False, "not started")
+        return Readiness(False, words(warmth), warmth.share, warmth.decodes)
 
     def plan(self, body: ReceivedBody,
              should_stop: Callable[[], bool] = lambda: False) -> bytes:
@@ -76,14 +83,20 @@ class PlanService:
         Raises
         ------
         NotReadyError
-            If the planner isn't warm yet.
+            If the planner isn't warm enough yet.
         RequestError
             If `body` is no valid request.
         PlanCheckError
             If the plan found breaks a rule.
         """
-        return answer(self.warm_planner(), body, self._search_threads, self._on_plan,
-                      Listener(should_stop), self._bounds)
+        readiness = self.readiness()
+        if not readiness.decodes:
+            raise _not_ready(readiness)
+        request = read_request(body.content, self._planner.policies, self._bounds)
+        if not readiness.is_ready and not _only_decodes(request):
+            raise _not_ready(readiness)
+        return reply_to(self._planner, request, body.received_at, self._search_threads,
+                        self._on_plan, Listener(should_stop))
 
     def warm_planner(self) -> Planner:
         """Return the planner.
@@ -95,12 +108,27 @@ class PlanService:
         """
         readiness = self.readiness()
         if not readiness.is_ready:
-            raise NotReadyError(f"The planner is not ready ({readiness.detail}): try again soon.")
+            raise _not_ready(readiness)
         return self._planner
 
-    def _note(self, progress: str) -> None:
-        logger.info("warming up: %s", progress)
-        self._progress = progress
+    def _warm(self) -> None:
+        """Warm the planner. In place."""
+        with showing(lambda line: logger.info("warming up: %s", line)) as show:
+            def note(warmth: Warmth) -> None:
+                self._warmth = warmth
+                show(warmth)
+
+            self._planner.warm(note)
+
+
+def _not_ready(readiness: Readiness) -> NotReadyError:
+    return NotReadyError(f"The planner is not ready ({readiness.detail}): try again soon.")
+
+
+def _only_decodes(request: PlanRequest) -> bool:
+    """Tell whether a request is planned without any part of the search."""
+    options = request.options
+    return request.replan is None and 0 in (options.time_limit, options.search_iterations)
 
 
 def answer(planner: Planner, body: ReceivedBody, search_threads: int = 1,
@@ -111,14 +139,20 @@ def answer(planner: Planner, body: ReceivedBody, search_threads: int = 1,
     A request that states no number of threads gets `search_threads`; `on_plan` is told the reply.
     """
     request = read_request(body.content, planner.policies, bounds)
+    return reply_to(planner, request, body.received_at, search_threads, on_plan, listener)
+
+
+def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_threads: int,
+             on_plan: Callable[[Data], None], listener: Listener) -> bytes:
+    """Return the reply to a planning request that was read, as `answer` does."""
     task = task_of(request)
-    validated = time.perf_counter() - body.received_at
+    validated = time.perf_counter() - received_at
     options = plan_options(request.options, search_threads)
-    result = task.plan(planner, options, body.received_at, listener)
+    result = task.plan(planner, options, received_at, listener)
     reply = task.reply(options, result)
     elapsed = reply["solver"]["elapsed"]
     elapsed["validate"] = validated
-    elapsed["total"] = time.perf_counter() - body.received_at
+    elapsed["total"] = time.perf_counter() - received_at
     on_plan(reply)
     return to_json(reply)
 

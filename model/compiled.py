@@ -16,6 +16,7 @@ from tempfile import TemporaryFile
 from typing import Any, TypeVar, cast
 
 from numba import config, njit
+from numba.core import event
 from numba.core.compiler import Compiler
 
 SOURCES = ("compiled", "problem", "rows", "visibility", "detours", "instance", "schedule", "cost",
@@ -54,6 +55,9 @@ PASTED: dict[str, Any] = {"nogil": True, "_nrt": False, "inline": "always"}
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+_TO_COMPILE: set[str] = set()
+"""Names of all functions that are compiled for themselves."""
+
 
 def compiled(function: Function) -> Function:
     """Compile a function at its first call, or load it if that was done before."""
@@ -73,7 +77,7 @@ def inlined(function: Function) -> Function:
 
     It has no entry from Python and counts no references, so it may not make arrays.
     """
-    return cast(Function, njit(**PART)(function))
+    return _part(function)
 
 
 def spliced(function: Function) -> Function:
@@ -82,7 +86,7 @@ def spliced(function: Function) -> Function:
     For what is called often, in few places, with arrays by the dozen: a call copies what describes
     each, two hundred words for a `World` and a `Fleet`.
     """
-    return cast(Function, njit(**PART, forceinline=True)(function))
+    return _part(function, forceinline=True)
 
 
 def pasted(function: Function) -> Function:
@@ -98,10 +102,16 @@ def inlined_arithmetic(function: Function) -> Function:
 
     Only for what need not be the same to the last bit on every processor.
     """
-    return cast(Function, njit(**PART, fastmath={"reassoc", "contract", "nsz", "arcp"})(function))
+    return _part(function, fastmath={"reassoc", "contract", "nsz", "arcp"})
+
+
+def _part(function: Function, **options: Any) -> Function:
+    _TO_COMPILE.add(_name_of(function))
+    return cast(Function, njit(**PART, **options)(function))
 
 
 def _kept(function: Function, **options: Any) -> Function:
+    _TO_COMPILE.add(_name_of(function))
     folder = compiled_folder()
     # Numba looks the folder up while it decorates, and nowhere but in its settings.
     config.CACHE_DIR = str(folder or "")  # type: ignore[attr-defined]
@@ -144,6 +154,44 @@ def first_to_compile() -> Iterator[bool]:
         if not has_to:
             fcntl.flock(file, fcntl.LOCK_UN)
         yield has_to
+
+
+class Count(event.Listener):
+    """Counts the functions compiled by this process and by others that share its folder."""
+
+    def __init__(self) -> None:
+        folder = compiled_folder()
+        self._file = None if folder is None else folder / "functions.txt"
+        self._names: set[str] = set()
+
+    def on_start(self, happened: event.Event) -> None:
+        """Do nothing: a function counts when it is done."""
+
+    def on_end(self, happened: event.Event) -> None:
+        """Count a function. In place."""
+        name = _name_of(happened.data["dispatcher"].py_func)
+        self._names.add(name)
+        if self._file is not None:
+            with self._file.open("a") as file:
+                file.write(f"{name}\n")
+
+    def share(self) -> float:
+        """Return how many there are of all that are ever compiled, from 0 to 1."""
+        names = set(self._names)
+        if self._file is not None and self._file.exists():
+            names.update(self._file.read_text().split())
+        return len(names & _TO_COMPILE) / max(1, len(_TO_COMPILE))
+
+
+@contextmanager
+def counting() -> Iterator[Count]:
+    """Count what is compiled meanwhile."""
+    with event.install_listener("numba:compile", Count()) as count:
+        yield count
+
+
+def _name_of(function: Callable[..., Any]) -> str:
+    return f"{function.__module__}.{function.__qualname__}"
 
 
 def fingerprint(source: Path) -> str:

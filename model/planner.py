@@ -21,6 +21,7 @@ from model.instance import Instance, pack
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.solution import Solution
+from model.warming import Tell, Warming, telling
 
 Start = Literal["policy", "insertion", "given"]
 
@@ -38,7 +39,12 @@ SECONDS_BEHIND, SECONDS_PER_CUSTOMER = 0.0025, 2e-5
 WARM_LIMIT = 3600.0
 """Time limit of the plan that everything is compiled for, which no compiler should need."""
 
-COMPILE_SEARCH = "from model.planner import compile_search; compile_search()"
+COMPILE_SEARCH = """
+from model.compiled import counting
+from model.planner import compile_search
+with counting():
+    compile_search()
+"""
 """What a second process does while everything is compiled."""
 
 
@@ -105,27 +111,25 @@ class Planner:
         """Names of the loaded policies."""
         return tuple(self._policies)
 
-    def warm(self, progress: Callable[[str], None] | None = None) -> None:
+    def warm(self, tell: Tell = lambda _: None) -> None:
         """Plan small problems by each policy and by none, so that all is compiled. In place.
 
         Where nothing is yet, one of several processes compiles and the others wait; where there are
         two cores, it has a helper that compiles the search. What is loaded by then is taken out of
         the garbage collector's sight.
         """
-        with first_to_compile() as is_first:
-            self._warm(progress or (lambda _: None), is_first and (os.cpu_count() or 1) > 1)
+        with telling(tell) as warming, first_to_compile() as is_first:
+            self._warm(warming, is_first and (os.cpu_count() or 1) > 1)
         keep_loaded()
 
-    def _warm(self, tell: Callable[[str], None], with_helper: bool) -> None:
+    def _warm(self, warming: Warming, with_helper: bool) -> None:
         with beside(COMPILE_SEARCH) if with_helper else nullcontext():
-            for index, name in enumerate(self._policies, 1):
-                tell(f"compiling and warming policy {name} ({index} of {len(self._policies)})")
-                began = time.perf_counter()
+            for name in self._policies:
+                warming.enter(f"compiling what policy {name} needs")
                 self.plan(small_problem(), PlanOptions(name, time_limit=0.0))
                 self.plan(small_problem(), PlanOptions(name, "sample", num_samples=4,
                                                        time_limit=0.0))
-                tell(f"policy {name} is warm after {time.perf_counter() - began:.1f} s")
-            tell("compiling the search")
+            warming.enter("compiling the search", decodes=True)
         compile_search()
         for name in self._policies:
             self.plan(small_problem(), PlanOptions(name, time_limit=WARM_LIMIT,

@@ -34,7 +34,7 @@ MODEL_ORDER = (
     "rows", "pausing", "travel", "wind", "obstacles", "visibility", "detours", "ways", "airspace",
     "instance", "schedule", "cost", "meeting", "transition",
     "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract", *SEARCH,
-    "policy", "policy_pointer", "policy_attention", "decode", "planner", "replan",
+    "policy", "policy_pointer", "policy_attention", "decode", "warming", "planner", "replan",
 )
 """Each file of `model` imports only files to the left of its name."""
 
@@ -43,8 +43,8 @@ SIMULATION = ("compiled", "rows", "instance", "schedule", "cost", "meeting", "tr
               "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract")
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
-ASKING = {"planner"}
-"""Compiles nothing itself, but asks whether anything is compiled."""
+ASKING = {"warming", "planner"}
+"""Compile nothing themselves, but ask what is compiled."""
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 40

@@ -20,6 +20,7 @@ from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanRe
 from model.problem import Problem
 from model.solution import Route, Solution
 from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
+from model.warming import Tell, Warmth
 
 APP_DIR = Path(__file__).parents[2] / "app"
 
@@ -29,9 +30,8 @@ class FirstFitPlanner:
 
     policies = (DEFAULT_POLICY,)
 
-    def warm(self, progress: Callable[[str], None] | None = None) -> None:
-        if progress is not None:
-            progress("nothing to compile")
+    def warm(self, tell: Tell) -> None:
+        tell(Warmth("compiling nothing", 1.0))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:

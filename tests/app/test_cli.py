@@ -71,7 +71,7 @@ def test_what_is_no_plan_is_refused(tmp_path: Path, smallest: Request) -> None:
 def test_warm_says_when_it_is_done() -> None:
     result = CliRunner().invoke(cli.cli, ["warm"])
     assert result.stdout == "ready\n"
-    assert "nothing to compile" in result.stderr
+    assert "compiling nothing, about 100% done" in result.stderr
 
 
 def test_serve_runs_the_application(monkeypatch: pytest.MonkeyPatch) -> None:

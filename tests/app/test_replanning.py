@@ -10,6 +10,7 @@ import pytest
 from app.schemas_response import PlanReply
 from app.settings import DEFAULT_POLICY
 from model.planner import Planner
+from model.warming import Tell
 
 Request = dict[str, Any]
 
@@ -17,7 +18,7 @@ Request = dict[str, Any]
 class SearchingPlanner(Planner):
     """A planner that never asks its policy, since every plan here begins with a given one."""
 
-    def warm(self, progress: Callable[[str], None] | None = None) -> None:
+    def warm(self, tell: Tell) -> None:
         """Need nothing: the search compiles with the first plan."""
 
 

@@ -3,7 +3,7 @@
 import asyncio
 import json
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +19,9 @@ from model.planner import (
 )
 from model.problem import Problem
 from model.solution import Solution
+from model.warming import Tell, Warmth
+from tests.app.conftest import FirstFitPlanner
 
-Progress = Callable[[str], None]
 Serve = Callable[[Planner], httpx.Client]
 
 
@@ -33,9 +34,8 @@ class SlowPlanner:
         self.started = threading.Event()
         self.finish = threading.Event()
 
-    def warm(self, progress: Progress | None = None) -> None:
-        if progress is not None:
-            progress("compiling 1 of 2")
+    def warm(self, tell: Tell) -> None:
+        tell(Warmth("compiling this", 0.25))
         self.started.set()
         self.finish.wait()
 
@@ -43,7 +43,7 @@ class SlowPlanner:
 class BrokenPlanner:
     """Can't be warmed up."""
 
-    def warm(self, progress: Progress | None = None) -> None:
+    def warm(self, tell: Tell) -> None:
         raise ValueError("no weights")
 
 
@@ -55,7 +55,7 @@ class WrongPlanner:
     def __init__(self, error: Exception) -> None:
         self._error = error
 
-    def warm(self, progress: Progress | None = None) -> None:
+    def warm(self, tell: Tell) -> None:
         pass
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
@@ -63,22 +63,83 @@ class WrongPlanner:
         raise self._error
 
 
-def test_service_is_ready_once_warm(serve: Serve, smallest: dict[str, Any]) -> None:
+@pytest.fixture
+def slow() -> Iterator[SlowPlanner]:
+    """Return a planner that is warm at the end of the test at the latest."""
     planner = SlowPlanner()
-    client = serve(planner)
-    planner.started.wait()
+    yield planner
+    planner.finish.set()
+
+
+def test_service_is_ready_once_warm(serve: Serve, smallest: dict[str, Any],
+                                    slow: SlowPlanner) -> None:
+    client = serve(slow)
+    slow.started.wait()
     response = client.get("/health/ready")
     assert response.status_code == 503
-    assert response.json() == {"status": "starting", "detail": "compiling 1 of 2"}
+    assert response.json() == {"status": "starting", "progress": 0.25,
+                               "detail": "compiling this, about 25% done"}
     assert client.get("/health/live").status_code == 200
     refusal = client.post("/plan", json=smallest)
     assert refusal.status_code == 503
     assert refusal.headers["content-type"] == "application/problem+json"
     assert int(refusal.headers["retry-after"]) > 0
-    planner.finish.set()
+    slow.finish.set()
     while client.get("/health/ready").status_code == 503:
         pass
     assert client.get("/health/ready").json()["status"] == "ready"
+
+
+class HalfWarmPlanner(FirstFitPlanner):
+    """Decodes, while its search is compiled until told to stop."""
+
+    def __init__(self) -> None:
+        self.decodes = threading.Event()
+        self.finish = threading.Event()
+
+    def warm(self, tell: Tell) -> None:
+        tell(Warmth("compiling the search", 0.5, decodes=True))
+        self.decodes.set()
+        self.finish.wait()
+
+
+@pytest.fixture
+def half_warm(serve: Serve) -> Iterator[httpx.Client]:
+    """Return a client of a service whose planner decodes and doesn't search yet."""
+    planner = HalfWarmPlanner()
+    client = serve(planner)
+    planner.decodes.wait()
+    yield client
+    planner.finish.set()
+
+
+@pytest.mark.parametrize("options", [
+    {"time_limit": 0}, {"search_iterations": 0}, {"time_limit": 0, "decoding": "sample"}])
+def test_plans_without_a_search_are_made_before_it_is_compiled(
+        half_warm: httpx.Client, smallest: dict[str, Any], options: dict[str, Any]) -> None:
+    response = half_warm.post("/plan", json=smallest | {"options": options})
+    assert response.status_code == 200, response.text
+
+
+def test_plans_with_a_search_wait_until_it_is_compiled(
+        half_warm: httpx.Client, smallest: dict[str, Any]) -> None:
+    plan = half_warm.post("/plan", json=smallest | {"options": {"time_limit": 0}}).json()
+    for request in (smallest, smallest | {"options": {"time_limit": 0}, "replan": {"plan": plan}}):
+        refusal = half_warm.post("/plan", json=request)
+        assert refusal.status_code == 503, refusal.text
+        assert int(refusal.headers["retry-after"]) > 0
+        assert "50%" in refusal.json()["detail"]
+        assert "plans with time_limit 0 are made already" in refusal.json()["detail"]
+
+
+def test_pages_are_served_while_the_planner_warms_up(half_warm: httpx.Client) -> None:
+    for path in ("/", "/docs", "/openapi.json", "/health/live", "/console/config.json"):
+        assert half_warm.get(path).status_code == 200, path
+    readiness = half_warm.get("/health/ready")
+    assert readiness.status_code == 503
+    assert readiness.json() == {
+        "status": "starting", "progress": 0.5, "detail": "compiling the search, about 50% done; "
+        "plans with time_limit 0 are made already"}
 
 
 def test_service_that_cannot_be_warmed_is_never_ready() -> None:

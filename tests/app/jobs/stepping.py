@@ -21,6 +21,7 @@ from model.problem import Problem
 from model.search.improve import Progress
 from model.solution import Solution
 from model.timing import RouteDecision, TripDecision, schedule
+from model.warming import Tell, Warmth
 from tests.conftest import free_port
 
 ROOT = Path(__file__).parents[3]
@@ -54,9 +55,8 @@ class SteppingPlanner:
 
     policies = (DEFAULT_POLICY,)
 
-    def warm(self, progress: Callable[[str], None] | None = None) -> None:
-        if progress is not None:
-            progress("nothing to compile")
+    def warm(self, tell: Tell) -> None:
+        tell(Warmth("compiling nothing", 1.0))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:

@@ -10,6 +10,7 @@ import pytest
 from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.schemas_response import VroomReply
 from model.planner import Planner
+from model.warming import Tell
 from tests.app.vroom.reference import solve
 
 Data = dict[str, Any]
@@ -28,7 +29,7 @@ JOB = ["type", "location", "id", "setup", "service", "waiting_time", "job", "loa
 class SearchingPlanner(Planner):
     """The true planner without policies, which these requests never ask."""
 
-    def warm(self, progress: Callable[[str], None] | None = None) -> None:
+    def warm(self, tell: Tell) -> None:
         """Need nothing: the search compiles with the first plan."""
 
 

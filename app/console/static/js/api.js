@@ -34,22 +34,12 @@ async function send(path, { method = 'GET', body, headers = {}, signal } = {}) {
     ...(key && { Authorization: `Bearer ${key}` }),
     ...(body && { 'Content-Type': 'application/json' }),
   };
-  let response;
-  try {
-    response = await fetch(new URL(path, document.baseURI), {
-      method,
-      headers: all,
-      signal,
-      body: body && JSON.stringify(body),
-    });
-  } catch (error) {
-    if (error.name === 'AbortError') throw error;
-    throw new ApiError(
-      0,
-      'The service does not answer',
-      'No connection: check that the service runs and that you are online, then try again.',
-    );
-  }
+  const response = await ask(path, {
+    method,
+    headers: all,
+    signal,
+    body: body && JSON.stringify(body),
+  });
   if (response.ok) return response;
   if (response.status === 401) {
     const given = await askForKey(key !== null);
@@ -59,6 +49,19 @@ async function send(path, { method = 'GET', body, headers = {}, signal } = {}) {
     }
   }
   throw await errorOf(response);
+}
+
+async function ask(path, options) {
+  try {
+    return await fetch(new URL(path, document.baseURI), options);
+  } catch (error) {
+    if (error.name === 'AbortError') throw error;
+    throw new ApiError(
+      0,
+      'The service does not answer',
+      'No connection: check that the service runs and that you are online, then try again.',
+    );
+  }
 }
 
 async function errorOf(response) {
@@ -84,14 +87,12 @@ export const getDescription = () => json('openapi.json');
 /** Return the console's settings. */
 export const getConfig = () => json('console/config.json');
 
-/** Return whether plans can be made now: `{status, detail}`. */
+/** Return whether plans can be made now: `{status, detail, progress}`. */
 export async function getReadiness() {
-  try {
-    return await json('health/ready');
-  } catch (error) {
-    if (error.status === 503) return { status: 'starting', detail: error.message };
-    throw error;
-  }
+  const response = await ask('health/ready');
+  if (response.ok) return response.json();
+  if (response.status !== 503) throw await errorOf(response);
+  return response.json().catch(() => ({ status: 'starting', detail: 'It gave no reason.' }));
 }
 
 /** Plan and return the reply. */

@@ -55,7 +55,7 @@ async function begin() {
 async function untilReady() {
   let readiness = await api.getReadiness();
   while (readiness.status !== 'ready') {
-    store.set({ starting: readiness.detail });
+    store.set({ starting: readiness });
     await new Promise((resolve) => {
       setTimeout(resolve, READY_CHECK_MS);
     });

@@ -48,7 +48,7 @@ export const store = createStore({
   },
   dialog: null, // name of the open dialog
   dark: false,
-  starting: null, // what the service does before it is ready
+  starting: null, // {detail, progress} until the service is ready
   scenario: null, // comparison or sweep and its job
   scenarioSeconds: 1,
   keptFleets: {}, // fleets by name, to compare

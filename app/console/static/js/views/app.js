@@ -56,7 +56,11 @@ function Notice() {
   if (!starting) return null;
   return html`<div class="notice starting"
     role="status"><div><strong>The service is starting.</strong>
-    ${' '}${starting}</div></div>`;
+    ${' '}${starting.detail}
+    ${
+      starting.progress != null &&
+      html`<progress max="1" value=${starting.progress} aria-label="How far it is"></progress>`
+    }</div></div>`;
 }
 
 /** Return the field at a place, or the nearest that holds it. */
