@@ -76,11 +76,13 @@ async def ready(request: Request, service: Service) -> JSONResponse:
     if request.app.state.shutdown.has_begun:
         return JSONResponse({"status": "stopping", "detail": "this process is about to end"}, 503)
     readiness = service.readiness()
-    if readiness.is_ready and request.app.state.jobs.is_preparing:
-        return JSONResponse({"status": "starting", "detail": "the database is being prepared"}, 503)
-    trouble = await request.app.state.jobs.misfit() or await request.app.state.guard.trouble()
-    if readiness.is_ready and trouble is not None:
-        return JSONResponse({"status": "unavailable", "detail": trouble}, 503)
+    if readiness.is_ready:
+        if request.app.state.jobs.is_preparing:
+            detail = "the database is being prepared"
+            return JSONResponse({"status": "starting", "detail": detail}, 503)
+        trouble = await request.app.state.jobs.misfit() or await request.app.state.guard.trouble()
+        if trouble is not None:
+            return JSONResponse({"status": "unavailable", "detail": trouble}, 503)
     content = {"status": "ready" if readiness.is_ready else "starting", "detail": readiness.detail,
                "progress": readiness.progress}
     return JSONResponse(content, 200 if readiness.is_ready else 503)

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from model.compiled import SOURCES
+from tests.conftest import complete
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("app", "model", "training", "benchmarks", "examples", "tests")
@@ -164,6 +165,19 @@ def test_functions_are_short(path: Path) -> None:
     long = {function.name: code_lines(function) for function in functions
             if code_lines(function) > MAX_FUNCTION_LINES}
     assert long == {}
+
+
+def test_coroutines_are_run_where_no_browser_has_its_loop() -> None:
+    async def outer() -> int:
+        return complete(inner())
+
+    async def inner() -> int:
+        return 42
+
+    assert complete(outer()) == 42
+    by_themselves = [name_of(path) for path in sources("tests") if "asyncio.run" + "(" in
+                     path.read_text()]
+    assert by_themselves == []
 
 
 @pytest.mark.parametrize("path", sources(*PACKAGES), ids=name_of)

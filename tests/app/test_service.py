@@ -1,6 +1,5 @@
 """Readiness, and what happens when planning fails."""
 
-import asyncio
 import json
 import threading
 from collections.abc import Callable, Iterator
@@ -21,6 +20,7 @@ from model.problem import Problem
 from model.solution import Solution
 from model.warming import Tell, Warmth
 from tests.app.conftest import FirstFitPlanner
+from tests.conftest import complete
 
 Serve = Callable[[Planner], httpx.Client]
 
@@ -173,7 +173,7 @@ def test_missing_policy_stops_startup(tmp_path: Path) -> None:
             pass
 
     with pytest.raises((ValueError, OSError)):
-        asyncio.run(start())
+        complete(start())
 
 
 def test_time_limit_runs_from_the_end_of_the_request(

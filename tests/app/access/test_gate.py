@@ -1,6 +1,5 @@
 """Headers on replies, pages of other origins, and who may listen where."""
 
-import asyncio
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from app.access.setup import ExposedError, check_exposure
 from app.cli import cli
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
+from tests.conftest import complete
 
 ORIGIN = "https://dispatch.example.org"
 
@@ -85,7 +85,7 @@ def test_https_is_kept_by_browsers_once_it_was_used() -> None:
 
     for scheme in ("http", "https"):
         scope = {"type": "http", "path": "/", "scheme": scheme}
-        asyncio.run(SecurityHeaders(app)(scope, None, send))
+        complete(SecurityHeaders(app)(scope, None, send))
     plain, secure = (dict(message["headers"]) for message in sent)
     assert b"strict-transport-security" not in plain
     assert secure[b"strict-transport-security"].startswith(b"max-age=")

@@ -7,6 +7,7 @@ from dataclasses import replace
 from app.jobs.errors import JobsUnavailableError
 from app.jobs.events import Watcher, events
 from app.jobs.rows import JobRow
+from tests.conftest import complete
 
 ROW = JobRow(
     id="j", kind="plan", owner="me", state="running", parent=None, position=None, fingerprint="f",
@@ -40,7 +41,7 @@ def told(jobs: Jobs, row: JobRow = ROW, seen: int = 0, followers: int = 1) -> li
         watcher = Watcher(jobs.find_all)
         return await asyncio.gather(*(follow(watcher) for _ in range(followers)))
 
-    return asyncio.run(follow_all())
+    return complete(follow_all())
 
 
 def test_each_change_is_told_once_and_then_the_end() -> None:
@@ -78,7 +79,7 @@ def test_unforeseen_error_ends_the_stream_and_the_next_one_goes_on() -> None:
             first, = {tuple(told) for told in await asyncio.gather(follow(0), follow(0))}
             return list(first), await follow(5)
 
-    assert asyncio.run(follow_twice()) == (["5 progress"], ["6 progress", "6 end"])
+    assert complete(follow_twice()) == (["5 progress"], ["6 progress", "6 end"])
 
 
 def test_deleted_job_ends_without_an_end() -> None:
@@ -97,4 +98,4 @@ def test_nobody_is_looked_up_when_all_have_left() -> None:
         assert all(task.done() for task in tasks)
         return len(jobs.asked)
 
-    assert asyncio.run(leave()) <= 1
+    assert complete(leave()) <= 1

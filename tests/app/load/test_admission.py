@@ -8,6 +8,7 @@ from collections.abc import Callable
 import pytest
 
 from app.load.admission import Admission, OverloadedError
+from tests.conftest import complete
 
 
 async def settle(condition: Callable[[], bool]) -> None:
@@ -31,7 +32,7 @@ def test_what_finds_slots_and_queue_full_is_refused_at_once() -> None:
         await admission.acquire()
         assert admission.running == 1
 
-    asyncio.run(scenario())
+    complete(scenario())
 
 
 def test_whoever_waits_too_long_is_refused() -> None:
@@ -44,7 +45,7 @@ def test_whoever_waits_too_long_is_refused() -> None:
         admission.release()
         assert admission.running == 0
 
-    asyncio.run(scenario())
+    complete(scenario())
 
 
 def test_turn_that_comes_as_the_wait_ends_is_taken() -> None:
@@ -61,7 +62,7 @@ def test_turn_that_comes_as_the_wait_ends_is_taken() -> None:
         await waiting
         assert (admission.running, admission.waiting) == (1, 0)
 
-    asyncio.run(scenario())
+    complete(scenario())
 
 
 def test_turns_come_in_order() -> None:
@@ -86,7 +87,7 @@ def test_turns_come_in_order() -> None:
         assert order == [0, 1, 2, 3, 4]
         assert (admission.running, admission.waiting) == (0, 0)
 
-    asyncio.run(scenario())
+    complete(scenario())
 
 
 def test_whoever_is_cancelled_leaves_the_queue() -> None:
@@ -102,7 +103,7 @@ def test_whoever_is_cancelled_leaves_the_queue() -> None:
         admission.release()
         assert admission.running == 0
 
-    asyncio.run(scenario())
+    complete(scenario())
 
 
 def test_slot_that_comes_while_its_waiter_is_cancelled_is_not_lost() -> None:
@@ -118,7 +119,7 @@ def test_slot_that_comes_while_its_waiter_is_cancelled_is_not_lost() -> None:
             await waiting
         assert admission.running == 0
 
-    asyncio.run(scenario())
+    complete(scenario())
 
 
 def test_slot_passes_over_those_who_gave_up() -> None:
@@ -133,7 +134,7 @@ def test_slot_passes_over_those_who_gave_up() -> None:
         assert first.cancelled() or await asyncio.wait({first})
         assert (admission.running, admission.waiting) == (1, 0)
 
-    asyncio.run(scenario())
+    complete(scenario())
 
 
 def test_no_more_than_the_slots_work_whatever_is_cancelled() -> None:
@@ -164,4 +165,4 @@ def test_no_more_than_the_slots_work_whatever_is_cancelled() -> None:
         assert most == 3
         assert (admission.running, admission.waiting) == (0, 0)
 
-    asyncio.run(scenario())
+    complete(scenario())
