@@ -1,11 +1,13 @@
 """Kills the service at random moments and looks what becomes of its jobs.
 
-    python -m benchmarks.crashes --kills 50
-    python -m benchmarks.crashes --kills 50 --database-url postgresql://user@host/tandem
+    python -m benchmarks.crashes --kills 30
+    python -m benchmarks.crashes --kills 30 --database-url postgresql://user@host/tandem
 
-Jobs of several seconds are kept coming. After each `kill -9` the service starts again. A job is
-lost if it never ends, has two results if a result that was read once changes later, and its cost
-must never rise, not even from one process to the next.
+Without a URL first with SQLite, then with a PostgreSQL server that is started for it. Jobs of
+several seconds are kept coming. After each `kill -9` the service starts again. A job is lost if it
+never ends, has two results if a result that was read once changes later, was made twice if its
+idempotency key leads to another or the service lists one that nobody sent, and its cost must never
+rise, not even from one process to the next. Exits with 1 if any of this happened.
 """
 
 import argparse
@@ -25,6 +27,8 @@ from typing import Any
 
 import httpx
 
+from benchmarks.postgres import running_postgres
+
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLE = ROOT / "app" / "examples" / "table1.json"
 
@@ -33,12 +37,18 @@ LONGEST_START = 600.0
 
 POLLING = 0.1
 
+WRONG = ("lost", "failed", "made twice", "with two results", "whose cost rose")
+"""Of an outcome, what should never be."""
+
+Outcome = dict[str, int | float]
+
 
 @dataclass
 class Followed:
     """What was seen of a job."""
 
-    seconds: float  # of search it was given
+    request: dict[str, Any]
+    key: str  # of idempotency
     costs: list[float] = field(default_factory=list)
     result: str | None = None
     rises: int = 0
@@ -109,6 +119,7 @@ class Study:
         self._rng = rng
         self._request: dict[str, Any] = json.loads(EXAMPLE.read_text("utf-8"))
         self.jobs: dict[str, Followed] = {}
+        self.made_twice: set[str] = set()
         self.resumptions: list[float] = []
 
     @property
@@ -120,12 +131,13 @@ class Study:
         """Have as many jobs at once as wanted. In place."""
         while len(self.open_jobs) < self._at_once:
             seconds = self._rng.uniform(*self._seconds)
-            options = {"time_limit": seconds, "seed": len(self.jobs)}
-            reply = self._service.client.post("/jobs", json=self._request | {"options": options})
+            request = self._request | {"options": {"time_limit": seconds, "seed": len(self.jobs)}}
+            job = Followed(request, f"job-{len(self.jobs)}")
+            reply = self._send(job)
             if reply.status_code == 503:
                 return  # the database is being prepared
             reply.raise_for_status()
-            self.jobs[reply.json()["id"]] = Followed(seconds)
+            self.jobs[reply.json()["id"]] = job
 
     def look(self) -> set[str]:
         """See what has become of all jobs; return those that run. In place."""
@@ -141,10 +153,29 @@ class Study:
         return running
 
     def look_again(self) -> None:
-        """See whether what has ended is still the same. In place."""
+        """See whether what has ended is still the same, and nothing was made twice. In place."""
         for job_id, job in self.jobs.items():
             if job.result is not None:
                 job.see(self._service.client.get(f"/jobs/{job_id}").json())
+            if self._send(job).json()["id"] != job_id:
+                self.made_twice.add(job_id)
+        self.made_twice |= self._listed() - self.jobs.keys()
+
+    def _listed(self) -> set[str]:
+        """Return all jobs that the service lists."""
+        listed: set[str] = set()
+        cursor: str | None = None
+        while True:
+            more = {} if cursor is None else {"cursor": cursor}
+            page = self._service.client.get("/jobs", params={"limit": "500", **more}).json()
+            listed |= {job["id"] for job in page["jobs"]}
+            cursor = page["next"]
+            if cursor is None:
+                return listed
+
+    def _send(self, job: Followed) -> httpx.Response:
+        return self._service.client.post("/jobs", json=job.request,
+                                         headers={"Idempotency-Key": job.key})
 
     def run_until(self, deadline: float) -> set[str]:
         """Follow jobs until then, on `time.monotonic`; return those that run by then. In place."""
@@ -182,16 +213,29 @@ class Study:
 def main() -> None:
     """Run the study and print what came of it."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--kills", type=int, default=50)
-    parser.add_argument("--database-url", help="PostgreSQL; left out: SQLite")
+    parser.add_argument("--kills", type=int, default=30)
+    parser.add_argument("--database-url", help="left out: SQLite, then PostgreSQL")
     parser.add_argument("--jobs-at-once", type=int, default=3)
     parser.add_argument("--seconds", type=float, nargs=2, default=(3.0, 12.0),
                         help="shortest and longest time limit of a job")
     parser.add_argument("--seed", type=int, default=0)
     arguments = parser.parse_args()
+    outcomes = []
+    if arguments.database_url is None:
+        outcomes.append(run(arguments, None))
+        with running_postgres() as url:
+            outcomes.append(run(arguments, url))
+    else:
+        outcomes.append(run(arguments, arguments.database_url))
+    if any(outcome[name] for outcome in outcomes for name in WRONG):
+        sys.exit(1)
+
+
+def run(arguments: argparse.Namespace, database_url: str | None) -> Outcome:
+    """Run the study with one database, and print and return what came of it."""
     rng = random.Random(arguments.seed)
     with tempfile.TemporaryDirectory() as folder:
-        service = Service(Path(folder), arguments.database_url)
+        service = Service(Path(folder), database_url)
         study = Study(service, tuple(arguments.seconds), arguments.jobs_at_once, rng)
         service.start()
         try:
@@ -201,29 +245,34 @@ def main() -> None:
             study.look_again()
         finally:
             service.kill()
-    print(table(study, arguments.kills, "SQLite" if arguments.database_url is None
-                else "PostgreSQL"))
+    outcome = outcome_of(study)
+    print(table(outcome, arguments.kills, "SQLite" if database_url is None else "PostgreSQL"),
+          flush=True)
+    return outcome
 
 
-def table(study: Study, kills: int, database: str) -> str:
-    """Return the outcome in Markdown."""
+def outcome_of(study: Study) -> Outcome:
+    """Return what became of the jobs."""
     jobs = study.jobs.values()
     states = [json.loads(job.result)["state"] for job in jobs if job.result is not None]
-    resumed = [job for job in jobs if job.kills]
-    rows = {
-        "database": database,
-        "kills": kills,
+    return {
         "jobs": len(jobs),
-        "of these killed while they ran": len(resumed),
+        "of these killed while they ran": sum(job.kills > 0 for job in jobs),
         "most kills of one job": max((job.kills for job in jobs), default=0),
         "done": states.count("done"),
         "lost": len(study.open_jobs),
         "failed": states.count("failed"),
+        "made twice": len(study.made_twice),
         "with two results": sum(job.other_results > 0 for job in jobs),
         "whose cost rose": sum(job.rises > 0 for job in jobs),
         "seconds from ready to progress, median": statistics.median(study.resumptions or [0.0]),
         "seconds from ready to progress, longest": max(study.resumptions, default=0.0),
     }
+
+
+def table(outcome: Outcome, kills: int, database: str) -> str:
+    """Return the outcome in Markdown."""
+    rows = {"database": database, "kills": kills, **outcome}
     lines = [f"| {name} | {value:.2f} |" if isinstance(value, float) else f"| {name} | {value} |"
              for name, value in rows.items()]
     return "\n".join(["| what | figure |", "| --- | --- |", *lines])

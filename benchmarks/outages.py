@@ -16,7 +16,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from benchmarks.crashes import EXAMPLE, POLLING, Service, Study, table
+from benchmarks.crashes import EXAMPLE, POLLING, Service, Study, outcome_of, table
 
 AROUND = 8.0
 """Seconds that jobs run before the first outage and after each."""
@@ -63,7 +63,7 @@ def main() -> None:
             study.look_again()
         finally:
             service.kill()
-    print(table(study, 0, "PostgreSQL"))
+    print(table(outcome_of(study), 0, "PostgreSQL"))
     print(f"while it was away: {dict(answers)}")
 
 
