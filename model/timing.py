@@ -140,7 +140,7 @@ def read_decision(trip: Trip, launch_duration: int) -> TripDecision:
         phase = 1 if first == last else 2
         keyed[first].append(((begin, end, phase, index, 0), Operation(index, True)))
         recovery = (sortie.recovery_start, sortie.recovery_time, 0, index, 1)
-        if first == last:
+        if first == last and sortie.recovery_start <= sortie.launch_time:
             recovery = (max(begin, recovery[0]), max(end, recovery[1]), phase, index, 1)
         keyed[last].append((recovery, Operation(index, False)))
     operations = tuple(tuple(operation for _, operation in sorted(group)) for group in keyed)

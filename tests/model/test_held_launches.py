@@ -190,6 +190,22 @@ def test_random_rollouts_and_searches_hold_launches_and_pass_the_checker() -> No
     assert by_search > 5
 
 
+def test_plans_state_their_order_where_launches_and_recoveries_take_no_time() -> None:
+    for seed in range(300):
+        problem = draw_late(np.random.default_rng(seed))
+        kinds = tuple(replace(kind, drones=replace(
+            kind.drones, count=3, launch_duration=0, recovery_duration=0))
+            for kind in problem.vehicle_types if kind.drones is not None)
+        customers = tuple(replace(customer, skills=frozenset(), served_by="either" if (
+            customer.served_by == "truck") else "drone") for customer in problem.customers)
+        problem = replace(problem, vehicle_types=kinds, customers=customers)
+        rollout = roll([problem], 0).rollouts[0]
+        evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
+        assert evaluation.violations == (), f"seed {seed}"
+        assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
+        searched(problem, 20)
+
+
 @pytest.mark.parametrize("change", [
     {}, {"served_by": "either"}, {"latest": 60 * MINUTE}, {"release_time": 30 * MINUTE},
     {"late_cost_per_hour": 9.0, "latest": 61 * MINUTE}, {"early_cost_per_hour": 6.0},
