@@ -67,10 +67,11 @@ def minutes(*times: int) -> list[float]:
     return [time / MINUTE for time in times]
 
 
-def searched(problem: Problem, turns: int = 200) -> Solution:
+def searched(problem: Problem, turns: int = 200, seed: int = 0) -> Solution:
     """Return the plan that the search finds from nothing, found legal."""
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
-    solution = improve(problem, pack([problem]), nobody, SearchConfig(turns=turns)).solution
+    config = SearchConfig(seed, turns=turns)
+    solution = improve(problem, pack([problem]), nobody, config).solution
     assert check(problem, solution).violations == ()
     return solution
 
