@@ -22,9 +22,6 @@ from model.problem import (
 )
 from model.travel import local_coordinates
 
-MAX_SEVERAL = 1000
-"""Most jobs with several time windows."""
-
 EARLIER = 2 * 10**8
 """How many seconds before all that is stated a vehicle without time window may leave."""
 
@@ -56,10 +53,6 @@ class Converter:
 
     def model(self, slots: Slots) -> Model:
         """Return the problem of serving jobs, at least one, each in one of its windows."""
-        several = sum(len(windows) > 1 for windows in slots.values())
-        if several > MAX_SEVERAL:
-            raise VroomError(TOO_LARGE, f"Too many jobs ({several}) with several time windows, "
-                                        f"maximum is {MAX_SEVERAL}")
         nodes = Nodes.of(self._places, self.kinds, slots)
         if len(nodes.origins) ** 2 > self._max_legs:
             raise VroomError(TOO_LARGE, "Too many starts and ends of vehicles and windows of jobs "

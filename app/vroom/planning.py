@@ -10,14 +10,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
 
+import numpy as np
+
 from app.vroom.checking import drive, route_faults
 from app.vroom.alternatives import bring_first, leave_out_by_priority
 from app.vroom.convert import Converter
 from app.vroom.errors import INPUT, VroomError
 from app.vroom.models import Model, Routes
+from app.vroom.nodes import Slots
 from app.vroom.places import Places
 from app.vroom.schemas import VroomJobInput, VroomRequest, Window
 from app.vroom.timing import Driver
+from app.vroom.windows import are_few, choose_few, hulls
 from model.check import check
 from model.planner import PlanCheckError, PlanOptions, PlanResult
 from model.problem import Problem
@@ -38,6 +42,12 @@ RELAXED = 0.85
 
 PRICES = 6
 """How many prices are tried for what makes relaxed plans break rules."""
+
+THROUGH_GAPS = 0.3
+"""Share of the time for routes that don't heed gaps between windows, where these are many."""
+
+ROUNDS = 6
+"""How often windows are chosen among then."""
 
 LEAST_PRICE, DEARER, CHEAPER = 0.05, 2.5, 0.6
 """The first price above none, and what it is multiplied by where a plan breaks or keeps rules."""
@@ -85,9 +95,60 @@ class Planning:
             Feasible routes to begin with; may be empty.
         """
         slots = {index: self._reachable(job) for index, job in enumerate(self._request.jobs)}
+        if not are_few(slots):
+            return self._find_in_rounds(slots, deadline, start)
         model = self._converter.model(slots)
         if start:
             self._require_start(model, start)
+        return self._find_by(model, slots, deadline, start)
+
+    def _find_in_rounds(self, slots: Slots, deadline: float, start: Routes) -> Found:
+        """Return the best plan found by a few windows of each job at a time."""
+        rng = np.random.default_rng(0)
+        best = self._judged(start)
+        hull = self._converter.model(hulls(slots))
+        seconds = max(LEAST_SECONDS, THROUGH_GAPS * _left(deadline))
+        options = replace(self._options, time_limit=seconds)
+        given = hull.solution({}, self._start_windows)
+        routes = hull.routes(self._plan(hull.problem, options, given, _tell_nobody).solution)
+        best = max(best, self._judged(self._mended(routes)), key=attrgetter("value"))
+        share = max(LEAST_SECONDS, _left(deadline) / ROUNDS)
+        for number in range(ROUNDS):
+            # Whoever is left out gets a chance, even if that takes longer.
+            if _left(deadline) <= 0 and (number > 0 or len(best.served) == len(slots)):
+                break
+            starts = {job: window for kind, its_routes in best.routes.items()
+                      for jobs in its_routes
+                      for job, window in zip(jobs, self._start_windows(kind, jobs), strict=True)}
+            few = choose_few(slots, starts, rng)
+            until = min(deadline, time.perf_counter() + share)
+            found = self._find_by(self._converter.model(few), few, until, best.routes)
+            best = max(best, found, key=attrgetter("value"))
+        return best
+
+    def _mended(self, routes: Routes) -> Routes:
+        """Return routes without the jobs that keep them from being driven."""
+        mended = {kind: [kept for jobs in its_routes if (kept := self._drivable(kind, jobs))]
+                  for kind, its_routes in routes.items()}
+        return {kind: its_routes for kind, its_routes in mended.items() if its_routes}
+
+    def _drivable(self, kind: int, jobs: Sequence[int]) -> list[int]:
+        """Return a route without those jobs at which it fails first."""
+        left = list(jobs)
+        while left and self._route_cost(kind, tuple(left)) is None:
+            # However it goes on, a route fails that fails until then.
+            sound, failing = 0, len(left)
+            while failing - sound > 1:
+                middle = (sound + failing) // 2
+                if self._route_cost(kind, tuple(left[:middle])) is None:
+                    failing = middle
+                else:
+                    sound = middle
+            del left[failing - 1]
+        return left
+
+    def _find_by(self, model: Model, slots: Slots, deadline: float, start: Routes) -> Found:
+        """Return the best plan found by a model of some windows of jobs."""
         servable = model.servable()
         if not servable:
             return self._judged({})
@@ -215,6 +276,10 @@ class Planning:
             self._costs[key] = (None if any(faults)
                                 else drive(self._request, self._places, vehicle, jobs).cost)
         return self._costs[key]
+
+
+def _tell_nobody(progress: Progress) -> None:
+    """Let a plan on the way pass."""
 
 
 def _left(deadline: float) -> float:

@@ -19,6 +19,9 @@ from app.vroom.schemas import DEFAULT_COST_PER_HOUR, VroomVehicleInput, VroomReq
 
 LEAST_SPEED_FACTOR, MAX_SPEED_FACTOR = 0.01, 5.0
 
+MAX_ALL_WINDOWS = 100_000
+"""Most time windows of all jobs together."""
+
 Faults = Iterator[str]
 
 
@@ -40,6 +43,10 @@ def read_request(body: bytes, max_jobs: int, max_vehicles: int) -> VroomRequest:
     if len(request.vehicles) > max_vehicles:
         raise VroomError(TOO_LARGE, f"Too many vehicles ({len(request.vehicles)}) in query, "
                                     f"maximum is set to {max_vehicles}")
+    windows = sum(len(job.time_windows or ()) for job in request.jobs)
+    if windows > MAX_ALL_WINDOWS:
+        raise VroomError(TOO_LARGE, f"Too many time windows ({windows}) of all jobs, maximum is "
+                                    f"{MAX_ALL_WINDOWS}")
     faults = [*_refused(request), *_faults(request)]
     if faults:
         raise input_error(faults)

@@ -1,0 +1,148 @@
+"""Jobs with many time windows: all that fit are served, in bounded time and memory."""
+
+import json
+import math
+import random
+import time
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.service import ReceivedBody
+from app.settings import DEFAULT_POLICY, Settings
+from app.vroom.answering import answer
+from app.vroom.errors import TOO_LARGE, VroomError
+from app.vroom.reading import MAX_ALL_WINDOWS, read_request
+from app.vroom.windows import MOST_BESIDE, MOST_OF_A_JOB, are_few, choose_few, hulls
+from model.planner import Planner, PlanOptions, PlanResult, load_planner
+from model.problem import Problem
+from tests.app.vroom.judge import judge
+from tests.app.vroom.reference import solve
+
+Data = dict[str, Any]
+
+DAY = 43_200
+
+
+class Watched(Planner):
+    """The planner, and the largest problem that it was given."""
+
+    def __init__(self, planner: Planner) -> None:
+        self._planner = planner
+        self.nodes = self.legs = 0
+
+    @property
+    def policies(self) -> tuple[str, ...]:
+        return self._planner.policies
+
+    def plan(self, problem: Problem, options: PlanOptions, *args: Any, **named: Any) -> PlanResult:
+        self.nodes = max(self.nodes, problem.num_nodes)
+        self.legs = max(self.legs, len(problem.travel) * problem.num_nodes**2)
+        return self._planner.plan(problem, options, *args, **named)
+
+
+@pytest.fixture(scope="module")
+def planner() -> Planner:
+    """Return the planner that the service has by default, warm."""
+    planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
+    planner.warm()
+    return planner
+
+
+def request_of(jobs: int, windows: int, vehicles: int, length: int | None = None,
+               seed: int = 1) -> Data:
+    """Return jobs in a town, each with windows of a length all over the day."""
+    draw = random.Random(seed)
+    places = [(draw.uniform(0, 8000), draw.uniform(0, 8000)) for _ in range(jobs + 1)]
+    seconds = [[round(math.dist(one, other) / 10) for other in places] for one in places]
+    step = DAY // windows
+    length = step // 2 if length is None else length
+    return {
+        "vehicles": [{"id": number, "start_index": 0, "end_index": 0, "time_window": [0, DAY],
+                      "capacity": [-(-jobs // vehicles) + (2 if vehicles > 1 else 0)]}
+                     for number in range(vehicles)],
+        "jobs": [{"id": number, "location_index": number, "service": 60, "delivery": [1],
+                  "time_windows": [[begin, begin + length] for begin in (
+                      place * step + draw.randrange(step - length) for place in range(windows))]}
+                 for number in range(1, jobs + 1)],
+        "matrices": {"car": {"durations": seconds}},
+        "options": {"x": 0},
+    }
+
+
+def answered(planner: Planner, request: Data) -> Data:
+    body = ReceivedBody(json.dumps(request).encode(), time.perf_counter())
+    reply: Data = json.loads(answer(planner, body, Settings(), lambda: False))
+    judge(request, reply)
+    return reply
+
+
+@pytest.mark.parametrize(("jobs", "windows", "vehicles"), [
+    (10, 10, 1), (20, 20, 2), (20, 100, 2), (20, 100, 1), (60, 100, 4), (60, 100, 1)])
+def test_everyone_is_served_whom_vroom_serves(planner: Planner, jobs: int, windows: int,
+                                              vehicles: int) -> None:
+    request = request_of(jobs, windows, vehicles)
+    theirs = solve(request, exploration=5)
+    assert theirs["summary"]["unassigned"] == 0
+    watched = Watched(planner)
+    began = time.perf_counter()
+    reply = answered(watched, request)
+    assert time.perf_counter() - began < 5
+    assert reply["summary"]["unassigned"] == 0
+    assert reply["summary"]["cost"] < 1.25 * theirs["summary"]["cost"]
+    assert watched.nodes <= 1 + jobs + MOST_BESIDE
+    assert 16 * watched.legs < 100 * 2**20  # bytes
+
+
+def test_windows_of_a_minute_are_met(planner: Planner) -> None:
+    request = request_of(20, 30, 2, length=60)
+    assert answered(planner, request)["summary"]["unassigned"] == 0
+
+
+def test_routes_to_start_from_are_kept_or_bettered(planner: Planner) -> None:
+    request = request_of(20, 50, 2)
+    first = answered(planner, request)
+    for vehicle in request["vehicles"]:
+        vehicle["steps"] = [
+            {"type": "job", "id": step["id"]} for route in first["routes"]
+            if route["vehicle"] == vehicle["id"] for step in route["steps"]
+            if step["type"] == "job"]
+    again = answered(planner, request)
+    assert again["summary"]["unassigned"] == 0
+    assert again["summary"]["cost"] <= first["summary"]["cost"]
+
+
+def test_whoever_cannot_be_served_is_left_out(planner: Planner) -> None:
+    request = request_of(20, 50, 2)
+    request["jobs"][3]["time_windows"] = [[DAY + 10, DAY + 20]]
+    request["jobs"][7]["skills"] = [5]
+    left_out = {job["id"] for job in answered(planner, request)["unassigned"]}
+    assert left_out == {request["jobs"][3]["id"], request["jobs"][7]["id"]}
+
+
+def test_few_windows_are_chosen_about_those_that_are_used() -> None:
+    slots = {job: [(100 * begin, 100 * begin + 50) for begin in range(100)] for job in range(60)}
+    assert not are_few(slots)
+    starts = dict.fromkeys(range(50), (1000, 1050))
+    few = choose_few(slots, starts, np.random.default_rng(0))
+    assert are_few(few)
+    assert sum(map(len, few.values())) == 60 + MOST_BESIDE
+    assert all(starts[job] in few[job] for job in starts)
+    assert all(len(few[job]) == MOST_OF_A_JOB for job in range(50, 60))
+    assert all(list(windows) == sorted(windows) for windows in few.values())
+    assert max(abs(window[0] - 1000) for job in starts for window in few[job]) <= 400
+    assert hulls(slots)[0] == [(0, 9950)]
+    assert hulls({3: [None]}) == {3: [None]}
+
+
+def test_more_windows_than_can_be_looked_at_are_refused_at_once() -> None:
+    windows = [[10 * begin, 10 * begin + 5] for begin in range(100)]
+    jobs = MAX_ALL_WINDOWS // 100 + 1
+    body = json.dumps({
+        "vehicles": [{"id": 1, "start": [2, 48]}],
+        "jobs": [{"id": job, "location": [2, 48], "time_windows": windows} for job in range(jobs)],
+    }).encode()
+    with pytest.raises(VroomError, match="Too many time windows") as refused:
+        read_request(body, 10_000, 10_000)
+    assert refused.value.code == TOO_LARGE
