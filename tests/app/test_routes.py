@@ -76,7 +76,8 @@ def test_customer_that_nobody_can_serve_is_unassigned_with_reasons(
 
 def test_health(client: httpx.Client) -> None:
     assert client.get("/health/live").json() == {"status": "live"}
-    assert client.get("/health/ready").json() == {"status": "ready", "detail": "ready"}
+    assert client.get("/health/ready").json() == {"status": "ready", "detail": "ready",
+                                                  "progress": 1.0}
 
 
 def test_documentation_needs_no_other_host(client: httpx.Client) -> None:

@@ -21,6 +21,7 @@ from model.problem import Problem
 from model.rules import Violation
 from model.search.improve import Progress
 from model.solution import Solution
+from model.warming import Warmth
 from training.instances import VARIANTS, generate
 from training.variants import InstanceConfig
 
@@ -208,10 +209,12 @@ def test_unknown_policy_is_refused(planner: Planner) -> None:
 
 
 def test_warming_tells_its_progress(planner: Planner) -> None:
-    told: list[str] = []
+    told: list[Warmth] = []
     planner.warm(told.append)
-    assert [POLICIES[0] in line for line in told[:2]] == [True, True]
-    assert "search" in told[-1]
+    assert POLICIES[0] in told[0].doing
+    assert not told[0].decodes
+    assert "search" in told[-1].doing
+    assert told[-1].decodes
 
 
 def test_second_process_compiles_the_search_where_nothing_is_yet(
