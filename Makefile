@@ -8,11 +8,13 @@ CASES ?= 10000
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
+# On all cores; who is idle takes over what others have left.
+PYTEST := $(BIN)/pytest --numprocesses auto --dist worksteal
 URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help serve plan test prepared lint train bench bench-quick latency study study-quick screenshots fuzz settings clean
+.PHONY: help serve plan test test-quick prepared lint train bench bench-quick latency study study-quick screenshots fuzz settings clean
 
 help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -32,7 +34,11 @@ plan: .venv/serving ## Plan examples/table1.json, write plan.json and check it
 test: prepared .venv/testing ## Install what the tests need and run them
 	@echo "Compiling what is tested, so that no test waits for that."
 	@$(BIN)/tandem warm
-	$(BIN)/pytest
+	$(PYTEST)
+
+test-quick: .venv/testing ## Run most tests in under a minute, without browser and database
+	@$(BIN)/tandem warm
+	$(PYTEST) -m "not slow"
 
 prepared:
 	@.ci/prepare

@@ -24,6 +24,27 @@ MINUTE = 60_000
 Result = TypeVar("Result")
 
 
+SLOW = (
+    "tests/benchmarks/", "tests/console/", "tests/training/", "tests/test_end_to_end.py",
+    *(f"tests/app/{name}" for name in (
+        "jobs/test_crashes.py", "jobs/test_routes.py", "jobs/test_studies.py",
+        "load/test_overload.py", "load/test_shutdown.py", "observe/", "pictures/",
+        "test_api_fuzz.py", "test_clients.py", "test_replanning.py", "vroom/test_planning.py")),
+    *(f"tests/model/{name}" for name in (
+        "search/test_anneal.py", "search/test_improve.py", "search/test_kept.py",
+        "search/test_optimum.py", "search/test_starts.py", "test_parts.py", "test_planner.py",
+        "test_replan_random.py", "test_simulator.py")),
+)
+"""What `make test-quick` leaves out: it starts other processes, or searches for seconds."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the slow ones, those with PostgreSQL among them. In place."""
+    for item in items:
+        if item.nodeid.startswith(SLOW) or "[postgresql" in item.name:
+            item.add_marker(pytest.mark.slow)
+
+
 @pytest.fixture(scope="session", autouse=True)
 def own_data_dir(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Have services under test keep their data in a folder of their own."""
