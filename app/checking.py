@@ -10,9 +10,8 @@ from pydantic_core import ErrorDetails, to_json
 from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_error
 from app.load.bounds import Bounds, bound_errors
 from app.plan_reading import Known, plan_errors, read_plan
-from app.reading import (
-    MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, partial_draft, read_json, request_errors,
-)
+from app.load.refusal import MAX_COUNTED_ERRORS, require_readable
+from app.reading import MAX_SEARCHED_BYTES, partial_draft, read_json, request_errors
 from app.replanning import task_of, violation_reply
 from app.replies import Data, cost_reply, summary_reply
 from app.schemas_check import CheckRequest
@@ -56,6 +55,7 @@ def read_check(body: bytes, bounds: Bounds) -> CheckRequest:
         With every error found, if it is not a valid request.
     """
     bounds = replace(bounds, num_samples=MAX_NUM_SAMPLES, time_limit=MAX_TIME_LIMIT)
+    require_readable(body, CheckRequest)
     try:
         request = CheckRequest.model_validate_json(body)
     except ValidationError as error:

@@ -25,6 +25,7 @@ ErrorCode = Literal[
     "WRONG_LENGTH",
     "OUT_OF_RANGE",
     "TOO_MANY_ERRORS",
+    "TOO_MANY_PARTS",
     "DUPLICATE_ID",
     "NO_DEPOT",
     "EMPTY_FLEET",

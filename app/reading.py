@@ -14,6 +14,7 @@ from app.errors import (
     schema_error,
 )
 from app.load.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
+from app.load.refusal import MAX_COUNTED_ERRORS, require_readable
 from app.schemas_request import (
     AirspaceInput,
     CustomerInput,
@@ -28,9 +29,6 @@ from app.validation import Draft, semantic_errors
 
 Section = TypeVar("Section", bound=BaseModel)
 Parts = set[tuple[str | int, ...]]
-
-MAX_COUNTED_ERRORS = 20_000
-"""With more errors than this the single ones are not looked at."""
 
 MAX_SEARCHED_BYTES = 8 * 2**20
 """To save memory, longer bodies that don't fit the schema aren't searched for further errors."""
@@ -56,6 +54,7 @@ def read_request(body: bytes, policies: Collection[str] | None,
     InvalidRequestError
         With every error found, if it is not a valid request.
     """
+    require_readable(body, PlanRequest)
     try:
         request = PlanRequest.model_validate_json(body)
     except ValidationError as error:

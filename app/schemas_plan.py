@@ -17,6 +17,8 @@ NOT_READ = "Not read: it is computed anew."
 
 Instant = Annotated[float, Field(ge=-MAX_INSTANT, le=MAX_INSTANT)]
 Number = Annotated[float | None, Field(description=NOT_READ)]
+Loads = Annotated[
+    Annotated[list[float], Field(fail_fast=True)] | None, Field(description=NOT_READ)]
 Details = Annotated[dict[str, Any] | None, Field(description=NOT_READ)]
 
 
@@ -48,7 +50,7 @@ class StopInput(_Plan):
     departure: Instant = Field(description="Departure; at the trip's last stop, its end.")
     waiting: Number = None
     lateness: Number = None
-    load: list[float] | None = Field(None, description=NOT_READ)
+    load: Loads = None
 
 
 class SortieInput(_Plan):
@@ -69,7 +71,7 @@ class TripInput(_Plan):
 
     stops: list[StopInput] = Field(description="Stops in order, the depot first and last.")
     sorties: list[SortieInput] = Field([], description="Drone flights of this trip.")
-    load: list[float] | None = Field(None, description=NOT_READ)
+    load: Loads = None
     load_rate: Number = None
     distance: Number = None
     duration: Number = None

@@ -36,9 +36,13 @@ Demand = Annotated[list[Amount], Field(min_length=1, max_length=3)]
 Location = tuple[float, float]
 LocationIndex = Annotated[int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS)]
 Skills = Annotated[list[Name], Field(max_length=100)]
+MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + 1
+"""Most rows of a matrix, and columns: what `location_index` can name."""
+
 Table = Annotated[
-    list[Annotated[list[Annotated[float, Field(le=MAX_AMOUNT)]], Field(fail_fast=True)]],
-    Field(fail_fast=True),
+    list[Annotated[list[Annotated[float, Field(le=MAX_AMOUNT)]],
+                   Field(fail_fast=True, max_length=MAX_PLACES)]],
+    Field(fail_fast=True, max_length=MAX_PLACES),
 ]
 Polygon = Annotated[list[Location], Field(min_length=3, max_length=MAX_POLYGON_POINTS)]
 

@@ -11,6 +11,7 @@ from pydantic_core import to_json
 
 from app.errors import NotReadyError
 from app.load.bounds import UNBOUNDED, Bounds
+from app.load.refusal import compile_scan
 from app.reading import read_request
 from app.replanning import task_of
 from app.replies import Data
@@ -113,6 +114,7 @@ class PlanService:
 
     def _warm(self) -> None:
         """Warm the planner. In place."""
+        compile_scan()
         with showing(lambda line: logger.info("warming up: %s", line)) as show:
             def note(warmth: Warmth) -> None:
                 self._warmth = warmth

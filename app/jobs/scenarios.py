@@ -15,6 +15,7 @@ from app.errors import (
 from app.jobs.grid import GridPath, Place, places, put, read_path
 from app.jobs.schemas import CompareRequest, Kind, SweepRequest
 from app.load.bounds import UNBOUNDED, Bounds
+from app.load.refusal import require_readable
 from app.reading import read_json, read_request, request_errors
 from app.replanning import task_of
 from app.schemas_request import PlanRequest
@@ -118,6 +119,7 @@ def read_study(kind: Kind, body: bytes, policies: Collection[str] | None,
         With the errors found, if it is not a valid request.
     """
     schema = CompareRequest if kind == "compare" else SweepRequest
+    require_readable(body, schema)
     raw = read_json(body)
     errors: list[InputError] = []
     if isinstance(raw, dict) and "base" in raw:

@@ -11,8 +11,8 @@ from itertools import pairwise
 from pydantic import ValidationError
 from pydantic_core import from_json
 
-from app.errors import schema_error
-from app.reading import MAX_COUNTED_ERRORS
+from app.errors import InvalidRequestError, schema_error
+from app.load.refusal import MAX_COUNTED_ERRORS, require_readable
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError, input_error
 from app.vroom.reply import amount_of
 from app.vroom.schemas import DEFAULT_COST_PER_HOUR, VroomVehicleInput, VroomRequest
@@ -34,9 +34,12 @@ def read_request(body: bytes, max_jobs: int, max_vehicles: int) -> VroomRequest:
         If it is no valid request, is too large, or asks for what can't be planned here.
     """
     try:
+        require_readable(body, VroomRequest)
         request = VroomRequest.model_validate_json(body)
     except ValidationError as error:
         raise _refusal(error, body) from error
+    except InvalidRequestError as error:
+        raise input_error([f"{fault.path}: {fault.message}" for fault in error.errors]) from error
     if len(request.jobs) > max_jobs:
         raise VroomError(TOO_LARGE, f"Too many locations ({len(request.jobs)}) in query, maximum "
                                     f"is set to {max_jobs}")

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
-from app.settings import MAX_THREADS
+from app.settings import MAX_CUSTOMERS, MAX_THREADS
 
 DEFAULT_PROFILE = "car"
 DEFAULT_COST_PER_HOUR = 3600
@@ -18,6 +18,9 @@ MAX_UINT = 2**32 - 1
 MAX_AMOUNTS = 32
 MAX_WINDOWS = 100
 DEPRECATED: dict[str, JsonValue] = {"deprecated": True}
+MAX_PLACES = 3 * MAX_CUSTOMERS
+"""Most rows of a matrix, and columns: for each job, and the start and end of each vehicle."""
+
 LONGEST_TASK = 10**8
 """Most seconds of setup or of service."""
 
@@ -30,7 +33,8 @@ Amounts = Annotated[list[UInt], Field(max_length=MAX_AMOUNTS)]
 Skills = Annotated[list[UInt], Field(max_length=1000)]
 Window = tuple[UInt, UInt]
 Windows = Annotated[list[Window], Field(max_length=MAX_WINDOWS)]
-Table = Annotated[list[Annotated[list[UInt], Field(fail_fast=True)]], Field(fail_fast=True)]
+Table = Annotated[list[Annotated[list[UInt], Field(fail_fast=True, max_length=MAX_PLACES)]],
+                  Field(fail_fast=True, max_length=MAX_PLACES)]
 DurationsPerType = Annotated[dict[Text, Seconds], Field(max_length=1000)]
 
 
