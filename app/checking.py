@@ -1,6 +1,6 @@
 """Any plan against any problem: every rule that it breaks and its true cost."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -9,6 +9,7 @@ from pydantic_core import ErrorDetails, to_json
 
 from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_error
 from app.load.bounds import Bounds, bound_errors
+from app.load.preparing import Preparing
 from app.plan_reading import Known, plan_errors, read_plan
 from app.load.refusal import MAX_COUNTED_ERRORS, require_readable
 from app.reading import MAX_SEARCHED_BYTES, partial_draft, read_json, request_errors
@@ -22,16 +23,18 @@ from app.validation import Draft, semantic_errors
 PROBLEM, PLAN = "problem", "plan"
 
 
-def answer_check(body: bytes, bounds: Bounds) -> bytes:
-    """Return the reply to a request of `POST /check` as JSON.
+def answer_check(body: bytes, bounds: Bounds,
+                 should_stop: Callable[[], bool] = lambda: False) -> bytes:
+    """Return the reply to a request of `POST /check` as JSON, unless the work is to end.
 
     Raises
     ------
     RequestError
-        If `body` is no valid request.
+        If `body` is no valid request, or the work is to end.
     """
     request = read_check(body, bounds)
-    task = task_of(request.problem)
+    task = task_of(request.problem, Preparing(
+        should_stop, bounds.time_limit, f"the {bounds.time_limit:g} s of {bounds.time_setting}"))
     solution = read_plan(request.plan, task.problem, (PLAN,))
     evaluation = task.check(solution)
     reply: Data = {

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from app.convert import to_problem
 from app.errors import InputError, InvalidRequestError
+from app.load.preparing import UNHURRIED, Preparing
 from app.names import number_in
 from app.plan_reading import read_earlier_plan
 from app.replies import Data, plan_reply, vehicle_name
@@ -52,15 +53,18 @@ class Task:
         return reply | {"replan": _replan_reply(self.problem, self.replanning)}
 
 
-def task_of(request: PlanRequest) -> Task:
-    """Return what a valid request asks for.
+def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED) -> Task:
+    """Return what a valid request asks for, unless the work on it is to end.
 
     Raises
     ------
     InvalidRequestError
-        If what has happened by the plan to go on from doesn't fit the problem.
+        If what has happened by the plan to go on from doesn't fit the problem, or the work takes
+        too long.
+    StoppedError
+        If it is stopped.
     """
-    problem = to_problem(request)
+    problem = to_problem(request, preparing)
     replan = request.replan
     if replan is None:
         return Task(problem)

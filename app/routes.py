@@ -56,7 +56,8 @@ async def plan(request: Request, principal: Plan, planning: Planning, body: Body
 async def check(request: Request, principal: Plan, planning: Planning, body: Body) -> Response:
     """Return every rule that a plan breaks, and its true cost by term."""
     bounds = Bounds.of_plans(request.app.state.settings)
-    reply = await planning.run(request, lambda _: answer_check(body.content, bounds))
+    reply = await planning.run(
+        request, lambda should_stop: answer_check(body.content, bounds, should_stop))
     return Response(reply, media_type="application/json")
 
 

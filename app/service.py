@@ -11,6 +11,7 @@ from pydantic_core import to_json
 
 from app.errors import NotReadyError
 from app.load.bounds import UNBOUNDED, Bounds
+from app.load.preparing import Preparing
 from app.load.refusal import compile_scan
 from app.reading import read_request
 from app.replanning import task_of
@@ -97,7 +98,7 @@ class PlanService:
         if not readiness.is_ready and not _only_decodes(request):
             raise _not_ready(readiness)
         return reply_to(self._planner, request, body.received_at, self._search_threads,
-                        self._on_plan, Listener(should_stop))
+                        self._on_plan, Listener(should_stop), self._bounds)
 
     def warm_planner(self) -> Planner:
         """Return the planner.
@@ -141,13 +142,13 @@ def answer(planner: Planner, body: ReceivedBody, search_threads: int = 1,
     A request that states no number of threads gets `search_threads`; `on_plan` is told the reply.
     """
     request = read_request(body.content, planner.policies, bounds)
-    return reply_to(planner, request, body.received_at, search_threads, on_plan, listener)
+    return reply_to(planner, request, body.received_at, search_threads, on_plan, listener, bounds)
 
 
 def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_threads: int,
-             on_plan: Callable[[Data], None], listener: Listener) -> bytes:
+             on_plan: Callable[[Data], None], listener: Listener, bounds: Bounds) -> bytes:
     """Return the reply to a planning request that was read, as `answer` does."""
-    task = task_of(request)
+    task = task_of(request, preparing(request.options, bounds, listener.should_stop))
     validated = time.perf_counter() - received_at
     options = plan_options(request.options, search_threads)
     result = task.plan(planner, options, received_at, listener)
@@ -157,6 +158,16 @@ def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_
     elapsed["total"] = time.perf_counter() - received_at
     on_plan(reply)
     return to_json(reply)
+
+
+def preparing(stated: OptionsInput, bounds: Bounds,
+              should_stop: Callable[[], bool]) -> Preparing:
+    """Return the work before the search, which is a part of the time limit."""
+    if 0 in (stated.time_limit, stated.search_iterations):
+        return Preparing(should_stop, bounds.time_limit, f"the {bounds.time_limit:g} s of "
+                         f"{bounds.time_setting}")
+    return Preparing(should_stop, stated.time_limit, f"the time_limit of {stated.time_limit:g} s, "
+                     f"which may be up to {bounds.time_limit:g} s ({bounds.time_setting})")
 
 
 def plan_options(stated: OptionsInput, search_threads: int = 1) -> PlanOptions:

@@ -5,6 +5,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from app.load.preparing import UNHURRIED, Preparing
+from app.load.work import legs_seconds, sights_seconds
 from app.schemas_request import (
     DEFAULT_DRONE_SPEED_KMH,
     DEFAULT_TRUCK_SPEED_KMH,
@@ -16,8 +18,8 @@ from app.schemas_request import (
     VehicleTypeInput,
 )
 from app.units import thousandths
-from model.airspace import Airspace, flight_legs
-from model.problem import MAX_QUANTITY, FloatArray, SpeedProfile, Travel
+from model.airspace import Airspace, Flights
+from model.problem import FloatArray, SpeedProfile, Travel
 from model.travel import (
     LocalProjection,
     embed,
@@ -29,8 +31,6 @@ from model.travel import (
     truck_travel,
 )
 
-_MAX_FLIGHT_M = MAX_QUANTITY / 1000
-
 
 class _Key(NamedTuple):
     """What tells one pair of matrices from another."""
@@ -41,19 +41,31 @@ class _Key(NamedTuple):
 
 
 class Travels:
-    """Collects the matrices of one valid request."""
+    """Collects the matrices of one valid request, unless the work on them is to end."""
 
-    def __init__(self, request: PlanRequest) -> None:
+    def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED) -> None:
         self._request = request
+        self._preparing = preparing
         self._places: list[DepotInput | CustomerInput] = [*request.depots, *request.customers]
         self._index: dict[_Key, int] = {}
         self._travels: list[Travel] = []
 
     def count(self) -> int:
         """Return how many pairs of matrices the request needs, without building any."""
-        fleet = self._request.fleet
-        return len({self._driving(kind)[0] for kind in fleet}
-                   | {self._flying(kind.drones) for kind in fleet if kind.drones is not None})
+        return len(self._keys())
+
+    def expect_legs(self) -> None:
+        """Make sure that there is time to build all matrices, if none is flown around areas.
+
+        Raises
+        ------
+        RequestError
+            If the work is to end.
+        """
+        keys = self._keys()
+        flights = sum(key.means == "flight" for key in keys)
+        self._preparing.expect(legs_seconds(len(self._places), len(keys) - flights, flights,
+                                            self._is_geographic))
 
     def count_apart(self) -> int:
         """Return how many pairs replanning makes of them: drones share none with trucks."""
@@ -79,6 +91,11 @@ class Travels:
         if all(place.location is not None for place in self._places):
             return self._points_m
         return embed(self._travels[0].duration)
+
+    def _keys(self) -> set[_Key]:
+        fleet = self._request.fleet
+        return ({self._driving(kind)[0] for kind in fleet}
+                | {self._flying(kind.drones) for kind in fleet if kind.drones is not None})
 
     def _driving(self, vehicle_type: VehicleTypeInput) -> tuple[_Key, SpeedProfile | None]:
         matrix = self._matrix(vehicle_type.profile)
@@ -118,18 +135,16 @@ class Travels:
         return self._index[key]
 
     def _build(self, key: _Key) -> Travel:
+        self._preparing.pause()
         matrix = self._matrix(key.profile) if key.means == "matrix" else None
         if matrix is not None:
             durations = self._at_places(matrix.durations) / key.speed
             distances = (self._distances_m if matrix.distances is None
                          else self._at_places(matrix.distances))
-            return matrix_travel(durations, distances)
+            return matrix_travel(durations, distances, self._preparing.pause)
         if key.means == "drive":
-            return truck_travel(self._distances_m, key.speed)
-        legs = flight_legs(self._points_m, self._airspace, key.speed, self._distances_m)
-        too_long = legs.distance > _MAX_FLIGHT_M
-        return flight_travel(np.where(too_long, np.inf, legs.distance),
-                             np.where(too_long, np.inf, legs.duration))
+            return truck_travel(self._distances_m, key.speed, self._preparing.pause)
+        return flight_travel(*self._flights.legs(key.speed), self._preparing.pause)
 
     def _at_places(self, table: list[list[float]]) -> FloatArray:
         """Return a client's matrix with one row and column per node.
@@ -165,8 +180,17 @@ class Travels:
 
     @cached_property
     def _distances_m(self) -> FloatArray:
-        return (great_circle_distances(self._locations) if self._is_geographic
-                else planar_distances(self._points_m))
+        pause = self._preparing.pause
+        return (great_circle_distances(self._locations, pause) if self._is_geographic
+                else planar_distances(self._points_m, pause))
+
+    @cached_property
+    def _flights(self) -> Flights:
+        flights = Flights(self._points_m, self._airspace, self._distances_m, self._preparing.pause)
+        obstacles = flights.obstacles
+        self._preparing.expect(sights_seconds(
+            len(self._places), len(obstacles.corners.place), len(obstacles.edges)))
+        return flights
 
     @cached_property
     def _airspace(self) -> Airspace:

@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -20,7 +21,8 @@ from app.schemas_request import (
     VehicleTypeInput,
 )
 from app.units import thousandths
-from model.airspace import invalid_polygon_reason
+from model.airspace import Ring, invalid_polygon_reason
+from model.obstacles import count_crossings
 from model.travel import LocalProjection
 
 MAX_COORDINATE_M = 1e7
@@ -28,6 +30,9 @@ MAX_COORDINATE_M = 1e7
 
 MAX_AIRSPACE_CORNERS = 1000
 """Most corners of all no-fly areas together."""
+
+MAX_AIRSPACE_CROSSINGS = 10_000
+"""How often edges of different no-fly areas may meet: to merge areas takes time for each."""
 
 MAX_MATRIX_ERRORS = 20
 """Wrong entries listed per matrix."""
@@ -287,27 +292,44 @@ def _airspace_errors(draft: Draft) -> Errors:
                      f"The no-fly areas have {corners} corners and at most "
                      f"{MAX_AIRSPACE_CORNERS} are allowed: simplify them.")
         return
-    places = [place.location for _, place in draft.places() if place.location is not None]
-    for index, ring in enumerate(draft.airspace.no_fly):
-        path: Path = ("airspace", "no_fly", index)
-        wrong = [error for number, corner in enumerate(ring)
-                 for error in _point_errors(draft, (*path, number), corner)]
-        yield from wrong
-        if draft.coordinate_system is not None and not wrong:
-            yield from _ring_errors(draft, path, ring, places)
+    wrong = [error for index, ring in enumerate(draft.airspace.no_fly)
+             for number, corner in enumerate(ring)
+             for error in _point_errors(draft, ("airspace", "no_fly", index, number), corner)]
+    yield from wrong
+    if draft.coordinate_system is None or wrong:
+        return
+    rings = _rings_m(draft, draft.airspace.no_fly)
+    invalid = [error for index, ring in enumerate(rings) for error in _ring_errors(index, ring)]
+    yield from invalid or _crossing_errors(rings)
 
 
-def _ring_errors(draft: Draft, path: Path, ring: list[Location],
-                 places: list[Location]) -> Errors:
-    corners = np.array(ring) * draft.planar_unit
+def _rings_m(draft: Draft, no_fly: list[list[Location]]) -> list[Ring]:
+    """Return the areas' corners in planar metres."""
+    corners = np.array([corner for ring in no_fly for corner in ring]) * draft.planar_unit
     if draft.coordinate_system == "geographic":
+        places = [place.location for _, place in draft.places() if place.location is not None]
         on_globe = [(x, y) for x, y in places if abs(x) <= 180 and abs(y) <= 90]
-        corners = LocalProjection.around(np.array(on_globe or ring)).project(np.array(ring))
-    reason = invalid_polygon_reason([(float(x), float(y)) for x, y in corners])
+        projection = LocalProjection.around(np.array(on_globe or no_fly[0]))
+        corners = projection.project(corners / draft.planar_unit)
+    together = iter(corners.tolist())
+    return [tuple((x, y) for x, y in islice(together, len(ring))) for ring in no_fly]
+
+
+def _ring_errors(index: int, ring: Ring) -> Errors:
+    reason = invalid_polygon_reason(ring)
     if reason is not None:
         yield _error("POLYGON_CROSSES_ITSELF" if "itself" in reason else "POLYGON_WITHOUT_AREA",
-                     path, f"{reason[0].upper()}{reason[1:]}: list its corners once each, "
-                                 "in order around the area.")
+                     ("airspace", "no_fly", index),
+                     f"{reason[0].upper()}{reason[1:]}: list its corners once each, in order "
+                     "around the area.")
+
+
+def _crossing_errors(rings: list[Ring]) -> Errors:
+    crossings = count_crossings(rings)
+    if crossings > MAX_AIRSPACE_CROSSINGS:
+        yield _error("TOO_MANY_CORNERS", ("airspace", "no_fly"),
+                     f"The no-fly areas' edges meet {crossings} times, and at most "
+                     f"{MAX_AIRSPACE_CROSSINGS} times are allowed: merge areas that overlap.")
 
 
 def _policy_errors(draft: Draft, policies: Collection[str] | None) -> Errors:

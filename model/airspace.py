@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 from shapely import Polygon
 
-from model.obstacles import obstacles_of
+from model.obstacles import Obstacles, obstacles_of
 from model.pausing import Pause, go_on, matrix_blocks
 from model.problem import FloatArray
 from model.travel import planar_distances
@@ -117,14 +117,24 @@ class Flights:
         return self._quickest(wind)
 
     @cached_property
+    def obstacles(self) -> Obstacles:
+        """The no-fly areas, merged."""
+        return obstacles_of(self._airspace.no_fly)
+
+    @cached_property
     def _ways(self) -> Ways:
         """The ways around areas, whatever the speed."""
-        return find_ways(self._points, obstacles_of(self._airspace.no_fly), self._pause)
+        return find_ways(self._points, self.obstacles, self._pause)
 
     @cached_property
     def _shortest_m(self) -> FloatArray:
         """The distances without wind, whatever the speed."""
-        return self._quickest(Wind(1.0, 0.0, 0.0)).distance
+        if not self._airspace.no_fly:
+            return self._straight_m
+        # At a metre a second, durations are distances.
+        shortest = self._straight_m.copy()
+        self._ways.replace_blocked(Legs(shortest, shortest), Wind(1.0, 0.0, 0.0), self._pause)
+        return shortest
 
     def _quickest(self, wind: Wind) -> Legs:
         legs = Legs(self._straight_m.copy(), np.empty_like(self._straight_m))

@@ -81,7 +81,8 @@ def planar_distances(points_m: FloatArray, pause: Pause = go_on) -> FloatArray:
     x, y = points_m.T
     distances = np.empty((len(x), len(x)))
     for rows in matrix_blocks(len(distances), pause):
-        distances[rows] = np.hypot(x[rows, None] - x, y[rows, None] - y)
+        east, north = x[rows, None] - x, y[rows, None] - y
+        distances[rows] = np.sqrt(east * east + north * north)
     return distances
 
 
@@ -92,10 +93,13 @@ def great_circle_distances(lon_lat: FloatArray, pause: Pause = go_on) -> FloatAr
     cosine = np.cos(latitude)
     distances = np.empty((len(longitude), len(longitude)))
     for rows in matrix_blocks(len(distances), pause):
-        haversine = np.sin((latitude[rows, None] - latitude) / 2) ** 2
-        haversine += (cosine[rows, None] * cosine
-                      * np.sin((longitude[rows, None] - longitude) / 2) ** 2)
-        distances[rows] = 2 * EARTH_RADIUS_M * np.arcsin(np.sqrt(np.minimum(haversine, 1.0)))
+        others = slice(rows.start, None)  # those before have this distance already
+        haversine = np.sin((latitude[rows, None] - latitude[others]) / 2) ** 2
+        haversine += (cosine[rows, None] * cosine[others]
+                      * np.sin((longitude[rows, None] - longitude[others]) / 2) ** 2)
+        around = 2 * EARTH_RADIUS_M * np.arcsin(np.sqrt(np.minimum(haversine, 1.0)))
+        distances[rows, others] = around
+        distances[others, rows] = around.T
     return distances
 
 
@@ -134,6 +138,9 @@ def flight_travel(distances_m: FloatArray, durations_s: FloatArray,
             if not lengths.min(initial=0.0) >= 0:
                 raise ValueError(f"{name}: every entry must be a number and not negative")
         reachable = (metres * 1000.0 <= MAX_QUANTITY) & (seconds * 1000.0 <= MAX_QUANTITY)
+        if reachable.all():
+            duration[rows], distance[rows] = _ceiled(seconds * 1000.0), _rounded_mm(metres)
+            continue
         duration[rows] = _ceiled(np.where(reachable, seconds, 0.0) * 1000.0)
         distance[rows] = _rounded_mm(np.where(reachable, metres, 0.0))
         duration[rows][~reachable] = UNREACHABLE

@@ -102,22 +102,6 @@ def mark_dead_ends(
                 hidden[row, corner] = True
 
 
-@compiled
-def count_crossings(edges: FloatArray, ring: IntArray, most: int) -> int:
-    """Return how many pairs of edges of different rings meet, or `most` if there are more."""
-    crossings = 0
-    for one in range(len(edges)):
-        x, y = edges[one, 2] - edges[one, 0], edges[one, 3] - edges[one, 1]
-        for other in range(one):
-            if ring[one] != ring[other] and _meets(
-                    x, y, edges[other, 0] - edges[one, 0], edges[other, 1] - edges[one, 1],
-                    edges[other, 2] - edges[one, 0], edges[other, 3] - edges[one, 1]):
-                crossings += 1
-                if crossings == most:
-                    return crossings
-    return crossings
-
-
 @inlined
 def _move(edges: FloatArray, x: float, y: float, seen: FloatArray) -> None:
     """Write the edges as seen from a point. In place."""

@@ -1,0 +1,80 @@
+"""What ends the work on a request before its search: its client, this process's end, its time."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from app.errors import InputError, InvalidRequestError, RequestError
+
+SHARE = 0.9
+"""Most of the time limit that may be spent before the search, so that some is left for it."""
+
+PATIENCE = 0.05
+"""Seconds in which work is done even if nobody waits for it: what is nearly ready is answered."""
+
+SHORTEST = 0.1
+"""Seconds that are there at least, as replies may be so late."""
+
+
+class StoppedError(RequestError):
+    """This process ends, or nobody waits for the reply any more, before there is any plan."""
+
+    status = 503
+    name = "stopping"
+    title = "The service is stopping"
+
+
+@dataclass(frozen=True)
+class Preparing:
+    """The work on a request before its search, in parts between which it may end.
+
+    Parameters
+    ----------
+    should_stop
+        Whether to end.
+    seconds
+        How long it may take, with the search; infinite: as long as it will.
+    limit
+        Where `seconds` come from, in words.
+    """
+
+    should_stop: Callable[[], bool] = lambda: False
+    seconds: float = float("inf")
+    limit: str = ""
+    began: float = field(default_factory=time.perf_counter)
+
+    def pause(self) -> None:
+        """Go on, if neither the client nor the time is gone.
+
+        Raises
+        ------
+        StoppedError
+            If the work is to end.
+        InvalidRequestError
+            If it takes too long.
+        """
+        spent = time.perf_counter() - self.began
+        if spent > PATIENCE and self.should_stop():
+            raise StoppedError("The work was stopped before there was a plan: try again.")
+        if spent > self._allowed:
+            raise self._refusal(f"took {spent:.1f} s so far")
+
+    def expect(self, seconds: float) -> None:
+        """Go on, if there is time enough for what comes next; raises as `pause` does."""
+        self.pause()
+        total = time.perf_counter() - self.began + seconds
+        if total > self._allowed:
+            raise self._refusal(f"take about {total:.1f} s")
+
+    @property
+    def _allowed(self) -> float:
+        return max(SHORTEST, SHARE * self.seconds)
+
+    def _refusal(self, found: str) -> InvalidRequestError:
+        message = (f"Legs and flights {found} on one core, and {self._allowed:.1f} s may be spent "
+                   f"on them by {self.limit}: allow more time, or send fewer customers, fewer ways "
+                   "to travel, or no-fly areas with fewer corners.")
+        return InvalidRequestError([InputError(code="TOO_MUCH_WORK", path="$", message=message)])
+
+
+UNHURRIED = Preparing()
