@@ -19,8 +19,8 @@ from numba import config, njit
 from numba.core import event
 from numba.core.compiler import Compiler
 
-SOURCES = ("compiled", "problem", "rows", "visibility", "detours", "instance", "schedule", "cost",
-           "meeting", "transition", "simulator", "tokens", "prospects", "features", "parts",
+SOURCES = ("compiled", "problem", "alarm", "rows", "visibility", "detours", "instance", "schedule",
+           "cost", "meeting", "transition", "simulator", "tokens", "prospects", "features", "parts",
            "rolling",
            *(f"search/{part}" for part in (
                "layout", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate", "ruin",

@@ -1,7 +1,7 @@
 """Planning on: a plan is given, part of it has happened, and something has changed."""
 
 import time
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 from model.check import Evaluation, check
@@ -116,7 +116,8 @@ class Replanning:
         plan = self._plan if start is None else start
         kept = self._kept if start is None else kept_routes(self.problem, start, self.past)
         bridge = _Bridge(self.problem, self.past, plan, kept, self._left)
-        first = _begin(self._left, hand_over(self.problem, plan, kept, self._left), options)
+        first = _begin(self._left, hand_over(self.problem, plan, kept, self._left), options,
+                       listener.should_stop)
         solution = bridge.whole(first)
         before = self._legal(solution)
         result = planner.plan(self._left.problem, options, received_at,
@@ -216,7 +217,8 @@ def _returned(past: Past, kept: Mapping[Vehicle, Kept], terms: Terms) -> dict[in
             for node in past.trips[vehicle][-1].aboard - kept[vehicle].served}
 
 
-def _begin(left: Remainder, begun: Solution, options: PlanOptions) -> Solution:
+def _begin(left: Remainder, begun: Solution, options: PlanOptions,
+           should_stop: Callable[[], bool]) -> Solution:
     """Return what is left of the plan given; if no search follows, with those whom it lacks.
 
     They are inserted where that costs least, as a search does at its beginning.
@@ -224,7 +226,7 @@ def _begin(left: Remainder, begun: Solution, options: PlanOptions) -> Solution:
     if (options.time_limit > 0 and options.search_iterations != 0) or not begun.unassigned:
         return begun
     improved = improve(left.problem, pack([left.problem], neighbours=False), begun,
-                       SearchConfig(options.seed), time.perf_counter())
+                       SearchConfig(options.seed, turns=0), should_stop=should_stop)
     found = with_anchors(left, improved.solution)
     before, after = check(left.problem, begun), check(left.problem, found)
     if after.is_feasible and after.cost.total <= before.cost.total:

@@ -85,13 +85,24 @@ def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
                               setting.type[TYPE_PROFILE], duration, leave)
 
 
+@inlined
+def changes_until(times: IntArray, changes: int, time: int) -> int:
+    """Return how many of the changes of a speed come no later than `time`."""
+    low, high = 0, changes
+    while low < high:
+        middle = (low + high) // 2
+        if times[middle] <= time:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
 @compiled
 def arrival_by_profile(times: IntArray, factors: IntArray, changes: int, duration: int,
                        leave: int) -> int:
     """Return when a leg of `duration` at full speed, begun at `leave`, is done."""
-    piece = 0
-    while piece < changes and times[piece] <= leave:
-        piece += 1
+    piece = changes_until(times, changes, leave)
     work = duration * FULL_SPEED
     time = leave
     while piece < changes:

@@ -30,8 +30,8 @@ SEARCH = tuple(f"search/{name}" for name in (
 REPLANNING = tuple(f"replanning/{name}" for name in (
     "amend", "kept", "workers", "remainder", "handover"))
 MODEL_ORDER = (
-    "compiled", "problem", "solution", "past", "timing", "metrics", "rules", "past_rules", "check",
-    "attempt", "explain", *REPLANNING,
+    "compiled", "problem", "alarm", "solution", "past", "timing", "metrics", "rules", "past_rules",
+    "check", "attempt", "explain", *REPLANNING,
     "rows", "pausing", "travel", "wind", "obstacles", "visibility", "detours", "ways", "airspace",
     "instance", "schedule", "cost", "meeting", "transition",
     "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract", *SEARCH,
@@ -40,7 +40,7 @@ MODEL_ORDER = (
 """Each file of `model` imports only files to the left of its name."""
 
 CHECKER = ("past", "timing", "metrics", "rules", "past_rules", "check", "attempt", "explain")
-SIMULATION = ("compiled", "rows", "instance", "schedule", "cost", "meeting", "transition",
+SIMULATION = ("compiled", "alarm", "rows", "instance", "schedule", "cost", "meeting", "transition",
               "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract")
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""

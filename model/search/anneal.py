@@ -8,6 +8,7 @@ problems, Transportation Science 54:417-433.
 
 import math
 
+from model.alarm import rung
 from model.compiled import compiled_on_arrays, inlined, spliced
 from model.rows import copy_some
 from model.search.draw import below, uniform
@@ -148,10 +149,14 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
     accepted.
     Given an `order`, nobody is removed, all who are left out are inserted in it, and that is kept
     whatever it costs. This is one function, not two, since insertion takes a minute to compile.
+    Once the search must end, a turn is given up as if it had not begun, and an insertion of all
+    leaves out whoever is not inserted yet.
     """
     value, count = searcher.value, searcher.count
     building = order != ANY
     for _ in range(turns):
+        if rung(world.stop):
+            return
         first = begin_turn(searcher, count[I_MISSING] if building else MOST_MISSING)
         if not building:
             ruin(world, searcher, first)
@@ -166,6 +171,10 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
         if world.adds_up and not (building or retyped) and count[I_MISSING] == 0:
             spare = limit - served_cost(searcher)
         done = recreate(world, searcher, first, building or world.scan_all, spare)
+        if rung(world.stop) and not building:
+            undo(searcher)
+            count[I_TURN] -= 1
+            return
         if done and retyped:
             if world.traded:
                 improve_types(world, searcher)
@@ -182,6 +191,6 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
             undo(searcher)
         if not building:
             for part in range(1 + RESPLITS if world.single_drones else 1):
-                if part > 0 or world.tails:
+                if (part > 0 or world.tails) and not rung(world.stop):
                     move_parts(world, searcher, part == 0)
         value[V_TEMPERATURE] *= value[V_COOLING]

@@ -44,12 +44,17 @@ def insert_missing(world: World, searcher: Searcher, order: int) -> None:
         anneal(world, searcher, 1, order)
 
 
-def begin_anew(world: World, searcher: Searcher, freely: bool) -> None:
-    """Insert the customers left out; `freely`, plan all anew if that is better. In place."""
+def begin_anew(world: World, searcher: Searcher, freely: bool,
+               hurried: World | None = None) -> None:
+    """Insert the customers left out; `freely`, plan all anew if that is better. In place.
+
+    The latter in a `hurried` world, which is the same and may end sooner, once nobody is left out.
+    """
     if searcher.count[I_MISSING] > 0:
         insert_missing(world, searcher, BY_FAR)
     if freely:
-        _construct(world, searcher)
+        left_out = searcher.count[I_MISSING] > 0
+        _construct(world if hurried is None or left_out else hurried, searcher)
 
 
 def begin_again(world: World, searcher: Searcher) -> None:
@@ -59,7 +64,7 @@ def begin_again(world: World, searcher: Searcher) -> None:
 
 
 def _construct(world: World, searcher: Searcher) -> None:
-    """Plan anew by insertion in the best of several orders. In place."""
+    """Plan anew by insertion in the best of several orders, if that is better. In place."""
     for order in CONSTRUCTED:
         disband(searcher)
         searcher.value[V_COST] = searcher.count[I_MISSING] * world.unassigned_cost

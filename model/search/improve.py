@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from model.alarm import Alarm
 from model.instance import Instance
 from model.problem import Problem
 from model.search.anneal import ANY, anneal
@@ -17,9 +18,11 @@ from model.search.heat import Heat
 from model.search.layout import World
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
-from model.search.state import I_CUSTOMERS, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher
+from model.search.state import (
+    I_CUSTOMERS, I_TURN, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher,
+)
 from model.search.translate import first_plan, make_searcher, read_plan
-from model.search.world import ALL_MOVES, Moves, make_world
+from model.search.world import ALL_MOVES, Ground, Moves, lay_ground, make_world
 from model.solution import Solution
 
 ROUNDS = 40
@@ -40,6 +43,12 @@ share of the time that this takes."""
 
 MOST_BEGINNING = 0.05
 """Share of the time after which no other type of vehicle is tried at the beginning."""
+
+BEGINNING_SHARE = 0.3
+"""Share of the time after which no other plan by insertion is tried, where there is one of all."""
+
+GRACE = 0.03
+"""Seconds that the search may take for a beginning, even where no time is left."""
 
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
@@ -87,6 +96,7 @@ class Improved:
     cost: float  # as the search counts it
     first_cost: float  # of the routes that it began with
     turns: int
+    whole: bool  # nothing was cut short
 
 
 @dataclass(frozen=True)
@@ -118,7 +128,10 @@ class _Limits:
         """Return the share of the search that is over after `turns`, 0 to 1."""
         if self.turns is not None:
             return min(1.0, turns / max(1, self.turns))
-        return min(1.0, (time.perf_counter() - self.began) / (self.deadline - self.began))
+        now = time.perf_counter()
+        if now >= self.deadline:
+            return 1.0
+        return (now - self.began) / (self.deadline - self.began)
 
     def span_end(self, span: _Span) -> tuple[float, float]:
         """Return after how many turns and when a span ends."""
@@ -188,10 +201,11 @@ class _Worker:
             value[V_TEMPERATURE] = hot
             value[V_COOLING] = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
             self.cooling = span
-        began = time.perf_counter()
+        began, before = time.perf_counter(), int(self.searcher.count[I_TURN])
         anneal(self.world, self.searcher, turns, ANY)
-        self.turns += turns
-        self.pace = (time.perf_counter() - began) / turns
+        made = int(self.searcher.count[I_TURN]) - before
+        self.turns += made
+        self.pace = (time.perf_counter() - began) / max(1, made)
 
 
 @dataclass(frozen=True)
@@ -262,21 +276,45 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     """
     if deadline is None and config.turns is None:
         raise ValueError("deadline, turns: None, None is not allowed")
-    limits = _Limits(time.perf_counter(), math.inf if deadline is None else deadline,
-                     None if config.turns is None else config.turns // config.threads, should_stop)
-    by_truck = not solution.routes and _trucks_come_first(problem, config.moves)
-    if by_truck:
-        solution = _plan_by_truck(problem, instance, config, limits)
-    world = make_world(problem, instance, config.moves)
+    began, end = time.perf_counter(), math.inf if deadline is None else deadline
+    ground = lay_ground(problem, instance)
+    with Alarm(max(end, time.perf_counter() + GRACE), should_stop) as alarm:
+        limits = _Limits(began, end,
+                         None if config.turns is None else config.turns // config.threads,
+                         lambda: alarm.has_rung or should_stop())
+        task = _Task(problem, instance, ground, config, limits, alarm)
+        if not solution.routes and _trucks_come_first(problem, config.moves):
+            by_truck = _plan_by_truck(task)
+            if alarm.has_rung:
+                return by_truck
+            return _improved(task, by_truck.solution, True, on_progress)
+        return _improved(task, solution, False, on_progress)
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What is to be planned, and until when."""
+
+    problem: Problem
+    instance: Instance
+    ground: Ground
+    config: SearchConfig
+    limits: _Limits
+    alarm: Alarm
+
+
+def _improved(task: _Task, solution: Solution, from_trucks: bool,
+              on_progress: Callable[[Progress], None]) -> Improved:
+    """Search for a better plan than the one given, which trucks alone made if `from_trucks`."""
+    problem, config, limits = task.problem, task.config, task.limits
+    world = make_world(problem, task.instance, config.moves, task.ground, task.alarm.flag)
     fresh = not solution.routes
     if fresh:
         solution = first_plan(problem, world)
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, world, solution, seeds[0])
-    begin_anew(world, whole, fresh)
-    if fresh and world.mixed:
-        _begin_by_types(world, whole, limits)
-    heat = Heat.of(world, whole, by_truck, config.hot, config.cold)
+    _begin(world, whole, fresh, limits)
+    heat = Heat.of(world, whole, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value[V_COST])
     workers = [_Worker(world, whole, limits, heat) for _ in range(config.threads)]
 
@@ -286,7 +324,21 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     with ThreadPoolExecutor(config.threads) as pool:
         _search(_Team(whole, workers, limits, pool, tell), world, problem, seeds[1:])
     return Improved(read_plan(world, whole), float(whole.value[V_BEST]), first_cost,
-                    sum(worker.turns for worker in workers))
+                    sum(worker.turns for worker in workers), not task.alarm.has_rung)
+
+
+def _begin(world: World, whole: Searcher, fresh: bool, limits: _Limits) -> None:
+    """Insert the customers left out; if nothing was given, plan all anew where that is better.
+
+    In place. Where the clock ends the search, it ends other beginnings early, once there is one.
+    """
+    deadline = math.inf
+    if limits.turns is None:
+        deadline = limits.began + (limits.deadline - limits.began) * BEGINNING_SHARE
+    with Alarm(deadline, limits.should_stop) as alarm:
+        begin_anew(world, whole, fresh, world._replace(stop=alarm.flag))
+    if fresh and world.mixed:
+        _begin_by_types(world, whole, limits)
 
 
 def _search(team: _Team, world: World, problem: Problem,
@@ -339,16 +391,17 @@ def _trucks_come_first(problem: Problem, moves: Moves) -> bool:
             and (moves.loops or moves.crossings))
 
 
-def _plan_by_truck(problem: Problem, instance: Instance, config: SearchConfig,
-                   limits: _Limits) -> Solution:
+def _plan_by_truck(task: _Task) -> Improved:
     """Return a plan without flights, to which the drones' then are added.
 
     The order of the customers is found sooner so; whom no truck can serve is left out.
     """
+    config, limits = task.config, task.limits
     turns = None if config.turns is None else math.ceil(config.turns * BY_TRUCK_SHARE)
     deadline = limits.began + (limits.deadline - limits.began) * BY_TRUCK_SHARE
-    by_truck = replace(config, turns=turns,
-                       moves=replace(config.moves, loops=False, crossings=False))
-    found = improve(problem, instance, Solution((), ()), by_truck,
-                    None if math.isinf(deadline) else deadline, limits.should_stop)
-    return found.solution
+    config = replace(config, turns=turns,
+                     moves=replace(config.moves, loops=False, crossings=False))
+    limits = replace(limits, began=time.perf_counter(), deadline=deadline,
+                     turns=None if turns is None else turns // config.threads)
+    return _improved(replace(task, config=config, limits=limits), Solution((), ()), False,
+                     lambda _: None)

@@ -1,5 +1,6 @@
 """Places for a customer on a route: behind a stop, on sorties, on trips of the customer's own."""
 
+from model.alarm import rung
 from model.compiled import inlined, pasted, spliced
 from model.instance import (
     RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DEPOT, TYPE_DRONES, TYPE_DRONE_SERVICE,
@@ -260,11 +261,12 @@ def price_offer(world: World, fleet: Fleet, move: IntArray, node: int, least: fl
 def take_cheapest(world: World, searcher: Searcher, node: int) -> None:
     """Let the move be the cheapest of the insertions listed, if it is the best, but for blinks.
 
-    Those that may be cheapest are priced first, so that most need not be. In place.
+    Those that may be cheapest are priced first, so that most need not be; none is once the search
+    must end. In place.
     """
     bound, least, offer = searcher.bound, searcher.least, searcher.offer
     left = searcher.count[I_OFFERS]
-    while left > 0:
+    while left > 0 and not rung(world.stop):
         first = 0
         for index in range(1, left):
             if least[index] < least[first]:

@@ -1,5 +1,6 @@
 """The cheapest insertion of a customer, on all routes or beside neighbours."""
 
+from model.alarm import rung
 from model.compiled import pasted
 from model.instance import TYPE_COUNT, TYPE_ENDURANCE, TYPE_MAX_TRIPS
 from model.rows import copy_row
@@ -117,6 +118,8 @@ def try_routes(world: World, searcher: Searcher, node: int, enlarge: bool) -> No
             k = now.route[slot, R_TYPE]
             if not (world.can[k, 0, node] or world.can[k, 1, node]):
                 continue
+            if rung(world.stop):
+                return
             known = world.keeps and not enlarge and now.route[slot, R_STAMP] != CHANGING
             if known and is_kept(searcher, slot, node):
                 if not costly:
@@ -149,7 +152,7 @@ def find_place(world: World, searcher: Searcher, node: int, enlarge: bool) -> fl
         for index in range(searcher.count[I_ACTIVE]):
             slot = searcher.active[index]
             k = now.route[slot, R_TYPE]
-            if now.route[slot, R_TRIPS] >= world.type[k, TYPE_MAX_TRIPS]:
+            if now.route[slot, R_TRIPS] >= world.type[k, TYPE_MAX_TRIPS] or rung(world.stop):
                 continue
             if world.can[k, 0, node]:
                 offer_trips(world, searcher, slot, node)

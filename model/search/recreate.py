@@ -1,5 +1,6 @@
 """Insertion of the customers left out, one after another, each where that costs least."""
 
+from model.alarm import rung
 from model.compiled import inlined, pasted, spliced
 from model.instance import TYPE_DEPOT, TYPE_TRAVEL
 from model.problem import UIntArray
@@ -106,7 +107,8 @@ def insert(world: World, searcher: Searcher, node: int) -> bool:
 def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare: float) -> bool:
     """Insert the absent customers from number `first` on, each where it costs least.
 
-    In place; False, with some inserted, once that costs more than is to `spare`.
+    In place; False, with some inserted, once that costs more than is to `spare`. Once the search
+    must end, the others are left out.
     """
     absent, count = searcher.absent, searcher.count
     enlarge = world.traded and uniform(searcher.rng) < ENLARGED
@@ -115,6 +117,10 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare
     for index in range(first, count[I_ABSENT]):
         node = absent[index]
         cost = INFEASIBLE
+        if rung(world.stop):
+            absent[left] = node
+            left += 1
+            continue
         if opening and index == first:
             cost = try_new_route(world, searcher, node)
         elif not scan_all:

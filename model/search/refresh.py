@@ -3,6 +3,7 @@
 from model.compiled import inlined, spliced
 from model.instance import TYPE_MAX_WORKING, TYPE_PROFILE
 from model.problem import FULL_SPEED, IntArray, UIntArray
+from model.schedule import changes_until
 from model.search.draw import below
 from model.search.layout import (
     CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, FAR, MODE_LEAN, MODE_PROFILE,
@@ -23,9 +24,7 @@ MOST_DRAWS = 64
 def leave_by_profile(times: IntArray, factors: IntArray, changes: int, duration: int,
                      arrival: int) -> int:
     """Return the latest departure whose leg of `duration` at full speed ends by `arrival`."""
-    piece = 0
-    while piece < changes and times[piece] < arrival:
-        piece += 1
+    piece = changes_until(times, changes, arrival - 1)
     work = duration * FULL_SPEED
     time = arrival
     while piece > 0:

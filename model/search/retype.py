@@ -2,6 +2,7 @@
 
 import math
 
+from model.alarm import rung
 from model.compiled import inlined, spliced
 from model.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES,
@@ -170,4 +171,6 @@ def cheapen_types(world: World, searcher: Searcher) -> None:
         slot = searcher.touched[index]
         if searcher.now.route[slot, R_LENGTH] > 0:
             for k in range(world.num_types):
+                if rung(world.stop):
+                    return
                 give_type(world, searcher, slot, k, True)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from model.alarm import rung
 from model.compiled import compiled
 from model.instance import (
     RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_SERVICE, TYPE_DRONES,
@@ -117,7 +118,7 @@ def alone_costs(world: World, fleet: Fleet, acc: IntArray, alone: FloatArray) ->
     for k in range(world.num_types):
         for by_drone in range(2):
             for node in range(world.num_depots, world.num_nodes):
-                if world.can[k, by_drone, node]:
+                if world.can[k, by_drone, node] and not rung(world.stop):
                     begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k,
                                 world.type[k, TYPE_DEPOT], node, by_drone == 1)
                     if refresh(world, fleet, slot, acc):

@@ -1,10 +1,12 @@
 """The search's arrays for a problem, and plans to and from its routes."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from model.alarm import silent
 from model.instance import (
     MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
     NODE_SERVICE, RATE_HOUR, TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
@@ -57,18 +59,37 @@ class Moves:
 ALL_MOVES = Moves()
 
 
-def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -> World:
-    """Lay out a problem for the search."""
+class Ground(NamedTuple):
+    """What legs the search sees, whatever it may do: by far the largest of its arrays."""
+
+    leg: IntArray
+    back: IntArray
+    near: IntArray
+    fit: IntArray
+
+
+def lay_ground(problem: Problem, instance: Instance) -> Ground:
+    """Lay out the legs of a problem, and rank each customer's neighbours."""
+    leg = np.stack([instance.duration[0], instance.distance[0]], axis=-1)
+    back = leg
+    if not _symmetric(instance.duration[0]) or not _symmetric(instance.distance[0]):
+        back = np.ascontiguousarray(leg.transpose(0, 2, 1, 3))
+    near = _near(problem)
+    return Ground(leg, back, near, _fit(problem, _places(instance), near))
+
+
+def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
+               ground: Ground | None = None, stop: IntArray | None = None) -> World:
+    """Lay out a problem for the search.
+
+    `ground` is that of the same problem, if it is there already; `stop` an alarm's flag.
+    """
+    ground = lay_ground(problem, instance) if ground is None else ground
     columns, rates, can_fly = instance.type[0], instance.rate[0], instance.can_fly[0]
     if not (moves.loops or moves.crossings):
         columns, can_fly = columns.copy(), np.zeros_like(can_fly)
         columns[:, TYPE_DRONES] = 0
     place = _places(instance)
-    travel = np.stack([instance.duration[0], instance.distance[0]], axis=-1)
-    back = travel
-    if not _symmetric(instance.duration[0]) or not _symmetric(instance.distance[0]):
-        back = np.ascontiguousarray(travel.transpose(0, 2, 1, 3))
-    near = _near(problem)
     visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
                        for kind in problem.vehicle_types], np.int64)
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
@@ -94,9 +115,9 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES) -
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
         type=columns, rate=rate, mode=mode, visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
-        swap=swap, leg=travel, back=back,
+        swap=swap, leg=ground.leg, back=ground.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
-        near=near, fit=_fit(problem, place, near),
+        near=ground.near, fit=ground.fit, stop=silent() if stop is None else stop,
     )
 
 
@@ -113,7 +134,8 @@ def _blink(num_customers: int, most_visits: int) -> float:
 
 def _symmetric(matrices: IntArray) -> bool:
     """Tell whether all matrices (travel, node, node) are their own transposes."""
-    return bool((matrices == matrices.transpose(0, 2, 1)).all())
+    return all(bool((matrices[:, rows] == matrices[:, :, rows].transpose(0, 2, 1)).all())
+               for rows in _blocks(matrices.shape[1]))
 
 
 def _places(instance: Instance) -> IntArray:
