@@ -12,12 +12,11 @@ from app.schemas_plan import PlanInput
 from app.settings import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT,
 )
-from model.problem import MAX_QUANTITY
+from model.problem import MAX_MONEY, MAX_QUANTITY
 
 MAX_AMOUNT = MAX_QUANTITY // 1000
 """Largest amount, duration in seconds or distance in metres: all are held as thousandths."""
 
-MAX_MONEY = 1e12
 MAX_DEPOTS = 100
 MAX_VEHICLE_TYPES = 100
 MAX_POLYGON_POINTS = 500

@@ -12,7 +12,9 @@ from typing import NamedTuple
 
 from model.attempt import Attempt, attempts, small_problem, try_truck
 from model.check import check
-from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, DroneType, Problem, VehicleType
+from model.problem import (
+    MAX_MONEY, MAX_QUANTITY, MM_PER_KM, UNLIMITED, DroneType, Problem, VehicleType,
+)
 from model.rules import airborne_duration, amounts, decimal
 from model.solution import Solution
 
@@ -74,7 +76,8 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
         price = f"{ceil(cost * 100) / 100:.2f}"
         left_out = f"leaving it out costs {problem.unassigned_cost:.2f}"
         message = f"{way} at a cost of {price}; {left_out}."
-        return Reason(index, "COST", message, f"served if unassigned_cost were above {price}")
+        remedy = f"served if unassigned_cost were above {price}" if cost < MAX_MONEY else None
+        return Reason(index, "COST", message, remedy)
     return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
 
 
@@ -111,6 +114,11 @@ def _with_type(attempt: Attempt, vehicle_type: VehicleType) -> Problem:
 def _up_to_tenth(quantity: int, unit: int) -> int:
     """Round up to a tenth of a unit, so that what is said suffices."""
     return -(-quantity * 10 // unit) * unit // 10
+
+
+def _if_stated(words: str, quantity: int) -> str | None:
+    """Return the words of a remedy, if a request can state the quantity that it asks for."""
+    return words if quantity <= MAX_QUANTITY else None
 
 
 def _minutes(duration: int) -> str:
@@ -164,11 +172,12 @@ def _endurance(attempt: Attempt) -> _Diagnosis:
     drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
     airborne = airborne_duration(attempt.problem, drones, trip, trip.sorties[0])
     excess = _up_to_tenth(airborne - drones.endurance, MS_PER_MINUTE)
-    changed = replace(drones, endurance=min(drones.endurance + excess, UNLIMITED))
+    enough = drones.endurance + excess
+    changed = replace(drones, endurance=min(enough, UNLIMITED))
     return _Diagnosis(
         "RANGE",
         f"A flight from the depot and back lasts {_minutes(excess)} more than the endurance.",
-        f"fits if endurance were {_minutes(excess)} longer",
+        _if_stated(f"fits if endurance were {_minutes(excess)} longer", enough),
         _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
     )
 
@@ -178,11 +187,12 @@ def _trip_distance(attempt: Attempt) -> _Diagnosis:
     limit = vehicle_type.max_trip_distance or 0
     distance = attempt.evaluation.routes[0].trips[0].distance
     excess = _up_to_tenth(distance - limit, MM_PER_KM)
-    changed = replace(vehicle_type, max_trip_distance=min(limit + excess, MAX_QUANTITY))
+    enough = limit + excess
+    changed = replace(vehicle_type, max_trip_distance=min(enough, MAX_QUANTITY))
     return _Diagnosis(
         "RANGE",
         f"A trip there and back is {_km(excess)} longer than a trip may be.",
-        f"fits if trips could be {_km(excess)} longer",
+        _if_stated(f"fits if trips could be {_km(excess)} longer", enough),
         _with_type(attempt, changed),
     )
 
@@ -191,11 +201,12 @@ def _time_window(attempt: Attempt) -> _Diagnosis:
     customer, trip = attempt.customer, attempt.solution.routes[0].trips[0]
     arrival = (trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]).arrival
     late = _up_to_tenth(arrival - customer.latest, MS_PER_MINUTE)
-    changed = replace(customer, latest=min(customer.latest + late, UNLIMITED))
+    enough = customer.latest + late
+    changed = replace(customer, latest=min(enough, UNLIMITED))
     return _Diagnosis(
         "TIME_WINDOW",
         f"The earliest arrival is {_minutes(late)} after its window closes.",
-        f"fits if its window closed {_minutes(late)} later",
+        _if_stated(f"fits if its window closed {_minutes(late)} later", enough),
         replace(attempt.problem, customers=(changed,)),
     )
 
@@ -203,11 +214,12 @@ def _time_window(attempt: Attempt) -> _Diagnosis:
 def _shift(attempt: Attempt) -> _Diagnosis:
     vehicle_type = attempt.vehicle_type
     late = _up_to_tenth(attempt.evaluation.makespan - vehicle_type.latest, MS_PER_MINUTE)
-    changed = replace(vehicle_type, latest=min(vehicle_type.latest + late, UNLIMITED))
+    enough = vehicle_type.latest + late
+    changed = replace(vehicle_type, latest=min(enough, UNLIMITED))
     return _Diagnosis(
         "SHIFT",
         f"{vehicle_type.id} would be back {_minutes(late)} after its shift ends.",
-        f"fits if {vehicle_type.id}'s shift ended {_minutes(late)} later",
+        _if_stated(f"fits if {vehicle_type.id}'s shift ended {_minutes(late)} later", enough),
         _with_type(attempt, changed),
     )
 
@@ -216,11 +228,12 @@ def _working_hours(attempt: Attempt) -> _Diagnosis:
     vehicle_type = attempt.vehicle_type
     limit = vehicle_type.max_working_duration or 0
     excess = _up_to_tenth(attempt.evaluation.routes[0].working_duration - limit, MS_PER_MINUTE)
-    changed = replace(vehicle_type, max_working_duration=min(limit + excess, MAX_QUANTITY))
+    enough = limit + excess
+    changed = replace(vehicle_type, max_working_duration=min(enough, MAX_QUANTITY))
     return _Diagnosis(
         "WORKING_HOURS",
         f"Serving it alone takes {_minutes(excess)} more than {vehicle_type.id} may work.",
-        f"fits if {vehicle_type.id} could work {_minutes(excess)} longer",
+        _if_stated(f"fits if {vehicle_type.id} could work {_minutes(excess)} longer", enough),
         _with_type(attempt, changed),
     )
 

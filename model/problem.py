@@ -25,6 +25,9 @@ UNREACHABLE = 2**50
 MAX_QUANTITY = 10**12
 """Largest time (ms), distance (mm) or amount (parts) that a problem may state."""
 
+MAX_MONEY = 1e12
+"""Largest price that a request states."""
+
 USUAL_DECIMALS = 3
 """Decimals of amounts, unless a problem states others."""
 

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from model.explain import Reason, explain
-from model.problem import UNREACHABLE, SpeedProfile, Travel
+from model.problem import MAX_MONEY, MAX_QUANTITY, UNREACHABLE, SpeedProfile, Travel
 from model.solution import Solution
 from model.timing import RouteDecision, TripDecision, schedule
 
@@ -99,6 +99,19 @@ def test_leaving_out_is_cheaper(tiny_problem, customers, truck):
                            unassigned_cost=20.0)
     reason = reason_for_d(problem, Solution(serve(problem, 1), (2, 3, 4)))
     assert (reason.code, reason.remedy) == ("COST", "served if unassigned_cost were above 20.50")
+
+
+@pytest.mark.parametrize(("on_truck", "on_customer", "code"), [
+    ({}, {"latest": MAX_QUANTITY - 1, "release_time": MAX_QUANTITY - 1}, "TIME_WINDOW"),
+    ({"latest": MAX_QUANTITY}, {"earliest": MAX_QUANTITY - 1}, "SHIFT"),
+    ({"fixed_cost": MAX_MONEY, "cost_per_km": 1.0}, {}, "COST"),
+])
+def test_no_remedy_asks_for_what_no_request_can_state(on_truck, on_customer, code, tiny_problem,
+                                                      customers, truck):
+    *others, d = customers
+    problem = tiny_problem(*others, replace(d, **on_customer), truck=replace(truck, **on_truck))
+    reason = reason_for_d(problem)
+    assert (reason.code, reason.remedy) == (code, None)
 
 
 def test_search_left_it_out(tiny_problem, customers, truck):
