@@ -12,6 +12,7 @@ from typing import Any
 import httpx
 import pytest
 import uvicorn
+from sqlalchemy import Connection, Engine, event
 
 from app.main import create_app
 from app.settings import DEFAULT_POLICY, Settings
@@ -95,6 +96,22 @@ def no_workers() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TANDEM_ROLE", "api")
         yield
+
+
+@pytest.fixture(autouse=True)
+def no_open_database() -> Iterator[None]:
+    """Close what tests opened, services apart: from Python 3.13 on, SQLite warns of it."""
+    engines: set[Engine] = set()
+
+    def note(connection: Connection) -> None:
+        if threading.current_thread() is threading.main_thread():
+            engines.add(connection.engine)
+
+    event.listen(Engine, "engine_connect", note)
+    yield
+    event.remove(Engine, "engine_connect", note)
+    for engine in engines:
+        engine.dispose()
 
 
 @pytest.fixture

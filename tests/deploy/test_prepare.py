@@ -151,10 +151,12 @@ def test_python_that_will_not_do_is_told_with_what_would(machine: Machine,
     assert ("which python3.9 isn't" in done.stderr) == bool(choice)
 
 
-@pytest.mark.parametrize(("version", "will_do"), [
-    ((3, 10, 9), False), ((3, 11, 0), True), ((3, 14, 9), True), ((3, 15, 0), False)])
-def test_python_of_another_version_will_not_do(machine: Machine, version: tuple[int, ...],
-                                               will_do: bool) -> None:
-    told = f"import sys; sys.version_info = {version}; exec(sys.argv[1])"
+@pytest.mark.parametrize(("version", "sqlite", "will_do"), [
+    ((3, 10, 9), (3, 50), False), ((3, 11, 0), (3, 40), True), ((3, 12, 0), (3, 40), False),
+    ((3, 14, 9), (3, 42), True), ((3, 15, 0), (3, 50), False)])
+def test_python_of_other_versions_will_not_do(
+        machine: Machine, version: tuple[int, ...], sqlite: tuple[int, ...], will_do: bool) -> None:
+    told = (f"import sqlite3, sys; sys.version_info, sqlite3.sqlite_version_info = {version}, "
+            f"{sqlite}; exec(sys.argv[1])")
     machine.add("python3", f'exec {sys.executable} -c "{told}" "$2"')
     assert (machine.run("find-python").returncode == 0) == will_do

@@ -28,8 +28,8 @@ from training.variants import InstanceConfig
 WEIGHTS = Path(__file__).parents[2] / "model" / "weights"
 POLICIES = sorted(folder.name for folder in WEIGHTS.iterdir())
 NUM_DECODED = 500
-NUM_IMPROVED = 2000
-TIME_LIMIT = 0.05
+NUM_IMPROVED = 1000
+TIME_LIMIT = 0.03
 SPOILED = InstanceConfig(spoiled=1.0, max_spoiled=0.5)
 
 
