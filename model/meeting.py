@@ -109,21 +109,26 @@ def operate(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) -> i
     can be launched first is; loops are recovered behind, or while a launch is held back.
     """
     here, free = vehicle[V_NODE], vehicle[V_CREW]
+    waiting, looping = vehicle[V_FLYING], 0
     for d in range(len(drones)):
         drones[d, DRONE_TAKEOFF] = drones[d, DRONE_RECOVERY] = NOT_YET
-    while True:
+    while waiting + looping > 0:
         launched, takeoff = next_launch(setting, drones, here, to, free)
-        landed, begin = next_back(drones, LOOP), takeoff - setting.type[TYPE_LAUNCH]
-        if launched < 0 and landed < 0:
-            return free
+        begin = takeoff - setting.type[TYPE_LAUNCH]
+        landed = next_back(drones, LOOP) if looping > 0 else -1
         if landed >= 0 and (launched < 0 or (
                 begin > free and max(free, drones[landed, DRONE_BACK]) <= begin)):
             free = bring_aboard(setting, drones[landed], free)
             if free < 0:
                 return -1
+            looping -= 1
         else:
             fly(setting, drones[launched], here, to, takeoff)
             free = takeoff
+            waiting -= 1
+            if drones[launched, DRONE_PLACE] == LOOP:
+                looping += 1
+    return free
 
 
 @inlined
