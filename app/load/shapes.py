@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ _KINDS: dict[str | None, int] = {
     "number": INTEGER | FRACTION, "boolean": BOOLEAN, "null": NULL}
 
 Schema = Mapping[str, Any]
+Number = TypeVar("Number", bound=np.generic)
 
 
 class Shapes(NamedTuple):
@@ -71,11 +72,13 @@ def shapes_of(model: type[BaseModel]) -> Shapes:
     root = collector.collect(schema)
     shapes = [*collector.shapes, _Shape(entry=root)]
     keys = [list(shape.keys.items()) for shape in shapes]
+    def column(name: str, kind: type[Number]) -> NDArray[Number]:
+        return np.array([getattr(shape, name) for shape in shapes], kind)
+
     return Shapes(
-        *(np.array([getattr(shape, name) for shape in shapes], kind) for name, kind in (
-            ("kinds", np.int64), ("lowest", np.float64), ("highest", np.float64),
-            ("shortest", np.int64), ("longest", np.int64), ("most", np.int64),
-            ("fewest", np.int64), ("entry", np.int64), ("is_row", np.bool_))),
+        column("kinds", np.int64), column("lowest", np.float64), column("highest", np.float64),
+        column("shortest", np.int64), column("longest", np.int64), column("most", np.int64),
+        column("fewest", np.int64), column("entry", np.int64), column("is_row", np.bool_),
         required=np.array([sum(1 << list(shape.keys).index(name) for name in shape.required)
                            for shape in shapes], np.int64),
         first_key=np.cumsum([0, *map(len, keys)], dtype=np.int64),

@@ -6,7 +6,7 @@ of VROOM's rules, so that some plans are judged before they count.
 """
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
 
@@ -48,6 +48,9 @@ THROUGH_GAPS = 0.3
 
 ROUNDS = 6
 """How often windows are chosen among then."""
+
+LEAST_FILLING = 0.1
+"""Seconds at least for putting jobs left out into routes one by one."""
 
 LEAST_PRICE, DEARER, CHEAPER = 0.05, 2.5, 0.6
 """The first price above none, and what it is multiplied by where a plan breaks or keeps rules."""
@@ -111,7 +114,8 @@ class Planning:
         options = replace(self._options, time_limit=seconds)
         given = hull.solution({}, self._start_windows)
         routes = hull.routes(self._plan(hull.problem, options, given, _tell_nobody).solution)
-        best = max(best, self._judged(self._mended(routes)), key=attrgetter("value"))
+        best = max(best, self._filled(self._mended(routes), slots, deadline),
+                   key=attrgetter("value"))
         share = max(LEAST_SECONDS, _left(deadline) / ROUNDS)
         for number in range(ROUNDS):
             # Whoever is left out gets a chance, even if that takes longer.
@@ -123,8 +127,37 @@ class Planning:
             few = choose_few(slots, starts, rng)
             until = min(deadline, time.perf_counter() + share)
             found = self._find_by(self._converter.model(few), few, until, best.routes)
-            best = max(best, found, key=attrgetter("value"))
+            best = max(best, self._filled(found.routes, slots, deadline), key=attrgetter("value"))
         return best
+
+    def _filled(self, routes: Routes, slots: Slots, deadline: float) -> Found:
+        """Return routes with jobs that they lack where these cost least, as far as time allows."""
+        until = max(deadline, time.perf_counter() + LEAST_FILLING)
+        filled = {kind: list(its_routes) for kind, its_routes in routes.items()}
+        planned = {job for its_routes in routes.values() for jobs in its_routes for job in jobs}
+        left_out = [job for job in slots if job not in planned]
+        for job in sorted(left_out, key=self._priorities.__getitem__, reverse=True):
+            cheapest = min(self._insertions(filled, job, until), default=None)
+            if cheapest is not None:
+                _, kind, number, jobs = cheapest
+                filled.setdefault(kind, [])[number:number + 1] = [jobs]
+        return self._judged(filled)
+
+    def _insertions(self, routes: Routes, job: int,
+                    until: float) -> Iterator[tuple[int, int, int, tuple[int, ...]]]:
+        """Yield what a job costs in each place that keeps all rules, with the route there."""
+        for kind, alike in enumerate(self.kinds):
+            its_routes = routes.get(kind, [])
+            new = [()] if len(its_routes) < len(alike.vehicles) else []
+            for number, jobs in enumerate([*its_routes, *new]):
+                before = self._route_cost(kind, tuple(jobs)) if jobs else 0
+                for place in range(len(jobs) + 1):
+                    if time.perf_counter() > until:
+                        return
+                    longer = (*jobs[:place], job, *jobs[place:])
+                    cost = self._route_cost(kind, longer)
+                    if cost is not None and before is not None:
+                        yield cost - before, kind, number, longer
 
     def _mended(self, routes: Routes) -> Routes:
         """Return routes without the jobs that keep them from being driven."""
