@@ -13,6 +13,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from model.airspace import compile_ways
 from model.check import Evaluation, check
 from model.compiled import first_to_compile
 from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
@@ -131,6 +132,7 @@ class Planner:
                                                        time_limit=0.0))
             warming.enter("compiling the search", decodes=True)
         compile_search()
+        compile_ways()
         for name in self._policies:
             self.plan(small_problem(), PlanOptions(name, time_limit=WARM_LIMIT,
                                                    search_iterations=4, threads=2))

@@ -16,6 +16,7 @@ from sqlalchemy import Connection, Engine, event
 
 from app.main import create_app
 from app.settings import DEFAULT_POLICY, Settings
+from model.airspace import compile_ways
 from model.check import check
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
@@ -24,6 +25,12 @@ from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.warming import Tell, Warmth
 
 APP_DIR = Path(__file__).parents[2] / "app"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _compiled_ways() -> None:
+    """Have ways around no-fly areas compiled, which planners do that are warmed."""
+    compile_ways()
 
 
 class FirstFitPlanner:
