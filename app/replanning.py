@@ -1,5 +1,6 @@
 """What a request asks for: a plan from nothing, or one that goes on from another."""
 
+import time
 from dataclasses import dataclass
 
 from app.convert import to_problem
@@ -18,6 +19,11 @@ from model.replan import Replanning, SettledPartError, Terms
 from model.replanning.workers import TooManyTypesError
 from model.rules import Violation
 from model.solution import Solution
+
+
+EXPLAINING, EXPLAINING_SHARE = 0.05, 0.02
+"""Seconds, and besides a share of the time limit, in which reasons are looked for why customers are
+left out: some hundred are found in the first of them."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +52,12 @@ class Task:
         return check(self.problem, solution)
 
     def reply(self, options: PlanOptions, result: PlanResult) -> Data:
-        """Return the reply to a plan, as `plan_reply` does."""
+        """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""
+        allowed = EXPLAINING + EXPLAINING_SHARE * options.time_limit
+        until = time.perf_counter() + allowed
         if self.replanning is None:
-            return plan_reply(self.problem, options, result)
-        reply = plan_reply(self.problem, options, result, self.replanning.reasons)
+            return plan_reply(self.problem, options, result, explain_until=until)
+        reply = plan_reply(self.problem, options, result, self.replanning.reasons, until)
         return reply | {"replan": _replan_reply(self.problem, self.replanning)}
 
 

@@ -1,5 +1,6 @@
 """A plan -> the reply of `POST /plan`, as plain data (see `app.schemas_response`)."""
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
@@ -17,15 +18,16 @@ Data = dict[str, Any]
 MAX_LOAD_RATE = 1e9
 """Stands for any load where there is no capacity, since JSON knows no infinity."""
 
-Reasons = Callable[[Solution, int], tuple[Reason, ...]]
-"""Says why a plan leaves a customer out."""
+Reasons = Callable[[Solution, int, float], tuple[Reason, ...]]
+"""Says why a plan leaves a customer out, as far as is found until an instant."""
 
 
 def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
-               reasons: Reasons | None = None) -> Data:
+               reasons: Reasons | None = None, explain_until: float = math.inf) -> Data:
     """Return the reply but for `solver.elapsed`'s `validate` and `total`, which are 0.
 
-    `reasons` are those of vehicles that have done nothing yet unless stated.
+    `reasons` are those of vehicles that have done nothing yet unless stated; none is looked for
+    after `explain_until`, on `time.perf_counter`.
     """
     solution, evaluation = result.solution, result.evaluation
     elapsed = result.elapsed
@@ -35,7 +37,7 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
         "cost": cost_reply(evaluation.cost),
         "routes": [_route(problem, route, metrics)
                    for route, metrics in zip(solution.routes, evaluation.routes, strict=True)],
-        "unassigned": [_unassigned(problem, node, why(solution, node))
+        "unassigned": [_unassigned(problem, node, why(solution, node, explain_until))
                        for node in solution.unassigned],
         "summary": summary_reply(problem, solution, evaluation),
         "solver": {

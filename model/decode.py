@@ -12,6 +12,7 @@ import numpy as np
 import onnxruntime as ort
 from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
+from model.alarm import silent
 from model.features import Observation, empty_observation, step
 from model.instance import Instance
 from model.problem import BoolArray, IntArray, Problem
@@ -113,7 +114,7 @@ def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
 
 
 def decode(policy: Policy, scene: Scene, config: DecodeConfig,
-           deadline: float | None = None) -> Rollout:
+           deadline: float | None = None, stop: IntArray | None = None) -> Rollout:
     """Plan by the policy; return the cheapest of the rollouts.
 
     Parameters
@@ -126,9 +127,13 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
         Greedy or sampled; the same seed gives the same plan.
     deadline
         On `time.perf_counter`; no block of samples begins later, but the first. None: no limit.
+    stop
+        Flag of an alarm at which rollouts are given up; `NOTHING` is returned if all are.
     """
+    flag = silent() if stop is None else stop
     if config.decoding == "greedy":
-        return _decode_block(policy, scene, [0.0], np.random.default_rng(config.seed), NOTHING)
+        return _decode_block(policy, scene, [0.0], np.random.default_rng(config.seed), NOTHING,
+                             flag)
     if config.num_samples < 1 or config.temperature <= 0:
         raise ValueError(f"num_samples, temperature: {config.num_samples!r}, "
                          f"{config.temperature!r} are not allowed")
@@ -139,7 +144,7 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
     found = NOTHING
 
     def plan_block(first: int, seed: np.random.SeedSequence) -> Rollout:
-        if first > 0 and deadline is not None and time.perf_counter() >= deadline:
+        if flag[0] or (first > 0 and deadline is not None and time.perf_counter() >= deadline):
             return found
         symmetry = first // BLOCK % len(SYMMETRIES)
         seen = scene if symmetry == 0 else replace(
@@ -147,7 +152,7 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
         temperatures = [config.temperature] * min(BLOCK, config.num_samples - first)
         if config.num_samples > 1:
             temperatures[0] = 0.0
-        return _decode_block(policy, seen, temperatures, np.random.default_rng(seed), found)
+        return _decode_block(policy, seen, temperatures, np.random.default_rng(seed), found, flag)
 
     with ThreadPoolExecutor(min(lanes, len(firsts), os.cpu_count() or 1)) as pool:
         for begin in range(0, len(firsts), lanes):
@@ -158,14 +163,14 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
 
 
 def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
-                  rng: np.random.Generator, so_far: Rollout) -> Rollout:
+                  rng: np.random.Generator, so_far: Rollout, stop: IntArray) -> Rollout:
     """Plan a rollout by each temperature; return the cheapest of them and that so far.
 
-    Those of a policy whose step is compiled go on from the best so far.
+    Those of a policy whose step is compiled go on from the best so far. An alarm ends them.
     """
     if policy.step_weights is not None:
         return roll_out(policy.step_weights, scene.memory, scene.instance, scene.scale,
-                        scene.tokens.type, temperatures, rng, so_far)
+                        scene.tokens.type, temperatures, rng, so_far, stop)
     rows, warmth = len(temperatures), np.array([temperatures], np.float32).T
     instance = scene.instance
     state = reset(instance, np.zeros(rows, np.int64))
@@ -174,6 +179,8 @@ def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
     choice = np.zeros(rows, np.int64)
     actions = []
     for _ in range(max_steps(instance)):
+        if stop[0]:
+            return so_far
         most = step(instance, scene.scale, state, scene.tokens.type, 0, rows, rows, choice, seen)
         if most == 0:
             break

@@ -4,6 +4,8 @@ For each vehicle type the customer is tried alone; `check` judges these attempts
 offered.
 """
 
+import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import chain
@@ -40,15 +42,22 @@ class _Diagnosis(NamedTuple):
     problem: Problem | None = None
 
 
-def explain(problem: Problem, solution: Solution, node: int) -> tuple[Reason, ...]:
-    """Return one reason per vehicle type why the customer at `node` is unassigned."""
-    return tuple(
-        _reason(problem, solution, index, node) for index in range(len(problem.vehicle_types))
-    )
+def explain(problem: Problem, solution: Solution, node: int,
+            until: float = math.inf) -> tuple[Reason, ...]:
+    """Return one reason per vehicle type why the customer at `node` is unassigned.
+
+    After `until`, on `time.perf_counter`, no more than that the search found no room.
+    """
+    return tuple(explain_type(problem, solution, index, node, until)
+                 for index in range(len(problem.vehicle_types)))
 
 
-def _reason(problem: Problem, solution: Solution, index: int, node: int) -> Reason:
+def explain_type(problem: Problem, solution: Solution, index: int, node: int,
+                 until: float = math.inf) -> Reason:
+    """Return why no vehicle of a type serves the customer at `node`. As `explain`."""
     vehicle_type = problem.vehicle_types[index]
+    if time.perf_counter() >= until:
+        return _unknown(vehicle_type, index)
     if problem.customer_at(node).served_by == "drone" and vehicle_type.drones is None:
         message = f"Only a drone may serve it and {vehicle_type.id} carries none."
         return Reason(index, "KIND", message, _remedy_by_truck(problem, vehicle_type, node))
@@ -57,7 +66,15 @@ def _reason(problem: Problem, solution: Solution, index: int, node: int) -> Reas
     for attempt in chain((first,), tried):
         if not attempt.codes:
             return _unused(problem, solution, index, attempt)
+        if time.perf_counter() >= until:
+            return _unknown(vehicle_type, index)
     return _failed(problem, index, node, first)
+
+
+def _unknown(vehicle_type: VehicleType, index: int) -> Reason:
+    """Return what is true of a customer for whom there was no time to find out more."""
+    return Reason(index, "SEARCH", f"The search found no room for it on {vehicle_type.id}; there "
+                  "was no time left to find out whether there could be any.")
 
 
 def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) -> Reason:

@@ -1,26 +1,29 @@
 """The planner: decode, improve, check."""
 
 import gc
+import math
 import os
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from model.airspace import compile_ways
+from model.alarm import Alarm
 from model.check import Evaluation, check
 from model.compiled import first_to_compile
 from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.extract import extract
 from model.instance import Instance, pack
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
-from model.search.improve import Improved, Progress, SearchConfig, improve
+from model.rolling import NOTHING
+from model.search.improve import GRACE, Improved, Progress, SearchConfig, improve
 from model.solution import Solution
 from model.warming import Tell, Warming, telling
 
@@ -33,6 +36,9 @@ from nothing."""
 MIXED_SHARE, MIXED_UP_TO = 0.4, 200
 """The same with drones or several types of vehicles, for so many customers at most: what the search
 begins with there is dearer than the policy's plan."""
+
+GIVE_UP_SHARE = 0.5
+"""Share of the time limit after which the policy is given up where a search follows."""
 
 SECONDS_BEHIND, SECONDS_PER_CUSTOMER = 0.0025, 2e-5
 """Kept back for checking a plan and writing it down: in all, and for each customer."""
@@ -172,11 +178,13 @@ class Planner:
                                        or policy_begins(problem, options))
         instance = pack([problem], neighbours=by_policy)
         decoded = began
-        whole = True  # the clock cut no samples
+        whole = True  # no clock cut the policy short
         if by_policy:
-            start = self._decode(problem, instance, options, deadline)
+            give_up = _give_up(began, deadline, searches)
+            start = self._decode(problem, instance, options, give_up, listener)
             decoded = time.perf_counter()
-            whole = deadline is None or decoded < deadline
+            whole = decoded < give_up
+            by_policy = start is not None
         first = None if start is None else _judged(problem, start)
         how: Start = "policy" if by_policy else "insertion" if first is None else "given"
         if first is not None:
@@ -184,6 +192,9 @@ class Planner:
             if not searches:
                 return _result(first, how, first.cost, options, None, whole,
                                Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
+        elif not searches:
+            # The policy was given up, so that the plan is what a search would begin with.
+            options = replace(options, search_iterations=0)
         improved = _improve(problem, instance, first, options, deadline, listener)
         searched = time.perf_counter()
         last = _judged(problem, improved.solution)
@@ -194,12 +205,23 @@ class Planner:
                        improved, whole, elapsed)
 
     def _decode(self, problem: Problem, instance: Instance, options: PlanOptions,
-                deadline: float | None) -> Solution:
+                give_up: float, listener: Listener) -> Solution | None:
+        """Return the policy's plan; None if there is none by the time to give up."""
         policy = self._policies[options.policy]
-        scene = prepare(policy, problem, instance)
         config = DecodeConfig(options.decoding, options.num_samples, options.temperature,
                               options.seed)
-        return extract(problem, instance, decode(policy, scene, config, deadline).actions)
+        with Alarm(give_up, listener.should_stop) as alarm:
+            if alarm.has_rung:
+                return None
+            scene = prepare(policy, problem, instance)
+            found = decode(policy, scene, config, give_up, alarm.flag)
+        return None if found is NOTHING else extract(problem, instance, found.actions)
+
+
+def _give_up(began: float, deadline: float | None, searches: bool) -> float:
+    """Return when the policy is given up: no sooner than a few customers take."""
+    end = math.inf if deadline is None else deadline
+    return max(began + GRACE, began + (end - began) * (GIVE_UP_SHARE if searches else 1.0))
 
 
 def policy_begins(problem: Problem, options: PlanOptions) -> bool:
@@ -268,7 +290,8 @@ def _result(last: _Judged, start: Start, first_cost: float, options: PlanOptions
     return PlanResult(
         last.solution, last.evaluation, start, decoded_cost=first_cost, final_cost=last.cost,
         search_iterations=0 if improved is None else improved.turns, threads=options.threads,
-        deterministic=whole and (improved is None or _made_all_turns(options, improved)),
+        deterministic=whole and (improved is None
+                                 or (improved.whole and _made_all_turns(options, improved))),
         elapsed=elapsed)
 
 

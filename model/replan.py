@@ -1,11 +1,12 @@
 """Planning on: a plan is given, part of it has happened, and something has changed."""
 
+import math
 import time
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 from model.check import Evaluation, check
-from model.explain import Reason, explain
+from model.explain import Reason, explain_type
 from model.instance import pack
 from model.past import Past, Vehicle, known_trips
 from model.past_rules import PAST_RULES
@@ -134,12 +135,16 @@ class Replanning:
                        decoded_cost=before.cost.total, final_cost=evaluation.cost.total,
                        elapsed=elapsed)
 
-    def reasons(self, solution: Solution, node: int) -> tuple[Reason, ...]:
-        """Return one reason per vehicle type why the customer at `node` is unassigned."""
+    def reasons(self, solution: Solution, node: int,
+                until: float = math.inf) -> tuple[Reason, ...]:
+        """Return one reason per vehicle type why the customer at `node` is unassigned.
+
+        After `until`, on `time.perf_counter`, no more than that the search found no room.
+        """
         vehicle = self.past.carriers().get(node) or self.past.pinned.get(node)
         if vehicle is not None:
             return _bound_reasons(self.problem, self.past, vehicle, node)
-        return tuple(self._reason(solution, kind, node)
+        return tuple(self._reason(solution, kind, node, until)
                      for kind in range(len(self.problem.vehicle_types)))
 
     def _legal(self, solution: Solution) -> Evaluation:
@@ -156,7 +161,7 @@ class Replanning:
         return PlanResult(self._settled, evaluation, "given", cost, cost, 0, options.threads, True,
                           Elapsed(0.0, 0.0, time.perf_counter() - began))
 
-    def _reason(self, solution: Solution, kind: int, node: int) -> Reason:
+    def _reason(self, solution: Solution, kind: int, node: int, until: float) -> Reason:
         """Return why vehicles of a type don't serve a customer who is free to be served by any."""
         name = self.problem.vehicle_types[kind].id
         left = self._left
@@ -167,7 +172,8 @@ class Replanning:
         routes = [Route(own, vehicle.number, ()) for vehicle in vehicles
                   if vehicle.type == kind and (own := left.later(vehicle)) is not None
                   and (own >= left.num_plain or vehicle not in self._kept)]
-        reason = explain(left.problem, Solution(tuple(routes)), left.nodes.index(node))[types[0]]
+        reason = explain_type(left.problem, Solution(tuple(routes)), types[0],
+                              left.nodes.index(node), until)
         return replace(reason, vehicle_type=kind)
 
 

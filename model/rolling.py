@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.alarm import rung, silent
 from model.compiled import compiled, inlined, inlined_arithmetic
 from model.features import (
     NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, empty_observation, step,
@@ -82,6 +83,9 @@ class Rollout(NamedTuple):
 
 
 NOTHING = Rollout(np.zeros(0, np.int64), math.inf)
+
+GIVEN_UP = -1
+"""Number of actions of a rollout that was not ended."""
 
 FROM_SCRATCH = 8
 """Rollouts that plan all before others keep a part of the best."""
@@ -297,10 +301,11 @@ def choose(scores: Float32Array, temperature: float, rng: np.random.Generator) -
 @compiled
 def _roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, scale: Scales,
               state: State, type_token: Float32Array, seen: Observation, r: int,
-              temperature: float, rng: np.random.Generator, kept: int, actions: IntArray) -> int:
+              temperature: float, rng: np.random.Generator, kept: int, actions: IntArray,
+              stop: IntArray) -> int:
     """Plan one rollout from its `kept` first actions on; write the others and return how many.
 
-    In place.
+    In place. `GIVEN_UP` if an alarm rings before.
     """
     for index in range(kept):
         apply(instance, state, r, actions[index])
@@ -309,6 +314,8 @@ def _roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sc
     choice = np.zeros(len(seen.count), np.int64)
     scratch = len(seen.count)
     for index in range(kept, len(actions)):
+        if rung(stop):
+            return GIVEN_UP
         if step(instance, scale, state, type_token, r, r + 1, scratch, choice, seen) == 0:
             return index
         _score_all(weights, memory, seen, r, desk, scores)
@@ -328,7 +335,7 @@ def candidate_scores(weights: StepWeights, memory: Float32Array, seen: Observati
 
 def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, scale: Scales,
              type_token: Float32Array, temperatures: Sequence[float], rng: np.random.Generator,
-             so_far: Rollout = NOTHING) -> Rollout:
+             so_far: Rollout = NOTHING, stop: IntArray | None = None) -> Rollout:
     """Plan a problem several times; return the cheapest plan.
 
     Parameters
@@ -346,7 +353,10 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
     so_far
         What was found before. Where nothing was, the first `FROM_SCRATCH` rollouts plan all; every
         other keeps a part of the cheapest so far.
+    stop
+        Flag of an alarm at which the rest is given up.
     """
+    flag = silent() if stop is None else stop
     rows = len(temperatures)
     state = reset(instance, np.zeros(rows, np.int64))
     seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
@@ -359,7 +369,9 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
             temperature *= HOTTER
         actions[: len(kept)] = kept
         count = _roll_out(weights, memory, instance, scale, state, type_token, seen, r,
-                          float(temperature), rng, len(kept), actions)
+                          float(temperature), rng, len(kept), actions, flag)
+        if count == GIVEN_UP:
+            break
         cost = float(state.cost[r].sum())
         if cost < so_far.cost:
             so_far = Rollout(actions[:count].copy(), cost)
