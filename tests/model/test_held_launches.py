@@ -11,7 +11,7 @@ from model.check import check
 from model.explain import Reason, explain
 from model.extract import extract
 from model.instance import pack
-from model.problem import Problem
+from model.problem import Problem, SpeedProfile
 from model.search.improve import SearchConfig, improve
 from model.simulator import DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, reset
 from model.solution import Solution, Trip
@@ -217,6 +217,14 @@ def test_the_search_serves_whoever_a_launch_must_be_held_for(late, change, count
     late = with_drones(changed(late, 4, **change), endurance_includes_waiting=counts)
     truck = replace(late.vehicle_types[0], max_trip_distance=6_500_000)
     assert searched(replace(late, vehicle_types=(truck,))).unassigned == ()
+
+
+@pytest.mark.parametrize("counts", [True, False])
+def test_a_held_launch_and_speeds_by_time_of_day(late, counts):
+    late = with_drones(late, endurance_includes_waiting=counts)
+    truck = replace(late.vehicle_types[0], cost_per_hour=10.0, speed_profile=SpeedProfile(
+        (5 * MINUTE, 50 * MINUTE), (1_000_000, 500_000, 1_000_000)))
+    assert searched(replace(late, vehicle_types=(truck,)), 300).unassigned == ()
 
 
 def test_a_trip_for_each_window(late):
