@@ -235,4 +235,4 @@ def schema_error(details: ErrorDetails) -> InputError:
 
 def _shown(details: ErrorDetails) -> str:
     """Say what was sent instead, without repeating it."""
-    return _JSON_NAMES.get(type(details["input"]), "this")
+    return _JSON_NAMES.get(type(details.get("input", ...)), "this")

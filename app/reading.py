@@ -14,7 +14,7 @@ from app.errors import (
     schema_error,
 )
 from app.load.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
-from app.load.refusal import MAX_COUNTED_ERRORS, require_readable
+from app.load.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.schemas_request import (
     AirspaceInput,
     CustomerInput,
@@ -29,9 +29,6 @@ from app.validation import Draft, semantic_errors
 
 Section = TypeVar("Section", bound=BaseModel)
 Parts = set[tuple[str | int, ...]]
-
-MAX_SEARCHED_BYTES = 8 * 2**20
-"""To save memory, longer bodies that don't fit the schema aren't searched for further errors."""
 
 
 def read_request(body: bytes, policies: Collection[str] | None,

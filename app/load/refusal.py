@@ -1,18 +1,24 @@
 """Refuses, before they are parsed, bodies that are wrong all over or hold far too much."""
 
+import re
 from collections.abc import Iterator, Sequence
 from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel
+from pydantic import BaseModel, ValidationError
 
-from app.errors import InputError, InvalidRequestError, json_path
+from app.errors import InputError, InvalidRequestError, json_path, schema_error
 from app.load.scan import COUNT, DEPTH, ERRORS, KEY_END, KEY_START, LEVELS, PARTS, SHAPE, scan
 from app.load.shapes import Shapes, shapes_of
 
 MAX_COUNTED_ERRORS = 20_000
 """With more errors than this the single ones are not looked at."""
+
+MAX_SEARCHED_BYTES = 4 * 2**20
+"""To save memory, longer bodies that don't fit the schema aren't searched for further errors."""
+
+_ROW = re.compile(rb"\[[-+0-9.eE,\s]{100,}+\]")
 
 LEAST_BYTES = 2**14
 """Shorter bodies can't do harm."""
@@ -38,6 +44,8 @@ def require_readable(body: bytes, model: type[BaseModel]) -> None:
     most = np.array([MAX_COUNTED_ERRORS, MAX_PARTS + len(body) // BYTES_PER_PART, MAX_LOOSE])
     levels, found = np.zeros((DEPTH, 6), np.int64), np.zeros(4, np.int64)
     if scan(np.frombuffer(body, np.uint8), shapes, most, levels, found):
+        if found[ERRORS] and len(body) > MAX_SEARCHED_BYTES:
+            _refuse_without_rows(body, model)
         return
     steps = list(_steps(body, levels[:found[LEVELS]]))
     if found[ERRORS] > most[ERRORS]:
@@ -48,6 +56,19 @@ def require_readable(body: bytes, model: type[BaseModel]) -> None:
         code="TOO_MANY_PARTS", path=json_path(steps),
         message=f"By here there are more than {bound} {kind}, more than any request needs, and "
         "reading stopped: send less.")])
+
+
+def _refuse_without_rows(body: bytes, model: type[BaseModel]) -> None:
+    """Refuse a long body by what is wrong with it beside its rows of numbers, if that is anything.
+
+    An error holds what was sent: where a field is missing, all that is beside it.
+    """
+    try:
+        model.model_validate_json(_ROW.sub(b"[]", body))
+    except ValidationError as error:
+        details = error.errors(include_url=False, include_input=False)
+        if details[0]["type"] != "json_invalid":
+            raise InvalidRequestError(list(map(schema_error, details))) from None
 
 
 @cache

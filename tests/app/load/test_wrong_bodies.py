@@ -28,7 +28,7 @@ from app.vroom.schemas import VroomRequest
 from tests.app.conftest import APP_DIR, FirstFitPlanner
 from tests.app.load.wrong_bodies import SHAPES, body_of
 
-MULTIPLE, BESIDE = 32, 100 * 2**20
+MULTIPLE, BESIDE = 32, 250 * 2**20
 """What reading a body may take: so many times its length, and so many bytes beside."""
 
 LONGEST = 0.25
@@ -178,6 +178,19 @@ def test_large_valid_requests_are_let_through() -> None:
     assert len(body) > 28 * 2**20
     require_readable(body, PlanRequest)
     assert counted(body, PlanRequest)[0] == 0
+
+
+def test_long_bodies_tell_what_the_schema_tells_beside_their_legs() -> None:
+    row = b"[" + b",".join([b"1.5"] * 1500) + b"]"
+    legs = b"[" + b",".join([row] * 1500) + b"]"
+    with pytest.raises(InvalidRequestError) as refused:
+        require_readable(b'{"depots":[],"x":[1],"customers":[{"id":3,"demand":[1]}],"matrices":'
+                         b'{"truck":{"durations":' + legs + b"}}}", PlanRequest)
+    assert [(error.code, error.path) for error in refused.value.errors] == [
+        ("WRONG_TYPE", "$.customers[0].id"), ("MISSING_FIELD", "$.fleet"),
+        ("UNKNOWN_FIELD", "$.x")]
+    assert refused.value.errors[0].message == (
+        "The value must be a JSON string: state one, not this.")
 
 
 def test_short_bodies_keep_each_of_their_errors(client: httpx.Client, smallest: Data) -> None:

@@ -27,6 +27,8 @@ SIZE = 8 * 2**20
 Endless = tuple[bytes, bytes, bytes]
 """How a body begins, what it repeats, and how it ends."""
 
+_LEGS = b"[" + b"0," * 1999 + b"0],"
+
 _PLAN: dict[str, Endless] = {
     "numbers for routes": (b'"replan":{"plan":{"routes":[', b"0,", b"0]}}"),
     "empty routes": (b'"replan":{"plan":{"routes":[', b"{},", b"{}]}}"),
@@ -56,6 +58,7 @@ _PLAN: dict[str, Endless] = {
     "rows of words": (b'"matrices":{"truck":{"durations":[', b'["a"],', b"[]]}}"),
     "a row of words": (b'"matrices":{"truck":{"durations":[[', b'"",', b'""]]}}'),
     "a row of zeros": (b'"matrices":{"truck":{"durations":[[', b"0,", b"0]]}}"),
+    "legs without places": (b'"matrices":{"truck":{"durations":[', _LEGS, b"[]]}}"),
     "many matrices": (b'"matrices":{', b'"a":{},', b'"b":0}'),
     "numbers for areas": (b'"airspace":{"no_fly":[', b"0,", b"0]}"),
     "areas of numbers": (b'"airspace":{"no_fly":[[', b"0,", b"0]]}"),
@@ -82,6 +85,7 @@ _VROOM: dict[str, Endless] = {
     "windows": (b'"jobs":[{"id":1,"time_windows":[', b"[0,1],", b"[0,1]]}]"),
     "durations by type": (b'"jobs":[{"id":1,"setup_per_type":{', b'"a":-1,', b'"b":-1}}]'),
     "unknown fields": (b"", b'"x":0,', b'"y":0'),
+    "legs without places": (b'"matrix":[', _LEGS, b"[]]"),
     "no legs": (b'"matrix":[', b"[],", b"[]]"),
     "a row of zeros": (b'"matrix":[[', b"0,", b"0]]"),
     "a row of fractions": (b'"matrix":[[', b"0.5,", b"0]]"),
@@ -93,6 +97,7 @@ _CHECK: dict[str, Endless] = {
     "numbers for routes": (b'"plan":{"routes":[', b"0,", b"0]}"),
     "unknown fields": (b"", b'"x":0,', b'"y":0'),
     "empty customers": (b'"problem":{"customers":[', b"{},", b"{}]}"),
+    "legs without places": (b'"problem":{"matrices":{"truck":{"durations":[', _LEGS, b"[]]}}}"),
     "stops nowhere": (b'"plan":{"routes":[{"vehicle":"t-1","type":"t","trips":[{"stops":[',
                       b'{"kind":"customer","id":"","arrival":0,"service_start":0,"departure":0},',
                       b"0]}]}]}"),
@@ -104,6 +109,7 @@ _SWEEP: dict[str, Endless] = {
     "lists": (b'"grid":{"a":[', b"[],", b"0]}"),
     "lists in values": (b'"grid":{"a":[[', b"[],", b"0]]}"),
     "unknown fields": (b"", b'"x":0,', b'"y":0'),
+    "legs without places": (b'"base":{"matrices":{"truck":{"durations":[', _LEGS, b"[]]}}}"),
     "empty customers in the base": (b'"base":{"customers":[', b"{},", b"{}]}"),
     "numbers for routes in the base": (b'"base":{"replan":{"plan":{"routes":[', b"0,", b"0]}}}"),
 }
