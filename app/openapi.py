@@ -45,6 +45,7 @@ REFUSALS = {
     "400": "There is a key in the URL, or the request can't be read.",
     "401": "There is no valid API key.",
     "403": "The API key lacks the scope, or a page of another origin asks.",
+    "421": "The service is not called by this name, and access is open.",
     "429": "A rate limit or a share of the open jobs is used up, or too many keys were wrong: try "
     "again after `Retry-After` seconds.",
     "503": "The service is busy, or about to stop: try again after `Retry-After` seconds.",

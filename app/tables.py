@@ -55,7 +55,7 @@ JOBS = Table(
     # Of the owner and the idempotency key, if there is one.
     Column("key", String(36)),
     Index("jobs_by_owner", "owner", "created_at", "id"),
-    Index("jobs_by_state", "state"),
+    Index("jobs_by_client", "state", "parent", "client", "plans"),
     Index("jobs_by_key", "key", unique=True),
 )
 
