@@ -201,8 +201,9 @@ class Planner:
         if first is not None and first.cost <= last.cost:
             last = first
         elapsed = Elapsed(decoded - began, searched - decoded, time.perf_counter() - searched)
-        return _result(last, how, improved.first_cost if first is None else first.cost, options,
-                       improved, whole, elapsed)
+        # By the search's sum, which rounds otherwise than the checker's.
+        begun = max(improved.first_cost, last.cost) if first is None else first.cost
+        return _result(last, how, begun, options, improved, whole, elapsed)
 
     def _decode(self, problem: Problem, instance: Instance, options: PlanOptions,
                 give_up: float, listener: Listener) -> Solution | None:

@@ -24,8 +24,8 @@ FORBIDDEN = {
 SEARCH = tuple(f"search/{name}" for name in (
     "layout", "world", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
     "ruin", "state", "retype", "scan", "splitting", "insertion", "places", "recreate", "exchange",
-    "line", "resplit", "savings", "translate", "heat", "sharing", "anneal", "construct", "starts",
-    "improve",
+    "line", "resplit", "savings", "translate", "heat", "limits", "sharing", "anneal", "construct",
+    "starts", "improve",
 ))
 REPLANNING = tuple(f"replanning/{name}" for name in (
     "amend", "kept", "workers", "remainder", "handover"))

@@ -155,8 +155,6 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
     value, count = searcher.value, searcher.count
     building = order != ANY
     for _ in range(turns):
-        if rung(world.stop):
-            return
         first = begin_turn(searcher, count[I_MISSING] if building else MOST_MISSING)
         if not building:
             ruin(world, searcher, first)

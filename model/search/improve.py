@@ -16,6 +16,7 @@ from model.search.anneal import ANY, anneal
 from model.search.construct import begin_anew
 from model.search.heat import Heat
 from model.search.layout import World
+from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.state import (
@@ -24,15 +25,6 @@ from model.search.state import (
 from model.search.translate import first_plan, make_searcher, read_plan
 from model.search.world import ALL_MOVES, Ground, Moves, lay_ground, make_world
 from model.solution import Solution
-
-ROUNDS = 40
-"""How often threads share their routes."""
-
-SHORTEST_ROUND = 0.005
-"""Seconds that threads search for at least before they share their routes."""
-
-LONGEST_ROUND = 0.5
-"""Seconds after which they share them at the latest, and the caller hears of the best."""
 
 SLICE = 0.003
 """Seconds between two looks at the clock."""
@@ -99,71 +91,16 @@ class Improved:
     whole: bool  # nothing was cut short
 
 
-@dataclass(frozen=True)
-class _Span:
-    """A part of the search in which it cools down once."""
-
-    begin: float  # share of the search
-    end: float
-    heat: float  # of the first temperature
-
-    def share(self, whole: float) -> float:
-        """Return the share of it that is over when one of the whole search is."""
-        return min(1.0, max(0.0, (whole - self.begin) / (self.end - self.begin)))
-
-
-WHOLE = _Span(0.0, 1.0, 1.0)
-
-
-@dataclass(frozen=True)
-class _Limits:
-    """When a search ends, for each thread."""
-
-    began: float
-    deadline: float  # infinite if only turns count
-    turns: int | None
-    should_stop: Callable[[], bool]
-
-    def share(self, turns: int) -> float:
-        """Return the share of the search that is over after `turns`, 0 to 1."""
-        if self.turns is not None:
-            return min(1.0, turns / max(1, self.turns))
-        now = time.perf_counter()
-        if now >= self.deadline:
-            return 1.0
-        return (now - self.began) / (self.deadline - self.began)
-
-    def span_end(self, span: _Span) -> tuple[float, float]:
-        """Return after how many turns and when a span ends."""
-        if self.turns is not None:
-            return math.ceil(self.turns * span.end), self.deadline
-        return math.inf, self.began + (self.deadline - self.began) * span.end
-
-    def round_end(self, turns: int, span: _Span) -> tuple[float, float]:
-        """Return after how many turns and when the round ends that begins after `turns`."""
-        most, end = self.span_end(span)
-        if self.turns is not None:
-            return min(most, turns + math.ceil(self.turns / ROUNDS)), end
-        length = min(LONGEST_ROUND, max(SHORTEST_ROUND, (self.deadline - self.began) / ROUNDS))
-        return most, min(end, time.perf_counter() + length)
-
-    def over(self, turns: int, span: _Span = WHOLE) -> bool:
-        """Tell whether the search, or a span of it, ends after `turns`."""
-        most, end = self.span_end(span)
-        return (self.should_stop() or turns >= most
-                or time.perf_counter() >= min(end, self.deadline))
-
-
 @dataclass
 class _Worker:
     """One thread's search."""
 
     world: World
     searcher: Searcher
-    limits: _Limits
+    limits: Limits
     heat: Heat
-    span: _Span = WHOLE
-    cooling: _Span | None = None  # whose first temperature was set
+    span: Span = WHOLE
+    cooling: Span | None = None  # whose first temperature was set
     turns: int = 0
     pace: float = 0.0  # seconds a turn takes
 
@@ -214,15 +151,15 @@ class _Team:
 
     whole: Searcher
     workers: list[_Worker]
-    limits: _Limits
+    limits: Limits
     pool: ThreadPoolExecutor
     tell: Callable[[int], None]  # after how many turns of all a round ends
 
-    def over(self, span: _Span = WHOLE) -> bool:
+    def over(self, span: Span = WHOLE) -> bool:
         """Tell whether the search, or a span of it, ends."""
         return self.limits.over(self.workers[0].turns, span)
 
-    def search(self, crew: Crew | Starts, span: _Span, rounds: float = math.inf) -> None:
+    def search(self, crew: Crew | Starts, span: Span, rounds: float = math.inf) -> None:
         """Search in rounds until the end of a span, or for a number of rounds; for one at least."""
         while True:
             for worker, part in zip(self.workers, crew.spread(), strict=True):
@@ -279,7 +216,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     began, end = time.perf_counter(), math.inf if deadline is None else deadline
     ground = lay_ground(problem, instance)
     with Alarm(max(end, time.perf_counter() + GRACE), should_stop) as alarm:
-        limits = _Limits(began, end,
+        limits = Limits(began, end,
                          None if config.turns is None else config.turns // config.threads,
                          lambda: alarm.has_rung or should_stop())
         task = _Task(problem, instance, ground, config, limits, alarm)
@@ -299,7 +236,7 @@ class _Task:
     instance: Instance
     ground: Ground
     config: SearchConfig
-    limits: _Limits
+    limits: Limits
     alarm: Alarm
 
 
@@ -327,7 +264,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
                     sum(worker.turns for worker in workers), not task.alarm.has_rung)
 
 
-def _begin(world: World, whole: Searcher, fresh: bool, limits: _Limits) -> None:
+def _begin(world: World, whole: Searcher, fresh: bool, limits: Limits) -> None:
     """Insert the customers left out; if nothing was given, plan all anew where that is better.
 
     In place. Where the clock ends the search, it ends other beginnings early, once there is one.
@@ -359,17 +296,17 @@ def _search(team: _Team, world: World, problem: Problem,
     if starts is not None and count > 1:
         ends = np.linspace(team.limits.share(team.workers[0].turns), STARTS_SHARE, count + 1)
         for number, end in enumerate(ends[1:].tolist()):
-            span = _Span(team.limits.share(team.workers[0].turns), end, 1.0)
+            span = Span(team.limits.share(team.workers[0].turns), end, 1.0)
             if not team.over(span):
                 starts.begin(number > 0)
                 team.search(starts, span)
         go_on_from_best(world, whole)
-        rest = _Span(team.limits.share(team.workers[0].turns), 1.0, REHEAT)
+        rest = Span(team.limits.share(team.workers[0].turns), 1.0, REHEAT)
     if not team.over():
         team.search(crew, rest)
 
 
-def _begin_by_types(world: World, whole: Searcher, limits: _Limits) -> None:
+def _begin_by_types(world: World, whole: Searcher, limits: Limits) -> None:
     """Plan anew by vehicles of one type after another as far as they go. In place: the best plan.
 
     What a route costs its first customer says nothing of how many more a larger vehicle serves.

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from model.alarm import Alarm
 from model.check import check
 from model.decode import (
     BLOCK, SYMMETRIES, DecodeConfig, Policy, decode, disturbed, encode, load_policy, prepare,
@@ -18,7 +19,7 @@ from model.extract import extract
 from model.instance import pack
 from model.policy import MASKED
 from model.problem import Problem
-from model.rolling import CLIP, choose
+from model.rolling import CLIP, NOTHING, choose
 from training.instances import VARIANTS, generate
 
 WEIGHTS = Path(__file__).parents[2] / "model" / "weights"
@@ -146,3 +147,19 @@ def test_symmetries_show_the_same_plane_in_eight_ways(policy: Policy, problem: P
     swapped = problem.coordinates[:, ::-1] * [1, -1]
     same = prepare(policy, replace(problem, coordinates=swapped), pack([problem])).memory
     assert np.array_equal(same, memories[SYMMETRIES.index((True, 1, -1))])
+
+
+@pytest.mark.parametrize("config", [DecodeConfig(), DecodeConfig("sample", 3 * BLOCK)])
+def test_rollouts_end_at_an_alarm(policy: Policy, problem: Problem, config: DecodeConfig) -> None:
+    scene = prepare(policy, problem, pack([problem]))
+    assert decode(policy, scene, config, stop=np.ones(1, np.int64)) is NOTHING
+
+
+def test_rollouts_go_on_until_an_alarm(policy: Policy) -> None:
+    problem = generate(np.random.default_rng(8), 300, "drone")
+    scene = prepare(policy, problem, pack([problem]))
+    decode(policy, scene, DecodeConfig())
+    began = time.perf_counter()
+    with Alarm(began + 0.1) as alarm:
+        decode(policy, scene, DecodeConfig("sample", 100_000), stop=alarm.flag)
+    assert time.perf_counter() - began < 2.0

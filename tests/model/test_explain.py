@@ -161,3 +161,13 @@ def test_each_vehicle_type_has_its_reason(tiny_problem, customers, truck):
     assert [(reason.vehicle_type, reason.code) for reason in reasons] == [
         (0, "SEARCH"), (1, "CAPACITY"),
     ]
+
+
+def test_where_no_time_is_left_no_more_is_said_than_is_true(
+    tiny_problem, customers, truck, monkeypatch
+):
+    monkeypatch.setattr("model.explain.attempts", None)
+    problem = tiny_problem(*customers, truck=replace(truck, latest=19 * MINUTE))
+    (reason,) = explain(problem, NOBODY_SERVED, 4, until=0.0)
+    assert reason == Reason(0, "SEARCH", "The search found no room for it on truck; there was no "
+                            "time left to find out whether there could be any.")

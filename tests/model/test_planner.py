@@ -268,3 +268,29 @@ def test_listener_hears_of_the_first_plan_before_the_search(planner: Planner) ->
     first, plan = told[0]
     assert (first.cost, first.turns) == (result.decoded_cost, 0)
     assert check(problem, plan).cost.total == result.decoded_cost
+
+
+@pytest.mark.parametrize("options", [
+    PlanOptions("attention", time_limit=0.0), PlanOptions("attention", search_iterations=0),
+    PlanOptions("attention", "sample", time_limit=0.0), PlanOptions("attention"),
+])
+def test_a_caller_who_wants_no_more_gets_a_plan_at_once(planner: Planner,
+                                                        options: PlanOptions) -> None:
+    problem = generate(np.random.default_rng(4), 100, "drone")
+    result = planner.plan(problem, options, listener=Listener(lambda: True))
+    assert check(problem, result.solution).violations == ()
+    assert result.start == "insertion"
+    assert not result.deterministic
+
+
+def test_a_policy_that_takes_too_long_is_given_up(planner: Planner,
+                                                  monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("model.planner.GRACE", 0.0)
+    problem = generate(np.random.default_rng(4), 100, "vrptw")
+    options = PlanOptions("attention", "sample", num_samples=10_000, search_iterations=0,
+                          time_limit=0.001)
+    result = planner.plan(problem, options)
+    assert check(problem, result.solution).violations == ()
+    assert result.solution.unassigned == ()
+    assert result.start == "insertion"
+    assert not result.deterministic
