@@ -131,6 +131,8 @@ class Planner:
 
     def _warm(self, warming: Warming, with_helper: bool) -> None:
         with beside(COMPILE_SEARCH) if with_helper else nullcontext():
+            warming.enter("compiling flights around no-fly areas")
+            compile_ways()
             for name in self._policies:
                 warming.enter(f"compiling what policy {name} needs")
                 self.plan(small_problem(), PlanOptions(name, time_limit=0.0))
@@ -138,7 +140,6 @@ class Planner:
                                                        time_limit=0.0))
             warming.enter("compiling the search", decodes=True)
         compile_search()
-        compile_ways()
         for name in self._policies:
             self.plan(small_problem(), PlanOptions(name, time_limit=WARM_LIMIT,
                                                    search_iterations=4, threads=2))
