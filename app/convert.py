@@ -7,7 +7,7 @@ import numpy as np
 from app.amounts import counted, decimals_of
 from app.load.preparing import UNHURRIED, Preparing
 from app.schemas_request import CustomerInput, DronesInput, PlanRequest, VehicleTypeInput
-from app.travels import Travels
+from app.travels import Ground, Travels
 from app.units import optional_thousandths, thousandths
 from model.problem import (
     FULL_SPEED,
@@ -27,9 +27,10 @@ DETOURS_PER_CUSTOMER = 10
 """A customer left out costs as much as this many vehicles sent out for it alone."""
 
 
-def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED) -> Problem:
-    """Convert a valid request, unless the work on it is to end."""
-    travels = Travels(request, preparing)
+def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
+               ground: Ground | None = None) -> Problem:
+    """Convert a valid request, unless the work on it is to end; `ground` may be known already."""
+    travels = Travels(request, preparing, ground)
     travels.expect_legs()
     depots = {depot.id: node for node, depot in enumerate(request.depots)}
     decimals = decimals_of(request.customers, request.fleet)

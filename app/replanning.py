@@ -10,6 +10,7 @@ from app.names import number_in
 from app.plan_reading import read_earlier_plan
 from app.replies import Data, plan_reply, vehicle_name
 from app.schemas_request import PlanRequest, ReplanInput
+from app.travels import Ground
 from app.units import optional_thousandths
 from model.check import Evaluation, check
 from model.past import Vehicle
@@ -61,8 +62,11 @@ class Task:
         return reply | {"replan": _replan_reply(self.problem, self.replanning)}
 
 
-def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED) -> Task:
+def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
+            ground: Ground | None = None) -> Task:
     """Return what a valid request asks for, unless the work on it is to end.
+
+    `ground` is that of the request, if it is known already.
 
     Raises
     ------
@@ -72,7 +76,7 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED) -> Task:
     StoppedError
         If it is stopped.
     """
-    problem = to_problem(request, preparing)
+    problem = to_problem(request, preparing, ground)
     replan = request.replan
     if replan is None:
         return Task(problem)

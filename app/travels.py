@@ -40,12 +40,82 @@ class _Key(NamedTuple):
     speed: float  # km/h, or a multiple of the matrix speed
 
 
-class Travels:
-    """Collects the matrices of one valid request, unless the work on them is to end."""
+class Ground:
+    """Where a request's places and no-fly areas are, whatever its fleet."""
 
     def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED) -> None:
         self._request = request
         self._preparing = preparing
+        self.places: list[DepotInput | CustomerInput] = [*request.depots, *request.customers]
+
+    def is_that_of(self, request: PlanRequest) -> bool:
+        """Tell whether a request has its places and areas at the same points."""
+        mine = self._request
+        return (
+            (mine.coordinate_system, mine.planar_unit, mine.airspace)
+            == (request.coordinate_system, request.planar_unit, request.airspace)
+            and [place.location for place in self.places]
+            == [place.location for place in (*request.depots, *request.customers)])
+
+    @cached_property
+    def locations(self) -> FloatArray:
+        """As stated."""
+        points = [place.location for place in self.places if place.location is not None]
+        return np.array(points, dtype=np.float64)
+
+    @cached_property
+    def _projection(self) -> LocalProjection:
+        return LocalProjection.around(self.locations)
+
+    @cached_property
+    def is_geographic(self) -> bool:
+        """Tell whether places are on the globe."""
+        return self._request.coordinate_system == "geographic"
+
+    def _planar(self, points: FloatArray) -> FloatArray:
+        return (self._projection.project(points) if self.is_geographic
+                else points * self._request.planar_unit)
+
+    @cached_property
+    def points_m(self) -> FloatArray:
+        """Planar metres."""
+        return self._planar(self.locations)
+
+    @cached_property
+    def distances_m(self) -> FloatArray:
+        """From each place to each, straight or on a great circle."""
+        pause = self._preparing.pause
+        return (great_circle_distances(self.locations, pause) if self.is_geographic
+                else planar_distances(self.points_m, pause))
+
+    @cached_property
+    def flights(self) -> Flights:
+        """Flights of drones of any speed."""
+        flights = Flights(self.points_m, self._airspace, self.distances_m, self._preparing.pause)
+        obstacles = flights.obstacles
+        self._preparing.expect(sights_seconds(
+            len(self.places), len(obstacles.corners.place), len(obstacles.edges)))
+        return flights
+
+    @cached_property
+    def _airspace(self) -> Airspace:
+        stated = self._request.airspace
+        rings = [self._planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
+        return Airspace(
+            no_fly=tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings),
+            wind_speed_kmh=stated.wind.speed_kmh,
+            wind_direction_deg=stated.wind.direction_deg,
+        )
+
+
+class Travels:
+    """Collects the matrices of one valid request, unless the work on them is to end."""
+
+    def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED,
+                 ground: Ground | None = None) -> None:
+        self._request = request
+        self._preparing = preparing
+        self._ground = ground or Ground(request, preparing)
         self._places: list[DepotInput | CustomerInput] = [*request.depots, *request.customers]
         self._index: dict[_Key, int] = {}
         self._travels: list[Travel] = []
@@ -65,7 +135,7 @@ class Travels:
         keys = self._keys()
         flights = sum(key.means == "flight" for key in keys)
         self._preparing.expect(legs_seconds(len(self._places), len(keys) - flights, flights,
-                                            self._is_geographic))
+                                            self._ground.is_geographic))
 
     def count_apart(self) -> int:
         """Return how many pairs replanning makes of them: drones share none with trucks."""
@@ -89,7 +159,7 @@ class Travels:
     def coordinates(self) -> FloatArray:
         """Return the (node, 2) coordinates that the policy sees, in any planar unit."""
         if all(place.location is not None for place in self._places):
-            return self._points_m
+            return self._ground.points_m
         return embed(self._travels[0].duration)
 
     def _keys(self) -> set[_Key]:
@@ -139,12 +209,12 @@ class Travels:
         matrix = self._matrix(key.profile) if key.means == "matrix" else None
         if matrix is not None:
             durations = self._at_places(matrix.durations) / key.speed
-            distances = (self._distances_m if matrix.distances is None
+            distances = (self._ground.distances_m if matrix.distances is None
                          else self._at_places(matrix.distances))
             return matrix_travel(durations, distances, self._preparing.pause)
         if key.means == "drive":
-            return truck_travel(self._distances_m, key.speed, self._preparing.pause)
-        return flight_travel(*self._flights.legs(key.speed), self._preparing.pause)
+            return truck_travel(self._ground.distances_m, key.speed, self._preparing.pause)
+        return flight_travel(*self._ground.flights.legs(key.speed), self._preparing.pause)
 
     def _at_places(self, table: list[list[float]]) -> FloatArray:
         """Return a client's matrix with one row and column per node.
@@ -156,48 +226,3 @@ class Travels:
         legs = np.array(table, dtype=np.float64)[np.ix_(indices, indices)]
         np.fill_diagonal(legs, 0.0)
         return legs
-
-    @cached_property
-    def _locations(self) -> FloatArray:
-        points = [place.location for place in self._places if place.location is not None]
-        return np.array(points, dtype=np.float64)
-
-    @cached_property
-    def _projection(self) -> LocalProjection:
-        return LocalProjection.around(self._locations)
-
-    @cached_property
-    def _is_geographic(self) -> bool:
-        return self._request.coordinate_system == "geographic"
-
-    def _planar(self, points: FloatArray) -> FloatArray:
-        return (self._projection.project(points) if self._is_geographic
-                else points * self._request.planar_unit)
-
-    @cached_property
-    def _points_m(self) -> FloatArray:
-        return self._planar(self._locations)
-
-    @cached_property
-    def _distances_m(self) -> FloatArray:
-        pause = self._preparing.pause
-        return (great_circle_distances(self._locations, pause) if self._is_geographic
-                else planar_distances(self._points_m, pause))
-
-    @cached_property
-    def _flights(self) -> Flights:
-        flights = Flights(self._points_m, self._airspace, self._distances_m, self._preparing.pause)
-        obstacles = flights.obstacles
-        self._preparing.expect(sights_seconds(
-            len(self._places), len(obstacles.corners.place), len(obstacles.edges)))
-        return flights
-
-    @cached_property
-    def _airspace(self) -> Airspace:
-        stated = self._request.airspace
-        rings = [self._planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
-        return Airspace(
-            no_fly=tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings),
-            wind_speed_kmh=stated.wind.speed_kmh,
-            wind_direction_deg=stated.wind.direction_deg,
-        )

@@ -13,10 +13,12 @@ from app.jobs.rows import JobRow, Standing
 from app.jobs.schemas import State
 from app.jobs.search import Find, Past, Search
 from app.jobs.store import JobStore, now_ms
+from app.load.bounds import Bounds
+from app.load.preparing import StoppedError
 from app.replanning import task_of
 from app.replies import Data
 from app.schemas_request import PlanRequest
-from app.service import plan_options
+from app.service import plan_options, preparing
 from model.planner import PlanCheckError, Planner
 
 logger = logging.getLogger(__name__)
@@ -30,6 +32,10 @@ MAX_CRASHES = 5
 WITHHELD = "The plan found breaks a rule, so it is withheld."
 NOT_COMPUTED = "The plan could not be computed."
 POISONOUS = f"The process that planned ended unexpectedly, {MAX_CRASHES} times in a row."
+
+
+JOB_BOUNDS = Bounds(time_setting="TANDEM_MAX_JOB_SECONDS")
+"""What a job may take; it was within the settings when it came."""
 
 
 class Stopping(BaseException):
@@ -92,6 +98,7 @@ class PlanWork:
         self._put_back = put_back
         self._on_plan = on_plan
         self._running: dict[str, Running] = {}
+        self._beginning: dict[str, threading.Event] = {}  # set: cancelled
         self._stopping = threading.Event()
 
     def advance(self, job_id: str) -> Slice:
@@ -118,6 +125,9 @@ class PlanWork:
 
     def cancel(self, job_id: str) -> None:
         """Stop a job at once if it runs here. In place."""
+        beginning = self._beginning.get(job_id)
+        if beginning is not None:
+            beginning.set()
         running = self._running.get(job_id)
         if running is not None:
             running.is_cancelled = True
@@ -138,7 +148,7 @@ class PlanWork:
     @property
     def is_idle(self) -> bool:
         """Tell whether nothing runs."""
-        return not self._running
+        return not self._running and not self._beginning
 
     def _begin(self, job_id: str) -> Running | None:
         """Take a job and start its search; None if there is nothing to search. In place."""
@@ -152,19 +162,55 @@ class PlanWork:
             self._store.finish(job_id, row.attempt, "cancelled")
             return None
         began = time.perf_counter()
+        self._beginning[job_id] = threading.Event()
         try:
             request = self._read(row)
-            task = task_of(request)
+            task = task_of(request, preparing(request.options, JOB_BOUNDS, self._stopper(job_id)))
+        except StoppedError:
+            return self._give_up(row)
         except (RequestError, KeyError) as error:
             # It was valid when it came: a policy may have been removed since.
-            self._fail(row, f"The request can't be planned any more: {error}")
+            reasons = " ".join(item.message for item in getattr(error, "errors", ())[:1])
+            self._fail(row, f"The request can't be planned any more: {error} {reasons}".rstrip())
             return None
+        finally:
+            del self._beginning[job_id]
         options = plan_options(request.options, self._search_threads)
         kept = self._store.result(job_id)
         past = Past(row.searched, row.search_iterations, None if kept is None else from_json(kept))
         validated = time.perf_counter() - began
         return Running(row, Search(self._planner, task, options, past), validated,
                        best=past.reply)
+
+    def _stopper(self, job_id: str) -> Callable[[], bool]:
+        """Return what tells whether a job that begins is to end, by this process or another."""
+        cancelled, looked_at = self._beginning[job_id], time.monotonic()
+
+        def should_stop() -> bool:
+            nonlocal looked_at
+            if time.monotonic() - looked_at > SLICE:
+                looked_at = time.monotonic()
+                row = self._store.find(job_id)
+                if row is None or row.cancel_requested:
+                    cancelled.set()
+            return cancelled.is_set() or self._stopping.is_set()
+
+        return should_stop
+
+    def _give_up(self, row: JobRow) -> None:
+        """End a job that was cancelled before its search, or leave it to others. In place.
+
+        Raises
+        ------
+        Stopping
+            If this process ends.
+        """
+        if not self._stopping.is_set():
+            self._store.finish(row.id, row.attempt, "cancelled")
+            return
+        if self._store.release(row.id, row.attempt):
+            self._put_back(row.id)
+        raise Stopping
 
     def _note(self, running: Running) -> Slice:
         """Write down what a search found. In place."""

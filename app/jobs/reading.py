@@ -1,6 +1,6 @@
 """Bodies of jobs -> valid requests, when they come and again when a process takes them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from app.jobs.errors import TooManyScenariosError
 from app.jobs.rows import JobRow
@@ -10,6 +10,7 @@ from app.jobs.scenarios import (
 from app.jobs.schemas import Kind
 from app.jobs.store import JobStore
 from app.load.bounds import Bounds
+from app.load.preparing import Preparing
 from app.reading import read_request
 from app.schemas_request import PlanRequest
 from app.settings import Settings
@@ -17,6 +18,10 @@ from app.settings import Settings
 
 MAX_WRITES = 100_000
 """Most values that a sweep puts into its scenarios: each scenario is validated as it comes."""
+
+
+VALIDATION_SECONDS = 10.0
+"""Longest time to check a request, all scenarios together: few can be checked at once."""
 
 
 class JobReader:
@@ -37,16 +42,19 @@ class JobReader:
                               settings.max_job_seconds, "TANDEM_MAX_JOB_SECONDS",
                               settings.max_legs)
 
-    def validate(self, kind: Kind, body: bytes) -> int:
+    def validate(self, kind: Kind, body: bytes,
+                 should_stop: Callable[[], bool] = lambda: False) -> int:
         """Check a request that came, and return how many plans it asks for.
 
         Raises
         ------
         RequestError
-            If it is not valid.
+            If it is not valid, or the work on it is to end.
         """
+        preparing = Preparing(should_stop, VALIDATION_SECONDS, f"the {VALIDATION_SECONDS:g} s that "
+                              "a job's request may be checked for")
         if kind == "plan":
-            check_replan(read_request(body, self._policies, self._bounds))
+            check_replan(read_request(body, self._policies, self._bounds), preparing)
             return 1
         base, scenarios = read_study(kind, body, self._policies, self._bounds)
         count = len(scenarios)
@@ -59,7 +67,7 @@ class JobReader:
             raise TooManyScenariosError(
                 "$.grid", f"{scenarios.writes} values would be put into all scenarios together, "
                 f"{MAX_WRITES} at most may be", "vary fewer places or leave values out")
-        validate(base, scenarios, self._policies, self._bounds)
+        validate(base, scenarios, self._policies, self._bounds, preparing)
         return count
 
     def plan_request(self, store: JobStore, row: JobRow) -> PlanRequest:

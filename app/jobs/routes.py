@@ -21,6 +21,7 @@ from app.jobs.schemas import (
 from app.jobs.service import JobService, Submission, is_job_id
 from app.jobs.setup import JobDesk
 from app.jobs.webhook import check_url
+from app.load.abandoned import watching
 from app.openapi import ERROR_RESPONSES, EXAMPLES, event_stream, json_body
 from app.routes import Body
 from app.schemas_request import PlanRequest
@@ -184,11 +185,12 @@ async def _submit(request: Request, desk: JobDesk, submission: Submission) -> Re
     if submission.webhook is not None:
         check_url(submission.webhook, request.app.state.settings)
 
-    def submit(service: JobService) -> tuple[JobRow, bool, bytes]:
-        row, is_new = service.submit(submission)
-        return row, is_new, service.reply(row)
+    async with watching(request) as should_stop:
+        def submit(service: JobService) -> tuple[JobRow, bool, bytes]:
+            row, is_new = service.submit(submission, should_stop)
+            return row, is_new, service.reply(row)
 
-    row, is_new, content = await desk.ask(submit)
+        row, is_new, content = await desk.ask(submit)
     if is_new:
         request.app.state.metrics.count_submitted_job(submission.kind)
     return Response(content, 202 if is_new else 200, {"Location": f"/jobs/{row.id}"},

@@ -15,10 +15,12 @@ from app.errors import (
 from app.jobs.grid import GridPath, Place, places, put, read_path
 from app.jobs.schemas import CompareRequest, Kind, SweepRequest
 from app.load.bounds import UNBOUNDED, Bounds
+from app.load.preparing import UNHURRIED, Preparing
 from app.load.refusal import require_readable
 from app.reading import read_json, read_request, request_errors
 from app.replanning import task_of
 from app.schemas_request import PlanRequest
+from app.travels import Ground
 
 Sections = Mapping[str, Any]
 """Fields of a request as JSON."""
@@ -139,19 +141,26 @@ def read_study(kind: Kind, body: bytes, policies: Collection[str] | None,
 
 
 def validate(base: PlanRequest, scenarios: Scenarios, policies: Collection[str],
-             bounds: Bounds) -> None:
-    """Check each scenario as a whole request.
+             bounds: Bounds, preparing: Preparing = UNHURRIED) -> None:
+    """Check each scenario as a whole request, unless the work on them is to end.
 
     Raises
     ------
     InvalidRequestError
         With the errors found; after many, the scenarios left are not looked at.
+    StoppedError
+        If the work is stopped.
     """
     errors: list[InputError] = []
+    ground = Ground(base, preparing)
     for position in range(len(scenarios)):
+        preparing.pause()
         scenario = scenarios.scenario(position)
         try:
-            check_replan(apply(base, scenario, policies, bounds))
+            request = apply(base, scenario, policies, bounds)
+            if not ground.is_that_of(request):
+                ground = Ground(request, preparing)
+            check_replan(request, preparing, ground)
         except InvalidRequestError as error:
             errors += [_named(item, scenario) for item in error.errors]
         if len(errors) >= MAX_LISTED_ERRORS:
@@ -182,7 +191,8 @@ def apply(base: PlanRequest, scenario: Scenario, policies: Collection[str] | Non
     return request
 
 
-def check_replan(request: PlanRequest) -> None:
+def check_replan(request: PlanRequest, preparing: Preparing,
+                 ground: Ground | None = None) -> None:
     """Check what can be told of a plan to go on from only when the problem is made.
 
     Raises
@@ -191,7 +201,7 @@ def check_replan(request: PlanRequest) -> None:
         If what has happened by then doesn't fit.
     """
     if request.replan is not None:
-        task_of(request)
+        task_of(request, preparing, ground)
 
 
 _SMALLEST: dict[str, Any] = {"depots": [], "customers": [], "fleet": []}

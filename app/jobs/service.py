@@ -106,7 +106,8 @@ class JobService:
         self._limits = limits
         self._stop_here = stop_here
 
-    def submit(self, submission: Submission) -> tuple[JobRow, bool]:
+    def submit(self, submission: Submission,
+               should_stop: Callable[[], bool] = lambda: False) -> tuple[JobRow, bool]:
         """Keep and enqueue a job, unless the same was submitted before by its key. In place.
 
         Returns
@@ -116,12 +117,13 @@ class JobService:
         Raises
         ------
         RequestError
-            If the request is not valid, its key belongs to another or too many jobs wait.
+            If the request is not valid, its key belongs to another, too many jobs wait or the
+            work on it is to end.
         """
         key_id = submission.key_id
         if key_id is not None and (row := self._store.find_by_key(key_id)) is not None:
             return _same(row, submission), False
-        plans = self._reader.validate(submission.kind, submission.body)
+        plans = self._reader.validate(submission.kind, submission.body, should_stop)
         # Never an id of before, under which queues and processes may know an earlier job still.
         job = NewJob(str(uuid.uuid4()), submission.kind, submission.owner, submission.fingerprint,
                      submission.body, submission.webhook, client=submission.client, plans=plans,

@@ -2,7 +2,8 @@
 
 import asyncio
 import threading
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import Annotated, TypeVar
 
@@ -82,6 +83,18 @@ class Turns:
                 return await to_thread.run_sync(work, limiter=self.threads)
         finally:
             self.admission.release()
+
+
+@asynccontextmanager
+async def watching(request: Request) -> AsyncIterator[Callable[[], bool]]:
+    """Yield what tells whether a client has left whose body has been read, or the process ends."""
+    gone = threading.Event()
+    turns: Turns = request.app.state.turns
+    watcher = asyncio.create_task(_watch(request, gone, anyio.CancelScope()))
+    try:
+        yield lambda: gone.is_set() or turns.shutdown.has_begun
+    finally:
+        watcher.cancel()
 
 
 async def _watch(request: Request, gone: threading.Event, waiting: anyio.CancelScope) -> None:
