@@ -1,7 +1,7 @@
 """Work on plan jobs, slice by slice, as an engine does."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +13,8 @@ from app.jobs.planning import MAX_CRASHES, POISONOUS, PlanWork, Slice, Stopping
 from app.jobs.reading import JobReader
 from app.jobs.rows import JobRow, NewJob, Standing
 from app.jobs.store import JobStore
+from app.load.preparing import Preparing
+from app.schemas_request import PlanRequest
 from app.settings import Settings
 from tests.app.jobs.stepping import NUM_CUSTOMERS, SteppingPlanner, request_of
 
@@ -199,3 +201,39 @@ def test_job_may_go_on_from_a_plan(desk: Desk) -> None:
     assert result["solver"]["start"] == "given"
     assert result["solver"]["decoded_cost"] <= earlier["cost"]["total"]
     assert result["cost"]["total"] == FULL_COST
+
+
+@pytest.mark.parametrize("where", ["here", "elsewhere"])
+def test_job_cancelled_before_its_search_ends(desk: Desk, monkeypatch: pytest.MonkeyPatch,
+                                              where: str) -> None:
+    process, job = desk.process(), desk.job(seconds=60.0)
+    monkeypatch.setattr(planning, "SLICE", 0.0)
+
+    def cancel_meanwhile(request: PlanRequest, preparing: Preparing) -> None:
+        assert not preparing.should_stop()
+        if where == "here":
+            process.cancel(job)
+        else:
+            desk.store.request_cancel([job])
+        replace(preparing, began=-1e9).pause()
+
+    monkeypatch.setattr(planning, "task_of", cancel_meanwhile)
+    assert process.advance(job).over
+    assert process.is_idle
+    assert desk.row(job).state == "cancelled"
+
+
+def test_job_that_has_not_begun_to_search_is_left_to_others(
+        desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    process, job = desk.process(), desk.job(seconds=60.0)
+
+    def stop_meanwhile(request: PlanRequest, preparing: Preparing) -> None:
+        process.stop()
+        replace(preparing, began=-1e9).pause()
+
+    monkeypatch.setattr(planning, "task_of", stop_meanwhile)
+    with pytest.raises(Stopping):
+        process.advance(job)
+    assert process.is_idle
+    assert desk.row(job).state == "queued"
+    assert desk.put_back == [job]
