@@ -18,7 +18,7 @@ Request = dict[str, Any]
 class SearchingPlanner(Planner):
     """A planner that never asks its policy, since every plan here begins with a given one."""
 
-    def warm(self, tell: Tell) -> None:
+    def warm(self, tell: Tell = lambda _: None) -> None:
         """Need nothing: the search compiles with the first plan."""
 
 

@@ -29,7 +29,7 @@ JOB = ["type", "location", "id", "setup", "service", "waiting_time", "job", "loa
 class SearchingPlanner(Planner):
     """The true planner without policies, which these requests never ask."""
 
-    def warm(self, tell: Tell) -> None:
+    def warm(self, tell: Tell = lambda _: None) -> None:
         """Need nothing: the search compiles with the first plan."""
 
 
