@@ -40,13 +40,17 @@ class _Key(NamedTuple):
     speed: float  # km/h, or a multiple of the matrix speed
 
 
+def _places(request: PlanRequest) -> list[DepotInput | CustomerInput]:
+    return [*request.depots, *request.customers]
+
+
 class Ground:
     """Where a request's places and no-fly areas are, whatever its fleet."""
 
     def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED) -> None:
         self._request = request
         self._preparing = preparing
-        self.places: list[DepotInput | CustomerInput] = [*request.depots, *request.customers]
+        self.places = _places(request)
 
     def is_that_of(self, request: PlanRequest) -> bool:
         """Tell whether a request has its places and areas at the same points."""
@@ -55,7 +59,7 @@ class Ground:
             (mine.coordinate_system, mine.planar_unit, mine.airspace)
             == (request.coordinate_system, request.planar_unit, request.airspace)
             and [place.location for place in self.places]
-            == [place.location for place in (*request.depots, *request.customers)])
+            == [place.location for place in _places(request)])
 
     @cached_property
     def locations(self) -> FloatArray:
@@ -116,7 +120,7 @@ class Travels:
         self._request = request
         self._preparing = preparing
         self._ground = ground or Ground(request, preparing)
-        self._places: list[DepotInput | CustomerInput] = [*request.depots, *request.customers]
+        self._places = _places(request)
         self._index: dict[_Key, int] = {}
         self._travels: list[Travel] = []
 

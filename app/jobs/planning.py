@@ -167,7 +167,8 @@ class PlanWork:
             request = self._read(row)
             task = task_of(request, preparing(request.options, JOB_BOUNDS, self._stopper(job_id)))
         except StoppedError:
-            return self._give_up(row)
+            self._give_up(row)
+            return None
         except (RequestError, KeyError) as error:
             # It was valid when it came: a policy may have been removed since.
             reasons = " ".join(item.message for item in getattr(error, "errors", ())[:1])

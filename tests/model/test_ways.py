@@ -9,11 +9,13 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model import airspace as airspace_module
+from model import airspace as module
 from model.airspace import Airspace, Flights, Ring, flight_legs, invalid_polygon_reason
-from model.obstacles import count_crossings
+from model.obstacles import Obstacles, count_crossings
+from model.pausing import Pause
 from model.problem import FloatArray
 from model.travel import planar_distances
+from model.ways import Ways, find_ways
 
 SPEED = 36.0  # km/h, 10 m/s
 MARGIN_M = 0.0005
@@ -74,16 +76,20 @@ def test_a_way_bends_where_areas_touch() -> None:
 
 
 def test_who_sees_whom_is_found_out_once_for_all_speeds(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = []
-    find_ways = airspace_module.find_ways
-    monkeypatch.setattr(airspace_module, "find_ways",
-                        lambda *given: found.append(given) or find_ways(*given))
+    found = 0
+
+    def note(points: FloatArray, obstacles: Obstacles, pause: Pause) -> Ways:
+        nonlocal found
+        found += 1
+        return find_ways(points, obstacles, pause)
+
+    monkeypatch.setattr(module, "find_ways", note)
     points = np.array([(-50.0, 50.0), (150.0, 60.0)])
     for wind in (0.0, 20.0):
         flights = Flights(points, Airspace((SQUARE,), wind), planar_distances(points))
         for speed in (40.0, 50.0, 60.0):
             flights.legs(speed)
-    assert len(found) == 2
+    assert found == 2
 
 
 def test_every_part_of_the_work_can_be_ended() -> None:

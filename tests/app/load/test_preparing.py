@@ -18,13 +18,21 @@ from app.replanning import task_of
 from app.settings import Settings
 from model.airspace import Flights
 from tests.app.conftest import FirstFitPlanner
+from tests.app.load.waiting import until
 
 Request = dict[str, Any]
 
 
 @pytest.fixture
 def client(serve: Callable[..., httpx.Client]) -> httpx.Client:
-    return serve(FirstFitPlanner(), Settings(role="api"))
+    """Return a client of a service that is ready."""
+    return ready(serve(FirstFitPlanner(), Settings(role="api")))
+
+
+def ready(client: httpx.Client) -> httpx.Client:
+    """Return a client once its service plans."""
+    until(lambda: client.get("/health/ready").status_code == 200, 60.0)
+    return client
 
 
 def circle(corners: int, x: float = 0.0, radius: float = 1000.0) -> list[list[float]]:
@@ -65,7 +73,7 @@ def test_more_work_than_the_time_limit_allows_is_refused_with_an_estimate(
 
 def test_without_a_time_limit_the_setting_limits_the_work(
         serve: Callable[..., httpx.Client]) -> None:
-    client = serve(FirstFitPlanner(), Settings(role="api", max_plan_seconds=0.2))
+    client = ready(serve(FirstFitPlanner(), Settings(role="api", max_plan_seconds=0.2)))
     request = {"problem": crowd(3000, [circle(500)]), "plan": {"routes": []}}
     [error] = client.post("/check", json=request).json()["errors"]
     assert "the 0.2 s of TANDEM_MAX_PLAN_SECONDS" in error["message"]
