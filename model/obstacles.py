@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from shapely import MultiPolygon, Polygon
+from shapely import LineString, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from model.problem import BoolArray, FloatArray
@@ -46,9 +46,9 @@ def obstacles_of(rings: Sequence[Sequence[tuple[float, float]]]) -> Obstacles:
 def count_crossings(rings: Sequence[Sequence[tuple[float, float]]]) -> int:
     """Return how often edges of different areas meet, by which merging them takes longer."""
     edges = [np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in map(np.array, rings)]
-    lines = np.atleast_1d(shapely.linestrings(np.concatenate(edges)))
+    lines = [LineString(edge) for edge in np.concatenate(edges)]
     area = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
-    one, other = shapely.STRtree(list(lines)).query(lines, predicate="intersects")
+    one, other = shapely.STRtree(lines).query(lines, predicate="intersects")
     return int(np.count_nonzero(area[one] < area[other]))
 
 
