@@ -97,9 +97,9 @@ def test_nothing_changes_after_the_alarm(variant: str) -> None:
 def test_an_insertion_of_all_leaves_out_whom_there_is_no_time_for() -> None:
     problem = problem_of("vrptw")
     flag = silent()
-    flag[0] = 1
     world = make_world(problem, pack([problem]), stop=flag)
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    flag[0] = 1
     insert_missing(world, searcher, BY_FAR)
     nobody = read_plan(world, searcher)
     assert nobody.routes == ()
