@@ -9,7 +9,6 @@ reply has a status of 500 or more.
 
 import csv
 import json
-import os
 import random
 import tempfile
 import time
@@ -26,6 +25,7 @@ from benchmarks.dear_requests import (
     KINDS, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
 )
 from benchmarks.fuzz_api import service
+from benchmarks.punctuality import pinned
 
 Data = dict[str, Any]
 
@@ -134,9 +134,7 @@ def main(
     folder.mkdir(parents=True, exist_ok=True)
     with (tempfile.TemporaryDirectory() as name, service(Path(name)) as target,
           (folder / "finds.csv").open("w", newline="") as file):
-        if hasattr(os, "sched_setaffinity"):
-            for task in Path(f"/proc/{target.process.pid}/task").iterdir():
-                os.sched_setaffinity(int(task.name), {core})
+        pinned(target, core)
         client = httpx.Client(
             base_url=target.url, trust_env=False, timeout=PATIENCE,
             headers={"Authorization": f"Bearer {target.key}", "Content-Type": "application/json"})

@@ -1,6 +1,7 @@
 """How long the work on a request takes before its search, by what was measured on one core.
 
-By `benchmarks.preparing`; each is what the dearest of its cases took, and some more.
+`benchmarks.punctuality` tells what came before the search; each is what the dearest case took, and
+some more.
 """
 
 from model.visibility import FEW_EDGES
