@@ -211,8 +211,9 @@ def test_unknown_policy_is_refused(planner: Planner) -> None:
 def test_warming_tells_its_progress(planner: Planner) -> None:
     told: list[Warmth] = []
     planner.warm(told.append)
-    assert POLICIES[0] in told[0].doing
+    assert "no-fly areas" in told[0].doing
     assert not told[0].decodes
+    assert any(POLICIES[0] in warmth.doing for warmth in told)
     assert "search" in told[-1].doing
     assert told[-1].decodes
 
@@ -286,9 +287,8 @@ def test_a_caller_who_wants_no_more_gets_a_plan_at_once(planner: Planner,
 def test_a_policy_that_takes_too_long_is_given_up(planner: Planner,
                                                   monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("model.planner.GRACE", 0.0)
-    problem = generate(np.random.default_rng(4), 100, "vrptw")
-    options = PlanOptions("attention", "sample", num_samples=10_000, search_iterations=0,
-                          time_limit=0.001)
+    problem = generate(np.random.default_rng(4), 400, "vrptw")
+    options = PlanOptions("pointer", search_iterations=0, time_limit=0.01)
     result = planner.plan(problem, options)
     assert check(problem, result.solution).violations == ()
     assert result.solution.unassigned == ()

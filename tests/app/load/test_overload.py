@@ -33,7 +33,7 @@ def planner_gauge(client: httpx.Client, name: str) -> float:
 
 def head(length: int) -> bytes:
     """Return the head of a request with a body of a length."""
-    return (f"POST /plan HTTP/1.1\r\nHost: x\r\nContent-Length: {length}\r\n"
+    return (f"POST /plan HTTP/1.1\r\nHost: localhost\r\nContent-Length: {length}\r\n"
             "Content-Type: application/json\r\n\r\n").encode()
 
 

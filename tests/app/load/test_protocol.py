@@ -15,7 +15,7 @@ from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.app.load.waiting import until
 
-GET = b"GET /health/live HTTP/1.1\r\nHost: x\r\n\r\n"
+GET = b"GET /health/live HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
 
 class Listening(NamedTuple):
@@ -102,7 +102,7 @@ def test_heads_that_drip_are_given_up(server: Listening) -> None:
 
 def test_body_that_follows_a_refusal_is_not_read_for_ever(server: Listening) -> None:
     with connect(server) as connection:
-        connection.sendall(b"POST /plan HTTP/1.1\r\nHost: x\r\nContent-Length: 999999999\r\n\r\n")
+        connection.sendall(b"POST /plan HTTP/1.1\r\nHost: localhost\r\nContent-Length: 999999999\r\n\r\n")
         assert connection.recv(1000).startswith(b"HTTP/1.1 413")
         connection.sendall(b" ")
         read_to_end(connection)
@@ -110,7 +110,7 @@ def test_body_that_follows_a_refusal_is_not_read_for_ever(server: Listening) -> 
 
 def test_requests_in_progress_are_waited_for(server: Listening) -> None:
     body = b"{}"
-    head = b"POST /plan HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\n\r\n"
+    head = b"POST /plan HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\n\r\n"
     with connect(server) as connection:
         connection.sendall(head + body[:1])
         connection.settimeout(0.5)
