@@ -8,6 +8,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import chain
 from math import ceil
 from typing import NamedTuple
@@ -48,6 +49,8 @@ def explain(problem: Problem, solution: Solution, node: int,
 
     After `until`, on `time.perf_counter`, no more than that the search found no room.
     """
+    if time.perf_counter() >= until:
+        return unexplained(problem)
     return tuple(explain_type(problem, solution, index, node, until)
                  for index in range(len(problem.vehicle_types)))
 
@@ -57,7 +60,7 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
     """Return why no vehicle of a type serves the customer at `node`. As `explain`."""
     vehicle_type = problem.vehicle_types[index]
     if time.perf_counter() >= until:
-        return _unknown(vehicle_type, index)
+        return _unknown(index, vehicle_type.id)
     if problem.customer_at(node).served_by == "drone" and vehicle_type.drones is None:
         message = f"Only a drone may serve it and {vehicle_type.id} carries none."
         return Reason(index, "KIND", message, _remedy_by_truck(problem, vehicle_type, node))
@@ -67,14 +70,24 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
         if not attempt.codes:
             return _unused(problem, solution, index, attempt)
         if time.perf_counter() >= until:
-            return _unknown(vehicle_type, index)
+            return _unknown(index, vehicle_type.id)
     return _failed(problem, index, node, first)
 
 
-def _unknown(vehicle_type: VehicleType, index: int) -> Reason:
+def unexplained(problem: Problem) -> tuple[Reason, ...]:
     """Return what is true of a customer for whom there was no time to find out more."""
-    return Reason(index, "SEARCH", f"The search found no room for it on {vehicle_type.id}; there "
-                  "was no time left to find out whether there could be any.")
+    return _all_unknown(tuple([kind.id for kind in problem.vehicle_types]))
+
+
+@lru_cache(maxsize=4)
+def _all_unknown(ids: tuple[str, ...]) -> tuple[Reason, ...]:
+    """Return these reasons by the types' ids: made once for thousands of customers."""
+    return tuple(map(_unknown, range(len(ids)), ids))
+
+
+def _unknown(index: int, name: str) -> Reason:
+    return Reason(index, "SEARCH", f"The search found no room for it on {name}; there was no time "
+                  "left to find out whether there could be any.")
 
 
 def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) -> Reason:

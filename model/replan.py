@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 from model.check import Evaluation, check
-from model.explain import Reason, explain_type
+from model.explain import Reason, explain_type, unexplained
 from model.instance import pack
 from model.past import Past, Vehicle, known_trips
 from model.past_rules import PAST_RULES
@@ -144,6 +144,8 @@ class Replanning:
         vehicle = self.past.carriers().get(node) or self.past.pinned.get(node)
         if vehicle is not None:
             return _bound_reasons(self.problem, self.past, vehicle, node)
+        if time.perf_counter() >= until:
+            return unexplained(self.problem)
         return tuple(self._reason(solution, kind, node, until)
                      for kind in range(len(self.problem.vehicle_types)))
 

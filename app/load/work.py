@@ -1,12 +1,13 @@
 """How long the work on a request takes before its search, by what was measured on one core.
 
-`benchmarks.punctuality` tells what came before the search; each is what the dearest case took, and
-some more.
+`benchmarks.punctuality` tells what came before the search. The constants are what it takes on
+memory that was in use before; the first touch of new memory may take as long again, which the clock
+sees.
 """
 
 from model.visibility import FEW_EDGES
 
-DRIVE, FLIGHT = 4e-8, 6e-8
+DRIVE, FLIGHT = 2e-8, 3e-8
 """Seconds for each leg of a way to travel."""
 
 PLANAR, GREAT_CIRCLE = 1e-8, 8e-8

@@ -135,7 +135,7 @@ def test_a_beginning_ends_once_the_caller_wants_no_more() -> None:
     problem = one_long_trip(500, 200)
     began = time.perf_counter()
     found = improve(problem, pack([problem], neighbours=False), Solution((), ()), SearchConfig(),
-                    began + 60.0, should_stop=lambda: time.perf_counter() > began + 0.1)
+                    began + 60.0, should_stop=lambda: True)
     assert time.perf_counter() - began < SOON
     assert not found.whole
     assert check(problem, found.solution).violations == ()

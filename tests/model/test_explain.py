@@ -171,3 +171,14 @@ def test_where_no_time_is_left_no_more_is_said_than_is_true(
     (reason,) = explain(problem, NOBODY_SERVED, 4, until=0.0)
     assert reason == Reason(0, "SEARCH", "The search found no room for it on truck; there was no "
                             "time left to find out whether there could be any.")
+
+
+def test_who_is_left_out_after_the_time_is_told_so_for_each_type(tiny_problem, customers, truck):
+    van = replace(truck, id="van", depot=1)
+    problem = tiny_problem(*customers, truck=truck, more_types=(van,), num_depots=2)
+    reasons = explain(problem, Solution((), (2, 3, 4, 5)), 5, until=0.0)
+    assert [(reason.vehicle_type, reason.code, reason.remedy) for reason in reasons] == [
+        (0, "SEARCH", None), (1, "SEARCH", None)]
+    assert "on truck" in reasons[0].message
+    assert "on van" in reasons[1].message
+    assert reasons is explain(problem, Solution((), (2, 3, 4, 5)), 4, until=0.0)

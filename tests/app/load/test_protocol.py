@@ -102,7 +102,8 @@ def test_heads_that_drip_are_given_up(server: Listening) -> None:
 
 def test_body_that_follows_a_refusal_is_not_read_for_ever(server: Listening) -> None:
     with connect(server) as connection:
-        connection.sendall(b"POST /plan HTTP/1.1\r\nHost: localhost\r\nContent-Length: 999999999\r\n\r\n")
+        connection.sendall(b"POST /plan HTTP/1.1\r\nHost: localhost\r\n"
+                           b"Content-Length: 999999999\r\n\r\n")
         assert connection.recv(1000).startswith(b"HTTP/1.1 413")
         connection.sendall(b" ")
         read_to_end(connection)
