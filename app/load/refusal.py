@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
 
 from app.errors import InputError, InvalidRequestError, json_path, schema_error
-from app.load.scan import COUNT, DEPTH, ERRORS, KEY_END, KEY_START, LEVELS, PARTS, SHAPE, scan
-from app.load.shapes import Shapes, shapes_of
+from app.load.scan import (
+    COUNT, DEPTH, ERRORS, KEY_END, KEY_START, LEVELS, PARTS, SHAPE, Shapes, scan,
+)
+from app.load.shapes import shapes_of
 
 MAX_COUNTED_ERRORS = 20_000
 """With more errors than this the single ones are not looked at."""

@@ -3,16 +3,26 @@
 Parsing and validating hold Python's lock and take memory for each value and for each error, so a
 body that is wrong all over would cost a thousand times its length. This takes a few nanoseconds
 for a byte, no memory, and doesn't hold the lock.
+
+What is compiled in stands in this file, since it is this file that a change is looked for in.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.load.shapes import (
-    ANYTHING, ARRAY, BOOLEAN, FNV_FACTOR, FNV_START, FRACTION, INTEGER, NO_SHAPE, NOTHING,
-    NULL, OBJECT, STRING, Shapes,
-)
 from model.compiled import compiled, inlined
+
+OBJECT, ARRAY, STRING, INTEGER, FRACTION, BOOLEAN, NULL = (1 << bit for bit in range(7))
+
+NOTHING, ANYTHING = 0, 1
+"""Shapes that allow nothing and everything."""
+
+NO_SHAPE = -1
+
+FNV_START, FNV_FACTOR = 14695981039346656037, 1099511628211
+"""Of the hash of a name, FNV-1a."""
 
 DEPTH = 256
 """Levels that are followed, the body itself among them; the parser gives up at fewer."""
@@ -25,6 +35,24 @@ ERRORS, PARTS, LOOSE, LEVELS = range(4)
 how many levels are open where the scan ends."""
 
 _START, _FACTOR = np.uint64(FNV_START), np.uint64(FNV_FACTOR)
+
+
+class Shapes(NamedTuple):
+    """All shapes of a schema, in columns; the last one has a whole body as its only entry."""
+
+    kinds: NDArray[np.int64]  # bits of what a value may be
+    lowest: NDArray[np.float64]  # of numbers
+    highest: NDArray[np.float64]
+    shortest: NDArray[np.int64]  # of strings in bytes
+    longest: NDArray[np.int64]
+    most: NDArray[np.int64]  # entries of an array, or of an object with free keys
+    fewest: NDArray[np.int64]  # entries of an array
+    entry: NDArray[np.int64]  # shape of these, NO_SHAPE where keys are not free
+    is_row: NDArray[np.bool_]  # whether an array of numbers is left at its first error
+    required: NDArray[np.int64]  # bits of keys
+    first_key: NDArray[np.int64]  # (shape + 1,) of an object's fields or a string's values
+    key_hash: NDArray[np.uint64]  # (key,)
+    key_shape: NDArray[np.int64]
 
 
 @inlined

@@ -3,19 +3,19 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel
 
-OBJECT, ARRAY, STRING, INTEGER, FRACTION, BOOLEAN, NULL = (1 << bit for bit in range(7))
+from app.load.scan import (
+    ANYTHING, ARRAY, BOOLEAN, FNV_FACTOR, FNV_START, FRACTION, INTEGER, NO_SHAPE, NOTHING,
+    NULL, OBJECT, STRING, Shapes,
+)
+
 ANY_KIND = 127
 
-NOTHING, ANYTHING = 0, 1
-"""Shapes that allow nothing and everything."""
-
-NO_SHAPE = -1
 UNBOUNDED = 2**62
 MAX_KEYS = 63
 """Most fields of an object; each has a bit of a word."""
@@ -29,24 +29,6 @@ _KINDS: dict[str | None, int] = {
 
 Schema = Mapping[str, Any]
 Number = TypeVar("Number", bound=np.generic)
-
-
-class Shapes(NamedTuple):
-    """All shapes of a schema, in columns; the last one has a whole body as its only entry."""
-
-    kinds: NDArray[np.int64]  # bits of what a value may be
-    lowest: NDArray[np.float64]  # of numbers
-    highest: NDArray[np.float64]
-    shortest: NDArray[np.int64]  # of strings in bytes
-    longest: NDArray[np.int64]
-    most: NDArray[np.int64]  # entries of an array, or of an object with free keys
-    fewest: NDArray[np.int64]  # entries of an array
-    entry: NDArray[np.int64]  # shape of these, NO_SHAPE where keys are not free
-    is_row: NDArray[np.bool_]  # whether an array of numbers is left at its first error
-    required: NDArray[np.int64]  # bits of keys
-    first_key: NDArray[np.int64]  # (shape + 1,) of an object's fields or a string's values
-    key_hash: NDArray[np.uint64]  # (key,)
-    key_shape: NDArray[np.int64]
 
 
 @dataclass
@@ -93,9 +75,6 @@ def hash_of(name: bytes) -> int:
     for byte in name:
         value = ((value ^ byte) * FNV_FACTOR) % 2**64
     return value
-
-
-FNV_START, FNV_FACTOR = 14695981039346656037, 1099511628211
 
 
 class _Collector:
