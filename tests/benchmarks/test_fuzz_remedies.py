@@ -5,7 +5,6 @@ The study of a thousand remedies is `python -m benchmarks.fuzz_remedies`.
 
 import json
 import random
-import shutil
 from typing import Any
 
 import httpx
@@ -26,10 +25,7 @@ REQUEST: Data = {
     "fleet": [{"id": "van", "capacity": [5]}, {"id": "bus", "capacity": [1]}],
     "unassigned_cost": 3.0}
 
-needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 
-
-@needs_node
 def test_remedies_hold(client: httpx.Client) -> None:
     false = []
     with console() as understood:
@@ -65,7 +61,6 @@ def answering(second: Data) -> Study:
     return Study(httpx.Client(transport=httpx.MockTransport(answer), base_url="http://service"))
 
 
-@needs_node
 @pytest.mark.parametrize(("left_out", "faults"), [
     ([], 0), ([{"id": "A", "reasons": ["still too large"]}], 1)])
 def test_remedies_that_change_nothing_are_found(left_out: list[Data], faults: int) -> None:
