@@ -49,7 +49,7 @@ class Machine:
         """Run a script and return what came of it."""
         return subprocess.run([self.scripts / script], text=True, capture_output=True, check=False,
                               env={"PATH": str(self.programs), "POSTGRESQL": str(self.postgresql),
-                                   **environment})
+                                   "LDCONFIG": str(self.programs / "ldconfig"), **environment})
 
 
 @pytest.fixture
@@ -84,6 +84,18 @@ def test_database_is_missed_where_no_folder_has_its_programs(machine: Machine) -
     machine.add_all()
     (machine.postgresql / "initdb").unlink()
     assert "missing here: postgresql.\n" in machine.run("prepare").stderr
+
+
+@pytest.mark.parametrize(("listed", "message"), [
+    ("libatomic.so.1 (libc6,x86-64) => /lib/libatomic.so.1", ""),
+    ("libc.so.6 (libc6,x86-64) => /lib/libc.so.6", "missing here: libatomic1.\n")])
+def test_library_of_the_browsers_driver_is_missed_where_it_is_not_listed(
+        machine: Machine, listed: str, message: str) -> None:
+    machine.add_all()
+    machine.add("ldconfig", f'echo "{listed}"')
+    done = machine.run("prepare")
+    assert (done.returncode == 0) == (not message)
+    assert message in done.stderr
 
 
 def test_browser_may_be_chosen(machine: Machine) -> None:
