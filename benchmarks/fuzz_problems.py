@@ -81,7 +81,7 @@ class Study:
         if is_whole and replanned is not None and now is not None:
             moved = happened(plan, now) - happened(replanned, now)
             if moved:
-                raise Fault(f"what had happened by {now} is another past now: {sorted(moved)[:3]}")
+                raise Fault(f"what had happened before {now} is another past: {sorted(moved)[:3]}")
 
     def planned(self, request: Data) -> Data | None:
         """Return the plan of a request, found sound; None if it is refused. In place."""
@@ -142,19 +142,19 @@ def changed(rng: random.Random, request: Data, plan: Data) -> Data:
 
 
 def happened(plan: Data, now: float) -> set[tuple[str, ...]]:
-    """Return what a plan has done by an instant: stops left and flights begun, in words."""
+    """Return what a plan has done before an instant: stops left and flights begun, in words."""
     done: set[tuple[str, ...]] = set()
     for route in plan["routes"]:
         for trip in route["trips"]:
-            if not trip["stops"] or trip["stops"][0]["departure"] > now:
+            if not trip["stops"] or trip["stops"][0]["departure"] >= now:
                 continue
             done |= {(route["vehicle"], "stop", stop["id"], f"{stop['arrival']:.3f}",
                       f"{stop['departure']:.3f}")
-                     for stop in trip["stops"] if stop["departure"] <= now}
+                     for stop in trip["stops"] if stop["departure"] < now}
             done |= {(route["vehicle"], "flight", customer["id"], f"{sortie['launch_time']:.3f}",
                       f"{customer['arrival']:.3f}")
                      for sortie in trip["sorties"] for customer in sortie["customers"]
-                     if sortie["launch_time"] <= now}
+                     if sortie["launch_time"] < now}
     return done
 
 

@@ -142,8 +142,10 @@ class Remedies:
         reply = self.study.ask("/plan", changed)
         if reply is None:
             return "the request that it makes is refused"
-        if reply["unassigned"]:
-            return f"still left out: {reply['unassigned'][0]['reasons']}"
+        reasons = [why for left in reply["unassigned"] for why in left["reasons"]]
+        # Who fits at a price that nobody pays does fit.
+        if any(why["code"] != "COST" for why in reasons):
+            return f"still left out: {reasons}"
         return None
 
 

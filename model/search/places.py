@@ -185,7 +185,9 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
             continue
         first = max(p - 1, now.trip[slot, trip, T_FIRST])
         if by_truck:
-            offer_stops(world, searcher, slot, first, p, node)
+            # Nobody is served behind the depot.
+            offer_stops(world, searcher, slot, first, min(p, now.trip[slot, trip, T_LAST] - 1),
+                        node)
         if world.can[k, 1, node]:
             for q in range(first, p + 1):
                 offer_sorties(world, searcher, slot, q, node)

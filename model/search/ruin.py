@@ -72,8 +72,10 @@ def mark_around(fleet: Fleet, customer: int, longest: float, marked: BoolArray, 
     size = 1 + int(uniform(rng) * min(longest, stops_there))
     if uniform(rng) < WHOLE_TRIP and stops_there <= LONGEST_TRIP:
         size = stops_there
-    return mark_string(fleet, slot, index, max(p, first + 1), min(size, stops_there), marked,
-                       absent, num_absent, rng)
+    # A drone may have been launched at either of the depot's stops.
+    middle = min(max(p, first + 1), last - 1)
+    return mark_string(fleet, slot, index, middle, min(size, stops_there), marked, absent,
+                       num_absent, rng)
 
 
 @spliced

@@ -19,10 +19,14 @@ Answer = Callable[[Data], Data]
 
 PROBLEMS = 40
 
+ONCE_BROKEN = (21_086,)
+"""Seeds of problems whose plans were no plans: a ruin took the depot for a customer, beside a drone
+that is launched there at the end of its truck's trip."""
+
 
 def test_wild_problems_are_planned_soundly_or_refused(client: httpx.Client) -> None:
     study = Study(client)
-    for seed in range(PROBLEMS):
+    for seed in (*range(PROBLEMS), *ONCE_BROKEN):
         study.try_problem(seed)
     assert study.checked > PROBLEMS / 2
     assert 0 < study.left_out < study.checked

@@ -62,7 +62,8 @@ def answering(second: Data) -> Study:
 
 
 @pytest.mark.parametrize(("left_out", "faults"), [
-    ([], 0), ([{"id": "A", "reasons": ["still too large"]}], 1)])
+    ([], 0), ([{"id": "A", "reasons": [REASON]}], 1),
+    ([{"id": "A", "reasons": [REASON | {"code": "COST"}]}], 0)])
 def test_remedies_that_change_nothing_are_found(left_out: list[Data], faults: int) -> None:
     with console() as understood:
         false = Remedies(answering({"unassigned": left_out}), understood).try_plan(REQUEST)
