@@ -10,8 +10,8 @@ from pydantic_core import ErrorDetails, to_json
 from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_error
 from app.load.bounds import Bounds, bound_errors
 from app.load.preparing import Preparing
-from app.plan_reading import Known, plan_errors, read_plan
 from app.load.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
+from app.plan_reading import Known, plan_errors, read_plan
 from app.reading import partial_draft, read_json, request_errors
 from app.replanning import task_of, violation_reply
 from app.replies import Data, cost_reply, summary_reply

@@ -22,7 +22,7 @@ from app.service import ReceivedBody, answer
 from app.settings import Settings
 from app.settings_table import settings_page
 from app.warming import showing
-from model.check import Evaluation
+from model.judge.check import Evaluation
 from model.planner import Planner, load_planner
 
 EXIT_INFEASIBLE = 1

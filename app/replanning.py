@@ -12,13 +12,13 @@ from app.replies import Data, plan_reply, vehicle_name
 from app.schemas_request import PlanRequest, ReplanInput
 from app.travels import Ground
 from app.units import optional_thousandths
-from model.check import Evaluation, check
-from model.past import Vehicle
+from model.judge.check import Evaluation, check
+from model.judge.past import Vehicle
+from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
-from model.replan import Replanning, SettledPartError, Terms
+from model.replanning.replan import Replanning, SettledPartError, Terms
 from model.replanning.workers import TooManyTypesError
-from model.rules import Violation
 from model.solution import Solution
 
 

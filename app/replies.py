@@ -6,9 +6,9 @@ from functools import partial
 from typing import Any
 
 from app.units import whole
-from model.check import Evaluation
-from model.explain import Reason, explain
-from model.metrics import RouteMetrics, SortieMetrics, TripMetrics
+from model.judge.check import Evaluation
+from model.judge.explain import Reason, explain
+from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
 from model.problem import Problem
 from model.solution import Cost, Route, Solution, Sortie, Stop, Trip, Visit

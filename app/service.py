@@ -18,8 +18,8 @@ from app.replanning import task_of
 from app.replies import Data
 from app.schemas_request import OptionsInput, PlanRequest
 from app.warming import showing, words
+from model.kernel.warming import Warmth
 from model.planner import ALONE, Listener, Planner, PlanOptions
-from model.warming import Warmth
 
 logger = logging.getLogger(__name__)
 

@@ -18,9 +18,9 @@ from app.schemas_request import (
     VehicleTypeInput,
 )
 from app.units import thousandths
-from model.airspace import Airspace, Flights
 from model.problem import FloatArray, SpeedProfile, Travel
-from model.travel import (
+from model.travel.airspace import Airspace, Flights
+from model.travel.matrices import (
     LocalProjection,
     embed,
     flight_travel,

@@ -21,9 +21,9 @@ from app.schemas_request import (
     VehicleTypeInput,
 )
 from app.units import thousandths
-from model.airspace import Ring, invalid_polygon_reason
-from model.obstacles import count_crossings
-from model.travel import LocalProjection
+from model.travel.airspace import Ring, invalid_polygon_reason
+from model.travel.matrices import LocalProjection
+from model.travel.obstacles import count_crossings
 
 MAX_COORDINATE_M = 1e7
 """Farthest planar coordinate from the origin in metres, a quarter of the way round the earth."""

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from tqdm import tqdm
 from tqdm.contrib.logging import logging_redirect_tqdm
 
-from model.warming import Tell, Warmth
+from model.kernel.warming import Tell, Warmth
 
 LINE_SECONDS = 10.0
 """Least time between two lines about the same stage."""

@@ -17,14 +17,14 @@ import typer
 
 from app.settings import DEFAULT_POLICY, Settings
 from benchmarks.rows import append_rows, read_rows
-from model.check import check
-from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
-from model.extract import extract
-from model.instance import pack
+from model.judge.check import check
+from model.kernel.instance import pack
 from model.planner import PlanCheckError, Start, keep_loaded
+from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.world import ALL_MOVES
+from model.simulation.extract import extract
 from model.solution import Solution
 from training.instances import VARIANTS, generate
 

@@ -7,10 +7,10 @@ from app.settings import Settings
 from benchmarks.peers import PeerAnswer
 from benchmarks.published import Published
 from benchmarks.tandem import plan_to_answer, problem_of
-from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
-from model.extract import extract
-from model.instance import pack
+from model.kernel.instance import pack
 from model.planner import decoding_seconds
+from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
+from model.simulation.extract import extract
 
 SAMPLES_FOR_GREEDY = {"attention": 25, "pointer": 11}
 """How many samples cost as much as the greedy plan; those of `attention` plan only a part anew."""

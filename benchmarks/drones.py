@@ -21,8 +21,8 @@ from benchmarks.rows import append_rows, read_rows
 from benchmarks.truck_drone import LOADERS
 from benchmarks.truck_drone_rules import TruckDroneInstance, broken_rules
 from benchmarks.versus import machine
-from model.check import check
-from model.instance import pack
+from model.judge.check import check
+from model.kernel.instance import pack
 from model.planner import keep_loaded
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve

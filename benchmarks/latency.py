@@ -29,11 +29,11 @@ from app.reading import read_request
 from app.replies import plan_reply
 from app.service import plan_options
 from app.settings import DEFAULT_POLICY, Settings
-from model.check import check
-from model.decode import DecodeConfig, decode, load_policy, prepare
-from model.extract import extract
-from model.instance import pack
+from model.judge.check import check
+from model.kernel.instance import pack
 from model.planner import Elapsed, PlanResult
+from model.policy.decode import DecodeConfig, decode, load_policy, prepare
+from model.simulation.extract import extract
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "table1.json"
 

@@ -1,7 +1,7 @@
 """What a solver answers to a published instance, and how the answer is judged.
 
-Solvers state sequences only: their times, loads and costs are recomputed by `model.timing` and
-judged by `model.check`, so that all are measured by the same rules.
+Solvers state sequences only: their times, loads and costs are recomputed by `model.judge`, so that
+all are measured by the same rules.
 """
 
 import math
@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.published import Published, to_problem
-from model.check import check
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Problem
 from model.solution import Solution
-from model.timing import RouteDecision, TripDecision, schedule
 
 PeerRoute = tuple[int, list[list[int]]]
 """Index of the vehicle type, then the trips, each the nodes of its customers in order."""

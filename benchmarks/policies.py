@@ -16,15 +16,15 @@ import typer
 
 from app.settings import Settings
 from benchmarks.rows import append_rows, read_rows
-from model.check import check
-from model.instance import pack
+from model.judge.check import check
+from model.kernel.instance import pack
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
+from training.heuristics import nearest_neighbour
 from training.instances import validation_set
 from training.rollout import make_batch
-from training.rules import nearest_neighbour
 
 Method = Callable[[Problem], Solution]
 

@@ -10,6 +10,7 @@ from vrplib import read_solution  # type: ignore[import-untyped]
 
 from app.importers import read_instance_file
 from app.instance_files import FileVehicles, InstanceFile, Rounding, distances
+from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
     MM_PER_KM,
     UNLIMITED,
@@ -22,7 +23,6 @@ from model.problem import (
     VehicleType,
 )
 from model.solution import Solution
-from model.timing import RouteDecision, TripDecision, schedule
 
 NO_LIMIT = 2**40
 """Stands for "no limit" in `Published.latest`."""

@@ -20,11 +20,11 @@ from rich.console import Console
 from rich.table import Table
 
 from app.settings import DEFAULT_POLICY, Settings
-from model.decode import Policy, load_policy
-from model.past import known_trips
+from model.judge.past import known_trips
 from model.planner import ALONE, Listener, Planner, PlanOptions, PlanResult
+from model.policy.decode import Policy, load_policy
 from model.problem import Problem, Travel
-from model.replan import Replanning, Terms
+from model.replanning.replan import Replanning, Terms
 from model.solution import Solution, Trip
 from training.instances import VARIANTS, generate
 

@@ -20,7 +20,7 @@ from app.settings import Settings
 from benchmarks.replanning import day_of, nothing
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem
-from model.replan import Replanning, SettledPartError, Terms
+from model.replanning.replan import Replanning, SettledPartError, Terms
 from model.solution import Solution
 from training.instances import VARIANTS, generate
 

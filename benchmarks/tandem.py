@@ -5,7 +5,7 @@ from functools import lru_cache
 
 from benchmarks.peers import PeerAnswer
 from benchmarks.published import Published, to_problem
-from model.instance import pack
+from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Route, Solution

@@ -6,8 +6,8 @@ A search that is told these rules obeys them; whether a plan does is judged here
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from model.judge.rules import Violation, decimal
 from model.problem import Problem
-from model.rules import Violation, decimal
 from model.solution import Solution, Trip
 
 LOOPS = "loops"

@@ -18,8 +18,8 @@ from app.convert import to_problem
 from app.openapi import EXAMPLES as DOCUMENTED
 from app.openapi import EXAMPLES_DIR
 from app.schemas_request import PlanRequest
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Stop, Visit
-from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
 
 WINDOWS_SEED = 20250926
 CITY_SEED = 47

@@ -14,18 +14,18 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from model.airspace import compile_ways
-from model.alarm import Alarm
-from model.check import Evaluation, check
-from model.compiled import first_to_compile
-from model.decode import DecodeConfig, Policy, decode, load_policy, prepare
-from model.extract import extract
-from model.instance import Instance, pack
+from model.judge.check import Evaluation, check
+from model.kernel.alarm import Alarm
+from model.kernel.compiled import first_to_compile
+from model.kernel.instance import Instance, pack
+from model.kernel.warming import Tell, Warming, telling
+from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
+from model.policy.rollouts import NOTHING
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
-from model.rolling import NOTHING
 from model.search.improve import GRACE, Improved, Progress, SearchConfig, improve
+from model.simulation.extract import extract
 from model.solution import Solution
-from model.warming import Tell, Warming, telling
+from model.travel.airspace import compile_ways
 
 Start = Literal["policy", "insertion", "given"]
 
@@ -48,7 +48,7 @@ WARM_LIMIT = 3600.0
 """Time limit of the plan that everything is compiled for, which no compiler should need."""
 
 COMPILE_SEARCH = """
-from model.compiled import counting
+from model.kernel.compiled import counting
 from model.planner import compile_search
 with counting():
     compile_search()

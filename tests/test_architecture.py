@@ -4,12 +4,13 @@ import ast
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
 
-from model.compiled import SOURCES
+from model.kernel.compiled import SOURCES
 from tests.conftest import complete
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -21,34 +22,32 @@ FORBIDDEN = {
     "benchmarks": ("tests",),
 }
 
-SEARCH = tuple(f"search/{name}" for name in (
-    "layout", "world", "draw", "block", "routes", "lean", "refresh", "edit", "evaluate",
-    "ruin", "state", "retype", "scan", "splitting", "insertion", "places", "recreate", "exchange",
-    "line", "resplit", "savings", "translate", "heat", "limits", "sharing", "anneal", "construct",
-    "starts", "improve",
-))
-REPLANNING = tuple(f"replanning/{name}" for name in (
-    "amend", "kept", "workers", "remainder", "handover"))
-MODEL_ORDER = (
-    "compiled", "problem", "alarm", "solution", "past", "timing", "metrics", "rules", "past_rules",
-    "check", "attempt", "explain", *REPLANNING,
-    "rows", "pausing", "travel", "wind", "obstacles", "visibility", "detours", "ways", "airspace",
-    "instance", "schedule", "cost", "meeting", "transition",
-    "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract", *SEARCH,
-    "policy", "policy_pointer", "policy_attention", "decode", "warming", "planner", "replan",
-)
-"""Each file of `model` imports only files to the left of its name."""
+MODEL = {
+    "problem": (),
+    "solution": (),
+    "judge": ("problem", "solution"),
+    "kernel": ("problem",),
+    "travel": ("problem", "kernel"),
+    "simulation": ("problem", "solution", "kernel"),
+    "policy": ("problem", "kernel", "simulation"),
+    "search": ("problem", "solution", "kernel"),
+    "planner": ("problem", "solution", "judge", "kernel", "travel", "simulation", "policy",
+                "search"),
+    "replanning": ("problem", "solution", "judge", "kernel", "search", "planner"),
+}
+"""What each folder and file of `model` may import of the others."""
+MOST_ARROWS = 30
 
-CHECKER = ("past", "timing", "metrics", "rules", "past_rules", "check", "attempt", "explain")
-SIMULATION = ("compiled", "alarm", "rows", "instance", "schedule", "cost", "meeting", "transition",
-              "simulator", "tokens", "prospects", "features", "parts", "rolling", "extract")
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
-ASKING = {"warming", "planner"}
+ASKING = {"kernel/warming", "planner"}
 """Compile nothing themselves, but ask what is compiled."""
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 40
+
+NETWORKS = ("model.policy.network", "model.policy.attention", "model.policy.pointer")
+"""Files with PyTorch, for training alone."""
 
 UNFINISHED = "TO" "DO"
 
@@ -79,11 +78,31 @@ def imported_packages(path: Path) -> set[str]:
     return {module.split(".")[0] for module in imported_modules(path)}
 
 
-def imported_siblings(name: str) -> set[str]:
-    """Return the files of `model` that one of them imports."""
-    modules = set(imported_modules(ROOT / "model" / f"{name}.py"))
-    return {file for file in MODEL_ORDER
-            if f"model.{file.replace('/', '.')}" in modules}
+def imported_files(package: str) -> dict[str, set[str]]:
+    """Return the files of a package that each of them imports, by path without suffix."""
+    files = {path.relative_to(ROOT / package).with_suffix("").as_posix(): path
+             for path in sources(package) if path.stem != "__init__"}
+    dotted = {f"{package}.{name.replace('/', '.')}": name for name in files}
+    return {name: {dotted[module] for module in imported_modules(path) if module in dotted}
+            for name, path in files.items()}
+
+
+def between(imports: dict[str, set[str]], part: Callable[[str], str]) -> dict[str, set[str]]:
+    """Return the other parts, of which each file has one, that each part imports."""
+    arrows: dict[str, set[str]] = {part(name): set() for name in imports}
+    for name, others in imports.items():
+        arrows[part(name)] |= {part(other) for other in others} - {part(name)}
+    return arrows
+
+
+def first_level(name: str) -> str:
+    """Return the folder or file right below the package."""
+    return name.split("/")[0]
+
+
+def folder(name: str) -> str:
+    """Return the folder that a file lies in; a file right below the package stands for itself."""
+    return name.rpartition("/")[0] or name
 
 
 def code_lines(function: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
@@ -107,8 +126,8 @@ def test_only_benchmarks_and_their_tests_import_benchmarks() -> None:
 
 def test_only_policies_and_training_use_torch() -> None:
     users = [name_of(path) for path in sources("app", "model")
-             if not name_of(path).startswith("model/policy")
-             and any(module.startswith(("torch", "model.policy"))
+             if name_of(path)[:-3].replace("/", ".") not in NETWORKS
+             and any(module.startswith(("torch", *NETWORKS))
                      for module in imported_modules(path))]
     assert users == []
 
@@ -120,37 +139,28 @@ def test_serving_loads_no_torch() -> None:
     assert done.stdout == "False\n"
 
 
-def test_every_file_of_model_has_its_place() -> None:
-    files = {path.relative_to(ROOT / "model").with_suffix("").as_posix()
-             for path in sources("model") if path.stem != "__init__"}
-    assert files == set(MODEL_ORDER)
+def test_parts_of_model_import_along_the_arrows() -> None:
+    arrows = between(imported_files("model"), first_level)
+    assert arrows == {part: set(allowed) for part, allowed in MODEL.items()}
+    assert sum(map(len, arrows.values())) <= MOST_ARROWS
 
 
-@pytest.mark.parametrize("name", MODEL_ORDER)
-def test_model_files_import_only_files_before_them(name: str) -> None:
-    assert imported_siblings(name) <= set(MODEL_ORDER[:MODEL_ORDER.index(name)])
-
-
-@pytest.mark.parametrize("name", CHECKER)
-def test_checker_shares_no_code_with_simulation_and_search(name: str) -> None:
-    assert imported_siblings(name) & {*SIMULATION, *SEARCH} == set()
-
-
-@pytest.mark.parametrize("name", SIMULATION + SEARCH)
-def test_simulation_and_search_share_no_code_with_the_checker(name: str) -> None:
-    assert imported_siblings(name) & set(CHECKER) == set()
+@pytest.mark.parametrize("part", [first_level, folder, str], ids=["part", "folder", "file"])
+def test_no_circles_within_model(part: Callable[[str], str]) -> None:
+    list(TopologicalSorter(between(imported_files("model"), part)).static_order())
 
 
 def test_compiled_code_is_filed_under_all_its_sources() -> None:
-    users = {name for name in MODEL_ORDER if "compiled" in imported_siblings(name)} - ASKING
-    needed = users.union({"compiled"}, *(imported_siblings(name) for name in users)) - INTERPRETED
+    imports = imported_files("model")
+    users = {name for name, files in imports.items() if "kernel/compiled" in files} - ASKING
+    needed = users.union({"kernel/compiled"}, *(imports[name] for name in users)) - INTERPRETED
     assert set(SOURCES) == needed
 
 
 def test_only_one_file_imports_the_compiler() -> None:
     importers = [name_of(path) for path in sources("app", "model", "training")
                  if "numba" in imported_packages(path)]
-    assert importers == ["model/compiled.py"]
+    assert importers == ["model/kernel/compiled.py"]
 
 
 @pytest.mark.parametrize("path", sources(*PACKAGES), ids=name_of)

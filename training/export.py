@@ -1,6 +1,6 @@
 """Export a trained policy to ONNX: `encoder.onnx`, `step.onnx` and a card.
 
-The weights of `attention`'s step go into `step.npz` too, for `model.rolling`, and all weights into
+The weights of `attention`'s step go into `step.npz` too, for compiled rollouts, and all into
 `weights.pt`, for further training.
 
 Run with `python -m training.export --checkpoint runs/pointer/checkpoint.pt --name pointer`.
@@ -17,10 +17,10 @@ import torch
 import typer
 from torch import Tensor, nn
 
-from model.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
-from model.rolling import STEP_WEIGHTS
-from model.policy_attention import AttentionPolicy
-from model.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
+from model.policy.attention import AttentionPolicy
+from model.policy.features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
+from model.policy.rollouts import STEP_WEIGHTS
+from model.policy.tokens import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 from training.policies import POLICIES, AnyPolicy
 
 OPSET = 20

@@ -7,10 +7,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from model.cost import COST_UNASSIGNED
-from model.policy import PolicyNetwork
-from model.policy_pointer import Critic
+from model.policy.network import PolicyNetwork
+from model.policy.pointer import Critic
 from model.problem import FloatArray
+from model.simulation.cost import COST_UNASSIGNED
 from training.dataset import Chunk, Decisions, chunks, paths
 from training.rollout import Batch, Outcome
 

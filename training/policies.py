@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from model.policy_attention import AttentionConfig, AttentionPolicy
-from model.policy_pointer import PointerConfig, PointerPolicy
+from model.policy.attention import AttentionConfig, AttentionPolicy
+from model.policy.pointer import PointerConfig, PointerPolicy
 
 AnyPolicy = PointerPolicy | AttentionPolicy
 

@@ -8,12 +8,12 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from model.features import Observation, empty_observation, step
-from model.instance import Instance, pack
-from model.policy import PolicyNetwork
+from model.kernel.instance import Instance, pack
+from model.policy.features import Observation, empty_observation, step
+from model.policy.network import PolicyNetwork
+from model.policy.tokens import Scales, Tokens, scales, tokens
 from model.problem import FloatArray, IntArray, Problem
-from model.simulator import max_steps, reset
-from model.tokens import Scales, Tokens, scales, tokens
+from model.simulation.simulator import max_steps, reset
 from training.dataset import Decisions
 
 Chooser = Callable[[Tensor], Tensor]

@@ -20,17 +20,17 @@ import typer
 from torch.utils.tensorboard import SummaryWriter
 from tqdm import tqdm
 
-from model.policy_pointer import Critic
+from model.policy.pointer import Critic
 from training.config import TrainConfig
 from training.dataset import join
 from training.export import WEIGHTS
+from training.heuristics import nearest_neighbour
 from training.instances import generate, sample_variant, validation_set
 from training.learn import (
     BASELINES, critic_step, draw_weights, policy_gradient, training_costs,
 )
 from training.policies import POLICIES
 from training.rollout import Batch, greedy, make_batch, roll_out, sampler
-from training.rules import nearest_neighbour
 
 SAVE_EVERY = 120.0
 VALIDATE_EVERY = 300.0

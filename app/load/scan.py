@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.compiled import compiled, inlined
+from model.kernel.compiled import compiled, inlined
 
 OBJECT, ARRAY, STRING, INTEGER, FRACTION, BOOLEAN, NULL = (1 << bit for bit in range(7))
 

@@ -5,7 +5,7 @@ memory that was in use before; the first touch of new memory may take as long ag
 sees.
 """
 
-from model.visibility import FEW_EDGES
+from model.travel.visibility import FEW_EDGES
 
 DRIVE, FLIGHT = 2e-8, 3e-8
 """Seconds for each leg of a way to travel."""

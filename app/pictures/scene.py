@@ -15,7 +15,7 @@ from app.replies import cost_reply, summary_reply
 from app.schemas_plan import PlanInput, RouteInput, SortieInput, TripInput
 from app.schemas_request import CustomerInput, DepotInput, PlanRequest, VehicleTypeInput
 from model.problem import FloatArray
-from model.travel import LocalProjection
+from model.travel.matrices import LocalProjection
 
 Point = tuple[float, float]
 Place = tuple[str, str]

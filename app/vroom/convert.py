@@ -5,8 +5,8 @@ from math import isqrt
 
 import numpy as np
 
-from app.vroom.alternatives import choose_windows
 from app.settings import MAX_LEGS
+from app.vroom.alternatives import choose_windows
 from app.vroom.drives import Drive, Drives
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError
 from app.vroom.kinds import Loads, find_kinds, find_loads
@@ -20,7 +20,7 @@ from model.problem import (
     MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, Customer, Depot, FloatArray, IntArray, Problem,
     Travel, VehicleType,
 )
-from model.travel import local_coordinates
+from model.travel.matrices import local_coordinates
 
 EARLIER = 2 * 10**8
 """How many seconds before all that is stated a vehicle without time window may leave."""

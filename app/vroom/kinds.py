@@ -9,7 +9,7 @@ from app.vroom.places import Places
 from app.vroom.reply import amount_of
 from app.vroom.schemas import VroomVehicleInput, VroomRequest
 from app.vroom.timing import Rates
-from model.instance import MAX_DIMENSIONS
+from model.kernel.instance import MAX_DIMENSIONS
 from model.problem import FloatArray, IntArray
 
 

@@ -7,9 +7,9 @@ import numpy as np
 
 from app.vroom.nodes import Nodes, Slots
 from app.vroom.schemas import Window
+from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import MAX_QUANTITY, BoolArray, Problem
 from model.solution import Route, Solution
-from model.timing import RouteDecision, TripDecision, schedule
 
 Routes = Mapping[int, Sequence[Sequence[int]]]
 """Jobs of each route, by the index of the kind that drives it."""

@@ -9,7 +9,7 @@ from app.settings import MAX_LEGS
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError
 from app.vroom.schemas import Coordinates, VroomMatricesInput, Table, VroomRequest
 from model.problem import FloatArray, IntArray
-from model.travel import great_circle_distances
+from model.travel.matrices import great_circle_distances
 
 NOWHERE = -1
 """Stands for the start or end that a vehicle doesn't have."""

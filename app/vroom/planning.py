@@ -12,8 +12,8 @@ from operator import attrgetter
 
 import numpy as np
 
-from app.vroom.checking import drive, route_faults
 from app.vroom.alternatives import bring_first, leave_out_by_priority
+from app.vroom.checking import drive, route_faults
 from app.vroom.convert import Converter
 from app.vroom.errors import INPUT, VroomError
 from app.vroom.models import Model, Routes
@@ -22,7 +22,7 @@ from app.vroom.places import Places
 from app.vroom.schemas import VroomJobInput, VroomRequest, Window
 from app.vroom.timing import Driver
 from app.vroom.windows import are_few, choose_few, hulls
-from model.check import check
+from model.judge.check import check
 from model.planner import PlanCheckError, PlanOptions, PlanResult
 from model.problem import Problem
 from model.search.improve import Progress

@@ -6,8 +6,8 @@ from typing import Any
 from fastapi import APIRouter, Request, Response
 
 from app.access.guard import Plan
-from app.load.abandoned import Planning
 from app.errors import MEDIA_TYPE
+from app.load.abandoned import Planning
 from app.openapi import SCHEMA_REF, json_body
 from app.routes import Body, Service
 from app.vroom.answering import answer

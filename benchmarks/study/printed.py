@@ -13,11 +13,11 @@ from itertools import pairwise
 from pathlib import Path
 
 from benchmarks.study.cases import example
-from model.check import check
+from model.judge.check import check
+from model.judge.rules import Violation
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import Problem
-from model.rules import Violation
 from model.solution import Solution
-from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
 
 FOLDER = Path(__file__).parent / "printed"
 

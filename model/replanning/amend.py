@@ -5,12 +5,12 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from operator import gt
 
-from model.check import judge_route
-from model.past import EVERYTHING_OPEN, Past
+from model.judge.check import judge_route
+from model.judge.past import EVERYTHING_OPEN, Past
+from model.judge.rules import Violation
+from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
 from model.problem import Problem
-from model.rules import Violation
 from model.solution import Route
-from model.timing import Operation, RouteDecision, SortieDecision, TripDecision
 
 SINGLE_ROUNDS = 8
 """How often one customer is taken out of a route at a time; then twice as many each time."""

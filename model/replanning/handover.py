@@ -6,15 +6,15 @@ from dataclasses import replace
 from functools import partial
 from itertools import count
 
-from model.past import Past, Vehicle
+from model.judge.past import Past, Vehicle
+from model.judge.timing import (
+    RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
+)
 from model.problem import Problem
 from model.replanning.amend import customers_of, repaired_route, without
 from model.replanning.kept import Kept
 from model.replanning.remainder import Remainder
 from model.solution import Route, Solution, Trip
-from model.timing import (
-    RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
-)
 
 
 def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],

@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from model.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
+from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
+from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.replanning.amend import customers_of, repaired, without
 from model.solution import Route, Solution, Sortie, Stop, Trip
-from model.timing import RouteDecision, TripDecision, read_decision, resume_trip
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from model.past import Past, Vehicle
+from model.judge.past import Past, Vehicle
 from model.problem import (
     MAX_QUANTITY, UNREACHABLE, Customer, IntArray, Problem, Travel, VehicleType,
 )

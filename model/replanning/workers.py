@@ -8,8 +8,8 @@ instant, not from the depot as soon as the search likes, that is its anchor.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from model.metrics import first_departure
-from model.past import Past, Vehicle
+from model.judge.metrics import first_departure
+from model.judge.past import Past, Vehicle
 from model.problem import MAX_QUANTITY, Problem, VehicleType
 from model.replanning.amend import customers_of
 from model.replanning.kept import Kept, WayOn

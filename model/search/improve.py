@@ -9,20 +9,20 @@ from functools import partial
 
 import numpy as np
 
-from model.alarm import Alarm
-from model.instance import Instance
+from model.kernel.alarm import Alarm
+from model.kernel.instance import Instance
 from model.problem import Problem
-from model.search.anneal import ANY, anneal
-from model.search.construct import begin_anew
-from model.search.heat import Heat
-from model.search.layout import World
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import first_plan, make_searcher, read_plan
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
-from model.search.sharing import Crew, go_on_from_best
-from model.search.starts import Starts
-from model.search.state import (
+from model.search.moves.anneal import ANY, anneal
+from model.search.route.layout import World
+from model.search.route.state import (
     I_CUSTOMERS, I_TURN, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher,
 )
-from model.search.translate import first_plan, make_searcher, read_plan
+from model.search.sharing import Crew, go_on_from_best
+from model.search.starts import Starts
+from model.search.temperature import Heat
 from model.search.world import ALL_MOVES, Ground, Moves, lay_ground, make_world
 from model.solution import Solution
 

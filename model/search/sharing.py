@@ -2,19 +2,19 @@
 
 import numpy as np
 
-from model.compiled import compiled
-from model.instance import TYPE_COUNT
+from model.kernel.compiled import compiled
+from model.kernel.copying import copy_some
+from model.kernel.instance import TYPE_COUNT
 from model.problem import FloatArray, IntArray
-from model.rows import copy_some
-from model.search.layout import (
+from model.search.beginning.translate import empty_searcher
+from model.search.route.layout import (
     ELSEWHERE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, W_SLOT, World,
 )
-from model.search.refresh import locate
-from model.search.state import (
+from model.search.route.refresh import locate
+from model.search.route.state import (
     I_ACTIVE, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher,
     copy_route, keep_best, list_active,
 )
-from model.search.translate import empty_searcher
 
 DIVIDED_FROM = 200
 """Number of customers from which on each thread has a region of its own."""

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from model.search.construct import begin_again
-from model.search.layout import World
+from model.search.beginning.construct import begin_again
+from model.search.route.layout import World
+from model.search.route.state import V_BEST, Searcher
 from model.search.sharing import keep_best_of, make_rooms, take_all
-from model.search.state import V_BEST, Searcher
 
 
 class Starts:

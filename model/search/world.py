@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.alarm import silent
-from model.instance import (
+from model.kernel.alarm import silent
+from model.kernel.instance import (
     MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
     NODE_SERVICE, RATE_HOUR, TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_PROFILE, Instance,
@@ -15,7 +15,7 @@ from model.instance import (
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
-from model.search.layout import (
+from model.search.route.layout import (
     FAR, MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED,
     P_DEMAND, P_LIMIT, World,
 )

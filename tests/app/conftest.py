@@ -16,13 +16,13 @@ from sqlalchemy import Connection, Engine, event
 
 from app.main import create_app
 from app.settings import DEFAULT_POLICY, Settings
-from model.airspace import compile_ways
-from model.check import check
+from model.judge.check import check
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
+from model.kernel.warming import Tell, Warmth
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 from model.solution import Route, Solution
-from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.warming import Tell, Warmth
+from model.travel.airspace import compile_ways
 
 APP_DIR = Path(__file__).parents[2] / "app"
 

@@ -9,8 +9,8 @@ import pytest
 
 from app.schemas_response import PlanReply
 from app.settings import DEFAULT_POLICY
+from model.kernel.warming import Tell
 from model.planner import Planner
-from model.warming import Tell
 
 Request = dict[str, Any]
 

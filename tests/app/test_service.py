@@ -13,12 +13,12 @@ from app.main import create_app
 from app.schemas_request import OptionsInput
 from app.service import PlanService, ReceivedBody, answer, plan_options
 from app.settings import DEFAULT_POLICY, Settings
+from model.kernel.warming import Tell, Warmth
 from model.planner import (
     ALONE, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
 )
 from model.problem import Problem
 from model.solution import Solution
-from model.warming import Tell, Warmth
 from tests.app.conftest import FirstFitPlanner
 from tests.conftest import complete
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from app.warming import LINE_SECONDS, Lines, showing
-from model.warming import Warmth
+from model.kernel.warming import Warmth
 
 ROOT = Path(__file__).parents[2]
 
@@ -19,9 +19,9 @@ FLIGHTS_SCRIPT = """
 import sys
 from app.reading import read_request
 from app.replanning import task_of
-from model.airspace import compile_ways
-from model.detours import fly_around
-from model.visibility import mark_dead_ends, mark_hidden
+from model.travel.airspace import compile_ways
+from model.travel.detours import fly_around
+from model.travel.visibility import mark_dead_ends, mark_hidden
 
 functions = (fly_around, mark_dead_ends, mark_hidden)
 compile_ways()

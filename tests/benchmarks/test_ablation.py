@@ -12,8 +12,8 @@ from benchmarks.ablation import (
     table_of_pairs, table_of_starts, trial, ways,
 )
 from benchmarks.rows import append_rows, read_rows
-from model.decode import load_policy
 from model.planner import PlanCheckError
+from model.policy.decode import load_policy
 from model.problem import Customer, Problem, VehicleType
 from model.solution import Solution
 

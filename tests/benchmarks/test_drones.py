@@ -12,9 +12,9 @@ from benchmarks import drones
 from benchmarks.drones import DroneResult, Run, judge, plan, result, table
 from benchmarks.rows import append_rows, read_rows
 from benchmarks.truck_drone_rules import LOOPS, TruckDroneInstance
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import Customer, DroneType, Problem, VehicleType
 from model.solution import Solution
-from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
 
 BEST_WITHOUT_LOOPS = 4.0
 """The truck serves a, the drone b on the way out and c on the way home, or the other way round."""

@@ -14,7 +14,7 @@ from benchmarks.published import (
     to_problem,
     to_solution,
 )
-from model.check import check
+from model.judge.check import check
 from model.problem import UNLIMITED
 
 SOLOMON = """C901

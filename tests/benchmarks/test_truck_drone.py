@@ -10,10 +10,10 @@ from benchmarks.truck_drone import (
     load_vrpd_sacramento, load_vrptw_drone_joo_lee,
 )
 from benchmarks.truck_drone_rules import CROSSINGS, LOOPS, MIXED_LOADS, broken_rules
-from model.check import Evaluation, check
+from model.judge.check import Evaluation, check
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import Problem
 from model.solution import Solution
-from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
 
 AGATZ = """/*The speed of the Truck*/
 1.0

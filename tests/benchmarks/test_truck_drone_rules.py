@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 
 from benchmarks.truck_drone_rules import CROSSINGS, LOOPS, MIXED_LOADS, RULES, broken_rules
+from model.judge.rules import Violation
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import Customer, DroneType, Problem, VehicleType
-from model.rules import Violation
 from model.solution import Solution
-from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
 
 
 @pytest.fixture

@@ -1,20 +1,20 @@
 """What each action leads to, found in plain Python with the checker alone.
 
 A second reading of the decision process: it keeps the decisions of one vehicle, times them with
-`model.timing`, and asks `model.check` whether the vehicle could go home after one more action.
+`model.judge.timing`, and asks `check` whether the vehicle could go home after one more action.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from model.check import Evaluation, check
-from model.problem import UNREACHABLE, DroneType, Problem
-from model.rules import airborne_duration
-from model.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
-from model.solution import Route, Solution, Trip
-from model.timing import (
+from model.judge.check import Evaluation, check
+from model.judge.rules import airborne_duration
+from model.judge.timing import (
     Operation, RouteDecision, SortieDecision, TripDecision, held_until, schedule,
 )
+from model.problem import UNREACHABLE, DroneType, Problem
+from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
+from model.solution import Route, Solution, Trip
 
 MINUTE = 60_000
 

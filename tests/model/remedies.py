@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from model.explain import Reason
+from model.judge.explain import Reason
 from model.problem import Customer, DroneType, Problem, VehicleType
 
 MINUTE = 60_000

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from model import features
-from model import tokens as token_module
-from model.instance import Instance, pack
+from model.kernel.instance import Instance, pack
+from model.policy import features
+from model.policy import tokens as token_module
 from model.problem import (
     UNLIMITED, UNREACHABLE, Customer, DroneType, FloatArray, Problem, SpeedProfile, Travel,
     VehicleType,
 )
-from model.simulator import NUM_KINDS, RETURN, legal_actions, reset
-from model.transition import State
+from model.simulation.simulator import NUM_KINDS, RETURN, legal_actions, reset
+from model.simulation.transition import State
 from training.instances import VARIANTS, generate
 
 

@@ -3,12 +3,12 @@
 from dataclasses import replace
 from typing import Any
 
-from model.past import Vehicle
+from model.judge.past import Vehicle
+from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.planner import Planner, PlanOptions
 from model.problem import Problem
-from model.replan import Replanning, Terms
+from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
-from model.timing import RouteDecision, TripDecision, schedule
 
 MINUTE = 60_000
 ONE, TWO = Vehicle(0, 0), Vehicle(0, 1)

@@ -12,16 +12,16 @@ import numpy as np
 import pytest
 
 from model import planner as planner_module
-from model.check import check
+from model.judge.check import check
+from model.judge.rules import Violation
+from model.kernel.warming import Warmth
 from model.planner import (
     COMPILE_SEARCH, Listener, Planner, PlanCheckError, PlanOptions, PlanResult, beside,
     load_planner, small_problem,
 )
 from model.problem import Problem
-from model.rules import Violation
 from model.search.improve import Progress
 from model.solution import Solution
-from model.warming import Warmth
 from training.instances import VARIANTS, generate
 from training.variants import InstanceConfig
 

@@ -10,8 +10,8 @@ import onnxruntime as ort
 import pytest
 import torch
 
-from model.features import Observation
-from model.rolling import (
+from model.policy.features import Observation
+from model.policy.rollouts import (
     ACTION_WIDTH, CLIP, SHAPES, SHARE, STEP_WEIGHTS, candidate_scores, read_weights,
 )
 from training.export import WEIGHTS, Encoder, Step, example_inputs, export

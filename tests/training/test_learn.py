@@ -7,9 +7,9 @@ import pytest
 import torch
 from torch import Tensor
 
-from model.policy import PolicyNetwork
-from model.policy_attention import AttentionConfig, AttentionPolicy
-from model.policy_pointer import Critic, PointerConfig, PointerPolicy
+from model.policy.attention import AttentionConfig, AttentionPolicy
+from model.policy.network import PolicyNetwork
+from model.policy.pointer import Critic, PointerConfig, PointerPolicy
 from training.dataset import Decisions, chunks, join, paths
 from training.instances import VARIANTS, generate
 from training.learn import (

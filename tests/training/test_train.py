@@ -13,8 +13,8 @@ import torch
 
 from training.config import TrainConfig
 from training.export import export
+from training.heuristics import nearest_neighbour
 from training.policies import POLICIES
-from training.rules import nearest_neighbour
 from training.train import train, validation_batches
 
 TINY = TrainConfig(sizes=((0, 6), (2, 8)), num_problems=4, num_rollouts=3, warm_up=2)

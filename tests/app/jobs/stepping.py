@@ -15,13 +15,13 @@ import uvicorn
 
 from app.main import create_app
 from app.settings import DEFAULT_POLICY, Settings
-from model.check import check
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.kernel.warming import Tell, Warmth
 from model.planner import ALONE, Elapsed, Listener, PlanCheckError, PlanOptions, PlanResult
 from model.problem import Problem
 from model.search.improve import Progress
 from model.solution import Solution
-from model.timing import RouteDecision, TripDecision, schedule
-from model.warming import Tell, Warmth
 from tests.conftest import free_port
 
 ROOT = Path(__file__).parents[3]

@@ -16,7 +16,7 @@ from app.load.preparing import PATIENCE, Preparing, StoppedError
 from app.reading import read_request
 from app.replanning import task_of
 from app.settings import Settings
-from model.airspace import Flights
+from model.travel.airspace import Flights
 from tests.app.conftest import FirstFitPlanner
 from tests.app.load.waiting import until
 

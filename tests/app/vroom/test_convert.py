@@ -15,7 +15,7 @@ from app.vroom.models import Model, Routes
 from app.vroom.places import Places, find_places
 from app.vroom.schemas import VroomRequest, Window
 from app.vroom.timing import COST_SCALE, Driver
-from model.check import check
+from model.judge.check import check
 from tests.app.vroom.sampling import sample_request
 
 Data = dict[str, Any]

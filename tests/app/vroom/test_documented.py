@@ -9,8 +9,8 @@ import pytest
 
 from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.schemas_response import VroomReply
+from model.kernel.warming import Tell
 from model.planner import Planner
-from model.warming import Tell
 from tests.app.vroom.reference import solve
 
 Data = dict[str, Any]

@@ -10,12 +10,12 @@ from dataclasses import replace
 from functools import cache
 from itertools import combinations, pairwise, permutations
 
-from model.check import check
+from model.judge.check import check
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, DroneType, IntArray, Problem, VehicleType,
 )
 from model.solution import Route, Solution, Stop, Visit
-from model.timing import RouteDecision, SortieDecision, TripDecision, schedule
 
 STEP = 30_000
 """Departures are tried every half minute: enough where all else is in whole minutes."""

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.instance import pack
+from model.kernel.instance import pack
 from model.problem import Problem
-from model.search.anneal import ANY, anneal
-from model.search.construct import begin_anew
-from model.search.layout import World
-from model.search.state import I_BEST_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE
-from model.search.translate import make_searcher
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import make_searcher
+from model.search.moves.anneal import ANY, anneal
+from model.search.route.layout import World
+from model.search.route.state import I_BEST_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import generate

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.check import Evaluation, check
-from model.extract import extract
-from model.instance import pack
+from model.judge.check import Evaluation, check
+from model.judge.timing import RouteDecision, read_decision, schedule
+from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.improve import Improved, Progress, SearchConfig, improve
+from model.simulation.extract import extract
 from model.solution import Solution
-from model.timing import RouteDecision, read_decision, schedule
 from tests.model.rollouts import random_problems, roll
 from tests.model.tiny import draw_tiny
 from training.instances import VARIANTS, generate

@@ -7,16 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.check import check
-from model.instance import pack
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.kernel.instance import pack
 from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel, VehicleType
-from model.search.construct import begin_anew
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import make_searcher, read_plan
 from model.search.improve import SearchConfig, improve
-from model.search.state import I_MISSING, V_COST
-from model.search.translate import make_searcher, read_plan
+from model.search.route.state import I_MISSING, V_COST
 from model.search.world import make_world
 from model.solution import Route, Solution
-from model.timing import RouteDecision, TripDecision, schedule
 
 MINUTE = 60_000
 CUSTOMERS = 7

@@ -5,20 +5,20 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from model.compiled import compiled_on_arrays
-from model.instance import TYPE_TRAVEL, pack
+from model.kernel.compiled import compiled_on_arrays
+from model.kernel.instance import TYPE_TRAVEL, pack
 from model.problem import Problem
-from model.search.anneal import ANY, anneal
-from model.search.construct import begin_anew
-from model.search.edit import M_KIND
-from model.search.evaluate import INFEASIBLE
-from model.search.layout import (
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import make_searcher
+from model.search.insertion.evaluate import INFEASIBLE
+from model.search.insertion.places import try_route
+from model.search.moves.anneal import ANY, anneal
+from model.search.route.edit import M_KIND
+from model.search.route.layout import (
     B_BEST, B_BLINK, CHANGING, K_DETOUR, K_MOVE, K_STAMP, K_STOP, P_EARLIEST, P_LIMIT, P_SERVICE,
     R_LENGTH, R_STAMP, R_TYPE, S_LATEST, S_LEAVE, S_LEG, S_NODE, W_SLOT, World,
 )
-from model.search.places import try_route
-from model.search.state import I_ACTIVE, V_COST, V_TEMPERATURE, Searcher
-from model.search.translate import make_searcher
+from model.search.route.state import I_ACTIVE, V_COST, V_TEMPERATURE, Searcher
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import generate

@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.check import check
-from model.instance import pack
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
+from model.search.beginning.savings import savings_routes
+from model.search.beginning.translate import first_plan
 from model.search.improve import Improved, SearchConfig, improve
-from model.search.savings import savings_routes
-from model.search.translate import first_plan
 from model.search.world import Moves, make_world
 from model.solution import Solution
-from model.timing import RouteDecision, TripDecision, schedule
 
 MINUTE = 60_000
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.check import check
-from model.instance import pack
+from model.judge.check import check
+from model.kernel.instance import pack
 from model.problem import (
     FULL_SPEED, MM_PER_KM, Customer, Depot, DroneType, Problem, SpeedProfile, Travel,
     VehicleType,

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from model.check import check
-from model.instance import pack
-from model.search.construct import begin_anew
+from model.judge.check import check
+from model.kernel.instance import pack
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.layout import W_SLOT
+from model.search.route.layout import W_SLOT
 from model.search.sharing import DIVIDED_FROM, regions
-from model.search.translate import make_searcher
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import generate

@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
-from model.check import check
-from model.instance import pack
+from model.judge.check import check
+from model.kernel.instance import pack
 from model.problem import Problem
-from model.search.anneal import ANY, anneal
-from model.search.construct import begin_anew, insert_missing
+from model.search.beginning.construct import begin_anew, insert_missing
+from model.search.beginning.translate import make_searcher, read_plan
 from model.search.improve import (
     MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, START_TURNS_BY_TYPES, STARTS_SHARE,
     SearchConfig, improve,
 )
-from model.search.layout import World
-from model.search.recreate import BY_FAR
+from model.search.moves.anneal import ANY, anneal
+from model.search.moves.recreate import BY_FAR
+from model.search.route.layout import World
+from model.search.route.state import I_MISSING, V_BEST, V_COST, V_TEMPERATURE, Searcher
 from model.search.sharing import go_on_from_best
 from model.search.starts import Starts
-from model.search.state import I_MISSING, V_BEST, V_COST, V_TEMPERATURE, Searcher
-from model.search.translate import make_searcher, read_plan
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import VARIANTS, generate

@@ -1,0 +1,234 @@
+"""Judge of every plan: recomputes times, loads and costs and collects all broken rules.
+
+Shares nothing with simulator and search, so that it can judge both.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from model.judge.metrics import RouteMetrics, flight_legs, measure_route, measure_trip
+from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
+from model.judge.past_rules import begins_with, past_violations
+from model.judge.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
+from model.judge.timing import read_decision, resume_trip, schedule_trip
+from model.problem import UNREACHABLE, DroneType, Problem, VehicleType
+from model.solution import Cost, Route, Solution, Sortie, Trip
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """A judged plan; routes that can't be read have empty metrics and cost nothing."""
+
+    violations: tuple[Violation, ...]
+    cost: Cost
+    routes: tuple[RouteMetrics, ...]  # in the plan's order
+    makespan: int  # ms, the last return of any vehicle
+
+    @property
+    def is_feasible(self) -> bool:
+        """No rule is broken."""
+        return not self.violations
+
+
+def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN) -> Evaluation:
+    """Judge a plan, and whether it begins with what has happened."""
+    violations = [*_assignment_violations(problem, solution), *_fleet_violations(problem, solution)]
+    if past is not EVERYTHING_OPEN:
+        violations += past_violations(problem, solution, past)
+    metrics: list[RouteMetrics] = []
+    costs = [Cost(unassigned=len(solution.unassigned) * problem.unassigned_cost)]
+    makespan = 0
+    for index, route in enumerate(solution.routes):
+        judged = judge_route(problem, route, f"routes[{index}]", past)
+        violations += judged.violations
+        metrics.append(judged.metrics)
+        costs.append(judged.cost)
+        makespan = max(makespan, judged.end)
+    return Evaluation(tuple(violations), _total(costs), tuple(metrics), makespan)
+
+
+@dataclass(frozen=True)
+class JudgedRoute:
+    """A route on its own; one that can't be read has empty metrics and costs nothing."""
+
+    violations: list[Violation]
+    metrics: RouteMetrics
+    cost: Cost
+    end: int  # ms, the last return
+
+
+def judge_route(problem: Problem, route: Route, path: str,
+                past: Past = EVERYTHING_OPEN) -> JudgedRoute:
+    """Judge a route by the rules that concern it alone."""
+    violations = list(_unreadable(problem, route, path))
+    if violations:
+        return JudgedRoute(violations, RouteMetrics(), Cost(), 0)
+    vehicle_type = problem.vehicle_types[route.vehicle_type]
+    known = past.trips.get(Vehicle(route.vehicle_type, route.vehicle), ())
+    trips = [_time(problem, vehicle_type, trip, f"{path}.trips[{number}]",
+                   known[number] if number < len(known) else None, past.now)
+             for number, trip in enumerate(route.trips)]
+    timed = Route(route.vehicle_type, route.vehicle, tuple([trip.trip for trip in trips]))
+    measured, cost = measure_route(problem, timed, tuple([trip.metrics for trip in trips]))
+    for stated, trip in zip(route.trips, trips, strict=True):
+        violations += _mismatches(stated, trip.trip, trip.path)
+        violations += trip_violations(problem, vehicle_type, trip)
+    violations += route_violations(vehicle_type, trips, measured, path)
+    return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure)
+
+
+def _total(costs: list[Cost]) -> Cost:
+    return Cost(
+        fixed=sum([cost.fixed for cost in costs]),
+        distance=sum([cost.distance for cost in costs]),
+        time=sum([cost.time for cost in costs]),
+        lateness=sum([cost.lateness for cost in costs]),
+        earliness=sum([cost.earliness for cost in costs]),
+        unassigned=sum([cost.unassigned for cost in costs]),
+    )
+
+
+def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
+          known: KnownTrip | None, now: int) -> TimedTrip:
+    """Recompute a trip from the choices it states, and what is known of it."""
+    drones = vehicle_type.drones
+    decision = read_decision(stated, 0 if drones is None else drones.launch_duration)
+    if known is not None and begins_with(stated, known):
+        trip = resume_trip(problem, vehicle_type, decision, known, now)
+    else:
+        trip = schedule_trip(problem, vehicle_type, decision, 0)
+    return TimedTrip(decision, trip, measure_trip(problem, vehicle_type, trip), path)
+
+
+def _assignment_violations(problem: Problem, solution: Solution) -> Iterator[Violation]:
+    """Every customer is served once or unassigned."""
+    first, end = problem.num_depots, problem.num_nodes
+    nodes: list[int] = list(solution.unassigned)
+    for route in solution.routes:
+        for trip in route.trips:
+            nodes += [stop.node for stop in trip.stops[1:-1]]
+            for sortie in trip.sorties:
+                nodes += [visit.node for visit in sortie.visits]
+    for index, node in enumerate(solution.unassigned):
+        if not first <= node < end:
+            yield Violation("UNKNOWN_NODE", f"node {node} is no customer", f"unassigned[{index}]")
+    if len(nodes) == end - first and set(nodes) == set(range(first, end)):
+        return
+    times = Counter(nodes)
+    for index, customer in enumerate(problem.customers):
+        count = times[first + index]
+        if count == 0:
+            message = f"customer {customer.id} is neither served nor unassigned"
+            yield Violation("MISSING", message, f"customers[{index}]")
+        elif count > 1:
+            message = f"customer {customer.id} is in the plan {count} times"
+            yield Violation("DUPLICATE", message, f"customers[{index}]")
+
+
+def _fleet_violations(problem: Problem, solution: Solution) -> Iterator[Violation]:
+    """Every route has a vehicle of its own, and no more trips than that may make."""
+    used: set[tuple[int, int]] = set()
+    for index, route in enumerate(solution.routes):
+        path = f"routes[{index}]"
+        if not 0 <= route.vehicle_type < len(problem.vehicle_types):
+            continue
+        vehicle_type = problem.vehicle_types[route.vehicle_type]
+        if not 0 <= route.vehicle < vehicle_type.count:
+            message = f"vehicle {route.vehicle} of {vehicle_type.count} of {vehicle_type.id}"
+            yield Violation("COUNT", message, path)
+        if (route.vehicle_type, route.vehicle) in used:
+            message = f"vehicle {route.vehicle} of {vehicle_type.id} has another route"
+            yield Violation("COUNT", message, path)
+        used.add((route.vehicle_type, route.vehicle))
+        if len(route.trips) > vehicle_type.max_trips:
+            message = f"{len(route.trips)} trips, at most {vehicle_type.max_trips} are allowed"
+            yield Violation("MAX_TRIPS", message, path)
+
+
+def _unreadable(problem: Problem, route: Route, path: str) -> Iterator[Violation]:
+    """What keeps a route's times from being computed."""
+    if not route.trips:
+        yield Violation("EMPTY_TRIP", "a route without trips", path)
+    if not 0 <= route.vehicle_type < len(problem.vehicle_types):
+        yield Violation("UNKNOWN_TYPE", f"no vehicle type {route.vehicle_type}", path)
+        return
+    drones = problem.vehicle_types[route.vehicle_type].drones
+    for index, trip in enumerate(route.trips):
+        trip_path = f"{path}.trips[{index}]"
+        if len(trip.stops) < 2:
+            yield Violation("DEPOT", "a trip begins and ends at the depot", trip_path)
+            continue
+        yield from _unreadable_stops(problem, trip, trip_path)
+        if drones is None and trip.sorties:
+            yield Violation("COUNT", "sorties of a vehicle without drones", trip_path)
+        elif drones is not None:
+            for number, sortie in enumerate(trip.sorties):
+                sortie_path = f"{trip_path}.sorties[{number}]"
+                yield from _unreadable_sortie(problem, drones, trip, sortie, sortie_path)
+
+
+def _unreadable_stops(problem: Problem, trip: Trip, path: str) -> Iterator[Violation]:
+    first, end, last = problem.num_depots, problem.num_nodes, len(trip.stops) - 1
+    for index, stop in enumerate(trip.stops):
+        node = stop.node
+        if (0 < index < last and first <= node < end) or (index in (0, last) and 0 <= node < first):
+            continue
+        stop_path = f"{path}.stops[{index}]"
+        if not 0 <= node < end:
+            yield Violation("UNKNOWN_NODE", f"no node {node}", stop_path)
+        elif node < first:
+            yield Violation("DEPOT", f"depot {node} amid a trip", stop_path)
+        else:
+            yield Violation("DEPOT", f"node {node} is no depot to begin or end at", stop_path)
+
+
+def _unreadable_sortie(
+    problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie, path: str
+) -> Iterator[Violation]:
+    if not 0 <= sortie.launch_stop <= sortie.recovery_stop < len(trip.stops):
+        message = f"launch at stop {sortie.launch_stop}, recovery at stop {sortie.recovery_stop}"
+        yield Violation("SORTIE_STOPS", f"{message} of {len(trip.stops)}", path)
+        return
+    unknown = False
+    for index, visit in enumerate(sortie.visits):
+        if not problem.num_depots <= visit.node < problem.num_nodes:
+            unknown = True
+            message = f"node {visit.node} is no customer"
+            yield Violation("UNKNOWN_NODE", message, f"{path}.visits[{index}]")
+    travel = problem.travel[drones.travel]
+    for leg in flight_legs(trip, sortie):
+        if unknown or not all(0 <= node < problem.num_nodes for node in leg):
+            return
+        if UNREACHABLE in (travel.duration.item(*leg), travel.distance.item(*leg)):
+            yield Violation("UNREACHABLE", f"no flight from node {leg[0]} to {leg[1]}", path)
+
+
+def _mismatches(stated: Trip, timed: Trip, path: str) -> Iterator[Violation]:
+    """Stated times that differ from the computed ones."""
+    if stated == timed:
+        return
+    for index, (said, stop) in enumerate(zip(stated.stops, timed.stops, strict=True)):
+        yield from _mismatch(said, stop, ("arrival", "service_start", "departure"),
+                             f"{path}.stops[{index}]")
+    for index, (claim, sortie) in enumerate(zip(stated.sorties, timed.sorties, strict=True)):
+        sortie_path = f"{path}.sorties[{index}]"
+        yield from _mismatch(claim, sortie, ("launch_time", "recovery_start", "recovery_time"),
+                             sortie_path)
+        for number, (said_visit, visit) in enumerate(
+            zip(claim.visits, sortie.visits, strict=True)
+        ):
+            yield from _mismatch(said_visit, visit, ("arrival", "service_start", "departure"),
+                                 f"{sortie_path}.visits[{number}]")
+
+
+def _mismatch(
+    stated: object, timed: object, fields: tuple[str, ...], path: str
+) -> Iterator[Violation]:
+    wrong = [
+        f"{field} is {seconds(getattr(stated, field))}, computed {seconds(getattr(timed, field))}"
+        for field in fields
+        if getattr(stated, field) != getattr(timed, field)
+    ]
+    if wrong:
+        yield Violation("TIME_MISMATCH", "; ".join(wrong), path)

@@ -1,0 +1,95 @@
+"""The rules that a plan has to keep which begins with what has happened."""
+
+from collections.abc import Iterator
+
+from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
+from model.judge.rules import Violation, seconds
+from model.problem import Problem
+from model.solution import Route, Solution, Sortie, Stop, Trip
+
+PAST_RULES = frozenset({"FROZEN", "PAST", "UNAVAILABLE", "ABOARD", "PINNED", "RETURN"})
+"""Codes of the rules here."""
+
+
+def past_violations(problem: Problem, solution: Solution, past: Past) -> Iterator[Violation]:
+    """What a plan breaks of the past."""
+    routes = {Vehicle(route.vehicle_type, route.vehicle): route for route in solution.routes}
+    for vehicle, trips in past.trips.items():
+        if vehicle not in routes:
+            message = f"vehicle {vehicle.number + 1} has {len(trips)} trips behind it"
+            yield Violation("FROZEN", message, "routes")
+        elif len(routes[vehicle].trips) < len(trips):
+            path = f"routes[{solution.routes.index(routes[vehicle])}]"
+            yield Violation("FROZEN", f"{len(trips)} trips have begun", path)
+    carriers = past.carriers()
+    for index, route in enumerate(solution.routes):
+        yield from _route_violations(problem, route, past, carriers, f"routes[{index}]")
+
+
+def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict[int, Vehicle],
+                      path: str) -> Iterator[Violation]:
+    vehicle = Vehicle(route.vehicle_type, route.vehicle)
+    known = past.trips.get(vehicle, ())
+    if vehicle in past.unavailable and len(route.trips) > len(known):
+        yield Violation("UNAVAILABLE", f"does nothing more from {seconds(past.now)} on", path)
+    for number, trip in enumerate(route.trips):
+        trip_path = f"{path}.trips[{number}]"
+        begun = known[number] if number < len(known) else None
+        if begun is not None and not begins_with(trip, begun):
+            yield Violation("FROZEN", "differs from what has happened", trip_path)
+        elif begun is None and trip.stops and trip.stops[0].arrival < past.now:
+            message = f"begins at {seconds(trip.stops[0].arrival)}, before {seconds(past.now)}"
+            yield Violation("PAST", message, trip_path)
+        for node in _new_customers(trip, begun):
+            if not problem.num_depots <= node < problem.num_nodes:
+                continue
+            name = problem.customer_at(node).id
+            if begun is not None and (begun.rest != "anything" or node not in begun.aboard):
+                yield Violation("ABOARD", f"the parcel of {name} is not aboard", trip_path)
+            elif carriers.get(node, vehicle) != vehicle:
+                yield Violation("ABOARD", f"the parcel of {name} is aboard another", trip_path)
+            if past.pinned.get(node, vehicle) != vehicle:
+                yield Violation("PINNED", f"{name} is another vehicle's", trip_path)
+            back = past.returned.get(node, 0)
+            if begun is None and trip.stops and trip.stops[0].arrival < back:
+                message = f"the parcel of {name} is at the depot again at {seconds(back)}"
+                yield Violation("RETURN", message, trip_path)
+
+
+def _new_customers(trip: Trip, begun: KnownTrip | None) -> Iterator[int]:
+    """Yield the customers of a trip of whom nothing was known."""
+    stops, flights = (0, 0) if begun is None else (len(begun.stops), len(begun.sorties))
+    yield from (stop.node for stop in trip.stops[max(1, stops):-1])
+    for sortie in trip.sorties[flights:]:
+        yield from (visit.node for visit in sortie.visits)
+
+
+def begins_with(trip: Trip, known: KnownTrip) -> bool:
+    """Tell whether a trip begins with what is known of it."""
+    flights, length = len(known.sorties), len(known.stops)
+    if known.rest == "anything":
+        fits = len(trip.stops) >= length
+    else:
+        fits = (len(trip.stops) == length + (known.rest == "home")
+                and len(trip.sorties) == flights)
+    return (fits and len(trip.sorties) >= flights
+            and all(map(_is_stop, trip.stops, known.stops))
+            and all(_is_sortie(sortie, fact, trip, length)
+                    for sortie, fact in zip(trip.sorties, known.sorties, strict=False)))
+
+
+def _is_stop(stop: Stop, known: KnownStop) -> bool:
+    return (stop.node == known.node and stop.arrival == known.arrival
+            and known.service_start in (None, stop.service_start)
+            and known.departure in (None, stop.departure))
+
+
+def _is_sortie(sortie: Sortie, known: KnownSortie, trip: Trip, known_stops: int) -> bool:
+    if not known_stops <= sortie.recovery_stop < len(trip.stops):
+        is_there = sortie.recovery_stop == known.recovery_stop
+    else:
+        is_there = (known.recovery_stop is None
+                    and trip.stops[sortie.recovery_stop].node == known.recovery_node)
+    return (is_there and (sortie.drone, sortie.launch_stop, sortie.visits,
+                          sortie.launch_time) == known[:4]
+            and known.recovery_start in (None, sortie.recovery_start))

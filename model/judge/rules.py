@@ -1,0 +1,176 @@
+"""The rules that a timed route has to keep."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from operator import gt
+
+from model.judge.metrics import RouteMetrics, TripMetrics
+from model.judge.timing import TripDecision, latest_release
+from model.problem import USUAL_DECIMALS, DroneType, Problem, VehicleType
+from model.solution import Sortie, Stop, Trip, Visit
+
+
+@dataclass(frozen=True)
+class Violation:
+    """A broken rule."""
+
+    code: str
+    message: str
+    path: str  # of the offender, such as routes[0].trips[1].stops[2]
+
+
+@dataclass(frozen=True)
+class TimedTrip:
+    """A trip with the choices it states and the times that follow from them."""
+
+    decision: TripDecision
+    trip: Trip
+    metrics: TripMetrics
+    path: str
+
+
+def decimal(parts: int, places: int = USUAL_DECIMALS) -> str:
+    """Return thousandths, or other decimal parts, as a decimal number for people."""
+    return f"{parts / 10**places:.{places}f}".rstrip("0").rstrip(".")
+
+
+def seconds(time: int) -> str:
+    """Return a time or duration for people."""
+    return f"{decimal(time)} s"
+
+
+def amounts(problem: Problem, load: tuple[int, ...]) -> str:
+    """Return the amounts of a load or capacity for people."""
+    return ", ".join(decimal(amount, places) for amount, places
+                     in zip(load, problem.amount_decimals, strict=True))
+
+
+def _exceeds(load: tuple[int, ...], limits: tuple[int, ...]) -> bool:
+    return any(map(gt, load, limits))
+
+
+def trip_violations(
+    problem: Problem, vehicle_type: VehicleType, timed: TimedTrip
+) -> Iterator[Violation]:
+    """What a trip breaks on its own."""
+    trip, metrics, path = timed.trip, timed.metrics, timed.path
+    if len(trip.stops) == 2 and not any(sortie.visits for sortie in trip.sorties):
+        yield Violation("EMPTY_TRIP", "a trip without customers", path)
+    for index in (0, -1):
+        if trip.stops[index].node != vehicle_type.depot:
+            message = f"depot {trip.stops[index].node} is not home of {vehicle_type.id}"
+            yield Violation("DEPOT", message, f"{path}.stops[{index % len(trip.stops)}]")
+    if _exceeds(metrics.load, vehicle_type.capacity):
+        message = (f"load {amounts(problem, metrics.load)} exceeds "
+                   f"{amounts(problem, vehicle_type.capacity)}")
+        yield Violation("CAPACITY", message, path)
+    limit = vehicle_type.max_trip_distance
+    if limit is not None and metrics.distance > limit:
+        message = f"{decimal(metrics.distance)} m, at most {decimal(limit)} m are allowed"
+        yield Violation("TRIP_DISTANCE", message, path)
+    release = latest_release(problem, timed.decision)
+    if trip.stops[0].arrival < release:
+        message = f"begins at {seconds(trip.stops[0].arrival)}, released at {seconds(release)}"
+        yield Violation("RELEASE", message, path)
+    yield from _halt_violations(problem, vehicle_type, trip.stops[1:-1], f"{path}.stops", 1)
+    drones = vehicle_type.drones
+    if drones is not None and trip.sorties:
+        yield from _drone_busy(timed)
+        for index, sortie in enumerate(trip.sorties):
+            sortie_path = f"{path}.sorties[{index}]"
+            yield from _sortie_violations(problem, vehicle_type, drones, trip, sortie, sortie_path)
+
+
+def _halt_violations(
+    problem: Problem,
+    vehicle_type: VehicleType,
+    halts: Sequence[Stop | Visit],
+    path: str,
+    first_index: int,
+) -> Iterator[Violation]:
+    """What customers demand of those who come: kind of vehicle, skills and window."""
+    first_customer = len(problem.depots)
+    for index, halt in enumerate(halts, first_index):
+        customer = problem.customers[halt.node - first_customer]
+        kind = "truck" if isinstance(halt, Stop) else "drone"
+        if customer.served_by not in (kind, "either"):
+            message = f"customer {customer.id} is served by {customer.served_by} only"
+            yield Violation("SERVED_BY", message, f"{path}[{index}]")
+        if not customer.skills <= vehicle_type.skills:
+            missing = ", ".join(sorted(customer.skills - vehicle_type.skills))
+            yield Violation("SKILLS", f"{vehicle_type.id} lacks {missing}", f"{path}[{index}]")
+        if halt.arrival > customer.latest and customer.late_cost_per_hour is None:
+            message = (f"customer {customer.id} is reached at {seconds(halt.arrival)}, "
+                       f"after {seconds(customer.latest)}")
+            yield Violation("TIME_WINDOW", message, f"{path}[{index}]")
+
+
+def _drone_busy(timed: TimedTrip) -> Iterator[Violation]:
+    """A drone is aboard when it is launched."""
+    flying: set[int] = set()
+    for group in timed.decision.operations or ():
+        for index, is_launch in group:
+            drone = timed.decision.sorties[index].drone
+            if not is_launch:
+                flying.discard(drone)
+            elif drone in flying:
+                path = f"{timed.path}.sorties[{index}]"
+                yield Violation("DRONE_BUSY", f"drone {drone} is still on a sortie", path)
+            else:
+                flying.add(drone)
+
+
+def _sortie_violations(
+    problem: Problem,
+    vehicle_type: VehicleType,
+    drones: DroneType,
+    trip: Trip,
+    sortie: Sortie,
+    path: str,
+) -> Iterator[Violation]:
+    if not 0 <= sortie.drone < drones.count:
+        yield Violation("COUNT", f"drone {sortie.drone} of {drones.count}", path)
+    if not 1 <= len(sortie.visits) <= drones.max_customers_per_sortie:
+        message = f"{len(sortie.visits)} customers, 1 to {drones.max_customers_per_sortie} allowed"
+        yield Violation("SORTIE_SIZE", message, path)
+    yield from _halt_violations(problem, vehicle_type, sortie.visits, f"{path}.visits", 0)
+    demands = [problem.customer_at(visit.node).demand for visit in sortie.visits]
+    payload = tuple(map(sum, zip(*demands, strict=True)))
+    if _exceeds(payload, drones.capacity):
+        message = (f"payload {amounts(problem, payload)} exceeds "
+                   f"{amounts(problem, drones.capacity)}")
+        yield Violation("PAYLOAD", message, path)
+    flight = airborne_duration(problem, drones, trip, sortie)
+    if flight > drones.endurance:
+        message = f"{seconds(flight)} in the air, endurance is {seconds(drones.endurance)}"
+        yield Violation("ENDURANCE", message, path)
+
+
+def airborne_duration(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie) -> int:
+    """Return what counts against endurance."""
+    if drones.endurance_includes_waiting or not sortie.visits:
+        return sortie.recovery_start - sortie.launch_time
+    last, node = sortie.visits[-1], trip.stops[sortie.recovery_stop].node
+    homeward = problem.travel[drones.travel].duration.item(last.node, node)
+    return last.departure + homeward - sortie.launch_time
+
+
+def route_violations(
+    vehicle_type: VehicleType, trips: list[TimedTrip], metrics: RouteMetrics, path: str
+) -> Iterator[Violation]:
+    """What trips break together: shift, reloading and working duration."""
+    ready = vehicle_type.earliest
+    for index, timed in enumerate(trips):
+        begin, end = timed.trip.stops[0].arrival, timed.trip.stops[-1].departure
+        if begin < ready:
+            code, cause = ("RELOAD", "reloaded") if index else ("SHIFT", "on shift")
+            message = f"begins at {seconds(begin)}, {cause} at {seconds(ready)}"
+            yield Violation(code, message, timed.path)
+        if end > vehicle_type.latest:
+            message = f"ends at {seconds(end)}, shift ends at {seconds(vehicle_type.latest)}"
+            yield Violation("SHIFT", message, timed.path)
+        ready = end + vehicle_type.reload_duration
+    limit = vehicle_type.max_working_duration
+    if limit is not None and metrics.working_duration > limit:
+        message = f"works {seconds(metrics.working_duration)}, at most {seconds(limit)} are allowed"
+        yield Violation("WORKING_DURATION", message, path)

@@ -1,0 +1,384 @@
+"""When everything in a route happens, from the decisions that leave a choice.
+
+A decision fixes sequences, the order of launches and recoveries at each stop and when a trip
+begins; every other time follows as soon as possible, but for launches: one is held back as long as
+windows would let its flight last longer than the endurance. Times in ms, plain Python integers.
+"""
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from model.judge.past import KnownStop, KnownTrip
+from model.problem import FULL_SPEED, DroneType, Problem, SpeedProfile, VehicleType
+from model.solution import Route, Sortie, Stop, Trip, Visit
+
+
+class Operation(NamedTuple):
+    """Launch or recovery of a sortie at a stop."""
+
+    sortie: int  # index into TripDecision.sorties
+    is_launch: bool
+
+
+@dataclass(frozen=True)
+class SortieDecision:
+    """Who flies where."""
+
+    nodes: tuple[int, ...]  # customers, in order
+    launch_stop: int  # index into TripDecision.nodes
+    recovery_stop: int
+    drone: int = 0
+
+
+@dataclass(frozen=True)
+class TripDecision:
+    """What is free to choose in a trip."""
+
+    nodes: tuple[int, ...]  # of all stops, depots included
+    sorties: tuple[SortieDecision, ...] = ()
+    operations: tuple[tuple[Operation, ...], ...] | None = None  # per stop; None: by arrival
+    start: int | None = None  # arrival at the first stop; None: as soon as possible
+
+    def __post_init__(self) -> None:
+        if len(self.nodes) < 2:
+            raise ValueError(f"trip nodes: {self.nodes!r} is not allowed")
+        for sortie in self.sorties:
+            if not 0 <= sortie.launch_stop <= sortie.recovery_stop < len(self.nodes):
+                raise ValueError(f"sortie stops: {sortie!r} is not allowed")
+        if self.operations is not None and not _is_complete(self.operations, self.sorties):
+            raise ValueError(f"trip operations: {self.operations!r} is not allowed")
+
+
+@dataclass(frozen=True)
+class RouteDecision:
+    """What is free to choose in a route."""
+
+    vehicle_type: int
+    vehicle: int
+    trips: tuple[TripDecision, ...]
+
+
+@dataclass
+class _Flight:
+    """A sortie that has taken off."""
+
+    launch_time: int
+    visits: tuple[Visit, ...]
+    arrival: int  # at the recovery stop's node
+    recovery_start: int = 0
+
+
+def _is_complete(
+    operations: tuple[tuple[Operation, ...], ...], sorties: tuple[SortieDecision, ...]
+) -> bool:
+    """Tell whether every sortie is launched and then recovered, once each, at its stops."""
+    planned = [
+        (stop, operation.sortie, not operation.is_launch)
+        for stop, group in enumerate(operations)
+        for operation in group
+    ]
+    needed = [
+        place
+        for index, sortie in enumerate(sorties)
+        for place in ((sortie.launch_stop, index, False), (sortie.recovery_stop, index, True))
+    ]
+    position = {place: index for index, place in enumerate(planned)}
+    return sorted(planned) == sorted(needed) and all(
+        position[launch] < position[recovery]
+        for launch, recovery in zip(needed[::2], needed[1::2], strict=True)
+    )
+
+
+def leg_end(departure: int, duration: int, profile: SpeedProfile | None) -> int:
+    """Return when a leg of a matrix duration ends, rounded up to a millisecond."""
+    if profile is None:
+        return departure + duration
+    work = duration * FULL_SPEED
+    time = departure
+    for change in range(bisect_right(profile.times, departure), len(profile.times)):
+        until_change = (profile.times[change] - time) * profile.factors[change]
+        if work <= until_change:
+            return time - -work // profile.factors[change]
+        work -= until_change
+        time = profile.times[change]
+    return time - -work // profile.factors[-1]
+
+
+def leg_start(arrival: int, duration: int, profile: SpeedProfile | None) -> int:
+    """Return the latest departure whose leg ends no later than `arrival`."""
+    if profile is None:
+        return arrival - duration
+    work = duration * FULL_SPEED
+    time = arrival
+    for change in range(bisect_left(profile.times, arrival) - 1, -1, -1):
+        since_change = (time - profile.times[change]) * profile.factors[change + 1]
+        if work <= since_change:
+            return time + -work // profile.factors[change + 1]
+        work -= since_change
+        time = profile.times[change]
+    return time + -work // profile.factors[0]
+
+
+def read_decision(trip: Trip, launch_duration: int) -> TripDecision:
+    """Return the choices that a timed trip states; the order at a stop is that of beginnings.
+
+    Operations that take no time come before others that begin with them, as their times demand.
+    """
+    nodes = tuple([stop.node for stop in trip.stops])
+    start = trip.stops[0].arrival
+    if not trip.sorties:
+        return TripDecision(nodes, (), None, start)
+    keyed: list[list[tuple[tuple[int, ...], Operation]]] = [[] for _ in nodes]
+    sorties = []
+    for index, sortie in enumerate(trip.sorties):
+        visited = tuple([visit.node for visit in sortie.visits])
+        first, last = sortie.launch_stop, sortie.recovery_stop
+        sorties.append(SortieDecision(visited, first, last, sortie.drone))
+        begin, end = sortie.launch_time - launch_duration, sortie.launch_time
+        phase = 1 if first == last else 2
+        keyed[first].append(((begin, end, phase, index, 0), Operation(index, True)))
+        recovery = (sortie.recovery_start, sortie.recovery_time, 0, index, 1)
+        if first == last and sortie.recovery_start <= sortie.launch_time:
+            recovery = (max(begin, recovery[0]), max(end, recovery[1]), phase, index, 1)
+        keyed[last].append((recovery, Operation(index, False)))
+    operations = tuple(tuple(operation for _, operation in sorted(group)) for group in keyed)
+    return TripDecision(nodes, tuple(sorties), operations, start)
+
+
+def latest_release(problem: Problem, decision: TripDecision) -> int:
+    """Return when the last parcel of a trip is at the depot."""
+    customers, first = problem.customers, len(problem.depots)
+    release = max([customers[node - first].release_time for node in decision.nodes[1:-1]],
+                  default=0)
+    for sortie in decision.sorties:
+        for node in sortie.nodes:
+            release = max(release, customers[node - first].release_time)
+    return release
+
+
+def _fly(problem: Problem, drones: DroneType, decision: TripDecision, sortie: SortieDecision,
+         launch_time: int) -> _Flight:
+    """Return the flight of a sortie that takes off at `launch_time`."""
+    duration = problem.travel[drones.travel].duration
+    first = len(problem.depots)
+    node, time = decision.nodes[sortie.launch_stop], launch_time
+    visits = []
+    for following in sortie.nodes:
+        customer = problem.customers[following - first]
+        arrival = time + duration.item(node, following)
+        start = max(arrival, customer.earliest)
+        service = drones.service_duration
+        time = start + (customer.service_duration if service is None else service)
+        visits.append(Visit(following, arrival, start, time))
+        node = following
+    return _flight(problem, drones, decision, sortie, launch_time, tuple(visits))
+
+
+def _flight(problem: Problem, drones: DroneType, decision: TripDecision, sortie: SortieDecision,
+            launch_time: int, visits: tuple[Visit, ...]) -> _Flight:
+    """Return the flight of a sortie whose visits are timed, so that it is known when it is back."""
+    node, time = decision.nodes[sortie.launch_stop], launch_time
+    if visits:
+        node, time = visits[-1].node, visits[-1].departure
+    home = problem.travel[drones.travel].duration.item(
+        node, decision.nodes[sortie.recovery_stop])
+    return _Flight(launch_time, visits, time + home)
+
+
+def held_until(problem: Problem, drones: DroneType, decision: TripDecision,
+               sortie: SortieDecision) -> int:
+    """Return the earliest take-off after which windows let a drone be back within its endurance.
+
+    0 where the flight is too long in any case, since holding it back wouldn't help.
+    """
+    duration, first = problem.travel[drones.travel].duration, len(problem.depots)
+    place = decision.nodes[sortie.recovery_stop]
+    to_fly = back = 0
+    for node in reversed(sortie.nodes):
+        customer = problem.customers[node - first]
+        service = drones.service_duration
+        to_fly += duration.item(node, place) + (
+            customer.service_duration if service is None else service)
+        back = max(back, customer.earliest + to_fly)
+        place = node
+    to_fly += duration.item(decision.nodes[sortie.launch_stop], place)
+    return back - drones.endurance if to_fly <= drones.endurance else 0
+
+
+def _by_arrival(
+    sorties: tuple[SortieDecision, ...], stop: int, flights: dict[int, _Flight]
+) -> Iterator[Operation]:
+    """Yield recoveries of earlier sorties, then launches, then recoveries of loops.
+
+    A drone's loop ends before it is launched again, and with it those that are back sooner.
+    `flights` fills in the meantime.
+    """
+    def arrival(index: int) -> tuple[int, int]:
+        return flights[index].arrival, index
+
+    ends_here = [index for index, sortie in enumerate(sorties) if sortie.recovery_stop == stop]
+    for index in sorted([i for i in ends_here if sorties[i].launch_stop < stop], key=arrival):
+        yield Operation(index, False)
+    loops: list[int] = []
+    for index, sortie in enumerate(sorties):
+        if sortie.launch_stop == stop:
+            last = max([arrival(i) for i in loops if sorties[i].drone == sortie.drone],
+                       default=(-1, -1))
+            for loop in sorted([i for i in loops if arrival(i) <= last], key=arrival):
+                loops.remove(loop)
+                yield Operation(loop, False)
+            yield Operation(index, True)
+            if sortie.recovery_stop == stop:
+                loops.append(index)
+    for index in sorted(loops, key=arrival):
+        yield Operation(index, False)
+
+
+def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: int, time: int,
+             flights: dict[int, _Flight], known: KnownTrip | None = None, now: int = 0) -> int:
+    """Launch and recover at a stop from `time` on, in place; return when all is done.
+
+    What is known stays, and nothing else begins before `now`.
+    """
+    operations: Iterable[Operation]
+    if decision.operations is None:
+        operations = _by_arrival(decision.sorties, stop, flights)
+    else:
+        operations = decision.operations[stop]
+    facts, earliest = ((), time) if known is None else (known.sorties, now)
+    for index, is_launch in operations:
+        fact = facts[index] if index < len(facts) else None
+        sortie = decision.sorties[index]
+        if is_launch and fact is not None:
+            time = fact.launch_time
+            flights[index] = _flight(problem, drones, decision, sortie, time, fact.visits)
+        elif is_launch:
+            time = max(max(time, earliest) + drones.launch_duration,
+                       held_until(problem, drones, decision, sortie))
+            flights[index] = _fly(problem, drones, decision, sortie, time)
+        else:
+            flight = flights[index]
+            begun = None if fact is None else fact.recovery_start
+            flight.recovery_start = (max(time, flight.arrival, earliest) if begun is None
+                                     else begun)
+            time = flight.recovery_start + drones.recovery_duration
+    return time
+
+
+def _timed_sorties(
+    decision: TripDecision, flights: dict[int, _Flight], recovery_duration: int
+) -> tuple[Sortie, ...]:
+    return tuple(
+        Sortie(sortie.drone, sortie.launch_stop, sortie.recovery_stop, flights[index].visits,
+               flights[index].launch_time, flights[index].recovery_start,
+               flights[index].recovery_start + recovery_duration)
+        for index, sortie in enumerate(decision.sorties)
+    )
+
+
+def schedule_trip(
+    problem: Problem, vehicle_type: VehicleType, decision: TripDecision, ready: int
+) -> Trip:
+    """Return a trip with its times; without a start of its own it begins once `ready`."""
+    duration = problem.travel[vehicle_type.travel].duration
+    profile, drones = vehicle_type.speed_profile, vehicle_type.drones
+    customers, first, last = problem.customers, len(problem.depots), len(decision.nodes) - 1
+    flights: dict[int, _Flight] = {}
+    stops: list[Stop] = []
+    arrival = decision.start
+    if arrival is None:
+        arrival = max(ready, latest_release(problem, decision))
+    departure = node = 0
+    for index, following in enumerate(decision.nodes):
+        if index:
+            arrival = leg_end(departure, duration.item(node, following), profile)
+        node = following
+        service_start = departure = arrival
+        if 0 < index < last:
+            customer = customers[node - first]
+            service_start = max(arrival, customer.earliest)
+            departure = service_start + customer.service_duration
+        if drones is not None and decision.sorties:
+            departure = max(departure,
+                            _operate(problem, drones, decision, index, arrival, flights))
+        stops.append(Stop(node, arrival, service_start, departure))
+    if drones is None or not decision.sorties:
+        return Trip(tuple(stops))
+    return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
+
+
+def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
+                known: KnownTrip, now: int) -> Trip:
+    """Return a trip that is under way with its times.
+
+    What is known stays, its sorties being the first of the decision; all else follows as soon as
+    possible from `now` on.
+    """
+    duration = problem.travel[vehicle_type.travel].duration
+    drones = vehicle_type.drones
+    flights: dict[int, _Flight] = {}
+    stops: list[Stop] = []
+    for index, node in enumerate(decision.nodes):
+        fact = known.stops[index] if index < len(known.stops) else None
+        if fact is not None:
+            arrival = fact.arrival
+        else:
+            leg = duration.item(stops[-1].node, node)
+            arrival = max(now, leg_end(stops[-1].departure, leg, vehicle_type.speed_profile))
+        service_start, departure = _resume_service(problem, node, arrival, fact, now)
+        if drones is not None and decision.sorties:
+            departure = max(departure, _operate(problem, drones, decision, index, arrival, flights,
+                                                known, now))
+        departure = max(departure, now)
+        if fact is not None and fact.departure is not None:
+            departure = fact.departure
+        stops.append(Stop(node, arrival, service_start, departure))
+    if drones is None or not decision.sorties:
+        return Trip(tuple(stops))
+    return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
+
+
+def _resume_service(problem: Problem, node: int, arrival: int, fact: KnownStop | None,
+                    now: int) -> tuple[int, int]:
+    """Return when service at a stop begins and ends; at depots, the arrival."""
+    if node < problem.num_depots:
+        return arrival, arrival
+    customer = problem.customer_at(node)
+    begun = None if fact is None else fact.service_start
+    start = max(arrival, customer.earliest, now) if begun is None else begun
+    return start, start + customer.service_duration
+
+
+def schedule(problem: Problem, decision: RouteDecision) -> Route:
+    """Return a route with its times; whether it is legal is for `check` to say.
+
+    Raises
+    ------
+    ValueError
+        If the decision names a vehicle type or a node that is not there, or has sorties where
+        the type has no drones.
+    """
+    if not 0 <= decision.vehicle_type < len(problem.vehicle_types):
+        raise ValueError(f"route vehicle_type: {decision.vehicle_type!r} is not allowed")
+    vehicle_type = problem.vehicle_types[decision.vehicle_type]
+    trips = []
+    ready = vehicle_type.earliest
+    for trip in decision.trips:
+        _require_known(problem, vehicle_type, trip)
+        trips.append(schedule_trip(problem, vehicle_type, trip, ready))
+        ready = trips[-1].stops[-1].departure + vehicle_type.reload_duration
+    return Route(decision.vehicle_type, decision.vehicle, tuple(trips))
+
+
+def _require_known(problem: Problem, vehicle_type: VehicleType, decision: TripDecision) -> None:
+    """Raise `ValueError` for a node or a drone that is not there."""
+    if decision.sorties and vehicle_type.drones is None:
+        raise ValueError(f"trip sorties: {decision.sorties!r} is not allowed")
+    for node in (decision.nodes[0], decision.nodes[-1]):
+        if not 0 <= node < problem.num_depots:
+            raise ValueError(f"trip depot: {node!r} is not allowed")
+    visited = [*decision.nodes[1:-1], *(node for s in decision.sorties for node in s.nodes)]
+    for node in visited:
+        problem.customer_at(node)

@@ -1,0 +1,154 @@
+"""Trips on which one customer is tried alone, on a vehicle that nobody else uses."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from model.judge.check import Evaluation, check
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, leg_start, schedule
+from model.problem import Customer, DroneType, Problem, Travel, VehicleType
+from model.solution import Solution
+
+MAX_LAUNCH_PLACES = 4
+"""Other customers' places, nearest first, where a drone is tried if it fails from the depot."""
+
+
+class Attempt(NamedTuple):
+    """The customer, the last one of a problem of its own, on one trip."""
+
+    problem: Problem
+    solution: Solution
+    evaluation: Evaluation
+
+    @property
+    def customer(self) -> Customer:
+        """The customer who is tried."""
+        return self.problem.customers[-1]
+
+    @property
+    def vehicle_type(self) -> VehicleType:
+        """The type of the vehicle."""
+        return self.problem.vehicle_types[0]
+
+    @property
+    def codes(self) -> set[str]:
+        """Which rules are broken."""
+        return {violation.code for violation in self.evaluation.violations}
+
+
+def small_problem(problem: Problem, vehicle_type: VehicleType, nodes: list[int]) -> Problem:
+    """Return a problem of one vehicle, its home depot and the customers at `nodes`."""
+    places = np.array([vehicle_type.depot, *nodes])
+    grid = np.ix_(places, places)
+    drones = vehicle_type.drones
+    kinds = [problem.travel[vehicle_type.travel]]
+    if drones is not None:
+        kinds.append(problem.travel[drones.travel])
+        drones = replace(drones, travel=1)
+    return Problem(
+        depots=(problem.depots[vehicle_type.depot],),
+        customers=tuple([problem.customer_at(node) for node in nodes]),
+        vehicle_types=(replace(vehicle_type, depot=0, travel=0, drones=drones),),
+        travel=tuple([Travel(kind.duration[grid], kind.distance[grid]) for kind in kinds]),
+        coordinates=problem.coordinates[places],
+        unassigned_cost=problem.unassigned_cost,
+        amount_decimals=problem.amount_decimals,
+    )
+
+
+def _judge(problem: Problem, decision: TripDecision) -> Attempt:
+    solution = Solution((schedule(problem, RouteDecision(0, 0, (decision,))),))
+    return Attempt(problem, solution, check(problem, solution))
+
+
+def attempts(problem: Problem, vehicle_type: VehicleType, node: int) -> Iterator[Attempt]:
+    """Yield trips that might serve a customer, as long as there is hope."""
+    customer, drones = problem.customer_at(node), vehicle_type.drones
+    small = small_problem(problem, vehicle_type, [node])
+    if customer.served_by != "drone":
+        for attempt in try_truck(small):
+            yield attempt
+            if attempt.codes & {"SKILLS", "CAPACITY"}:
+                return
+    if customer.served_by != "truck" and drones is not None:
+        loop = _try_loop(small, drones)
+        yield loop
+        if not loop.codes & {"SKILLS", "CAPACITY", "PAYLOAD"}:
+            for place in _launch_places(problem, vehicle_type, drones, node):
+                small = small_problem(problem, vehicle_type, [place, node])
+                yield _try_loop_from_customer(small, drones)
+
+
+def try_truck(problem: Problem) -> Iterator[Attempt]:
+    """Yield trips that don't wait for the window to open where a later start avoids that.
+
+    Other starts matter only for the working duration, when the speed changes: it is shortest
+    when a leg begins or ends at a change.
+    """
+    vehicle_type, customer = problem.vehicle_types[0], problem.customers[0]
+    profile, duration = vehicle_type.speed_profile, problem.travel[0].duration
+    outward, homeward = duration.item(0, 1), duration.item(1, 0)
+    earliest = max(vehicle_type.earliest, customer.release_time)
+    start = max(earliest, leg_start(customer.earliest, outward, profile))
+    first = _judge(problem, TripDecision((0, 1, 0), start=start))
+    yield first
+    if profile is None or first.codes != {"WORKING_DURATION"}:
+        return
+    for change in profile.times:
+        yield from (
+            _judge(problem, TripDecision((0, 1, 0), start=start))
+            for start in (
+                change,
+                leg_start(change, outward, profile),
+                leg_start(change - customer.service_duration, outward, profile),
+                leg_start(leg_start(change, homeward, profile) - customer.service_duration,
+                          outward, profile),
+            )
+            if start >= earliest
+        )
+
+
+def _try_loop(problem: Problem, drones: DroneType) -> Attempt:
+    """Return a flight from the depot and back."""
+    customer = problem.customers[0]
+    flight = problem.travel[1].duration.item(0, 1)
+    start = max(problem.vehicle_types[0].earliest, customer.release_time,
+                customer.earliest - flight - drones.launch_duration)
+    return _judge(problem, TripDecision((0, 0), (SortieDecision((1,), 0, 0),), start=start))
+
+
+def _try_loop_from_customer(problem: Problem, drones: DroneType) -> Attempt:
+    """Return a trip to the first customer with a loop to the second from there."""
+    vehicle_type, (host, customer) = problem.vehicle_types[0], problem.customers
+    approach = drones.launch_duration + problem.travel[1].duration.item(1, 2)
+    arrival = min(max(host.earliest, customer.earliest - approach), host.latest,
+                  customer.latest - approach)
+    outward = problem.travel[0].duration.item(0, 1)
+    start = max(vehicle_type.earliest, host.release_time, customer.release_time,
+                leg_start(arrival, outward, vehicle_type.speed_profile))
+    return _judge(problem, TripDecision((0, 1, 0), (SortieDecision((2,), 1, 1),), start=start))
+
+
+def _launch_places(
+    problem: Problem, vehicle_type: VehicleType, drones: DroneType, node: int
+) -> Iterator[int]:
+    """Yield customers near enough to fly from, where a truck of this type may stop."""
+    first, customer = problem.num_depots, problem.customer_at(node)
+    duration = problem.travel[drones.travel].duration
+    loops = duration[first:, node] + duration[node, first:]
+    service = drones.service_duration
+    if service is None:
+        service = customer.service_duration
+    near = np.flatnonzero(loops <= drones.endurance - service)
+    found = 0
+    for index in near[np.argsort(loops[near], kind="stable")].tolist():
+        host = problem.customers[index]
+        if index + first == node or host.served_by == "drone":
+            continue
+        if host.skills <= vehicle_type.skills:
+            yield index + first
+            found += 1
+            if found == MAX_LAUNCH_PLACES:
+                return

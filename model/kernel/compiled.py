@@ -1,0 +1,222 @@
+"""Compilation to machine code, kept on disk under a name that changes with the source.
+
+Numba keeps compiled functions beside a hash of the one file that defines them, and so misses a
+change in a function or constant that was imported from another file and compiled in. Here one
+fingerprint over all files that take part names the folder, so no stale code is ever run.
+"""
+
+import fcntl
+import hashlib
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import Any, TypeVar, cast
+
+from numba import config, njit
+from numba.core import event
+from numba.core.compiler import Compiler
+
+SOURCES = (
+    "problem",
+    *(f"kernel/{part}" for part in ("compiled", "alarm", "copying", "instance", "clock", "flight")),
+    *(f"travel/{part}" for part in ("visibility", "detours")),
+    *(f"simulation/{part}" for part in (
+        "vehicle_log", "cost", "meeting", "transition", "simulator")),
+    *(f"policy/{part}" for part in ("tokens", "lookahead", "features", "resampling", "rollouts")),
+    *(f"search/route/{part}" for part in (
+        "layout", "randomness", "block", "routes", "lean", "refresh", "edit", "state",
+        "vehicles")),
+    *(f"search/insertion/{part}" for part in (
+        "evaluate", "cheapest_stop", "new_trips", "offers", "places")),
+    *(f"search/moves/{part}" for part in (
+        "ruin", "recreate", "exchange", "retype", "split", "resplit", "anneal")),
+    *(f"search/beginning/{part}" for part in ("construct", "savings", "translate")),
+    "search/sharing",
+)
+"""Files with compiled functions, and those whose constants are compiled into them."""
+
+LITTLE = type(config.OPT)(1)  # type: ignore[attr-defined]
+"""Level of optimisation for what is optimised again."""
+
+
+class PartCompiler(Compiler):
+    """Optimises a part but a little, since that is done again in each function it is put into."""
+
+    def compile_extra(self, func: Callable[..., Any]) -> Any:
+        """Compile a Python function. Numba lets one thread at a time do so."""
+        level = config.OPT  # type: ignore[attr-defined]
+        config.OPT = LITTLE  # type: ignore[attr-defined]
+        try:
+            return super().compile_extra(func)  # type: ignore[no-untyped-call]
+        finally:
+            config.OPT = level  # type: ignore[attr-defined]
+
+
+PART: dict[str, Any] = {
+    "nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False,
+    "pipeline_class": PartCompiler}
+"""Options of functions that exist only within others."""
+
+PASTED: dict[str, Any] = {"nogil": True, "_nrt": False, "inline": "always"}
+"""Options of functions whose source becomes a part of others'."""
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+_TO_COMPILE: set[str] = set()
+"""Names of all functions that are compiled for themselves."""
+
+
+def compiled(function: Function) -> Function:
+    """Compile a function at its first call, or load it if that was done before."""
+    return _kept(function)
+
+
+def compiled_on_arrays(function: Function) -> Function:
+    """Compile like `compiled` what is given all its arrays and makes none.
+
+    References to them need not be counted then, in this function and all parts of it.
+    """
+    return _kept(function, _nrt=False)
+
+
+def inlined(function: Function) -> Function:
+    """Compile a function that only compiled functions call, as a part of these.
+
+    It has no entry from Python and counts no references, so it may not make arrays.
+    """
+    return _part(function)
+
+
+def spliced(function: Function) -> Function:
+    """Compile like `inlined`, always into the body of the caller.
+
+    For what is called often, in few places, with arrays by the dozen: a call copies what describes
+    each, two hundred words for a `World` and a `Fleet`.
+    """
+    return _part(function, forceinline=True)
+
+
+def pasted(function: Function) -> Function:
+    """Put a function's source into its caller's, to the same end as `spliced`.
+
+    It takes less time where much is called from there, and more where there are many branches.
+    """
+    return cast(Function, njit(**PASTED)(function))
+
+
+def inlined_arithmetic(function: Function) -> Function:
+    """Compile like `inlined`, and let sums of floats be taken in any order.
+
+    Only for what need not be the same to the last bit on every processor.
+    """
+    return _part(function, fastmath={"reassoc", "contract", "nsz", "arcp"})
+
+
+def _part(function: Function, **options: Any) -> Function:
+    _TO_COMPILE.add(_name_of(function))
+    return cast(Function, njit(**PART, **options)(function))
+
+
+def _kept(function: Function, **options: Any) -> Function:
+    _TO_COMPILE.add(_name_of(function))
+    folder = compiled_folder()
+    # Numba looks the folder up while it decorates, and nowhere but in its settings.
+    config.CACHE_DIR = str(folder or "")  # type: ignore[attr-defined]
+    return cast(Function, njit(cache=folder is not None, nogil=True, **options)(function))
+
+
+@cache
+def compiled_folder() -> Path | None:
+    """Return where compiled code is kept, or None if no folder can be written to.
+
+    It lies in NUMBA_CACHE_DIR if that is set, else beside the source or in the user's cache.
+    """
+    source = Path(__file__).parents[1]
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    user = os.path.expanduser(os.environ.get("XDG_CACHE_HOME") or "~/.cache")
+    parents = [Path(chosen)] if chosen else [source / "__pycache__", Path(user, "tandem-planner")]
+    name = f"compiled-{fingerprint(source)}"
+    return next((parent / name for parent in parents if _can_write(parent / name)), None)
+
+
+def is_cold() -> bool:
+    """Tell whether compiled code can be kept and none is yet."""
+    folder = compiled_folder()
+    return folder is not None and not any(folder.rglob("*.nbi"))
+
+
+@contextmanager
+def first_to_compile() -> Iterator[bool]:
+    """Let one process at a time compile where nothing is yet; tell whether this one has to.
+
+    The others wait until it is done, or has died, and find everything compiled.
+    """
+    folder = compiled_folder()
+    if folder is None or not is_cold():
+        yield False
+        return
+    with (folder / "compiling.lock").open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        has_to = is_cold()
+        if not has_to:
+            fcntl.flock(file, fcntl.LOCK_UN)
+        yield has_to
+
+
+class Count(event.Listener):
+    """Counts the functions compiled by this process and by others that share its folder."""
+
+    def __init__(self) -> None:
+        folder = compiled_folder()
+        self._file = None if folder is None else folder / "functions.txt"
+        self._names: set[str] = set()
+
+    def on_start(self, happened: event.Event) -> None:
+        """Do nothing: a function counts when it is done."""
+
+    def on_end(self, happened: event.Event) -> None:
+        """Count a function. In place."""
+        name = _name_of(happened.data["dispatcher"].py_func)
+        self._names.add(name)
+        if self._file is not None:
+            with self._file.open("a") as file:
+                file.write(f"{name}\n")
+
+    def share(self) -> float:
+        """Return how many there are of all that are ever compiled, from 0 to 1."""
+        names = set(self._names)
+        if self._file is not None and self._file.exists():
+            names.update(self._file.read_text().split())
+        return len(names & _TO_COMPILE) / max(1, len(_TO_COMPILE))
+
+
+@contextmanager
+def counting() -> Iterator[Count]:
+    """Count what is compiled meanwhile."""
+    with event.install_listener("numba:compile", Count()) as count:
+        yield count
+
+
+def _name_of(function: Callable[..., Any]) -> str:
+    return f"{function.__module__}.{function.__qualname__}"
+
+
+def fingerprint(source: Path) -> str:
+    """Return a short hash of the files in `source` that take part in compilation."""
+    digest = hashlib.sha256()
+    for name in SOURCES:
+        digest.update((source / f"{name}.py").read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _can_write(folder: Path) -> bool:
+    """Tell whether files can be written in a folder, which is made if missing."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        TemporaryFile(dir=folder).close()
+    except OSError:
+        return False
+    return True

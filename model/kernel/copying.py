@@ -1,0 +1,33 @@
+"""Copies of rows without temporary arrays."""
+
+from model.kernel.compiled import inlined
+from model.problem import IntArray
+
+
+@inlined
+def copy_row(source: IntArray, target: IntArray) -> None:
+    """Copy one row of numbers. In place."""
+    for column in range(len(target)):
+        target[column] = source[column]
+
+
+@inlined
+def copy_rows(source: IntArray, target: IntArray, count: int) -> None:
+    """Copy the first `count` rows of a table. In place."""
+    for row in range(count):
+        for column in range(target.shape[1]):
+            target[row, column] = source[row, column]
+
+
+@inlined
+def copy_some(source: IntArray, target: IntArray, count: int) -> None:
+    """Copy the first `count` numbers. In place."""
+    for index in range(count):
+        target[index] = source[index]
+
+
+@inlined
+def clear(target: IntArray) -> None:
+    """Set a row of numbers to zero. In place."""
+    for column in range(len(target)):
+        target[column] = 0

@@ -1,0 +1,317 @@
+"""What a policy sees at each step: its candidates and the state of the open vehicle.
+
+Like the tokens, all numbers are free of units. Training and decoding share this file.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from model.kernel.compiled import compiled, inlined
+from model.kernel.instance import (
+    MAX_DIMENSIONS, NODE_DEMAND, NODE_LATEST, NODE_RELEASE, RATE_DRONE_HOUR, RATE_DRONE_KM,
+    RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_TRAVEL,
+    TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
+    TYPE_TRAVEL, Instance,
+)
+from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
+from model.policy.tokens import NUM_TYPE_FEATURES, Float32Array, Scales
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
+from model.simulation.meeting import (
+    NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE, V_LOAD, V_NEXT_START,
+    V_NODE, V_SERVICE_END, V_TYPE,
+)
+from model.simulation.simulator import (
+    DRIVE, LAUNCH, NUM_KINDS, OPEN, OUTLOOK_ARRIVAL, OUTLOOK_END, OUTLOOK_START, RETURN, apply,
+    finish, legal_actions,
+)
+from model.simulation.transition import State
+from model.simulation.vehicle_log import COUNT_TRIPS, Setting, setting_of
+
+NUM_ACTION_FEATURES = 28
+NUM_STATE_FEATURES = 14
+NUM_GLOBAL_FEATURES = NUM_STATE_FEATURES + NUM_TYPE_FEATURES
+
+
+class Observation(NamedTuple):
+    """What one decision sees, a row per rollout. Candidates are the legal actions, first `count`.
+
+    Action features: kind (4), duration by scale and by nearness, cost, waiting, slack to the end
+    of the window, lateness cost, share of the load left and of the capacity, slack to the end of
+    the shift, way home from there, slack of distance, of working duration, detour against going
+    home now, excess over the nearest candidate, share of the endurance, delay for release, way to
+    the nearest unserved customer, to the third nearest, the former's excess over the way from here.
+    Of the nearest unserved ones in time: how soon one is served next (a drone recovered), its slack
+    (the truck's waiting), the share lost by this action, the detour by one before (by air: that the
+    truck would make instead), how soon this one could be served after another.
+    """
+
+    count: IntArray  # type: ignore[assignment]  # (rollout,)
+    action: IntArray  # (rollout, candidate) codes
+    token: IntArray  # (rollout, candidate) node, or number of nodes + type
+    outlook: IntArray  # (rollout, candidate, 3) of `legal_actions`
+    feature: Float32Array  # (rollout, candidate, NUM_ACTION_FEATURES)
+    glob: Float32Array  # (rollout, NUM_GLOBAL_FEATURES) vehicle state, then its type's features
+    here: IntArray  # (rollout,) token of the vehicle's place
+
+
+def empty_observation(rows: int, num_nodes: int, num_types: int) -> Observation:
+    """Allocate room for the candidates of every rollout."""
+    most = 2 * num_nodes + 1 + num_types
+    return Observation(
+        count=np.zeros(rows, np.int64),
+        action=np.zeros((rows, most), np.int64),
+        token=np.zeros((rows, most), np.int64),
+        outlook=np.zeros((rows, most, 3), np.int64),
+        feature=np.zeros((rows, most, NUM_ACTION_FEATURES), np.float32),
+        glob=np.zeros((rows, NUM_GLOBAL_FEATURES), np.float32),
+        here=np.zeros(rows, np.int64),
+    )
+
+
+@inlined
+def _share(used: int, limit: int) -> float:
+    """Return how much of a limit is used, 2 at most; 0 where there is no limit."""
+    return 0.0 if limit >= UNLIMITED else min(used / max(1, limit), 2.0)
+
+
+@inlined
+def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, vehicle: IntArray,
+                       begun: bool, node: int, outlook: IntArray, feature: Float32Array) -> None:
+    """Describe what serving a customer next means, by truck or drone alike. In place."""
+    columns = setting.node[node]
+    arrival, end = outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_END]
+    waiting = outlook[OUTLOOK_START] - arrival
+    late = max(0, arrival - columns[NODE_LATEST])
+    feature[7] = ratio(waiting, unit.time)
+    feature[8] = slack(columns[NODE_LATEST], arrival, unit.time)
+    window_cost = late * late_early[node, 0] + waiting * late_early[node, 1]
+    feature[9] = ratio(window_cost / MS_PER_HOUR, unit.cost)
+    for dimension in range(MAX_DIMENSIONS):
+        demand = columns[NODE_DEMAND + dimension]
+        if demand > 0:
+            feature[10] = max(feature[10], demand / vehicle[V_LOAD + dimension])
+            feature[11] = max(feature[11], demand / setting.type[TYPE_CAPACITY + dimension])
+    feature[12] = slack(setting.type[TYPE_LATEST], end, unit.time)
+    departure = vehicle[V_DEPARTURE_BEST] if begun else vehicle[V_NEXT_START]
+    feature[15] = slack(setting.type[TYPE_MAX_WORKING], end - departure, unit.time)
+    feature[19] = ratio(columns[NODE_RELEASE] - vehicle[V_NEXT_START], unit.time)
+
+
+@inlined
+def _describe_leg(unit: Unit, duration: int, distance: int, km: float, hour: float,
+                  feature: Float32Array) -> None:
+    """Describe the way to a place. In place."""
+    feature[4] = min(duration / unit.time, 5.0)
+    feature[5] = ratio(duration, unit.near)
+    cost = distance / MM_PER_KM * km + duration / MS_PER_HOUR * hour
+    feature[6] = min(cost / unit.cost, 5.0)
+
+
+@inlined
+def _describe_flight(setting: Setting, unit: Unit, here: int, node: int, distance: int,
+                     rate: FloatArray, feature: Float32Array) -> None:
+    """Describe the flight to a customer, as if the drone came back here. In place."""
+    there = setting.fly[here, node]
+    back = min(setting.fly[node, here], 10 * there)
+    _describe_leg(unit, there, 2 * distance, rate[RATE_DRONE_KM], 2 * rate[RATE_DRONE_HOUR],
+                  feature)
+    feature[18] = _share(there + back, setting.type[TYPE_ENDURANCE])
+
+
+@inlined
+def _nearest_drive(durations: IntArray, actions: IntArray) -> int:
+    """Return the shortest drive among the actions."""
+    nearest = UNLIMITED
+    for action in actions:
+        if action % NUM_KINDS == DRIVE:
+            nearest = min(nearest, durations[action // NUM_KINDS])
+    return nearest
+
+
+@inlined
+def _describe_return(setting: Setting, vehicle: IntArray, trips: int,
+                     feature: Float32Array) -> None:
+    """Describe returning to the depot. In place."""
+    feature[10] = vehicle[V_LOAD] / max(1, setting.type[TYPE_CAPACITY])
+    feature[11] = min(setting.type[TYPE_MAX_TRIPS] - trips, 4) / 4
+
+
+@inlined
+def _describe_open(columns: IntArray, fixed: float, used: int, unserved: float, unit: Unit,
+                   feature: Float32Array) -> None:
+    """Describe opening a vehicle of a type. In place."""
+    left = columns[TYPE_COUNT] - used
+    feature[6] = ratio(fixed, unit.cost)
+    feature[10] = left / (left + 4.0)
+    feature[11] = min(columns[TYPE_CAPACITY] / max(1.0, unserved), 2.0)
+    feature[14] = columns[TYPE_DRONES] > 0
+
+
+@inlined
+def _unserved_demand(instance: Instance, state: State, r: int) -> float:
+    """Return the demand left in the first dimension."""
+    b = state.problem[r]
+    nodes, served = instance.node[b], state.served[r]
+    total = 0.0
+    for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
+        if not served[node]:
+            total += nodes[node, NODE_DEMAND]
+    return total
+
+
+@inlined
+def _describe_state(instance: Instance, scale: Scales, state: State, type_token: Float32Array,
+                    r: int, unserved: float, glob: Float32Array) -> None:
+    """Describe the open vehicle and what is left to do. In place."""
+    b = state.problem[r]
+    vehicle = state.vehicle[r]
+    k = vehicle[V_TYPE]
+    glob[:] = 0.0
+    reserve = 0.0
+    for kind in range(instance.size[b, 2]):
+        left = instance.type[b, kind, TYPE_COUNT] - state.used[r, kind]
+        reserve += (left * float(instance.type[b, kind, TYPE_MAX_TRIPS])
+                    * instance.type[b, kind, TYPE_CAPACITY])
+    glob[0] = state.num_unserved[r] / max(1, instance.size[b, 1])
+    glob[1] = unserved / scale.amount[b]
+    if k == NO_VEHICLE:
+        glob[2] = min(unserved / max(1.0, reserve), 2.0)
+        return
+    columns = instance.type[b, k]
+    capacity = max(1, columns[TYPE_CAPACITY])
+    trips_left = columns[TYPE_MAX_TRIPS] - state.log.count[r, COUNT_TRIPS]
+    reserve += float(trips_left) * capacity
+    clock = vehicle[V_NEXT_START]
+    if not vehicle[V_IDLE]:
+        clock = max(vehicle[V_SERVICE_END], vehicle[V_FREE])
+        home = instance.duration[b, columns[TYPE_TRAVEL], vehicle[V_NODE], columns[TYPE_DEPOT]]
+        glob[3] = min(home / scale.time[b], 5.0)
+        reserve += vehicle[V_LOAD]
+    glob[2] = min(unserved / max(1.0, reserve), 2.0)
+    glob[4] = vehicle[V_IDLE]
+    glob[5] = min(clock / scale.horizon[b], 2.0)
+    glob[6] = vehicle[V_LOAD] / capacity
+    glob[7] = max(min((reserve - unserved) / capacity, 2.0), -2.0)
+    glob[8] = min(trips_left, 4) / 4
+    glob[9] = slack(columns[TYPE_LATEST], clock, scale.time[b])
+    working = clock - vehicle[V_DEPARTURE_BEST] if state.log.count[r, COUNT_TRIPS] else 0
+    glob[10] = slack(columns[TYPE_MAX_WORKING], working, scale.time[b])
+    glob[11] = vehicle[V_FLYING] / max(1, columns[TYPE_DRONES])
+    glob[12] = columns[TYPE_DRONES] > vehicle[V_FLYING]
+    glob[13] = min(vehicle[V_LOAD] / max(1.0, unserved), 2.0)
+    for column in range(NUM_TYPE_FEATURES):
+        glob[NUM_STATE_FEATURES + column] = type_token[b, k, column]
+
+
+@inlined
+def _describe_opens(instance: Instance, scale: Scales, state: State, r: int, unserved: float,
+                    seen: Observation) -> None:
+    """Describe the vehicles that may be opened. In place."""
+    b = state.problem[r]
+    unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
+    for index in range(seen.count[r]):
+        kind, target = seen.action[r, index] % NUM_KINDS, seen.action[r, index] // NUM_KINDS
+        if kind == OPEN:
+            feature = seen.feature[r, index]
+            feature[:] = 0.0
+            feature[OPEN] = 1.0
+            seen.token[r, index] = instance.node.shape[1] + target
+            _describe_open(instance.type[b, target], instance.rate[b, target, RATE_FIXED],
+                           state.used[r, target], unserved, unit, feature)
+
+
+@compiled
+def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
+                    seen: Observation) -> None:
+    """Describe the drives, the launches and the return of the open vehicle. In place."""
+    b, k = state.problem[r], state.vehicle[r, V_TYPE]
+    setting = setting_of(instance, b, k)
+    vehicle = state.vehicle[r]
+    rate, late_early = instance.rate[b, k], instance.late_early[b]
+    unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
+    home, here = setting.type[TYPE_DEPOT], vehicle[V_NODE]
+    drive = setting.drive[here]
+    distance = instance.distance[b, setting.type[TYPE_TRAVEL]]
+    flown = instance.distance[b, setting.type[TYPE_DRONE_TRAVEL], here]
+    trips = state.log.count[r, COUNT_TRIPS]
+    actions, features = seen.action[r, : seen.count[r]], seen.feature[r]
+    nearest = _nearest_drive(drive, actions)
+    for index in range(len(actions)):
+        kind, node = actions[index] % NUM_KINDS, actions[index] // NUM_KINDS
+        if kind == OPEN:
+            continue
+        feature = features[index]
+        feature[:] = 0.0
+        feature[kind] = 1.0
+        seen.token[r, index] = node
+        if kind == LAUNCH:
+            _describe_flight(setting, unit, here, node, flown[node], rate, feature)
+        else:
+            _describe_leg(unit, drive[node], distance[here, node], rate[RATE_KM], rate[RATE_HOUR],
+                          feature)
+        if kind == RETURN:
+            _describe_return(setting, vehicle, trips, feature)
+            continue
+        way_home = setting.drive[node, home]
+        feature[13] = min(way_home / unit.time, 5.0)
+        if kind == DRIVE:
+            used = vehicle[V_DISTANCE] + distance[here, node] + distance[node, home]
+            feature[14] = slack(setting.type[TYPE_MAX_DISTANCE], used, distance[home, node])
+            detour = (drive[node] + way_home - drive[home]) / unit.time
+            feature[16] = max(min(detour, 5.0), -5.0)
+            feature[17] = ratio(drive[node] - nearest, unit.near)
+        _describe_customer(setting, unit, late_early, vehicle, trips > 0, node,
+                           seen.outlook[r, index], feature)
+        describe_neighbours(setting, instance.neighbour[b], state.served[r], vehicle[V_LOAD], here,
+                            node, seen.outlook[r, index], unit, kind == LAUNCH, feature)
+
+
+@compiled
+def observe(instance: Instance, scale: Scales, state: State, type_token: Float32Array, first: int,
+            behind: int, scratch: int, seen: Observation) -> int:
+    """List and describe the legal actions of the rollouts `first` to `behind`.
+
+    In place; a rollout without a legal action is finished. Returns the largest count.
+    """
+    most = 0
+    for r in range(first, behind):
+        if state.done[r]:
+            seen.count[r] = 0
+            continue
+        seen.count[r] = legal_actions(instance, state, r, scratch, seen.action[r],
+                                      seen.outlook[r])
+        if seen.count[r] == 0:
+            finish(instance, state, r)
+            continue
+        most = max(most, seen.count[r])
+        seen.here[r] = state.vehicle[r, V_NODE]
+        unserved = _unserved_demand(instance, state, r)
+        _describe_state(instance, scale, state, type_token, r, unserved, seen.glob[r])
+        _describe_opens(instance, scale, state, r, unserved, seen)
+        if state.vehicle[r, V_TYPE] != NO_VEHICLE:
+            _describe_moves(instance, scale, state, r, seen)
+    return most
+
+
+@compiled
+def act(instance: Instance, state: State, first: int, behind: int, choice: IntArray,
+        seen: Observation) -> None:
+    """Do the chosen candidate of each rollout `first` to `behind`. In place.
+
+    `choice` is (rollout,), an index into the candidates; rollouts without any stay as they are.
+    """
+    for r in range(first, behind):
+        if seen.count[r] > 0:
+            apply(instance, state, r, seen.action[r, choice[r]])
+
+
+@compiled
+def step(instance: Instance, scale: Scales, state: State, type_token: Float32Array, first: int,
+         behind: int, scratch: int, choice: IntArray, seen: Observation) -> int:
+    """Do what was chosen of what was `seen`, then observe; at the beginning, only the latter.
+
+    In place, like `act` and `observe`, in one call. Returns the largest count.
+    """
+    act(instance, state, first, behind, choice, seen)
+    return observe(instance, scale, state, type_token, first, behind, scratch, seen)

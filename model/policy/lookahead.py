@@ -1,0 +1,178 @@
+"""What a candidate leads to: its unserved neighbours, near by and in time. Compiled.
+
+A policy that builds a plan step by step must guess what a step costs later. These features look
+one customer further: what comes next, what can no longer come, what would better come before.
+"""
+
+from typing import NamedTuple
+
+from model.kernel.compiled import inlined
+from model.kernel.flight import unreachable
+from model.kernel.instance import NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, NODE_SERVICE
+from model.policy.tokens import Float32Array
+from model.problem import UNLIMITED, BoolArray, IntArray
+from model.simulation.simulator import OUTLOOK_ARRIVAL, OUTLOOK_START
+from model.simulation.vehicle_log import Setting, drone_service
+
+NUM_COMPANY = 3
+"""How many unserved neighbours of a candidate are looked at for how near they are."""
+NUM_PROSPECTS = 8
+"""How many unserved neighbours of a candidate are timed."""
+
+(NEXT_WAY, THIRD_WAY, NEXT_EXCESS, NEXT_DURATION, NEXT_SLACK, LOST, DETOUR_BEFORE,
+ LATER_DURATION) = range(20, 28)
+
+
+class Unit(NamedTuple):
+    """The units of one problem that steps need: ms, ms, cost."""
+
+    time: float
+    near: float
+    cost: float
+
+
+@inlined
+def ratio(value: float, scale: float) -> float:
+    """Squash a length of any size to 0..1, half at `scale`."""
+    return value / (value + scale) if value > 0 else 0.0
+
+
+@inlined
+def slack(limit: int, used: int, scale: float) -> float:
+    """Squash what a limit leaves to 0..1, half at `scale`; 1 where there is no limit."""
+    return 1.0 if limit >= UNLIMITED else ratio(float(limit - used), scale)
+
+
+@inlined
+def excess(value: int, scale: float) -> float:
+    """Clip a difference to three times `scale`, -1..1; 1 where there is nothing to compare."""
+    return 1.0 if value >= UNLIMITED else max(min(value / scale / 3.0, 1.0), -1.0)
+
+
+@inlined
+def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, here: int,
+                      node: int, unit: Unit, feature: Float32Array) -> None:
+    """Describe how close a candidate's unserved neighbours are. In place."""
+    found = 0
+    feature[NEXT_WAY] = feature[THIRD_WAY] = feature[NEXT_EXCESS] = 1.0
+    for rank in range(neighbours.shape[1]):
+        other = neighbours[node, rank]
+        if other < 0 or found == NUM_COMPANY:
+            return
+        if served[other]:
+            continue
+        found += 1
+        way = drive[node, other]
+        feature[THIRD_WAY] = ratio(way, unit.near)
+        if found == 1:
+            feature[NEXT_WAY] = feature[THIRD_WAY]
+            feature[NEXT_EXCESS] = excess(way - drive[here, node], unit.near)
+
+
+@inlined
+def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
+                    here: int, node: int, outlook: IntArray, unit: Unit,
+                    feature: Float32Array) -> None:
+    """Describe which neighbours could be driven to after `node`, and from which to it. In place.
+
+    By fixed speeds, the first dimension of the `load` left, and without drones: a guess.
+    """
+    columns, drive = setting.node, setting.drive
+    arrival, way = outlook[OUTLOOK_ARRIVAL], setting.drive[here, node]
+    leave = outlook[OUTLOOK_START] + columns[node, NODE_SERVICE]
+    left = load - columns[node, NODE_DEMAND]
+    opens, closes = columns[node, NODE_EARLIEST], columns[node, NODE_LATEST]
+    soonest = tightest = detour = later = UNLIMITED
+    seen = lost = 0
+    for rank in range(neighbours.shape[1]):
+        other = neighbours[node, rank]
+        if other < 0 or seen == NUM_PROSPECTS:
+            break
+        if served[other]:
+            continue
+        seen += 1
+        earliest, latest = columns[other, NODE_EARLIEST], columns[other, NODE_LATEST]
+        then, directly = leave + drive[node, other], arrival - way + drive[here, other]
+        between = columns[other, NODE_SERVICE] + drive[other, node]
+        if earliest + between <= closes:
+            later = min(later, drive[other, node] + max(0, opens - latest - between))
+        if then <= latest and columns[other, NODE_DEMAND] <= left:
+            soonest = min(soonest, max(then, earliest) - leave)
+            if latest < UNLIMITED:
+                tightest = min(tightest, latest - then)
+        elif directly <= latest:
+            lost += 1
+        if directly <= latest:
+            back = max(directly, earliest) + between
+            if back <= closes:
+                detour = min(detour, drive[here, other] + drive[other, node] - way)
+    feature[NEXT_DURATION] = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
+    feature[NEXT_SLACK] = slack(tightest, 0, unit.time)
+    feature[LOST] = lost / max(1, seen)
+    feature[DETOUR_BEFORE] = excess(detour, unit.near)
+    feature[LATER_DURATION] = 1.0 if later >= UNLIMITED else ratio(float(later), unit.near)
+
+
+@inlined
+def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, here: int,
+                     node: int, outlook: IntArray, unit: Unit, feature: Float32Array) -> None:
+    """Describe at which neighbours the drone could meet the truck. In place.
+
+    How soon, how long the truck would wait, and the least detour of the truck to serve `node`
+    itself on its way to one.
+    """
+    drive, fly = setting.drive, setting.fly
+    takeoff = outlook[OUTLOOK_ARRIVAL] - fly[here, node]
+    ready = outlook[OUTLOOK_START] + drone_service(setting, node)
+    soonest = wait = detour = UNLIMITED
+    seen = 0
+    for rank in range(neighbours.shape[1]):
+        other = neighbours[node, rank]
+        if other < 0 or seen == NUM_PROSPECTS:
+            break
+        if served[other] or unreachable(fly[node, other]):
+            continue
+        seen += 1
+        drone, truck = ready + fly[node, other] - takeoff, drive[here, other]
+        soonest = min(soonest, max(drone, truck))
+        wait = min(wait, max(0, drone - truck))
+        detour = min(detour, drive[here, node] + drive[node, other] - truck)
+    feature[NEXT_DURATION] = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
+    feature[NEXT_SLACK] = 1.0 if wait >= UNLIMITED else ratio(float(wait), unit.near)
+    feature[DETOUR_BEFORE] = excess(detour, unit.near)
+
+
+@inlined
+def describe_neighbours(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
+                        here: int, node: int, outlook: IntArray, unit: Unit, by_air: bool,
+                        feature: Float32Array) -> None:
+    """Describe what serving `node` from `here` means for its unserved neighbours. In place.
+
+    Parameters
+    ----------
+    setting
+        The open vehicle's.
+    neighbours
+        (node, rank) nearest first, -1 behind the last.
+    served
+        (node,).
+    load
+        Of the open vehicle, what is left in the first dimension.
+    here
+        Node of the vehicle.
+    node
+        The candidate.
+    outlook
+        (3,) of `legal_actions`.
+    unit
+        Of the problem.
+    by_air
+        A drone serves the candidate.
+    feature
+        (NUM_ACTION_FEATURES,) of the candidate.
+    """
+    _describe_company(setting.drive, neighbours, served, here, node, unit, feature)
+    if by_air:
+        _describe_flight(setting, neighbours, served, here, node, outlook, unit, feature)
+    else:
+        _describe_drive(setting, neighbours, served, load, here, node, outlook, unit, feature)

@@ -1,0 +1,202 @@
+"""What an encoder sees of a problem, once per plan: nodes, vehicle types, pairs of nodes.
+
+All numbers are free of units: lengths, times and costs are divided by scales of the problem, so
+one policy serves all sizes. Training and decoding share this file.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.kernel.instance import (
+    NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE, NODE_SERVICE,
+    RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT,
+    TYPE_DEPOT, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_EARLIEST, TYPE_ENDURANCE, TYPE_LATEST,
+    TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PAYLOAD, TYPE_PROFILE, TYPE_RELOAD,
+    TYPE_TRAVEL, Instance,
+)
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
+
+Float32Array = NDArray[np.float32]
+
+NUM_NODE_FEATURES = 20
+NUM_TYPE_FEATURES = 22
+NUM_PAIR_FEATURES = 4
+
+
+class Scales(NamedTuple):
+    """Units of each problem, a row per problem."""
+
+    time: FloatArray  # (problem,) ms from a depot to a customer, mean
+    near: FloatArray  # (problem,) ms from a customer to its nearest neighbour, mean
+    horizon: FloatArray  # (problem,) ms, the last limit stated, or a guess
+    cost: FloatArray  # (problem,) cost of driving from a depot to a customer, mean
+    amount: FloatArray  # (problem,) total demand in the first dimension
+
+
+class Tokens(NamedTuple):
+    """What the encoder sees: nodes, then vehicle types, padded."""
+
+    node: Float32Array  # (problem, node, NUM_NODE_FEATURES)
+    type: Float32Array  # (problem, type, NUM_TYPE_FEATURES)
+    pair: Float32Array  # (problem, node, node, NUM_PAIR_FEATURES) from row to column
+    mask: NDArray[np.bool_]  # (problem, node + type) True = a token, False = padding
+
+
+def scales(instance: Instance) -> Scales:
+    """Measure the units of each problem."""
+    rows = len(instance.size)
+    result = Scales(*(np.ones(rows) for _ in Scales._fields))
+    for b in range(rows):
+        depots, customers, types = instance.size[b, :3].tolist()
+        if customers == 0:
+            continue
+        nodes = slice(depots, depots + customers)
+        kinds = instance.type[b, :types]
+        legs = [instance.duration[b, kind[TYPE_TRAVEL], kind[TYPE_DEPOT], nodes] for kind in kinds]
+        result.time[b] = max(1.0, float(np.mean(legs)))
+        between = instance.duration[b, kinds[0, TYPE_TRAVEL], nodes, nodes].astype(np.float64)
+        np.fill_diagonal(between, np.inf)
+        nearest = between.min(axis=1)
+        near = float(nearest.mean()) if customers > 1 else result.time[b]
+        result.near[b] = max(1.0, near)
+        limits = np.concatenate([instance.node[b, nodes, NODE_LATEST], kinds[:, TYPE_LATEST]])
+        limits = limits[limits < UNLIMITED]
+        result.horizon[b] = max(1, limits.max()) if len(limits) else 20 * result.time[b]
+        driven = [instance.distance[b, kind[TYPE_TRAVEL], kind[TYPE_DEPOT], nodes].mean()
+                  for kind in kinds]
+        rate = instance.rate[b, :types]
+        cost = float(np.mean(rate[:, RATE_KM] * driven) / MM_PER_KM
+                     + rate[:, RATE_HOUR].mean() * result.time[b] / MS_PER_HOUR)
+        result.cost[b] = cost if cost > 0 else max(1e-9, float(rate[:, RATE_FIXED].mean()) or 1.0)
+        result.amount[b] = max(1, instance.node[b, nodes, NODE_DEMAND].sum())
+    return result
+
+
+def squash(value: FloatArray) -> FloatArray:
+    """Map 0..inf to 0..1, inf included."""
+    return 1.0 - 1.0 / (1.0 + value)
+
+
+def unbounded(limit: IntArray) -> FloatArray:
+    """Return limits with infinity for "no limit"."""
+    return np.where(limit >= UNLIMITED, np.inf, limit)
+
+
+def tokens(instance: Instance, scale: Scales, coordinates: FloatArray) -> Tokens:
+    """Describe nodes and vehicle types.
+
+    Parameters
+    ----------
+    instance
+        Packed problems.
+    scale
+        Their units.
+    coordinates
+        (problem, node, 2) planar, any unit.
+    """
+    num_nodes, num_types = instance.node.shape[1], instance.type.shape[1]
+    index = np.arange(num_nodes)
+    is_node = index < (instance.size[:, 0] + instance.size[:, 1])[:, None]
+    is_type = np.arange(num_types) < instance.size[:, 2:3]
+    node = node_features(instance, scale, coordinates, is_node)
+    kind = type_features(instance, scale, is_type)
+    return Tokens(
+        node=np.where(is_node[..., None], node, 0.0).astype(np.float32),
+        type=np.where(is_type[..., None], kind, 0.0).astype(np.float32),
+        pair=pair_features(instance, scale),
+        mask=np.concatenate([is_node, is_type], axis=1),
+    )
+
+
+def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
+                  is_node: NDArray[np.bool_]) -> FloatArray:
+    """Describe depots and customers, (problem, node, NUM_NODE_FEATURES)."""
+    time, horizon = scale.time[:, None], scale.horizon[:, None]
+    hours = time / MS_PER_HOUR / scale.cost[:, None]
+    low = np.where(is_node[..., None], coordinates, np.inf).min(axis=1, keepdims=True)
+    high = np.where(is_node[..., None], coordinates, -np.inf).max(axis=1, keepdims=True)
+    extent = np.maximum((high - low).max(axis=2, keepdims=True), 1e-9)
+    place = (coordinates - (low + high) / 2) / extent * 2
+    columns = instance.node
+    is_depot = np.arange(columns.shape[1]) < instance.size[:, :1]
+    capacity = np.maximum(instance.type[:, :, TYPE_CAPACITY:TYPE_PAYLOAD].max(axis=1), 1)[:, None]
+    payload = instance.type[:, :, TYPE_PAYLOAD:].max(axis=1)[:, None]
+    demand = columns[:, :, NODE_DEMAND:]
+    types = np.maximum(instance.size[:, 2], 1)[:, None]
+    earliest, latest = columns[:, :, NODE_EARLIEST], columns[:, :, NODE_LATEST]
+    home = instance.duration[:, 0, 0, :]
+    return np.stack([
+        place[..., 0], place[..., 1], is_depot,
+        np.minimum(earliest / horizon, 2), np.minimum(latest / horizon, 2),
+        np.minimum((latest - earliest) / horizon, 2), latest >= UNLIMITED, columns[:, :, NODE_HARD],
+        squash(np.maximum(unbounded(latest) - home, 0) / time),
+        np.minimum((demand / capacity).max(axis=2), 2), demand[..., 0] / scale.amount[:, None],
+        (demand / np.maximum(demand + payload, 1)).max(axis=2),
+        squash(columns[:, :, NODE_SERVICE] / time),
+        np.minimum(columns[:, :, NODE_RELEASE] / horizon, 2),
+        squash(instance.late_early[..., 0] * hours), squash(instance.late_early[..., 1] * hours),
+        instance.can_drive.sum(axis=1) / types, instance.can_fly.sum(axis=1) / types,
+        squash(home / time), squash(home / scale.near[:, None] / 4),
+    ], axis=2)
+
+
+def pair_features(instance: Instance, scale: Scales) -> Float32Array:
+    """Describe the way from each node to each, by the first vehicle type.
+
+    Returns
+    -------
+    (problem, node, node, NUM_PAIR_FEATURES): duration, nearness, the least lateness-free slack and
+    the least waiting at the second node after service at the first.
+    """
+    problem = np.arange(len(instance.size))
+    leg = instance.duration[problem, instance.type[:, 0, TYPE_TRAVEL]].astype(np.float32)
+    time = scale.time[:, None, None].astype(np.float32)
+    near = scale.near[:, None, None].astype(np.float32)
+    columns = np.minimum(instance.node, 100 * scale.horizon[:, None, None]).astype(np.float32)
+    earliest, latest = columns[:, :, NODE_EARLIEST], columns[:, :, NODE_LATEST]
+    service = columns[:, :, NODE_SERVICE]
+    slack = latest[:, None, :] - (earliest + service)[:, :, None] - leg
+    waiting = earliest[:, None, :] - (latest + service)[:, :, None] - leg
+    return np.stack([leg / (leg + time), near / (leg + near), np.clip(slack / time, -1, 3) / 2,
+                     np.clip(waiting / time, -1, 3) / 2], axis=3)
+
+
+def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_]) -> FloatArray:
+    """Describe vehicle types, (problem, type, NUM_TYPE_FEATURES)."""
+    kind, rate = instance.type, instance.rate
+    time, horizon, cost = scale.time[:, None], scale.horizon[:, None], scale.cost[:, None]
+    hours = time / MS_PER_HOUR
+    customers = np.maximum(instance.size[:, 1], 1)[:, None]
+    problem = np.arange(len(kind))[:, None]
+    leg = instance.duration[problem, kind[..., TYPE_TRAVEL], 0].sum(axis=2) / customers
+    driven = instance.distance[problem, kind[..., TYPE_TRAVEL], 0].sum(axis=2) / customers
+    flight = np.minimum(instance.duration[problem, kind[..., TYPE_DRONE_TRAVEL], 0],
+                        10 * time[..., None]).sum(axis=2) / customers
+    furthest = np.where(is_type, driven, 0).max(axis=1)[:, None, None]
+    flown = np.minimum(instance.distance[problem, kind[..., TYPE_DRONE_TRAVEL], 0],
+                       10 * furthest + 1).sum(axis=2) / customers
+    capacity = kind[..., TYPE_CAPACITY]
+    largest = np.maximum(capacity.max(axis=1, keepdims=True), 1)
+    drones = kind[..., TYPE_DRONES]
+    has_drones = drones > 0
+    return np.stack([
+        capacity / largest, np.minimum(capacity / scale.amount[:, None], 1),
+        squash(kind[..., TYPE_COUNT] * capacity / scale.amount[:, None]),
+        squash(kind[..., TYPE_COUNT] / 4), squash(rate[..., RATE_FIXED] / cost),
+        squash(rate[..., RATE_KM] * driven / MM_PER_KM / cost),
+        squash(rate[..., RATE_HOUR] * hours / cost), squash(leg / time),
+        np.minimum(kind[..., TYPE_EARLIEST] / horizon, 2),
+        np.minimum(kind[..., TYPE_LATEST] / horizon, 2),
+        squash(unbounded(kind[..., TYPE_MAX_WORKING]) / time / 8),
+        squash(unbounded(kind[..., TYPE_MAX_DISTANCE]) / np.maximum(driven, 1) / 8),
+        squash((kind[..., TYPE_MAX_TRIPS] - 1.0) / 2), squash(kind[..., TYPE_RELOAD] / time),
+        kind[..., TYPE_PROFILE] > 0, squash(drones / 2.0),
+        np.where(has_drones, squash(kind[..., TYPE_PAYLOAD] / np.maximum(capacity, 1) * 10), 0),
+        np.where(has_drones, squash(unbounded(kind[..., TYPE_ENDURANCE]) / time), 0),
+        np.where(has_drones, squash(flight / time), 0),
+        np.where(has_drones, squash(rate[..., RATE_DRONE_KM] * flown / MM_PER_KM / cost
+                                    + rate[..., RATE_DRONE_HOUR] * hours / cost), 0),
+        instance.can_drive.sum(axis=2) / customers, instance.can_fly.sum(axis=2) / customers,
+    ], axis=2)

@@ -1,0 +1,269 @@
+"""Planning on: a plan is given, part of it has happened, and something has changed."""
+
+import math
+import time
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
+
+from model.judge.check import Evaluation, check
+from model.judge.explain import Reason, explain_type, unexplained
+from model.judge.past import Past, Vehicle, known_trips
+from model.judge.past_rules import PAST_RULES
+from model.judge.rules import Violation
+from model.kernel.instance import pack
+from model.planner import (
+    ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
+)
+from model.problem import Problem
+from model.replanning.handover import hand_over, settled, take_back, with_anchors
+from model.replanning.kept import Kept, kept_routes
+from model.replanning.remainder import Remainder, what_is_left
+from model.replanning.workers import find_workers, vehicle_name
+from model.search.improve import Progress, SearchConfig, improve
+from model.solution import Route, Solution
+
+UNREADABLE = frozenset({"EMPTY_TRIP", "UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
+                        "SORTIE_STOPS", "UNREACHABLE"})
+"""Broken rules with which nothing that has happened can be read."""
+
+
+class SettledPartError(ValueError):
+    """What has happened can't have happened in this problem."""
+
+    def __init__(self, violations: Collection[Violation]) -> None:
+        super().__init__("; ".join(f"{violation.path}: {violation.message}"
+                                   for violation in violations))
+        self.violations = tuple(violations)
+
+
+@dataclass(frozen=True)
+class Terms:
+    """What a new plan has to keep to; customers of the plan given who are no more are node -1."""
+
+    plan: Solution
+    now: int | None = None  # ms; what has departed by then stays; None: nothing has
+    pinned: frozenset[int] = frozenset()  # customers who stay with their vehicles
+    unavailable: frozenset[Vehicle] = frozenset()  # do nothing more
+    parcels_back: int | None = None  # ms; when theirs are at the depot again; None: now
+
+
+@dataclass(frozen=True)
+class _Bridge:
+    """From plans of what is left to plans of the whole."""
+
+    problem: Problem
+    past: Past
+    plan: Solution  # given
+    kept: Mapping[Vehicle, Kept]
+    left: Remainder
+
+    def whole(self, found: Solution) -> Solution:
+        """Return the plan of the whole."""
+        return take_back(self.problem, self.past, self.plan, self.kept, self.left,
+                         with_anchors(self.left, found))
+
+
+class Replanning:
+    """Plans a problem anew from a plan given."""
+
+    def __init__(self, problem: Problem, terms: Terms) -> None:
+        """Find out what stays as it is.
+
+        Raises
+        ------
+        SettledPartError
+            If that doesn't fit the problem.
+        TooManyTypesError
+            If more vehicles are under way than can be planned for.
+        """
+        self._plan = terms.plan
+        past = _past(problem, terms)
+        self.problem = problem = _released(problem, past)
+        self._kept = kept_routes(problem, terms.plan, past)
+        self._settled = settled(problem, self._kept)
+        broken = check(problem, self._settled, past).violations
+        self.excused = tuple(item for item in broken if item.code not in PAST_RULES)
+        """Rules that are broken already, which no plan can mend."""
+        unreadable = [item for item in broken if item.code in UNREADABLE]
+        if unreadable:
+            raise SettledPartError(_as_given(terms.plan, self._settled, unreadable))
+        past = replace(past, returned=_returned(past, self._kept, terms))
+        workers, returned = find_workers(problem, past, self._kept)
+        self.past = replace(past, returned=returned)
+        self._left = what_is_left(problem, self.past, self._kept, workers)
+
+    @property
+    def kept(self) -> tuple[Kept, ...]:
+        """What vehicles do in any case that have departed, in the order of a plan's routes."""
+        return tuple(self._kept.values())
+
+    def check(self, solution: Solution) -> Evaluation:
+        """Judge a plan; what is excused is no violation."""
+        evaluation = check(self.problem, solution, self.past)
+        excused = set(self.excused)
+        return replace(evaluation, violations=tuple(
+            violation for violation in evaluation.violations if violation not in excused))
+
+    def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
+             listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
+        """Plan what is left; arguments and errors are those of `Planner.plan`.
+
+        `start` is an earlier result to go on from, in place of the plan given. The result is the
+        whole plan, its costs those of the whole.
+        """
+        began = time.perf_counter()
+        if self._left is None:
+            return self._nothing_left(options)
+        plan = self._plan if start is None else start
+        kept = self._kept if start is None else kept_routes(self.problem, start, self.past)
+        bridge = _Bridge(self.problem, self.past, plan, kept, self._left)
+        first = _begin(self._left, hand_over(self.problem, plan, kept, self._left), options,
+                       listener.should_stop)
+        solution = bridge.whole(first)
+        before = self._legal(solution)
+        result = planner.plan(self._left.problem, options, received_at,
+                              _relayed(listener, before.cost.total, bridge), first)
+        found = bridge.whole(result.solution)
+        evaluation = self.check(found)
+        if evaluation.is_feasible and evaluation.cost.total <= before.cost.total:
+            solution = found
+        else:
+            evaluation = before
+        elapsed = replace(result.elapsed, decode=time.perf_counter() - began
+                          - result.elapsed.search - result.elapsed.check)
+        return replace(result, solution=solution, evaluation=evaluation, start="given",
+                       decoded_cost=before.cost.total, final_cost=evaluation.cost.total,
+                       elapsed=elapsed)
+
+    def reasons(self, solution: Solution, node: int,
+                until: float = math.inf) -> tuple[Reason, ...]:
+        """Return one reason per vehicle type why the customer at `node` is unassigned.
+
+        After `until`, on `time.perf_counter`, no more than that the search found no room.
+        """
+        vehicle = self.past.carriers().get(node) or self.past.pinned.get(node)
+        if vehicle is not None:
+            return _bound_reasons(self.problem, self.past, vehicle, node)
+        if time.perf_counter() >= until:
+            return unexplained(self.problem)
+        return tuple(self._reason(solution, kind, node, until)
+                     for kind in range(len(self.problem.vehicle_types)))
+
+    def _legal(self, solution: Solution) -> Evaluation:
+        evaluation = self.check(solution)
+        if evaluation.violations:
+            raise PlanCheckError("; ".join(f"{violation.path}: {violation.message}"
+                                           for violation in evaluation.violations))
+        return evaluation
+
+    def _nothing_left(self, options: PlanOptions) -> PlanResult:
+        began = time.perf_counter()
+        evaluation = self._legal(self._settled)
+        cost = evaluation.cost.total
+        return PlanResult(self._settled, evaluation, "given", cost, cost, 0, options.threads, True,
+                          Elapsed(0.0, 0.0, time.perf_counter() - began))
+
+    def _reason(self, solution: Solution, kind: int, node: int, until: float) -> Reason:
+        """Return why vehicles of a type don't serve a customer who is free to be served by any."""
+        name = self.problem.vehicle_types[kind].id
+        left = self._left
+        types = [] if left is None else left.from_depot(kind)
+        if left is None or not types:
+            return Reason(kind, "FLEET_EXHAUSTED", f"No vehicle of {name} can begin another trip.")
+        vehicles = [Vehicle(route.vehicle_type, route.vehicle) for route in solution.routes]
+        routes = [Route(own, vehicle.number, ()) for vehicle in vehicles
+                  if vehicle.type == kind and (own := left.later(vehicle)) is not None
+                  and (own >= left.num_plain or vehicle not in self._kept)]
+        reason = explain_type(left.problem, Solution(tuple(routes)), types[0],
+                              left.nodes.index(node), until)
+        return replace(reason, vehicle_type=kind)
+
+
+def _past(problem: Problem, terms: Terms) -> Past:
+    """Return what has happened, but for parcels that come back."""
+    known = {}
+    if terms.now is not None:
+        known = known_trips(problem, terms.plan, terms.now, terms.unavailable)
+    pinned = {node: Vehicle(route.vehicle_type, route.vehicle)
+              for route in terms.plan.routes for trip in route.trips
+              for node in (*(stop.node for stop in trip.stops[1:-1]),
+                           *(visit.node for sortie in trip.sorties for visit in sortie.visits))
+              if node in terms.pinned
+              and (route.vehicle_type, route.vehicle) not in terms.unavailable}
+    return Past(terms.now or 0, known, terms.unavailable, pinned)
+
+
+def _as_given(plan: Solution, settled: Solution,
+              violations: Collection[Violation]) -> list[Violation]:
+    """Return violations of the settled routes with paths in the plan given."""
+    places = {(route.vehicle_type, route.vehicle): index
+              for index, route in enumerate(plan.routes)}
+    moved = []
+    for violation in violations:
+        number = int(violation.path.split("]")[0].removeprefix("routes["))
+        route = settled.routes[number]
+        index = places[route.vehicle_type, route.vehicle]
+        moved.append(replace(violation, path=violation.path.replace(
+            f"routes[{number}]", f"routes[{index}]", 1)))
+    return moved
+
+
+def _released(problem: Problem, past: Past) -> Problem:
+    """Return the problem in which every parcel is there that was loaded."""
+    loaded = {node for trips in past.trips.values() for trip in trips for node in trip.aboard}
+    customers = list(problem.customers)
+    for node in loaded:
+        index = node - problem.num_depots
+        customers[index] = replace(customers[index], release_time=0)
+    return replace(problem, customers=tuple(customers))
+
+
+def _returned(past: Past, kept: Mapping[Vehicle, Kept], terms: Terms) -> dict[int, int]:
+    """Return when the parcels of vehicles that are unavailable are at the depot again."""
+    back = past.now if terms.parcels_back is None else terms.parcels_back
+    return {node: back for vehicle in past.unavailable if vehicle in kept
+            for node in past.trips[vehicle][-1].aboard - kept[vehicle].served}
+
+
+def _begin(left: Remainder, begun: Solution, options: PlanOptions,
+           should_stop: Callable[[], bool]) -> Solution:
+    """Return what is left of the plan given; if no search follows, with those whom it lacks.
+
+    They are inserted where that costs least, as a search does at its beginning.
+    """
+    if (options.time_limit > 0 and options.search_iterations != 0) or not begun.unassigned:
+        return begun
+    improved = improve(left.problem, pack([left.problem], neighbours=False), begun,
+                       SearchConfig(options.seed, turns=0), should_stop=should_stop)
+    found = with_anchors(left, improved.solution)
+    before, after = check(left.problem, begun), check(left.problem, found)
+    if after.is_feasible and after.cost.total <= before.cost.total:
+        return found
+    return begun
+
+
+def _relayed(listener: Listener, first_cost: float, bridge: _Bridge) -> Listener:
+    """Return a listener to the plan of what is left, whose first plan costs so much as a whole."""
+    apart: list[float] = []
+
+    def relay(progress: Progress) -> None:
+        if not apart:
+            apart.append(first_cost - progress.cost)
+        listener.on_progress(replace(progress, cost=progress.cost + apart[0],
+                                     plan=lambda: bridge.whole(progress.plan())))
+
+    return Listener(listener.should_stop, relay)
+
+
+def _bound_reasons(problem: Problem, past: Past, vehicle: Vehicle,
+                   node: int) -> tuple[Reason, ...]:
+    """Return why a customer is unassigned whom one vehicle alone may serve."""
+    name = vehicle_name(problem, vehicle)
+    if node in past.pinned:
+        code, why = "PINNED", f"It is pinned to {name}"
+    else:
+        code, why = "ABOARD", f"Its parcel is aboard {name}"
+    return tuple(
+        Reason(kind, code, f"{why}, which has no room or time for it." if kind == vehicle.type
+               else f"{why}.")
+        for kind in range(len(problem.vehicle_types)))

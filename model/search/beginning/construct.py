@@ -1,0 +1,72 @@
+"""Plans by insertion alone, for the search to begin with."""
+
+import math
+
+from model.kernel.compiled import compiled
+from model.kernel.copying import clear
+from model.search.moves.anneal import anneal
+from model.search.moves.recreate import BY_FAR, BY_WIDTH
+from model.search.route.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, World
+from model.search.route.state import (
+    I_ABSENT, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher, go_back, list_active,
+)
+
+CONSTRUCTED = (BY_FAR, BY_WIDTH)
+"""Orders in which customers are inserted into no routes."""
+
+
+@compiled
+def disband(searcher: Searcher) -> None:
+    """Take all routes apart. In place."""
+    now, count = searcher.now, searcher.count
+    count[I_STAMP] += 1
+    for slot in range(len(searcher.active)):
+        now.route[slot, R_STAMP] = count[I_STAMP]
+        now.route[slot, R_LENGTH] = now.route[slot, R_SORTIES] = now.route[slot, R_TRIPS] = 0
+        now.cost[slot] = 0.0
+    clear(now.used)
+    count[I_ABSENT] = 0
+    for node in range(len(now.where)):
+        if now.where[node, W_SLOT] >= 0:
+            now.where[node, W_SLOT] = NOWHERE
+            searcher.missing[count[I_MISSING]] = node
+            count[I_MISSING] += 1
+    list_active(searcher)
+
+
+def insert_missing(world: World, searcher: Searcher, order: int) -> None:
+    """Insert all customers left out, one after another. In place.
+
+    Once more those for whom the only place, such as a route of their own, was overlooked.
+    """
+    anneal(world, searcher, 1, order)
+    if searcher.count[I_MISSING] > 0:
+        anneal(world, searcher, 1, order)
+
+
+def begin_anew(world: World, searcher: Searcher, freely: bool,
+               hurried: World | None = None) -> None:
+    """Insert the customers left out; `freely`, plan all anew if that is better. In place.
+
+    The latter in a `hurried` world, which is the same and may end sooner, once nobody is left out.
+    """
+    if searcher.count[I_MISSING] > 0:
+        insert_missing(world, searcher, BY_FAR)
+    if freely:
+        left_out = searcher.count[I_MISSING] > 0
+        _construct(world if hurried is None or left_out else hurried, searcher)
+
+
+def begin_again(world: World, searcher: Searcher) -> None:
+    """Plan all anew by insertion, whatever there is. In place."""
+    searcher.value[V_BEST] = math.inf
+    _construct(world, searcher)
+
+
+def _construct(world: World, searcher: Searcher) -> None:
+    """Plan anew by insertion in the best of several orders, if that is better. In place."""
+    for order in CONSTRUCTED:
+        disband(searcher)
+        searcher.value[V_COST] = searcher.count[I_MISSING] * world.unassigned_cost
+        insert_missing(world, searcher, order)
+    go_back(searcher)

@@ -1,0 +1,118 @@
+"""A first plan by savings: routes of one customer each, joined end to end.
+
+References
+----------
+Clarke and Wright (1964), scheduling of vehicles from a central depot to a number of delivery
+points, Operations Research 12:568-581.
+"""
+
+import numpy as np
+
+from model.kernel.compiled import compiled
+from model.kernel.instance import (
+    MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_DEPOT, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL,
+)
+from model.problem import IntArray
+from model.search.route.layout import (
+    NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, World,
+)
+
+NEIGHBOURS = 64
+"""With how many neighbours each customer's route may be joined."""
+
+C_BEFORE, C_BEHIND, C_ROUTE, C_LEAVE, C_LATEST, C_LAST = range(6)
+CHAIN_COLUMNS = 6
+
+
+def savings_routes(world: World, k: int) -> list[list[int]]:
+    """Join the customers that a truck of type `k` may serve to routes.
+
+    Loads, hard windows and the shift are kept; what else is asked for is not looked at.
+
+    Returns
+    -------
+    The customers of each route, in order.
+    """
+    first, nodes = world.num_depots, np.arange(world.num_depots, world.num_nodes)
+    distance = world.leg[world.type[k, TYPE_TRAVEL], :, :, 1]
+    depot = int(world.type[k, TYPE_DEPOT])
+    other = world.near[first:, :NEIGHBOURS]
+    known = other >= 0
+    one = np.broadcast_to(nodes[:, None], other.shape)[known]
+    other = other[known]
+    saving = distance[one, depot] + distance[depot, other] - distance[one, other]
+    order = np.argsort(-saving, kind="stable")
+    order = order[saving[order] > 0]
+    chain = np.zeros((world.num_nodes, CHAIN_COLUMNS), np.int64)
+    load = world.place[:, P_DEMAND:].copy()
+    join(world, k, one[order], other[order], chain, load)
+    heads = [int(node) for node in nodes
+             if world.can[k, 0, node] and chain[node, C_BEFORE] == NOWHERE]
+    return [_customers(chain, head) for head in heads]
+
+
+def _customers(chain: IntArray, node: int) -> list[int]:
+    customers = []
+    while node != NOWHERE:
+        customers.append(node)
+        node = int(chain[node, C_BEHIND])
+    return customers
+
+
+@compiled
+def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray,
+         load: IntArray) -> None:
+    """Join the route that ends at `one` and that which begins at `other`, pair after pair.
+
+    In place: `chain` (node, CHAIN_COLUMNS) is set up here; `load` (node, dimension) is that of the
+    route which begins at the node.
+    """
+    columns = world.type[k]
+    legs = world.leg[columns[TYPE_TRAVEL]]
+    depot = columns[TYPE_DEPOT]
+    for node in range(world.num_depots, world.num_nodes):
+        place, link = world.place[node], chain[node]
+        link[C_BEFORE], link[C_BEHIND], link[C_ROUTE], link[C_LAST] = NOWHERE, NOWHERE, node, node
+        arrival = max(columns[TYPE_EARLIEST], place[P_RELEASE]) + legs[depot, node, 0]
+        link[C_LEAVE] = max(arrival, place[P_EARLIEST]) + place[P_SERVICE]
+        link[C_LATEST] = min(place[P_LIMIT], columns[TYPE_LATEST] - legs[node, depot, 0]
+                             - place[P_SERVICE])
+    for index in range(len(one)):
+        a, b = one[index], other[index]
+        if (chain[a, C_BEHIND] != NOWHERE or chain[b, C_BEFORE] != NOWHERE
+                or not (world.can[k, 0, a] and world.can[k, 0, b])
+                or chain[a, C_LEAVE] + legs[a, b, 0] > chain[b, C_LATEST]):
+            continue
+        head, tail = chain[a, C_ROUTE], chain[b, C_LAST]
+        fits = head != b
+        for dimension in range(MAX_DIMENSIONS):
+            fits = fits and (load[head, dimension] + load[b, dimension]
+                             <= columns[TYPE_CAPACITY + dimension])
+        if fits:
+            link_up(world, legs, chain, a, b, head, tail)
+            for dimension in range(MAX_DIMENSIONS):
+                load[head, dimension] += load[b, dimension]
+
+
+@compiled
+def link_up(world: World, legs: IntArray, chain: IntArray, a: int, b: int, head: int,
+            tail: int) -> None:
+    """Put the route from `b` to `tail` behind that from `head` to `a`. In place."""
+    chain[a, C_BEHIND], chain[b, C_BEFORE] = b, a
+    chain[head, C_LAST], chain[tail, C_ROUTE] = tail, head
+    node, leave = b, chain[a, C_LEAVE] + legs[a, b, 0]
+    while node != NOWHERE:
+        place, behind = world.place[node], chain[node, C_BEHIND]
+        leave = max(leave, place[P_EARLIEST]) + place[P_SERVICE]
+        chain[node, C_LEAVE] = leave
+        if behind != NOWHERE:
+            leave += legs[node, behind, 0]
+        node = behind
+    node, latest = a, chain[b, C_LATEST] - legs[a, b, 0]
+    while node != NOWHERE:
+        place, before = world.place[node], chain[node, C_BEFORE]
+        latest = min(place[P_LIMIT], latest - place[P_SERVICE])
+        chain[node, C_LATEST] = latest
+        if before != NOWHERE:
+            latest -= legs[before, node, 0]
+        node = before

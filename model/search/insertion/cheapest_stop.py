@@ -1,0 +1,281 @@
+"""The cheapest stop for a customer where only the distance of the detour counts."""
+
+from model.kernel.compiled import inlined, pasted, spliced
+from model.kernel.instance import (
+    MAX_DIMENSIONS, RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE, TYPE_TRAVEL,
+)
+from model.problem import FloatArray, IntArray, UIntArray
+from model.search.route.edit import AT_STOP, M_FIRST, M_KIND, M_SLOT, M_TYPE
+from model.search.route.layout import (
+    B_BEST, B_BLINK, CHANGING, FAR, K_DETOUR, K_STAMP, K_STOP, MODE_SIMPLE, NOWHERE, P_DEMAND,
+    P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_GAP, S_LATEST,
+    S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, W_POSITION, W_SLOT, Fleet,
+    World,
+)
+from model.search.route.randomness import uniform
+from model.search.route.vehicles import larger_type, route_cost
+
+
+@spliced
+def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
+    """Tell whether an insertion into a route costs its detour alone."""
+    return (world.mode[fleet.route[slot, R_TYPE]] & MODE_SIMPLE > 0
+            and fleet.route[slot, R_SORTIES] == 0)
+
+
+@spliced
+def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntArray) -> bool:
+    """Tell whether a customer's demand fits on top of a trip's load."""
+    for dimension in range(MAX_DIMENSIONS):
+        if (trips[index, T_LOAD + dimension] + place[node, P_DEMAND + dimension]
+                > columns[TYPE_CAPACITY + dimension]):
+            return False
+    return True
+
+
+@spliced
+def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last: int,
+               skipped: int, place: IntArray, spare: int, rate: float, best: float, blink: float,
+               rng: UIntArray) -> tuple[float, int]:
+    """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
+
+    But for stop `skipped`, where cost is that of the detour, which is at most `spare`. `back` and
+    `leg` are the legs to and from the customer, (node, 2); a better place is overlooked with
+    probability `blink`. Returns its cost and the stop, or `best` and -1 if none costs less.
+    """
+    chosen = -1
+    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    for p in range(first, last + 1):
+        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+        detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
+        cost = detour * rate
+        if cost >= best or detour > spare or p == skipped:
+            continue
+        arrival = stops[p, S_LEAVE] + back[here, 0]
+        if arrival > limit:
+            if stops[p, S_LEAVE] > limit:
+                break
+            continue
+        arrival = max(arrival, earliest) + service + leg[there, 0]
+        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
+            chosen, best = p, cost
+    return best, chosen
+
+
+@inlined
+def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, start: int,
+                 first: int, last: int, node: int, spare: int, rate: float, best: float,
+                 blink: float, rng: UIntArray) -> tuple[float, int]:
+    """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
+    chosen, place = -1, world.place[node]
+    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    leave = place[P_RELEASE]
+    if leave > stops[start, S_LATEST]:
+        return best, chosen
+    for p in range(start, last + 1):
+        if p > start:
+            arrival = leave + stops[p - 1, S_GAP]
+            if arrival > stops[p, S_LATEST]:
+                break
+            here = world.place[stops[p, S_NODE]]
+            leave = max(arrival, here[P_EARLIEST]) + here[P_SERVICE]
+        if leave > limit:
+            break
+        detour = back[stops[p, S_NODE], 1] + leg[stops[p + 1, S_NODE], 1] - stops[p, S_LEG]
+        cost = detour * rate
+        arrival = leave + back[stops[p, S_NODE], 0]
+        if p < first or cost >= best or detour > spare or arrival > limit:
+            continue
+        arrival = max(arrival, earliest) + service + leg[stops[p + 1, S_NODE], 0]
+        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
+            chosen, best = p, cost
+    return best, chosen
+
+
+@spliced
+def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, last: int, node: int,
+              rate: float, best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
+    """Find the cheapest place for a customer on a trip. As `scan_stops`."""
+    k, trip, stops = fleet.route[slot, R_TYPE], fleet.trip[slot, index], fleet.stop[slot]
+    m = world.type[k, TYPE_TRAVEL]
+    back, leg, place = world.back[m, node], world.leg[m, node], world.place[node]
+    spare = world.type[k, TYPE_MAX_DISTANCE] - trip[T_DISTANCE]
+    if place[P_RELEASE] > stops[trip[T_FIRST], S_LEAVE]:
+        return scan_delayed(world, back, leg, stops, trip[T_FIRST], first, last, node, spare, rate,
+                            best, blink, rng)
+    return scan_stops(back, leg, stops, first, last, -1, place, spare, rate, best, blink, rng)
+
+
+@spliced
+def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
+                 enlarge: bool) -> tuple[int, float]:
+    """Return the type that would serve a customer more on a trip, and what it costs more.
+
+    A larger one if `enlarge`; or `NOWHERE`.
+    """
+    k = fleet.route[slot, R_TYPE]
+    if fits(world.place, node, fleet.trip[slot], index, world.type[k]):
+        return k, 0.0
+    if not enlarge:
+        return NOWHERE, 0.0
+    by = larger_type(world, fleet, slot, node)
+    if by < 0:
+        return NOWHERE, 0.0
+    return by, route_cost(world, by, fleet.trip[slot, 0, T_DISTANCE]) - fleet.cost[slot]
+
+
+@spliced
+def shortest_detour(back: IntArray, leg: IntArray, stops: IntArray, last: int, place: IntArray,
+                    best: int) -> tuple[int, int]:
+    """Return the shortest detour for a customer on a lean route, and the stop before it.
+
+    Or `best` and -1 if there is none shorter.
+    """
+    chosen = -1
+    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    for p in range(last):
+        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+        detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
+        if detour >= best:
+            continue
+        arrival = stops[p, S_LEAVE] + back[here, 0]
+        if arrival > limit:
+            if stops[p, S_LEAVE] > limit:
+                break
+            continue
+        arrival = max(arrival, earliest) + service + leg[there, 0]
+        if arrival <= stops[p + 1, S_LATEST]:
+            chosen, best = p, detour
+    return best, chosen
+
+
+@spliced
+def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, best: float,
+              kept: IntArray) -> tuple[float, int]:
+    """As `scan_stops`, on a lean route that this turn doesn't change, but for overlooking.
+
+    Most turns are undone, so that most routes are as when the customer was inserted before.
+    """
+    stamp = fleet.route[slot, R_STAMP]
+    if kept[K_STAMP] != stamp or (kept[K_STOP] < 0 and kept[K_DETOUR] * rate < best):
+        m = world.type[fleet.route[slot, R_TYPE], TYPE_TRAVEL]
+        most = FAR
+        # Also where distance costs nothing, or a larger vehicle saves more than any detour costs.
+        if abs(best) < FAR * rate:
+            most = int(best / rate) + 1
+        kept[K_STAMP] = stamp
+        kept[K_DETOUR], kept[K_STOP] = shortest_detour(
+            world.back[m, node], world.leg[m, node], fleet.stop[slot], fleet.trip[slot, 0, T_LAST],
+            world.place[node], most)
+    cost = kept[K_DETOUR] * rate
+    if cost >= best:
+        return best, -1
+    return cost, kept[K_STOP]
+
+
+@spliced
+def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
+              best: float, enlarge: bool, kept: IntArray, move: IntArray, rng: UIntArray) -> float:
+    """Find the cheapest stop where all routes are lean; return the best cost so far.
+
+    In place: `move`, if that is a stop that costs less than `best`; also `kept`, as in `Searcher`.
+    """
+    for index in range(num_active):
+        slot = active[index]
+        k = fleet.route[slot, R_TYPE]
+        if not world.can[k, 0, node]:
+            continue
+        by, base = serving_type(world, fleet, slot, 0, node, enlarge)
+        if by < 0 or (by != k and base >= best):
+            continue
+        rate = world.rate[by, RATE_KM]
+        skipped, changing = -1, not world.scan_all or fleet.route[slot, R_STAMP] == CHANGING
+        cost, p = best, -1
+        if not changing:
+            cost, p = scan_kept(world, fleet, slot, node, rate, best - base, kept[node, slot])
+            if p >= 0 and uniform(rng) < world.blink:
+                skipped, changing = p, True
+        if changing:
+            m = world.type[k, TYPE_TRAVEL]
+            cost, p = scan_stops(
+                world.back[m, node], world.leg[m, node], fleet.stop[slot], 0,
+                fleet.trip[slot, 0, T_LAST] - 1, skipped, world.place[node], FAR, rate, best - base,
+                world.blink, rng)
+        if p >= 0:
+            best = cost + base
+            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+    return best
+
+
+@spliced
+def scan_simple(world: World, fleet: Fleet, slot: int, node: int, enlarge: bool,
+                bound: FloatArray, move: IntArray, rng: UIntArray) -> None:
+    """Find the cheapest stop on a route where only distance counts. As `places.try_route`."""
+    k = fleet.route[slot, R_TYPE]
+    for trip in range(fleet.route[slot, R_TRIPS]):
+        by, base = serving_type(world, fleet, slot, trip, node, enlarge)
+        if by < 0 or (by != k and base >= bound[B_BEST]):
+            continue
+        cost, p = scan_trip(
+            world, fleet, slot, trip, fleet.trip[slot, trip, T_FIRST],
+            fleet.trip[slot, trip, T_LAST] - 1, node, world.rate[by, RATE_KM],
+            bound[B_BEST] - base, bound[B_BLINK], rng)
+        if p >= 0:
+            bound[B_BEST] = cost + base
+            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+
+
+@pasted
+def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
+                move: IntArray, rng: UIntArray) -> float:
+    """Find the cheapest stop beside neighbours where only distance counts. As `scan_lean`."""
+    for rank in range(world.fit.shape[1]):
+        other = world.fit[node, rank]
+        slot = fleet.where[other, W_SLOT]
+        if slot < 0:
+            continue
+        k = fleet.route[slot, R_TYPE]
+        if not (is_simple(world, fleet, slot) and world.can[k, 0, node]):
+            continue
+        p = fleet.where[other, W_POSITION]
+        trip = fleet.stop[slot, p, S_TRIP]
+        by, base = serving_type(world, fleet, slot, trip, node, enlarge)
+        if by < 0 or (by != k and base >= best):
+            continue
+        cost, p = scan_trip(world, fleet, slot, trip, p - 1, p, node, world.rate[by, RATE_KM],
+                            best - base, world.blink, rng)
+        if p >= 0:
+            best = cost + base
+            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+    return best
+
+
+@spliced
+def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
+                     move: IntArray, rng: UIntArray) -> float:
+    """Find the cheapest stop beside neighbours where all routes are lean. As `scan_lean`."""
+    place = world.place[node]
+    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    for rank in range(world.fit.shape[1]):
+        other = world.fit[node, rank]
+        slot, behind = fleet.where[other, W_SLOT], fleet.where[other, W_POSITION]
+        if slot < 0:
+            continue
+        k = fleet.route[slot, R_TYPE]
+        if not world.can[k, 0, node]:
+            continue
+        by, base = serving_type(world, fleet, slot, 0, node, enlarge)
+        if by < 0 or (by != k and base >= best):
+            continue
+        m, rate = world.type[k, TYPE_TRAVEL], world.rate[by, RATE_KM]
+        back, leg, stops = world.back[m, node], world.leg[m, node], fleet.stop[slot]
+        for p in (behind - 1, behind):
+            here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+            cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate + base
+            arrival = stops[p, S_LEAVE] + back[here, 0]
+            leave = max(arrival, earliest) + service
+            if (cost < best and arrival <= limit and leave + leg[there, 0] <= stops[p + 1, S_LATEST]
+                    and uniform(rng) >= world.blink):
+                best = cost
+                move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+    return best

@@ -1,0 +1,283 @@
+"""Places for a customer on a route: behind a stop, on sorties, on trips of the customer's own."""
+
+from model.kernel.alarm import rung
+from model.kernel.compiled import inlined, pasted, spliced
+from model.kernel.copying import copy_row
+from model.kernel.instance import (
+    RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DEPOT, TYPE_DRONES, TYPE_DRONE_SERVICE,
+    TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_RECOVERY, TYPE_TRAVEL,
+    TYPE_WAITING_COUNTS,
+)
+from model.problem import UNREACHABLE, FloatArray, IntArray
+from model.search.insertion.cheapest_stop import fits, is_simple
+from model.search.insertion.evaluate import INFEASIBLE, price_move, price_stop, stands_alone
+from model.search.insertion.new_trips import more_trips_fit, part_fits
+from model.search.route.edit import (
+    AT_STOP, BY_SORTIE, FLIGHT_TRIP, M_DRONE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, NEW_TRIP,
+    ON_SORTIE, TRIP_FROM, TRIP_UNTIL,
+)
+from model.search.route.layout import (
+    B_BEST, B_BLINK, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, MODE_TIMED,
+    NOWHERE, P_EARLIEST, P_LIMIT, P_SERVICE, R_LENGTH, R_SORTIES, R_TYPE, S_ARRIVAL, S_FLYING,
+    S_GAP, S_IDLE, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, T_DISTANCE, T_LAST,
+    Fleet, World,
+)
+from model.search.route.randomness import uniform
+from model.search.route.refresh import idle_time
+from model.search.route.routes import lateness_cost
+from model.search.route.state import I_OFFERS, Searcher
+from model.search.route.vehicles import lifts
+
+MAX_SPAN = 8
+"""How many stops after its launch a sortie is recovered at most."""
+
+AT_ONE_STOP = MAX_SPAN + 2
+"""How many insertions begin at a stop at most, a customer behind it and sorties from there."""
+
+
+@spliced
+def add_offer(offer: IntArray, least: FloatArray, count: IntArray, cost: float, kind: int,
+              slot: int, first: int) -> int:
+    """List an insertion that costs at least `cost`; return where, to complete it. In place."""
+    index = count[I_OFFERS]
+    offer[index, M_KIND], offer[index, M_SLOT], offer[index, M_FIRST] = kind, slot, first
+    least[index] = cost
+    count[I_OFFERS] += 1
+    return index
+
+
+@spliced
+def stop_costs(world: World, k: int, back: IntArray, leg: IntArray, stops: IntArray, p: int,
+               node: int, spare: int, early: float, best: float) -> float:
+    """Return what a customer behind stop `p` costs at least, or `best` if that is no less.
+
+    Or not allowed. `spare` is the time that the route could work longer at no cost, `early` what
+    its waiting costs, which may become less.
+    """
+    place, here, there = world.place[node], stops[p, S_NODE], stops[p + 1, S_NODE]
+    cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * world.rate[k, RATE_KM] - early
+    mode = world.mode[k]
+    if mode & MODE_TIMED:
+        # While drones fly, the truck may have time before they are back.
+        longer = back[here, 0] + leg[there, 0] + place[P_SERVICE] - stops[p, S_GAP]
+        cost += max(0, longer - spare - stops[p, S_IDLE]) * world.rate[k, RATE_HOUR]
+    if cost >= best:
+        return best
+    arrival = stops[p, S_LEAVE] + back[here, 0]
+    following = max(arrival, place[P_EARLIEST]) + place[P_SERVICE] + leg[there, 0]
+    if arrival > place[P_LIMIT] or following > stops[p + 1, S_LATEST]:
+        return best
+    if mode & MODE_PRICED:
+        cost += (lateness_cost(world, node, arrival) + lateness_cost(world, there, following)
+                 - lateness_cost(world, there, stops[p + 1, S_ARRIVAL]))
+    return cost
+
+
+@pasted
+def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: int,
+                node: int) -> None:
+    """List a customer behind each stop of a trip from `first` to `last`, if that may be cheaper.
+
+    For where more than distance counts. In place.
+    """
+    now, best = searcher.now, searcher.bound[B_BEST]
+    k, stops = now.route[slot, R_TYPE], now.stop[slot]
+    m = world.type[k, TYPE_TRAVEL]
+    back, leg = world.back[m, node], world.leg[m, node]
+    spare, early = idle_time(now.route[slot]), now.early[slot]
+    room = world.type[k, TYPE_MAX_DISTANCE] - now.trip[slot, stops[first, S_TRIP], T_DISTANCE]
+    for p in range(first, last + 1):
+        cost = stop_costs(world, k, back, leg, stops, p, node, spare, early, best)
+        if cost < best and (back[stops[p, S_NODE], 1] + leg[stops[p + 1, S_NODE], 1]
+                            - stops[p, S_LEG]) <= room:
+            add_offer(searcher.offer, searcher.least, searcher.count, cost, AT_STOP, slot, p)
+
+
+@spliced
+def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int) -> int:
+    """Return a drone that is aboard from stop `launch` to `recovery`; -1 if there is none.
+
+    That which flies least from and to these stops, so that drones fly side by side.
+    """
+    sorties = fleet.sortie[slot]
+    chosen, fewest = NOWHERE, 0
+    for drone in range(world.type[fleet.route[slot, R_TYPE], TYPE_DRONES]):
+        free, beside = True, 0
+        for s in range(fleet.route[slot, R_SORTIES]):
+            if sorties[s, F_DRONE] == drone:
+                first, last = sorties[s, F_LAUNCH], sorties[s, F_RECOVERY]
+                if first <= recovery and launch <= last:
+                    beside += 1
+                if first < recovery and launch < last:
+                    free = False
+                if launch == recovery and first < launch < last:
+                    free = False
+                if first == last and launch < first < recovery:
+                    free = False
+                if first == launch and recovery > launch and last > first:
+                    free = False
+        if free and (chosen == NOWHERE or beside < fewest):
+            chosen, fewest = drone, beside
+    return chosen
+
+
+@pasted
+def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node: int) -> None:
+    """List sorties to a customer from stop `launch`. As `offer_stops`."""
+    now, best = searcher.now, searcher.bound[B_BEST]
+    k, stops = now.route[slot, R_TYPE], now.stop[slot]
+    columns = world.type[k]
+    flights = columns[TYPE_DRONE_TRAVEL]
+    out = world.back[flights, node, stops[launch, S_NODE]]
+    begun = stops[launch, S_ARRIVAL] + (columns[TYPE_LAUNCH] if launch > 0 else 0)
+    service = columns[TYPE_DRONE_SERVICE]
+    if service < 0:
+        service = world.place[node, P_SERVICE]
+    late = 0.0
+    if world.mode[k] & MODE_PRICED:
+        late = lateness_cost(world, node, begun + out[0])
+    begun += columns[TYPE_RECOVERY] - idle_time(now.route[slot])
+    first = launch if world.loops else launch + 1
+    last = launch
+    if world.crossings:
+        last = min(launch + MAX_SPAN, now.trip[slot, stops[launch, S_TRIP], T_LAST])
+    for recovery in range(first, last + 1):
+        home = world.leg[flights, node, stops[recovery, S_NODE]]
+        away = stops[recovery, S_ARRIVAL] - stops[launch, S_LEAVE]
+        flight = out[0] + service + home[0]
+        if columns[TYPE_WAITING_COUNTS] and away > columns[TYPE_ENDURANCE]:
+            # Held back for the window, the truck leaves later and may wait less on its way.
+            held = world.place[node, P_EARLIEST] + service - stops[launch, S_LEAVE]
+            if held <= 0:
+                break
+            if away > max(columns[TYPE_ENDURANCE], held + home[0]):
+                continue
+        # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
+        longer = max(0, begun + flight - stops[recovery, S_LEAVE])
+        cost = ((out[1] + home[1]) * world.rate[k, RATE_DRONE_KM]
+                + longer * world.rate[k, RATE_HOUR] + late - now.early[slot])
+        if (cost < best and flight <= columns[TYPE_ENDURANCE] and out[0] < UNREACHABLE
+                and home[0] < UNREACHABLE):
+            index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
+                              slot, launch)
+            searcher.offer[index, M_LAST] = recovery
+
+
+@pasted
+def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> None:
+    """List a customer on each sortie of a route. As `offer_stops`."""
+    now = searcher.now
+    k, stops, sorties = now.route[slot, R_TYPE], now.stop[slot], now.sortie[slot]
+    flights = world.leg[world.type[k, TYPE_DRONE_TRAVEL]]
+    for s in range(now.route[slot, R_SORTIES]):
+        sortie = sorties[s]
+        trip = stops[sortie[F_LAUNCH], S_TRIP]
+        if (sortie[F_COUNT] >= world.visits[k]
+                or not fits(world.place, node, now.trip[slot], trip, world.type[k])
+                or not lifts(world, sortie, k, node)):
+            continue
+        here = stops[sortie[F_LAUNCH], S_NODE]
+        for place in range(sortie[F_COUNT] + 1):
+            there = stops[sortie[F_RECOVERY], S_NODE]
+            if place < sortie[F_COUNT]:
+                there = sortie[F_NODE + place]
+            cost = (flights[here, node, 1] + flights[node, there, 1]
+                    - flights[here, there, 1]) * world.rate[k, RATE_DRONE_KM] - now.early[slot]
+            here = there
+            if cost < searcher.bound[B_BEST]:
+                index = add_offer(searcher.offer, searcher.least, searcher.count, cost,
+                                  ON_SORTIE, slot, place)
+                searcher.offer[index, M_SORTIE] = s
+
+
+@pasted
+def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
+    """List trips that a drone flies alone to a customer. As `offer_stops`."""
+    route, stops = searcher.now.route[slot], searcher.now.stop[slot]
+    k = route[R_TYPE]
+    flights, depot = world.type[k, TYPE_DRONE_TRAVEL], world.type[k, TYPE_DEPOT]
+    out, home = world.back[flights, node, depot], world.leg[flights, node, depot]
+    cost = (out[1] + home[1]) * world.rate[k, RATE_DRONE_KM] - searcher.now.early[slot]
+    if (world.loops and max(out[0], home[0]) < UNREACHABLE
+            and cost < searcher.bound[B_BEST]):
+        for p in range(-1, route[R_LENGTH]):
+            if p < 0 or stops[p, S_KIND] == END:
+                add_offer(searcher.offer, searcher.least, searcher.count, cost, FLIGHT_TRIP, slot,
+                          p)
+
+
+@pasted
+def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
+    """List a customer where a trip more begins or ends. As `offer_stops`."""
+    now = searcher.now
+    route, stops, best = now.route[slot], now.stop[slot], searcher.bound[B_BEST]
+    k = route[R_TYPE]
+    m, depot = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_DEPOT]
+    rate = world.rate[k, RATE_KM]
+    out, home = world.back[m, node, depot, 1], world.leg[m, node, depot, 1]
+    for p in range(-1, route[R_LENGTH]):
+        kind = NEW_TRIP
+        cost = (out + home) * rate
+        if p >= 0 and stops[p, S_KIND] != END:
+            if stops[p, S_FLYING] > 0 or stops[p, S_KIND] == START or stops[p + 1, S_KIND] == END:
+                continue
+            here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
+            base = -stops[p, S_LEG]
+            until = (base + world.back[m, node, here, 1] + home
+                     + world.leg[m, depot, there, 1]) * rate
+            cost = (base + world.leg[m, here, depot, 1] + out
+                    + world.leg[m, node, there, 1]) * rate
+            kind = TRIP_FROM
+            if until < cost:
+                kind, cost = TRIP_UNTIL, until
+            if cost < best and not part_fits(world, now, slot, p, node, kind == TRIP_UNTIL):
+                continue
+        cost -= now.early[slot]
+        if cost < best and (p < 0 or stops[p, S_LEAVE] <= world.place[node, P_LIMIT]):
+            add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
+
+
+@inlined
+def price_offer(world: World, fleet: Fleet, move: IntArray, node: int, least: float,
+                acc: IntArray) -> float:
+    """Return what an insertion costs, at least `least`; INFEASIBLE if it can't be.
+
+    In place: a sortie's drone.
+    """
+    kind, slot, p = move[M_KIND], move[M_SLOT], move[M_FIRST]
+    if kind == BY_SORTIE:
+        move[M_DRONE] = free_drone(world, fleet, slot, p, move[M_LAST])
+        if move[M_DRONE] < 0:
+            return INFEASIBLE
+    elif kind == AT_STOP:
+        if stands_alone(world, fleet, slot, p, node):
+            return price_stop(world, fleet, slot, p, node)
+    elif kind in (NEW_TRIP, TRIP_FROM, TRIP_UNTIL) and is_simple(world, fleet, slot):
+        return least if more_trips_fit(world, fleet, slot, p, node, kind) else INFEASIBLE
+    return price_move(world, fleet, move, node, acc)
+
+
+@pasted
+def take_cheapest(world: World, searcher: Searcher, node: int) -> None:
+    """Let the move be the cheapest of the insertions listed, if it is the best, but for blinks.
+
+    Those that may be cheapest are priced first, so that most need not be; none is once the search
+    must end. In place.
+    """
+    bound, least, offer = searcher.bound, searcher.least, searcher.offer
+    left = searcher.count[I_OFFERS]
+    while left > 0 and not rung(world.stop):
+        first = 0
+        for index in range(1, left):
+            if least[index] < least[first]:
+                first = index
+        if least[first] >= bound[B_BEST]:
+            break
+        cost = price_offer(world, searcher.now, offer[first], node, least[first], searcher.acc)
+        if cost < bound[B_BEST] and uniform(searcher.rng) >= bound[B_BLINK]:
+            bound[B_BEST] = cost
+            copy_row(offer[first], searcher.move)
+        left -= 1
+        least[first] = least[left]
+        copy_row(offer[left], offer[first])
+    searcher.count[I_OFFERS] = 0

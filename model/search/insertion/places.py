@@ -1,0 +1,197 @@
+"""The cheapest insertion of a customer, on all routes or beside neighbours."""
+
+from model.kernel.alarm import rung
+from model.kernel.compiled import pasted
+from model.kernel.copying import copy_row
+from model.kernel.instance import TYPE_COUNT, TYPE_ENDURANCE, TYPE_MAX_TRIPS
+from model.search.insertion.cheapest_stop import (
+    fits, is_simple, scan_beside, scan_beside_lean, scan_lean, scan_simple,
+)
+from model.search.insertion.evaluate import INFEASIBLE
+from model.search.insertion.offers import (
+    offer_flight_trips, offer_joining, offer_sorties, offer_stops, offer_trips, take_cheapest,
+)
+from model.search.route.edit import M_KIND, M_TYPE, NEW_ROUTE
+from model.search.route.layout import (
+    B_BEST, B_BLINK, CHANGING, K_MOVE, K_STAMP, NOWHERE, P_EARLIEST, R_STAMP, R_TRIPS, R_TYPE,
+    S_LEAVE, S_TRIP, T_FIRST, T_LAST, W_SLOT, World,
+)
+from model.search.route.randomness import uniform
+from model.search.route.refresh import stop_beside
+from model.search.route.state import I_ACTIVE, Searcher
+
+MORE_TRIPS = 0.2
+"""How often a customer who can go on a trip as it is may begin or split one."""
+
+
+@pasted
+def try_new_route(world: World, searcher: Searcher, node: int) -> float:
+    """Try a customer on a route of its own; return its cost, INFEASIBLE if there is none.
+
+    In place: `searcher.move`.
+    """
+    best = INFEASIBLE
+    for k in range(world.num_types):
+        if searcher.now.used[k] >= world.type[k, TYPE_COUNT]:
+            continue
+        for by_drone in range(2 if world.loops else 1):
+            cost = searcher.alone[k, by_drone, node]
+            if cost < best and uniform(searcher.rng) >= world.blink:
+                best = cost
+                searcher.move[M_KIND], searcher.move[M_TYPE] = NEW_ROUTE + by_drone, k
+    return best
+
+
+@pasted
+def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: bool) -> None:
+    """Try a customer on the trips and sorties of a route.
+
+    In place: the move, and the cost of the best so far.
+    """
+    now = searcher.now
+    k = now.route[slot, R_TYPE]
+    by_truck, by_drone = world.can[k, 0, node], world.can[k, 1, node]
+    simple = is_simple(world, now, slot)
+    if simple and by_truck:
+        scan_simple(world, now, slot, node, enlarge, searcher.bound, searcher.move, searcher.rng)
+    if simple and not by_drone:
+        return
+    for trip in range(now.route[slot, R_TRIPS]):
+        if not fits(world.place, node, now.trip[slot], trip, world.type[k]):
+            continue
+        first, last = now.trip[slot, trip, T_FIRST], now.trip[slot, trip, T_LAST]
+        if by_truck and not simple:
+            offer_stops(world, searcher, slot, first, last - 1, node)
+        if by_drone:
+            for p in range(first, last):
+                offer_sorties(world, searcher, slot, p, node)
+            # Who would have to wait for a flight from the depot may fly when the trip is over.
+            soonest = world.place[node, P_EARLIEST] - world.type[k, TYPE_ENDURANCE]
+            if now.stop[slot, first, S_LEAVE] < soonest:
+                offer_sorties(world, searcher, slot, last, node)
+    if world.visits[k] > 1 and by_drone:
+        offer_joining(world, searcher, slot, node)
+    take_cheapest(world, searcher, node)
+
+
+@pasted
+def is_kept(searcher: Searcher, slot: int, node: int) -> bool:
+    """Tell whether the best place kept for a customer on a route is still that, or none is."""
+    row = searcher.kept[node, slot]
+    return (row[K_STAMP] == searcher.now.route[slot, R_STAMP]
+            and (row[K_MOVE + M_KIND] >= 0
+                 or searcher.kept_cost[node, slot] >= searcher.bound[B_BEST]))
+
+
+@pasted
+def take_kept(searcher: Searcher, slot: int, node: int) -> None:
+    """Let the move be the place kept for a customer on a route if it is the best. In place."""
+    cost = searcher.kept_cost[node, slot]
+    if cost < searcher.bound[B_BEST] and uniform(searcher.rng) >= searcher.bound[B_BLINK]:
+        searcher.bound[B_BEST] = cost
+        copy_row(searcher.kept[node, slot, K_MOVE:], searcher.move)
+
+
+@pasted
+def keep(searcher: Searcher, slot: int, node: int, before: float) -> None:
+    """Keep what was found for a customer on a route, which cost less than `before`, or nothing.
+
+    In place.
+    """
+    row, best = searcher.kept[node, slot], searcher.bound[B_BEST]
+    row[K_STAMP] = searcher.now.route[slot, R_STAMP]
+    searcher.kept_cost[node, slot] = best
+    copy_row(searcher.move, row[K_MOVE:])
+    if best >= before:
+        row[K_MOVE + M_KIND] = NOWHERE
+
+
+@pasted
+def try_routes(world: World, searcher: Searcher, node: int, enlarge: bool) -> None:
+    """Try a customer on all routes, those first where that takes little. As `try_route`.
+
+    Most turns are undone, so that most routes are as when the customer was inserted before. If the
+    best place there is overlooked, so is the route.
+    """
+    now, bound = searcher.now, searcher.bound
+    for costly in (False, True):
+        for index in range(searcher.count[I_ACTIVE]):
+            slot = searcher.active[index]
+            k = now.route[slot, R_TYPE]
+            if not (world.can[k, 0, node] or world.can[k, 1, node]):
+                continue
+            if rung(world.stop):
+                return
+            known = world.keeps and not enlarge and now.route[slot, R_STAMP] != CHANGING
+            if known and is_kept(searcher, slot, node):
+                if not costly:
+                    take_kept(searcher, slot, node)
+                continue
+            if costly != (world.can[k, 1, node] or not is_simple(world, now, slot)):
+                continue
+            before = bound[B_BEST]
+            bound[B_BLINK] = 0.0 if known else world.blink
+            try_route(world, searcher, slot, node, enlarge)
+            bound[B_BLINK] = world.blink
+            if known:
+                keep(searcher, slot, node, before)
+
+
+@pasted
+def find_place(world: World, searcher: Searcher, node: int, enlarge: bool) -> float:
+    """Find the cheapest insertion of a customer; return its cost, INFEASIBLE if there is none.
+
+    In place: `searcher.move`, and what is kept.
+    """
+    now, bound, move = searcher.now, searcher.bound, searcher.move
+    best = try_new_route(world, searcher, node)
+    if not world.general:
+        return scan_lean(world, now, searcher.active, searcher.count[I_ACTIVE], node, best,
+                         enlarge, searcher.kept, move, searcher.rng)
+    bound[B_BEST], bound[B_BLINK] = best, world.blink
+    try_routes(world, searcher, node, enlarge)
+    if bound[B_BEST] == INFEASIBLE or uniform(searcher.rng) < MORE_TRIPS:
+        for index in range(searcher.count[I_ACTIVE]):
+            slot = searcher.active[index]
+            k = now.route[slot, R_TYPE]
+            if now.route[slot, R_TRIPS] >= world.type[k, TYPE_MAX_TRIPS] or rung(world.stop):
+                continue
+            if world.can[k, 0, node]:
+                offer_trips(world, searcher, slot, node)
+            if world.can[k, 1, node]:
+                offer_flight_trips(world, searcher, slot, node)
+        take_cheapest(world, searcher, node)
+    return bound[B_BEST]
+
+
+@pasted
+def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> float:
+    """Find the cheapest insertion of a customer beside its neighbours. As `find_place`."""
+    now, bound, move = searcher.now, searcher.bound, searcher.move
+    best = try_new_route(world, searcher, node)
+    if not world.general:
+        return scan_beside_lean(world, now, node, best, enlarge, move, searcher.rng)
+    best = scan_beside(world, now, node, best, enlarge, move, searcher.rng)
+    bound[B_BEST], bound[B_BLINK] = best, world.blink
+    for rank in range(world.fit.shape[1]):
+        other = world.fit[node, rank]
+        slot = now.where[other, W_SLOT]
+        if slot < 0:
+            continue
+        k = now.route[slot, R_TYPE]
+        by_truck = world.can[k, 0, node] and not is_simple(world, now, slot)
+        p = stop_beside(now, other)
+        trip = now.stop[slot, p, S_TRIP]
+        if (not (by_truck or world.can[k, 1, node])
+                or not fits(world.place, node, now.trip[slot], trip, world.type[k])):
+            continue
+        first = max(p - 1, now.trip[slot, trip, T_FIRST])
+        if by_truck:
+            # Nobody is served behind the depot.
+            offer_stops(world, searcher, slot, first, min(p, now.trip[slot, trip, T_LAST] - 1),
+                        node)
+        if world.can[k, 1, node]:
+            for q in range(first, p + 1):
+                offer_sorties(world, searcher, slot, q, node)
+    take_cheapest(world, searcher, node)
+    return bound[B_BEST]

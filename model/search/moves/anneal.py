@@ -1,0 +1,194 @@
+"""Simulated annealing by ruin and recreate.
+
+References
+----------
+Christiaens and Vanden Berghe (2020), slack induction by string removals for vehicle routing
+problems, Transportation Science 54:417-433.
+"""
+
+import math
+
+from model.kernel.alarm import rung
+from model.kernel.compiled import compiled_on_arrays, inlined, spliced
+from model.kernel.copying import copy_some
+from model.search.moves.exchange import exchange_tails
+from model.search.moves.recreate import ORDERS, recreate, sort_absent
+from model.search.moves.resplit import resplit
+from model.search.moves.retype import cheapen_types, draw_type, improve_types
+from model.search.moves.ruin import choose, remove_marked
+from model.search.route.layout import NOWHERE, R_LENGTH, R_TYPE, W_SLOT, World
+from model.search.route.randomness import below, uniform
+from model.search.route.refresh import locate
+from model.search.route.state import (
+    I_ABSENT, I_ACTIVE, I_CUSTOMERS, I_LEAN, I_MISSING, I_TOUCHED, I_TURN, V_BEST, V_COOLING,
+    V_COST, V_TEMPERATURE, Searcher, accept, copy_route, keep_best, list_active, served_cost, touch,
+    turn_cost,
+)
+
+ANY = -1
+"""No order of insertion in particular: one is drawn each turn."""
+
+MOST_MISSING = 12
+"""How many of the customers left out are tried again each turn."""
+
+RESPLITS = 30
+"""Trips with one drone planned anew from their order each turn."""
+
+RETYPED = 0.1
+"""How often the routes touched are given the vehicles that cost least."""
+
+
+@spliced
+def begin_turn(searcher: Searcher, most: int) -> int:
+    """List `most` of the customers left out as absent. In place; return how many are not tried."""
+    count, absent, missing = searcher.count, searcher.absent, searcher.missing
+    count[I_TURN] += 1
+    count[I_TOUCHED] = 0
+    total = count[I_MISSING]
+    copy_some(missing, absent, total)
+    alone = max(0, total - most)
+    for index in range(total - 1, alone - 1, -1):
+        other = below(searcher.rng, index + 1)
+        absent[index], absent[other] = absent[other], absent[index]
+    count[I_ABSENT] = total
+    return alone
+
+
+@spliced
+def ruin(world: World, searcher: Searcher, first: int) -> None:
+    """Remove strings of customers near each other. In place."""
+    count, now = searcher.count, searcher.now
+    before = count[I_ABSENT]
+    total, num_touched = choose(
+        world, now, searcher.active, count[I_ACTIVE], count[I_CUSTOMERS], searcher.marked,
+        searcher.absent, before, searcher.moved, searcher.hit, count[I_TURN], searcher.rng)
+    emptied = False
+    for index in range(num_touched):
+        touch(searcher, searcher.moved[index])
+    for index in range(num_touched):
+        slot = searcher.touched[index]
+        total = remove_marked(world, now, slot, searcher.marked, searcher.absent, total,
+                              searcher.moved, searcher.acc)
+        if now.route[slot, R_LENGTH] == 0:
+            emptied = True
+        else:
+            locate(now, slot)
+    for index in range(before, total):
+        searcher.marked[searcher.absent[index]] = False
+        now.where[searcher.absent[index], W_SLOT] = NOWHERE
+    count[I_ABSENT] = total
+    if emptied:
+        list_active(searcher)
+
+
+@inlined
+def rarer_absences(searcher: Searcher) -> bool:
+    """Tell whether as many are left out after this turn as before, but who seldom were.
+
+    Counts the absences. In place.
+    """
+    count, absences = searcher.count, searcher.absences
+    before = after = 0
+    for index in range(count[I_MISSING]):
+        before += absences[searcher.missing[index]]
+    for index in range(count[I_ABSENT]):
+        after += absences[searcher.absent[index]]
+        absences[searcher.absent[index]] += 1
+    return count[I_ABSENT] == count[I_MISSING] and after < before
+
+
+@spliced
+def undo(searcher: Searcher) -> None:
+    """Take back this turn. In place."""
+    now, before = searcher.now, searcher.before
+    same = True
+    for index in range(searcher.count[I_TOUCHED]):
+        slot = searcher.touched[index]
+        if now.route[slot, R_LENGTH] > 0:
+            now.used[now.route[slot, R_TYPE]] -= 1
+        same = same and (now.route[slot, R_LENGTH] > 0) == (before.route[slot, R_LENGTH] > 0)
+        copy_route(before, slot, now, slot, searcher.count[I_LEAN])
+        if now.route[slot, R_LENGTH] > 0:
+            now.used[now.route[slot, R_TYPE]] += 1
+            locate(now, slot)
+    for index in range(searcher.count[I_MISSING]):
+        now.where[searcher.missing[index], W_SLOT] = NOWHERE
+    if not same:
+        list_active(searcher)
+
+
+@spliced
+def move_parts(world: World, searcher: Searcher, tails: bool) -> None:
+    """Swap tails of routes, or plan a trip anew, if that is accepted. In place."""
+    value, count = searcher.value, searcher.count
+    limit = -value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
+    count[I_TOUCHED] = 0
+    count[I_ABSENT] = count[I_MISSING]
+    changed = (exchange_tails(world, searcher, limit) if tails
+               else resplit(world, searcher, limit))
+    if changed:
+        if world.traded and uniform(searcher.rng) < RETYPED:
+            improve_types(world, searcher)
+        cost = turn_cost(world, searcher)
+        if cost < value[V_COST] + limit:
+            copy_some(searcher.missing, searcher.absent, count[I_MISSING])
+            list_active(searcher)
+            accept(searcher, cost)
+            if cost < value[V_BEST]:
+                keep_best(searcher)
+            return
+    if count[I_TOUCHED] > 0:
+        undo(searcher)
+
+
+@compiled_on_arrays
+def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
+    """Ruin and recreate `turns` times. In place.
+
+    Where no insertion saves anything, a turn is given up once those made cost more than would be
+    accepted.
+    Given an `order`, nobody is removed, all who are left out are inserted in it, and that is kept
+    whatever it costs. This is one function, not two, since insertion takes a minute to compile.
+    Once the search must end, a turn is given up as if it had not begun, and an insertion of all
+    leaves out whoever is not inserted yet.
+    """
+    value, count = searcher.value, searcher.count
+    building = order != ANY
+    for _ in range(turns):
+        first = begin_turn(searcher, count[I_MISSING] if building else MOST_MISSING)
+        if not building:
+            ruin(world, searcher, first)
+            if world.mixed and count[I_TOUCHED] > 0 and uniform(searcher.rng) < RETYPED:
+                draw_type(world, searcher)
+        sort_absent(world, searcher, first,
+                    order if building else ORDERS[below(searcher.rng, len(ORDERS))])
+        limit = value[V_COST] - value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
+        retyped = (not building and (world.traded or world.mixed)
+                   and uniform(searcher.rng) < RETYPED)
+        spare = math.inf
+        if world.adds_up and not (building or retyped) and count[I_MISSING] == 0:
+            spare = limit - served_cost(searcher)
+        done = recreate(world, searcher, first, building or world.scan_all, spare)
+        if rung(world.stop) and not building:
+            undo(searcher)
+            count[I_TURN] -= 1
+            return
+        if done and retyped:
+            if world.traded:
+                improve_types(world, searcher)
+            if world.mixed:
+                cheapen_types(world, searcher)
+        cost = turn_cost(world, searcher)
+        forced = (done and not building and world.must_serve and count[I_ABSENT] > 0
+                  and rarer_absences(searcher))
+        if building or cost < limit or forced:
+            accept(searcher, cost)
+            if cost < value[V_BEST]:
+                keep_best(searcher)
+        else:
+            undo(searcher)
+        if not building:
+            for part in range(1 + RESPLITS if world.single_drones else 1):
+                if (part > 0 or world.tails) and not rung(world.stop):
+                    move_parts(world, searcher, part == 0)
+        value[V_TEMPERATURE] *= value[V_COOLING]

@@ -1,0 +1,140 @@
+"""Insertion of the customers left out, one after another, each where that costs least."""
+
+from model.kernel.alarm import rung
+from model.kernel.compiled import inlined, pasted, spliced
+from model.kernel.instance import TYPE_DEPOT, TYPE_TRAVEL
+from model.problem import UIntArray
+from model.search.insertion.evaluate import INFEASIBLE
+from model.search.insertion.places import find_beside, find_place, try_new_route
+from model.search.route.edit import (
+    M_FIRST, M_KIND, M_SLOT, M_TYPE, NEW_FLIGHT, NEW_ROUTE, apply, begin_route,
+)
+from model.search.route.layout import (
+    MODE_LEAN, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_TYPE, World,
+)
+from model.search.route.lean import insert_lean
+from model.search.route.randomness import uniform
+from model.search.route.refresh import locate, refresh
+from model.search.route.state import I_ABSENT, Searcher, free_slot, keep_aside, list_active, touch
+from model.search.route.vehicles import change_type
+
+ENLARGED = 0.2
+"""How often a full route may take a larger vehicle to serve a customer more."""
+
+OPENING = 0.03
+"""How often the first customer inserted is given a route of its own."""
+
+BY_CHANCE, BY_DEMAND, BY_FAR, BY_CLOSE, BY_WIDTH, BY_LATEST = range(6)
+ORDERS = (BY_CHANCE, BY_CHANCE, BY_CHANCE, BY_CHANCE, BY_DEMAND, BY_DEMAND, BY_DEMAND, BY_DEMAND,
+          BY_FAR, BY_FAR, BY_CLOSE, BY_WIDTH, BY_WIDTH, BY_LATEST)
+
+
+@inlined
+def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
+    """Return where a customer comes in an order; least first."""
+    place = world.place[node]
+    if order == BY_DEMAND:
+        return -float(place[P_DEMAND] + place[P_DEMAND + 1] + place[P_DEMAND + 2])
+    if order in (BY_FAR, BY_CLOSE):
+        distance = float(world.leg[world.type[0, TYPE_TRAVEL], world.type[0, TYPE_DEPOT], node, 1])
+        return -distance if order == BY_FAR else distance
+    if order == BY_WIDTH:
+        return float(place[P_LATEST] - place[P_EARLIEST])
+    if order == BY_LATEST:
+        return float(place[P_LATEST])
+    return uniform(rng)
+
+
+@spliced
+def sort_absent(world: World, searcher: Searcher, first: int, order: int) -> None:
+    """Put the customers to insert in order, from number `first` on. In place."""
+    absent, key, rng = searcher.absent, searcher.key, searcher.rng
+    for index in range(first, searcher.count[I_ABSENT]):
+        node = absent[index]
+        weight = order_key(world, order, node, rng)
+        place = index
+        while place > first and key[absent[place - 1]] > weight:
+            absent[place] = absent[place - 1]
+            place -= 1
+        absent[place] = node
+        key[node] = weight
+
+
+@spliced
+def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bool) -> bool:
+    """Serve a customer by a route of its own. In place; False if no slot is free."""
+    now, slot = searcher.now, free_slot(world, searcher, k)
+    if slot < 0:
+        return False
+    touch(searcher, slot)
+    begin_route(now.route[slot], now.stop[slot], now.sortie[slot], k, world.type[k, TYPE_DEPOT],
+                node, by_drone)
+    if not refresh(world, now, slot, searcher.acc):
+        now.route[slot, R_LENGTH] = 0
+        now.cost[slot] = 0.0
+        return False
+    now.used[k] += 1
+    locate(now, slot)
+    list_active(searcher)
+    return True
+
+
+@pasted
+def insert(world: World, searcher: Searcher, node: int) -> bool:
+    """Insert a customer where `searcher.move` says. In place; False if that breaks a rule."""
+    move, now = searcher.move, searcher.now
+    if move[M_KIND] == NEW_ROUTE or move[M_KIND] == NEW_FLIGHT:
+        return open_route(world, searcher, node, move[M_TYPE], move[M_KIND] == NEW_FLIGHT)
+    slot = move[M_SLOT]
+    touch(searcher, slot)
+    route = now.route[slot]
+    if world.mode[route[R_TYPE]] & MODE_LEAN:
+        if move[M_TYPE] != route[R_TYPE]:
+            change_type(world, now, slot, move[M_TYPE])
+        insert_lean(world, now, slot, move[M_FIRST], node)
+        return True
+    spare = len(now.route) - 2
+    keep_aside(now, slot, spare)
+    depot = world.type[route[R_TYPE], TYPE_DEPOT]
+    apply(depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0)
+    done = refresh(world, now, slot, searcher.acc)
+    if not done:
+        keep_aside(now, spare, slot)
+        refresh(world, now, slot, searcher.acc)
+    locate(now, slot)
+    return done
+
+
+@pasted
+def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare: float) -> bool:
+    """Insert the absent customers from number `first` on, each where it costs least.
+
+    In place; False, with some inserted, once that costs more than is to `spare`. Once the search
+    must end, the others are left out.
+    """
+    absent, count = searcher.absent, searcher.count
+    enlarge = world.traded and uniform(searcher.rng) < ENLARGED
+    opening = uniform(searcher.rng) < OPENING
+    left = first
+    for index in range(first, count[I_ABSENT]):
+        node = absent[index]
+        cost = INFEASIBLE
+        if rung(world.stop):
+            absent[left] = node
+            left += 1
+            continue
+        if opening and index == first:
+            cost = try_new_route(world, searcher, node)
+        elif not scan_all:
+            cost = find_beside(world, searcher, node, enlarge)
+        if cost == INFEASIBLE:
+            cost = find_place(world, searcher, node, enlarge)
+        wanted = cost < world.unassigned_cost or (opening and index == first)
+        if cost == INFEASIBLE or not wanted or not insert(world, searcher, node):
+            absent[left] = node
+            left += 1
+        spare -= min(cost, world.unassigned_cost)
+        if spare < 0.0:
+            return False
+    count[I_ABSENT] = left
+    return True

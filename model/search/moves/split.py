@@ -1,0 +1,210 @@
+"""An order of customers, cut at best into what a truck and its drone do together.
+
+The order is cut into operations that begin and end with truck and drone together, by dynamic
+programming. Waiting for windows is left to the exact timing that follows.
+
+References
+----------
+Agatz, Bouman and Schmidt (2018), optimization approaches for the traveling salesman problem with
+drone, Transportation Science 52:965-981.
+"""
+
+import math
+
+from model.kernel.compiled import inlined, spliced
+from model.kernel.instance import (
+    RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL,
+    TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+)
+from model.problem import FloatArray, IntArray, UIntArray
+from model.search.route.layout import P_SERVICE, World
+from model.search.route.randomness import below, uniform
+
+(L_NODE, L_DRIVE, L_DISTANCE, L_GROUNDED, L_BEFORE, L_FLIGHT, L_SPARED_DRIVE,
+ L_SPARED_DISTANCE) = range(8)
+LINE_COLUMNS = 8
+"""Node; driving and serving up to the arrival there; distance; how many so far no truck may serve;
+the operation that ends there: the stop where it begins, the customer flown to; what a truck that
+passes by the place is spared of both."""
+
+NO_FLIGHT = 0
+LONGEST_OPERATION = 12
+"""Stops from the beginning of an operation to its end at most."""
+
+SWAP, MOVE, REVERSE, KEEP = range(4)
+KINDS = (SWAP, SWAP, MOVE, MOVE, MOVE, REVERSE, REVERSE, KEEP)
+"""Changes of the order, those that pay more often."""
+
+NEIGHBOURLY, NEIGHBOURS = 0.8, 8
+"""How often a place is brought beside one of so many near neighbours, not just anywhere."""
+
+
+@inlined
+def place_near(world: World, line: IntArray, count: int, one: int, rng: UIntArray) -> int:
+    """Return a random place in the line, most often that of a near neighbour of place `one`."""
+    if uniform(rng) < NEIGHBOURLY:
+        wanted = world.near[line[one, L_NODE], below(rng, min(NEIGHBOURS, world.near.shape[1]))]
+        for place in range(1, count + 1):
+            if line[place, L_NODE] == wanted:
+                return place
+    return 1 + below(rng, count)
+
+
+@inlined
+def shift(line: IntArray, one: int, to: int) -> None:
+    """Move what is at place `one` to place `to`. In place."""
+    node, step = line[one, L_NODE], 1 if to > one else -1
+    for position in range(one, to, step):
+        line[position, L_NODE] = line[position + step, L_NODE]
+    line[to, L_NODE] = node
+
+
+@inlined
+def shuffle(world: World, line: IntArray, length: int, rng: UIntArray) -> None:
+    """Change the order of the customers in the line a little. In place."""
+    count = length - 2
+    kind = KINDS[below(rng, len(KINDS))]
+    one = 1 + below(rng, count)
+    other = place_near(world, line, count, one, rng)
+    if kind == KEEP or other == one:
+        return
+    if kind == MOVE:
+        shift(line, one, other)
+        return
+    # Either way the neighbour comes beside place `one`, or the other way round.
+    low, high = (one + 1, other) if other > one else (other, one - 1)
+    if kind == SWAP:
+        line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
+        return
+    while low < high:
+        line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
+        low, high = low + 1, high - 1
+
+
+@spliced
+def measure(world: World, k: int, line: IntArray, length: int) -> None:
+    """Write what a truck that served the whole line would drive. In place."""
+    legs = world.leg[world.type[k, TYPE_TRAVEL]]
+    line[0, L_DRIVE] = line[0, L_DISTANCE] = line[0, L_GROUNDED] = 0
+    for j in range(1, length):
+        before, node = line[j - 1, L_NODE], line[j, L_NODE]
+        leg = legs[before, node]
+        line[j, L_DRIVE] = line[j - 1, L_DRIVE] + world.place[before, P_SERVICE] + leg[0]
+        line[j, L_DISTANCE] = line[j - 1, L_DISTANCE] + leg[1]
+        line[j, L_GROUNDED] = line[j - 1, L_GROUNDED]
+        if j < length - 1 and not world.can[k, 0, node]:
+            line[j, L_GROUNDED] += 1
+    for j in range(1, length - 1):
+        direct = legs[line[j - 1, L_NODE], line[j + 1, L_NODE]]
+        line[j, L_SPARED_DRIVE] = line[j + 1, L_DRIVE] - line[j - 1, L_DRIVE] - direct[0]
+        line[j, L_SPARED_DRIVE] -= world.place[line[j - 1, L_NODE], P_SERVICE]
+        line[j, L_SPARED_DISTANCE] = line[j + 1, L_DISTANCE] - line[j - 1, L_DISTANCE] - direct[1]
+
+
+@spliced
+def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: int,
+                   most: float) -> float:
+    """Return what it costs to go from place `i` to `j` while the drone serves place `flown`.
+
+    Infinite if that can't be, or if what the truck does alone costs `most` or more.
+    """
+    columns, rate = world.type[k], world.rate[k]
+    node, customer, to = line[i, L_NODE], line[flown, L_NODE], line[j, L_NODE]
+    drive = line[j, L_DRIVE] - line[i, L_DRIVE] - line[flown, L_SPARED_DRIVE]
+    distance = line[j, L_DISTANCE] - line[i, L_DISTANCE] - line[flown, L_SPARED_DISTANCE]
+    here, handled = world.place[node, P_SERVICE], columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
+    driven = drive - here + max(0, here - columns[TYPE_LAUNCH])
+    if (handled + driven) * rate[RATE_HOUR] + distance * rate[RATE_KM] >= most:
+        return math.inf
+    flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
+    service = columns[TYPE_DRONE_SERVICE]
+    if service < 0:
+        service = world.place[customer, P_SERVICE]
+    flight = flights[node, customer, 0] + service + flights[customer, to, 0]
+    airborne = max(flight, driven)
+    counted = airborne if columns[TYPE_WAITING_COUNTS] else flight
+    if counted > columns[TYPE_ENDURANCE]:
+        return math.inf
+    return ((handled + airborne) * rate[RATE_HOUR] + distance * rate[RATE_KM]
+            + airborne * rate[RATE_DRONE_HOUR]
+            + (flights[node, customer, 1] + flights[customer, to, 1]) * rate[RATE_DRONE_KM])
+
+
+@inlined
+def loop_cost(world: World, k: int, node: int, customer: int) -> float:
+    """Return what a flight costs for which the truck waits at a stop."""
+    columns, rate = world.type[k], world.rate[k]
+    flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
+    service = columns[TYPE_DRONE_SERVICE]
+    if service < 0:
+        service = world.place[customer, P_SERVICE]
+    airborne = flights[node, customer, 0] + service + flights[customer, node, 0]
+    if airborne > columns[TYPE_ENDURANCE] or not world.loops:
+        return math.inf
+    handled = columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
+    return ((airborne + handled) * rate[RATE_HOUR] + airborne * rate[RATE_DRONE_HOUR]
+            + (flights[node, customer, 1] + flights[customer, node, 1]) * rate[RATE_DRONE_KM])
+
+
+@spliced
+def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, i: int) -> None:
+    """Try all operations that begin at place `i`. In place."""
+    rate = world.rate[k]
+    legs = world.leg[world.type[k, TYPE_TRAVEL]]
+    here, loops = line[i, L_NODE], 0.0
+    service = world.place[here, P_SERVICE]
+    for j in range(i + 1, min(length, i + LONGEST_OPERATION + 1)):
+        to = line[j, L_NODE]
+        lands = j == length - 1 or world.can[k, 0, to]
+        grounded = line[j - 1, L_GROUNDED] - line[i, L_GROUNDED]
+        if lands:
+            leg = legs[here, to]
+            total = (cost[i] + loops + (leg[0] + service) * rate[RATE_HOUR]
+                     + leg[1] * rate[RATE_KM])
+            if total < cost[j]:
+                cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, NO_FLIGHT
+        if lands and grounded <= 1 and world.crossings:
+            for flown in range(i + 1, j):
+                customer = line[flown, L_NODE]
+                if not world.can[k, 1, customer] or (grounded == 1 and world.can[k, 0, customer]):
+                    continue
+                total = cost[i] + operation_cost(world, k, line, i, j, flown,
+                                                 cost[j] - cost[i])
+                if total < cost[j]:
+                    cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, flown
+        if loops < math.inf:
+            if world.can[k, 1, to]:
+                loops += loop_cost(world, k, here, to)
+            else:
+                loops = math.inf
+
+
+@spliced
+def split(world: World, k: int, line: IntArray, cost: FloatArray, length: int) -> bool:
+    """Cut the line into operations at least cost. In place; False if it can't be cut."""
+    for j in range(length):
+        cost[j] = math.inf
+    cost[0] = 0.0
+    for i in range(length - 1):
+        if cost[i] < math.inf:
+            extend(world, k, line, cost, length, i)
+    return cost[length - 1] < math.inf
+
+
+@spliced
+def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
+    """Return what the operations that are noted in the line cost."""
+    rate, legs = world.rate[k], world.leg[world.type[k, TYPE_TRAVEL]]
+    cost, j = 0.0, length - 1
+    while j > 0:
+        i, flown = line[j, L_BEFORE], line[j, L_FLIGHT]
+        if flown != NO_FLIGHT:
+            cost += operation_cost(world, k, line, i, j, flown, math.inf)
+        else:
+            here = line[i, L_NODE]
+            leg, service = legs[here, line[j, L_NODE]], world.place[here, P_SERVICE]
+            cost += (leg[0] + service) * rate[RATE_HOUR] + leg[1] * rate[RATE_KM]
+            for place in range(i + 1, j):
+                cost += loop_cost(world, k, here, line[place, L_NODE])
+        j = i
+    return cost

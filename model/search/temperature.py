@@ -1,0 +1,76 @@
+"""Temperatures of the annealing, by what the problem's routes cost."""
+
+import math
+from dataclasses import dataclass
+
+from model.kernel.instance import TYPE_DRONES
+from model.search.beginning.translate import leg_cost
+from model.search.route.layout import World
+from model.search.route.state import I_CUSTOMERS, I_MISSING, V_COST, Searcher
+
+HOT, COLD = 1.0, 0.1
+"""First temperature by what a customer costs, last by what a leg between customers does."""
+
+FULL_HEAT = 2600
+"""Turns for each customer from which on the first temperature is reached; less, by their root."""
+
+LEAST_HEAT = 0.3
+"""Share of the first temperature that is reached even in the shortest search."""
+
+LEAST_HOT = 1.0
+"""The first temperature is at least this by a leg."""
+
+HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
+"""Both by a leg where trips are split between truck and drone, which many small changes do."""
+
+HOT_FROM_TRUCKS = 0.2
+"""The same where the search began with trucks alone."""
+
+
+@dataclass(frozen=True)
+class Heat:
+    """What the temperatures of a search go by."""
+
+    customer: float  # cost of a customer served, on average, where the search began
+    leg: float  # cost between two customers
+    types: int  # of vehicles
+    drones: bool  # some type has drones
+    single_drones: bool  # some type has one
+    from_trucks: bool  # the search began with a plan for trucks alone
+    hot: float | None  # first temperature by the cost of a leg, if it is stated
+    cold: float | None  # last
+
+    @classmethod
+    def of(cls, world: World, searcher: Searcher, from_trucks: bool, hot: float | None,
+           cold: float | None) -> "Heat":
+        """Measure the routes as they are."""
+        missing = int(searcher.count[I_MISSING])
+        served = max(1, int(searcher.count[I_CUSTOMERS]) - missing)
+        cost = float(searcher.value[V_COST]) - missing * world.unassigned_cost
+        return cls(cost / served, leg_cost(world, searcher), world.num_types,
+                   bool((world.type[:, TYPE_DRONES] > 0).any()),
+                   bool((world.type[:, TYPE_DRONES] == 1).any()), from_trucks, hot, cold)
+
+    def ends(self, turns: float, factor: float) -> tuple[float, float]:
+        """Return the first and the last temperature.
+
+        Parameters
+        ----------
+        turns
+            Between them, for each customer.
+        factor
+            Of the first temperature.
+        """
+        if self.single_drones:
+            hot, cold = HOT_FROM_TRUCKS if self.from_trucks else HOT_WITH_DRONES, COLD_WITH_DRONES
+            hot *= factor
+        else:
+            hot, cold = self._haste(turns) * factor * HOT * self.customer / self.leg, COLD
+            hot = max(LEAST_HOT, hot)
+        return self.leg * (self.hot or hot), self.leg * (self.cold or cold)
+
+    def _haste(self, turns: float) -> float:
+        """Return the share of the first temperature that there is time for."""
+        if self.types > 1:
+            return 1.0  # the start by insertion is too far from good
+        return min(1.0, max(LEAST_HEAT, math.sqrt(turns / FULL_HEAT)))

@@ -1,0 +1,191 @@
+"""Where truck and drones meet again, and when all that happens from one stop to the next. Compiled.
+
+A sortie takes off at the truck's stop and is recovered at the next or, if it can't be met there
+within endurance, at the same stop: a loop. Its launch is held back as long as the customer's window
+would let the flight last longer than the endurance, which depends on where it is recovered. So
+launches are timed anew once it is known where the truck drives to.
+"""
+
+from model.kernel.compiled import inlined
+from model.kernel.flight import unreachable, within_endurance
+from model.kernel.instance import (
+    MAX_DIMENSIONS, NODE_EARLIEST, NODE_HARD, NODE_LATEST, TYPE_ENDURANCE, TYPE_LAUNCH,
+    TYPE_RECOVERY,
+)
+from model.problem import IntArray
+from model.simulation.vehicle_log import (
+    IN_FLIGHT, Setting, drone_service, held_until, travel_arrival,
+)
+
+(V_TYPE, V_INDEX, V_NODE, V_IDLE, V_SERVICE_END, V_CREW, V_FREE, V_DISTANCE, V_START_BEST,
+ V_DEPARTURE_BEST, V_NEXT_START, V_FLYING, V_LOAD) = range(13)
+V_COLUMNS = V_LOAD + MAX_DIMENSIONS
+"""Columns of the open vehicle: type (`NO_VEHICLE` before the first opens), index within the type,
+node, idle (at the depot, no trip begun), end of service here, end of the recoveries here, end of
+the launches after them as if none was held back, distance of the trip, the latest known start of
+the first trip that costs nothing, the departure that follows from it, earliest start of the next
+trip, drones in flight, load left by dimension."""
+
+(DRONE_SORTIE, DRONE_PLACE, DRONE_NODE, DRONE_TAKEOFF, DRONE_READY, DRONE_BACK,
+ DRONE_RECOVERY) = range(7)
+DRONE_COLUMNS = 7
+"""Columns of a drone: sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,
+take-off, end of service, arrival at the recovery stop, beginning of recovery. Those in flight were
+launched at the truck's stop; when and where they are recovered is for `leave_for` to say."""
+ABOARD, MEET, LOOP = range(3)
+"""Places to be recovered at: none, the next stop, this stop."""
+
+NO_VEHICLE = -1
+NOT_YET = -1
+
+
+@inlined
+def mark_place(setting: Setting, drone: IntArray, here: int, to: int) -> None:
+    """Mark where a drone is recovered: at `to` if it can fly there, else at `here`. In place."""
+    drone[DRONE_PLACE] = ABOARD
+    if drone[DRONE_SORTIE] != IN_FLIGHT:
+        node = drone[DRONE_NODE]
+        flight = setting.fly[here, node] + drone_service(setting, node) + setting.fly[node, to]
+        drone[DRONE_PLACE] = MEET if flight <= setting.type[TYPE_ENDURANCE] else LOOP
+
+
+@inlined
+def next_launch(setting: Setting, drones: IntArray, here: int, to: int,
+                free: int) -> tuple[int, int]:
+    """Return the drone that can be launched first from `free` on, and its take-off; -1: none."""
+    chosen, takeoff = -1, 0
+    for d in range(len(drones)):
+        if drones[d, DRONE_PLACE] != ABOARD and drones[d, DRONE_TAKEOFF] == NOT_YET:
+            end = to if drones[d, DRONE_PLACE] == MEET else here
+            soonest = max(free + setting.type[TYPE_LAUNCH],
+                          held_until(setting, drones[d, DRONE_NODE], end))
+            if chosen < 0 or soonest < takeoff:
+                chosen, takeoff = d, soonest
+    return chosen, takeoff
+
+
+@inlined
+def fly(setting: Setting, drone: IntArray, here: int, to: int, takeoff: int) -> None:
+    """Time the flight of a drone that takes off at `here`. In place."""
+    node = drone[DRONE_NODE]
+    arrival = takeoff + setting.fly[here, node]
+    end = to if drone[DRONE_PLACE] == MEET else here
+    drone[DRONE_TAKEOFF] = takeoff
+    drone[DRONE_READY] = (max(arrival, setting.node[node, NODE_EARLIEST])
+                          + drone_service(setting, node))
+    drone[DRONE_BACK] = drone[DRONE_READY] + setting.fly[node, end]
+
+
+@inlined
+def next_back(drones: IntArray, place: int) -> int:
+    """Return the drone in the air that is first back at `place`; -1 if there is none."""
+    chosen = -1
+    for d in range(len(drones)):
+        if (drones[d, DRONE_PLACE] == place and drones[d, DRONE_TAKEOFF] != NOT_YET
+                and drones[d, DRONE_RECOVERY] == NOT_YET
+                and (chosen < 0 or drones[d, DRONE_BACK] < drones[chosen, DRONE_BACK])):
+            chosen = d
+    return chosen
+
+
+@inlined
+def bring_aboard(setting: Setting, drone: IntArray, free: int) -> int:
+    """Recover a drone from `free` on; return the end, -1 if it isn't within its endurance.
+
+    In place.
+    """
+    begin = max(free, drone[DRONE_BACK])
+    if unreachable(drone[DRONE_BACK]) or not within_endurance(
+            setting.type, drone[DRONE_TAKEOFF], drone[DRONE_BACK], begin):
+        return -1
+    drone[DRONE_RECOVERY] = begin
+    return begin + setting.type[TYPE_RECOVERY]
+
+
+@inlined
+def operate(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) -> int:
+    """Launch all drones in flight from this stop, and recover those that loop.
+
+    In place; returns when all is done, -1 if a loop can't be recovered within its endurance. What
+    can be launched first is; loops are recovered behind, or while a launch is held back.
+    """
+    here, free = vehicle[V_NODE], vehicle[V_CREW]
+    waiting, looping = vehicle[V_FLYING], 0
+    for d in range(len(drones)):
+        drones[d, DRONE_TAKEOFF] = drones[d, DRONE_RECOVERY] = NOT_YET
+    while waiting + looping > 0:
+        launched, takeoff = next_launch(setting, drones, here, to, free)
+        begin = takeoff - setting.type[TYPE_LAUNCH]
+        landed = next_back(drones, LOOP) if looping > 0 else -1
+        if landed >= 0 and (launched < 0 or (
+                begin > free and max(free, drones[landed, DRONE_BACK]) <= begin)):
+            free = bring_aboard(setting, drones[landed], free)
+            if free < 0:
+                return -1
+            looping -= 1
+        else:
+            fly(setting, drones[launched], here, to, takeoff)
+            free = takeoff
+            waiting -= 1
+            if drones[launched, DRONE_PLACE] == LOOP:
+                looping += 1
+    return free
+
+
+@inlined
+def meet(setting: Setting, drones: IntArray, arrival: int) -> int:
+    """Recover the drones that the truck meets where it arrives.
+
+    In place; returns when all are recovered. Where one can't be within its endurance: -1, and in
+    place, it is marked LOOP instead.
+    """
+    free = arrival
+    while True:
+        landed = next_back(drones, MEET)
+        if landed < 0:
+            return free
+        free = bring_aboard(setting, drones[landed], free)
+        if free < 0:
+            drones[landed, DRONE_PLACE] = LOOP
+            return -1
+
+
+@inlined
+def any_late(setting: Setting, here: int, drones: IntArray) -> bool:
+    """Tell whether a drone in flight reaches its customer too late for a hard window."""
+    late = False
+    for d in range(len(drones)):
+        columns = setting.node[drones[d, DRONE_NODE]]
+        if drones[d, DRONE_PLACE] != ABOARD and columns[NODE_HARD]:
+            arrival = drones[d, DRONE_TAKEOFF] + setting.fly[here, drones[d, DRONE_NODE]]
+            late = late or arrival > columns[NODE_LATEST]
+    return late
+
+
+@inlined
+def leave_for(setting: Setting, vehicle: IntArray, drones: IntArray,
+              to: int) -> tuple[int, int, int]:
+    """Decide what the sorties in flight do if the truck drives to `to` next.
+
+    In place: marks each as MEET or LOOP with its times. Returns the end of the launches and
+    recoveries here, the truck's arrival at `to` and the end of the recoveries there; -1 each if
+    some sortie can be recovered neither here nor there, or is launched too late.
+    """
+    here = vehicle[V_NODE]
+    for d in range(len(drones)):
+        mark_place(setting, drones[d], here, to)
+    while True:
+        left = vehicle[V_FREE]
+        if vehicle[V_FLYING] > 0:
+            left = operate(setting, vehicle, drones, to)
+            if left < 0:
+                return -1, -1, -1
+        arrival = travel_arrival(setting, here, to, max(vehicle[V_SERVICE_END], left))
+        if vehicle[V_FLYING] == 0:
+            return left, arrival, arrival
+        free = meet(setting, drones, arrival)
+        if free >= 0:
+            break
+    if any_late(setting, here, drones):
+        return -1, -1, -1
+    return left, arrival, free

@@ -1,0 +1,245 @@
+"""Compiled timing of one vehicle's route: as soon as possible, and how late it may depart.
+
+A vehicle log lists what one vehicle does: trips, their stops, its sorties, and the launches and
+recoveries at each stop in order. `replay` times it; `latest_start` finds the latest beginning of a
+trip that costs nothing elsewhere.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from model.kernel.clock import arrival_by_profile
+from model.kernel.compiled import compiled, inlined
+from model.kernel.flight import within_endurance
+from model.kernel.instance import (
+    NO_PROFILE, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_SERVICE, TYPE_DRONE_SERVICE,
+    TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_PROFILE, TYPE_RECOVERY, TYPE_RELOAD,
+    TYPE_TRAVEL, Instance,
+)
+from model.problem import IntArray
+
+STOP_NODE, STOP_ARRIVAL, STOP_START, STOP_LEAVE = range(4)
+TRIP_FIRST_STOP, TRIP_FIRST_OP, TRIP_RELEASE, TRIP_START = range(4)
+OP_STOP, OP_SORTIE, OP_IS_RECOVERY = range(3)
+(SORTIE_DRONE, SORTIE_NODE, SORTIE_LAUNCH_STOP, SORTIE_RECOVERY_STOP, SORTIE_TAKEOFF,
+ SORTIE_ARRIVAL, SORTIE_START, SORTIE_READY, SORTIE_RECOVERY_START, SORTIE_RECOVERY_END,
+ TRIAL_TAKEOFF, TRIAL_READY) = range(12)
+COUNT_TRIPS, COUNT_STOPS, COUNT_OPS, COUNT_SORTIES = range(4)
+
+IN_FLIGHT = -1
+
+
+class Setting(NamedTuple):
+    """What one vehicle type meets in one problem: views into an `Instance`."""
+
+    node: IntArray  # (node, NODE_COLUMNS)
+    type: IntArray  # (TYPE_COLUMNS,)
+    drive: IntArray  # (node, node) ms
+    fly: IntArray  # (node, node) ms
+    profile_time: IntArray  # (change,)
+    profile_factor: IntArray  # (change + 1,)
+
+
+class VehicleLog(NamedTuple):
+    """What a vehicle does, in order; in a `State`, with a leading axis of rollouts."""
+
+    count: IntArray  # type: ignore[assignment]  # (4,) trips, stops, ops, sorties
+    trip: IntArray  # (trip, 4)
+    stop: IntArray  # (stop, 4)
+    op: IntArray  # (op, 3)
+    sortie: IntArray  # (sortie, 12); SORTIE_RECOVERY_STOP is IN_FLIGHT until recovered
+
+
+def empty_logs(rows: int, num_customers: int) -> VehicleLog:
+    """Allocate logs, one a rollout, for vehicles that may serve every customer."""
+    return VehicleLog(
+        count=np.zeros((rows, 4), np.int64),
+        trip=np.zeros((rows, num_customers + 1, 4), np.int64),
+        stop=np.zeros((rows, 3 * num_customers + 2, 4), np.int64),
+        op=np.zeros((rows, 2 * num_customers, 3), np.int64),
+        sortie=np.zeros((rows, num_customers, 12), np.int64),
+    )
+
+
+@compiled
+def log_of(logs: VehicleLog, r: int) -> VehicleLog:
+    """Return the log of one rollout, as views."""
+    return VehicleLog(logs.count[r], logs.trip[r], logs.stop[r], logs.op[r], logs.sortie[r])
+
+
+@compiled
+def setting_of(instance: Instance, b: int, k: int) -> Setting:
+    """Return what vehicle type `k` meets in problem `b`, as views."""
+    columns = instance.type[b, k]
+    return Setting(instance.node[b], columns, instance.duration[b, columns[TYPE_TRAVEL]],
+                   instance.duration[b, columns[TYPE_DRONE_TRAVEL]],
+                   instance.profile_time[b, k], instance.profile_factor[b, k])
+
+
+@inlined
+def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
+    """Return when a truck that leaves at `leave` arrives, by its speed at the time of day."""
+    duration = setting.drive[origin, to]
+    if setting.type[TYPE_PROFILE] == NO_PROFILE:
+        return leave + duration
+    return arrival_by_profile(setting.profile_time, setting.profile_factor,
+                              setting.type[TYPE_PROFILE], duration, leave)
+
+
+@inlined
+def drone_service(setting: Setting, node: int) -> int:
+    """Return how long a drone serves a customer."""
+    own = setting.type[TYPE_DRONE_SERVICE]
+    return own if own >= 0 else setting.node[node, NODE_SERVICE]
+
+
+@inlined
+def held_until(setting: Setting, customer: int, to: int) -> int:
+    """Return the earliest take-off after which a drone can be at `to` within its endurance.
+
+    That is as far as the customer's window goes; the flight itself may be too long.
+    """
+    return (setting.node[customer, NODE_EARLIEST] + drone_service(setting, customer)
+            + setting.fly[customer, to] - setting.type[TYPE_ENDURANCE])
+
+
+@inlined
+def _arrival_allowed(columns: IntArray, arrival: int, before: int, write: bool) -> bool:
+    """Check a window: when writing, that a hard one holds; else, that no lateness is added."""
+    if write:
+        return not columns[NODE_HARD] or arrival <= columns[NODE_LATEST]
+    return arrival <= max(before, columns[NODE_LATEST])
+
+
+@inlined
+def take_off(setting: Setting, log: VehicleLog, sortie: IntArray, free: int) -> int:
+    """Return when a sortie takes off whose launch may begin at `free`.
+
+    It is held back for the customer's window once it is known where it is recovered.
+    """
+    takeoff = free + setting.type[TYPE_LAUNCH]
+    if sortie[SORTIE_RECOVERY_STOP] != IN_FLIGHT:
+        to = log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE]
+        takeoff = max(takeoff, held_until(setting, sortie[SORTIE_NODE], to))
+    return takeoff
+
+
+@inlined
+def _replay_launch(setting: Setting, log: VehicleLog, sortie: IntArray, node: int, free: int,
+                   write: bool) -> int:
+    """Time one launch begun at `free`; return the take-off, -1 if it is not allowed."""
+    customer = sortie[SORTIE_NODE]
+    takeoff = take_off(setting, log, sortie, free)
+    arrival = takeoff + setting.fly[node, customer]
+    if not _arrival_allowed(setting.node[customer], arrival, sortie[SORTIE_ARRIVAL], write):
+        return -1
+    start = max(arrival, setting.node[customer, NODE_EARLIEST])
+    ready = start + drone_service(setting, customer)
+    sortie[TRIAL_TAKEOFF], sortie[TRIAL_READY] = takeoff, ready
+    if write:
+        sortie[SORTIE_TAKEOFF], sortie[SORTIE_ARRIVAL] = takeoff, arrival
+        sortie[SORTIE_START], sortie[SORTIE_READY] = start, ready
+    elif sortie[SORTIE_RECOVERY_STOP] == IN_FLIGHT and ready > sortie[SORTIE_READY]:
+        return -1
+    return takeoff
+
+
+@inlined
+def _replay_recovery(setting: Setting, sortie: IntArray, node: int, free: int, write: bool) -> int:
+    """Time one recovery begun at `free` or later; return its end, -1 if it is not allowed."""
+    takeoff = sortie[TRIAL_TAKEOFF]
+    back = sortie[TRIAL_READY] + setting.fly[sortie[SORTIE_NODE], node]
+    begin = max(free, back)
+    end = begin + setting.type[TYPE_RECOVERY]
+    if write:
+        if not within_endurance(setting.type, takeoff, back, begin):
+            return -1
+        sortie[SORTIE_RECOVERY_START], sortie[SORTIE_RECOVERY_END] = begin, end
+    elif begin - takeoff > sortie[SORTIE_RECOVERY_START] - sortie[SORTIE_TAKEOFF]:
+        return -1
+    return end
+
+
+@inlined
+def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, start: int,
+           write: bool) -> bool:
+    """Time the trips from `first_trip` on, the first begun at `start`, all else without delay.
+
+    In place where `write` is set: the log takes the new times, and the result tells whether hard
+    windows and endurance hold (the times written are void where not). Else only the result counts:
+    whether the later start costs nothing, that is, no more lateness, no longer sortie, no later
+    end than in the log.
+    """
+    op = log.trip[first_trip, TRIP_FIRST_OP]
+    leave = start
+    for trip in range(first_trip, log.count[COUNT_TRIPS]):
+        first = log.trip[trip, TRIP_FIRST_STOP]
+        behind = log.count[COUNT_STOPS]
+        if trip + 1 < log.count[COUNT_TRIPS]:
+            behind = log.trip[trip + 1, TRIP_FIRST_STOP]
+        if trip > first_trip:
+            start = max(log.trip[trip, TRIP_RELEASE], leave + setting.type[TYPE_RELOAD])
+        if write:
+            log.trip[trip, TRIP_START] = start
+        for index in range(first, behind):
+            node = log.stop[index, STOP_NODE]
+            arrival = start
+            if index > first:
+                arrival = travel_arrival(setting, log.stop[index - 1, STOP_NODE], node, leave)
+            service_start = leave = free = launched = arrival
+            if node >= num_depots:
+                columns = setting.node[node]
+                if not _arrival_allowed(columns, arrival, log.stop[index, STOP_ARRIVAL], write):
+                    return False
+                service_start = max(arrival, columns[NODE_EARLIEST])
+                leave = service_start + columns[NODE_SERVICE]
+            while op < log.count[COUNT_OPS] and log.op[op, OP_STOP] == index:
+                sortie = log.sortie[log.op[op, OP_SORTIE]]
+                if log.op[op, OP_IS_RECOVERY]:
+                    # Recoveries that take no time never hold up one another.
+                    begin = free if setting.type[TYPE_RECOVERY] > 0 else launched
+                    end = _replay_recovery(setting, sortie, node, begin, write)
+                else:
+                    end = launched = _replay_launch(setting, log, sortie, node, free, write)
+                if end < 0:
+                    return False
+                free = max(free, end)
+                op += 1
+            leave = max(leave, free)
+            if write:
+                log.stop[index, STOP_ARRIVAL], log.stop[index, STOP_START] = arrival, service_start
+                log.stop[index, STOP_LEAVE] = leave
+    return write or leave <= log.stop[log.count[COUNT_STOPS] - 1, STOP_LEAVE]
+
+
+@inlined
+def latest_start(setting: Setting, num_depots: int, log: VehicleLog, trip: int, known: int) -> int:
+    """Return the latest start of a trip that costs nothing; `known` is one that costs nothing."""
+    if not replay(setting, num_depots, log, trip, known + 1, False):
+        return known
+    low = known + 1
+    high = log.stop[log.count[COUNT_STOPS] - 1, STOP_LEAVE] + 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if replay(setting, num_depots, log, trip, middle, False):
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@compiled
+def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
+    """Return when truck or drone first leaves the depot if the first trip begins at `start`."""
+    if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
+        return take_off(setting, log, log.sortie[log.op[0, OP_SORTIE]], start)
+    return start
+
+
+@compiled
+def start_to_depart(setting: Setting, log: VehicleLog, departure: int) -> int:
+    """Return the start of the first trip by which none leaves the depot before `departure`."""
+    if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
+        return departure - setting.type[TYPE_LAUNCH]
+    return departure

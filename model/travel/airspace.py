@@ -1,0 +1,158 @@
+"""Where drones may fly and how fast: no-fly areas and wind become flight distances and durations.
+
+Everything is planar, in metres, x east and y north. Geographic problems project locations and
+no-fly areas with one `LocalProjection`; edges of areas and flights are straight in that projection,
+and north is the centre's.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from shapely import Polygon
+
+from model.kernel.pausing import Pause, go_on, matrix_blocks
+from model.problem import FloatArray
+from model.travel.matrices import planar_distances
+from model.travel.obstacles import Obstacles, obstacles_of
+from model.travel.visibility import FEW_EDGES
+from model.travel.ways import Legs, Ways, find_ways
+from model.travel.wind import Wind
+
+Ring = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class Airspace:
+    """What bends or slows flights."""
+
+    no_fly: tuple[Ring, ...] = ()  # corners in metres, closing point optional
+    wind_speed_kmh: float = 0.0
+    wind_direction_deg: float = 0.0  # blows FROM there, clockwise from north: 270 is a west wind
+
+    def __post_init__(self) -> None:
+        for index, ring in enumerate(self.no_fly):
+            reason = invalid_polygon_reason(ring)
+            if reason is not None:
+                raise ValueError(f"no_fly[{index}]: {reason}")
+        if not 0 <= self.wind_speed_kmh < float("inf"):
+            raise ValueError(f"wind_speed_kmh: {self.wind_speed_kmh!r} is not allowed")
+        if not np.isfinite(self.wind_direction_deg):
+            raise ValueError(f"wind_direction_deg: {self.wind_direction_deg!r} is not allowed")
+
+
+def invalid_polygon_reason(ring: Sequence[tuple[float, float]]) -> str | None:
+    """Say why a ring of corners can't bound a no-fly area, or None if it can.
+
+    Geographic rings are to be judged after projection: one that spans the antimeridian crosses
+    itself in degrees but not on the ground.
+    """
+    corners = np.asarray(ring, dtype=np.float64).reshape(-1, 2)
+    if not np.isfinite(corners).all():
+        return "a coordinate is not a finite number"
+    if len(np.unique(corners, axis=0)) < 3:
+        return "a polygon needs at least 3 distinct points"
+    polygon = Polygon(corners)
+    if polygon.area == 0 and shapely.convex_hull(polygon).area == 0:
+        return "the polygon has no area"
+    if not polygon.is_valid:
+        return "the polygon's boundary crosses or touches itself"
+    return None
+
+
+def flight_legs(
+    points_m: FloatArray,
+    airspace: Airspace,
+    airspeed_kmh: float,
+    straight_m: FloatArray | None = None,
+) -> Legs:
+    """Fly between all points at one speed; parameters are those of `Flights`."""
+    if straight_m is None:
+        straight_m = planar_distances(points_m)
+    return Flights(points_m, airspace, straight_m).legs(airspeed_kmh)
+
+
+def compile_ways() -> None:
+    """Fly around areas with few edges and many, so that all of it is compiled."""
+    places = np.array([[0.0, 0.0], [9.0, 0.0]])
+    for corners in (4, 2 * FEW_EDGES):
+        angles = 2 * np.pi * np.arange(corners) / corners
+        ring = tuple((4.0 + float(np.cos(angle)), float(np.sin(angle))) for angle in angles)
+        flight_legs(places, Airspace((ring,)), 1.0)
+
+
+class Flights:
+    """Flights between all points: straight, or by the quickest way around no-fly areas.
+
+    Without wind the quickest way is the shortest. Boundaries may be touched and followed; a point
+    inside an area can't be flown to or from, not even from itself. Areas thinner than a
+    millimetre don't block, and gaps between areas thinner than that don't let through.
+
+    Parameters
+    ----------
+    points_m
+        (node, 2) planar metres.
+    airspace
+        No-fly areas and wind, in the same plane.
+    straight_m
+        (node, node) distances of unobstructed flights: those in the plane, or great circles for
+        geographic points. Detours are always measured in the plane.
+    pause
+        May end the work, within `legs`.
+    """
+
+    def __init__(self, points_m: FloatArray, airspace: Airspace, straight_m: FloatArray,
+                 pause: Pause = go_on) -> None:
+        self._points = points_m
+        self._airspace = airspace
+        self._straight_m = straight_m
+        self._pause = pause
+
+    def legs(self, airspeed_kmh: float) -> Legs:
+        """Return the flights of drones of one speed through the air, for reading only.
+
+        Raises
+        ------
+        ValueError
+            If it is no speed.
+        """
+        if not 0 < airspeed_kmh < float("inf"):
+            raise ValueError(f"airspeed_kmh: {airspeed_kmh!r} is not allowed")
+        wind = Wind.blowing(self._airspace.wind_speed_kmh, self._airspace.wind_direction_deg,
+                            airspeed_kmh)
+        if wind.is_calm:
+            return Legs(self._shortest_m, self._shortest_m / wind.airspeed)
+        return self._quickest(wind)
+
+    @cached_property
+    def obstacles(self) -> Obstacles:
+        """The no-fly areas, merged."""
+        return obstacles_of(self._airspace.no_fly)
+
+    @cached_property
+    def _ways(self) -> Ways:
+        """The ways around areas, whatever the speed."""
+        return find_ways(self._points, self.obstacles, self._pause)
+
+    @cached_property
+    def _shortest_m(self) -> FloatArray:
+        """The distances without wind, whatever the speed."""
+        if not self._airspace.no_fly:
+            return self._straight_m
+        # At a metre a second, durations are distances.
+        shortest = self._straight_m.copy()
+        self._ways.replace_blocked(Legs(shortest, shortest), Wind(1.0, 0.0, 0.0), self._pause)
+        return shortest
+
+    def _quickest(self, wind: Wind) -> Legs:
+        legs = Legs(self._straight_m.copy(), np.empty_like(self._straight_m))
+        for rows in matrix_blocks(len(self._points), self._pause):
+            x = self._points[:, 0] - self._points[rows, 0, None]
+            y = self._points[:, 1] - self._points[rows, 1, None]
+            legs.duration[rows] = wind.durations(x, y, legs.distance[rows])
+            legs.distance[rows][np.isinf(legs.duration[rows])] = np.inf
+        if self._airspace.no_fly:
+            self._ways.replace_blocked(legs, wind, self._pause)
+        return legs

@@ -1,0 +1,248 @@
+"""From locations, or a caller's matrices, to the integer travel matrices of `Problem`.
+
+Distances are rounded to the nearest millimetre and durations up to the next millisecond, both
+once, from the exact float values.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from pyproj import Proj
+
+from model.kernel.pausing import Pause, go_on, matrix_blocks
+from model.problem import (
+    FULL_SPEED,
+    MAX_QUANTITY,
+    UNREACHABLE,
+    FloatArray,
+    IntArray,
+    SpeedProfile,
+    Travel,
+)
+
+EARTH_RADIUS_M = 6_371_008.8
+"""Mean radius of the earth, which is taken for a sphere."""
+
+FLOAT_NOISE_MS = 5e-7
+"""A duration less than this above a whole millisecond is that millisecond."""
+
+COARSE_MS = 2.0**31
+"""Durations below this are told apart more finely than by `FLOAT_NOISE_MS` halved."""
+
+_EMBEDDING_RANK = 10
+_EMBEDDING_ITERATIONS = 12
+
+
+@dataclass(frozen=True)
+class LocalProjection:
+    """Azimuthal equidistant projection of the sphere: x east and y north at its centre, metres.
+
+    True in length and direction from the centre, and off by about the square of (distance from
+    the centre / earth radius) elsewhere: a few hundredths of a percent within 100 km. It never
+    shortens a distance. It has no seam but at the centre's antipode.
+    """
+
+    longitude: float  # of the centre, degrees
+    latitude: float
+
+    @classmethod
+    def around(cls, lon_lat: FloatArray) -> "LocalProjection":
+        """Centre a projection on (node, 2) points in degrees, wherever on the globe they are."""
+        _require_lon_lat(lon_lat)
+        longitude, latitude = np.radians(lon_lat).T
+        x, y, z = (
+            float((np.cos(latitude) * np.cos(longitude)).mean()),
+            float((np.cos(latitude) * np.sin(longitude)).mean()),
+            float(np.sin(latitude).mean()),
+        )
+        return cls(float(np.degrees(np.arctan2(y, x))),
+                   float(np.degrees(np.arctan2(z, np.hypot(x, y)))))
+
+    def project(self, lon_lat: FloatArray) -> FloatArray:
+        """Map (point, 2) degrees to (point, 2) metres east and north of the centre."""
+        _require_lon_lat(lon_lat)
+        projection = Proj(proj="aeqd", lon_0=self.longitude, lat_0=self.latitude,
+                          R=EARTH_RADIUS_M)
+        x, y = projection(lon_lat[:, 0], lon_lat[:, 1])
+        points = np.stack([x, y], axis=1)
+        # The antipode has every direction; it is drawn due north.
+        points[~np.isfinite(points).all(axis=1)] = (0.0, np.pi * EARTH_RADIUS_M)
+        return points
+
+
+def local_coordinates(lon_lat: FloatArray) -> FloatArray:
+    """Project (node, 2) longitudes and latitudes to metres around their centroid."""
+    return LocalProjection.around(lon_lat).project(lon_lat)
+
+
+def planar_distances(points_m: FloatArray, pause: Pause = go_on) -> FloatArray:
+    """Return the (node, node) straight-line distances in metres."""
+    x, y = points_m.T
+    distances = np.empty((len(x), len(x)))
+    for rows in matrix_blocks(len(distances), pause):
+        east, north = x[rows, None] - x, y[rows, None] - y
+        distances[rows] = np.sqrt(east * east + north * north)
+    return distances
+
+
+def great_circle_distances(lon_lat: FloatArray, pause: Pause = go_on) -> FloatArray:
+    """Return the (node, node) distances in metres on the sphere, by the haversine formula."""
+    _require_lon_lat(lon_lat)
+    longitude, latitude = np.radians(lon_lat).T
+    cosine = np.cos(latitude)
+    distances = np.empty((len(longitude), len(longitude)))
+    for rows in matrix_blocks(len(distances), pause):
+        others = slice(rows.start, None)  # those before have this distance already
+        haversine = np.sin((latitude[rows, None] - latitude[others]) / 2) ** 2
+        haversine += (cosine[rows, None] * cosine[others]
+                      * np.sin((longitude[rows, None] - longitude[others]) / 2) ** 2)
+        around = 2 * EARTH_RADIUS_M * np.arcsin(np.sqrt(np.minimum(haversine, 1.0)))
+        distances[rows, others] = around
+        distances[others, rows] = around.T
+    return distances
+
+
+def truck_travel(distances_m: FloatArray, speed_kmh: float, pause: Pause = go_on) -> Travel:
+    """Drive the distances at one speed (the fastest, where a speed profile applies)."""
+    _require_speed(speed_kmh)
+    _require_lengths("distances", distances_m, pause)
+    return Travel(
+        _whole(distances_m, lambda rows: _ceiled(rows * 3600.0 / speed_kmh), pause),
+        _whole(distances_m, _rounded_mm, pause))
+
+
+def matrix_travel(durations_s: FloatArray, distances_m: FloatArray,
+                  pause: Pause = go_on) -> Travel:
+    """Take a caller's matrices, which need not be symmetric."""
+    _require_lengths("durations", durations_s, pause)
+    _require_lengths("distances", distances_m, pause)
+    return Travel(_whole(durations_s, lambda rows: _ceiled(rows * 1000.0), pause),
+                  _whole(distances_m, _rounded_mm, pause))
+
+
+def flight_travel(distances_m: FloatArray, durations_s: FloatArray,
+                  pause: Pause = go_on) -> Travel:
+    """Take the legs of a drone: infinite, or longer than any plan, means no flight.
+
+    Raises
+    ------
+    ValueError
+        If an entry is negative or not a number.
+    """
+    duration = np.empty(durations_s.shape, np.int64)
+    distance = np.empty(distances_m.shape, np.int64)
+    for rows in matrix_blocks(len(duration), pause):
+        seconds, metres = durations_s[rows], distances_m[rows]
+        for name, lengths in (("distances", metres), ("durations", seconds)):
+            if not lengths.min(initial=0.0) >= 0:
+                raise ValueError(f"{name}: every entry must be a number and not negative")
+        reachable = (metres * 1000.0 <= MAX_QUANTITY) & (seconds * 1000.0 <= MAX_QUANTITY)
+        if reachable.all():
+            duration[rows], distance[rows] = _ceiled(seconds * 1000.0), _rounded_mm(metres)
+            continue
+        duration[rows] = _ceiled(np.where(reachable, seconds, 0.0) * 1000.0)
+        distance[rows] = _rounded_mm(np.where(reachable, metres, 0.0))
+        duration[rows][~reachable] = UNREACHABLE
+        distance[rows][~reachable] = UNREACHABLE
+    return Travel(duration, distance)
+
+
+def speed_profile(
+    base_speed: float, changes: Sequence[tuple[int, float]]
+) -> tuple[float, SpeedProfile]:
+    """Express speeds by time of day as shares of the fastest one.
+
+    A `SpeedProfile` only slows down, so matrix durations must be those at the fastest speed:
+    `truck_travel(distances, fastest)`, or, with speeds that are factors on a caller's matrix,
+    `matrix_travel(durations / fastest, distances)`.
+
+    Parameters
+    ----------
+    base_speed
+        Speed before the first change, in any unit.
+    changes
+        (time in ms, speed from then on), by increasing time.
+
+    Returns
+    -------
+    The fastest speed, in the unit given, and the profile, its factors rounded to the nearest
+    millionth.
+    """
+    speeds = (base_speed, *(speed for _, speed in changes))
+    for speed in speeds:
+        _require_speed(speed)
+    fastest = max(speeds)
+    factors = tuple(round(speed / fastest * FULL_SPEED) for speed in speeds)
+    return fastest, SpeedProfile(tuple(time for time, _ in changes), factors)
+
+
+def embed(duration: IntArray | FloatArray) -> FloatArray:
+    """Place nodes in the plane so that distances resemble a matrix of finite durations.
+
+    Classical scaling of the symmetrised matrix, the leading eigenvectors found by subspace
+    iteration from a fixed start: the same matrix always gives the same (node, 2) coordinates, in
+    the unit of the durations and centred on the origin.
+
+    References
+    ----------
+    Torgerson (1952), multidimensional scaling, Psychometrika 17:401-419. Halko, Martinsson and
+    Tropp (2011), finding structure with randomness, SIAM Review 53:217-288.
+    """
+    num_nodes = len(duration)
+    symmetric = (duration + duration.T) / 2.0
+    np.fill_diagonal(symmetric, 0.0)
+    scale = symmetric.max(initial=0.0)
+    if scale == 0.0:
+        return np.zeros((num_nodes, 2))
+    squared = (symmetric / scale) ** 2
+    mean = squared.mean(axis=0)
+    gram = (mean + mean[:, None] - squared - mean.mean()) / 2.0
+    start = np.random.default_rng(0).standard_normal((num_nodes, min(num_nodes, _EMBEDDING_RANK)))
+    basis = np.linalg.qr(start).Q
+    for _ in range(_EMBEDDING_ITERATIONS):
+        basis = np.linalg.qr(gram @ basis).Q
+    eigenvalues, vectors = np.linalg.eigh(basis.T @ gram @ basis)
+    axes = basis @ vectors[:, :-3:-1]
+    axes *= np.sign(axes[np.abs(axes).argmax(axis=0), (0, 1)])
+    coordinates: FloatArray = axes * np.sqrt(np.maximum(eigenvalues[:-3:-1], 0.0)) * scale
+    return coordinates
+
+
+def _whole(matrix: FloatArray, rounded: Callable[[FloatArray], FloatArray],
+           pause: Pause) -> IntArray:
+    """Return what `rounded` makes of a matrix, row block by row block."""
+    result = np.empty(matrix.shape, np.int64)
+    for rows in matrix_blocks(len(matrix), pause):
+        result[rows] = rounded(matrix[rows])
+    return result
+
+
+def _ceiled(duration_ms: FloatArray) -> FloatArray:
+    noise: FloatArray | float = FLOAT_NOISE_MS
+    if duration_ms.max(initial=0.0) >= COARSE_MS:
+        noise = np.maximum(FLOAT_NOISE_MS, 2 * np.spacing(duration_ms))
+    whole: FloatArray = np.ceil(duration_ms - noise)
+    return whole
+
+
+def _rounded_mm(distance_m: FloatArray) -> FloatArray:
+    rounded: FloatArray = np.rint(distance_m * 1000.0)
+    return rounded
+
+
+def _require_speed(speed: float) -> None:
+    if not 0 < speed < float("inf"):
+        raise ValueError(f"speed: {speed!r} is not allowed")
+
+
+def _require_lengths(name: str, matrix: FloatArray, pause: Pause) -> None:
+    for rows in matrix_blocks(len(matrix), pause):
+        lengths = matrix[rows]
+        if not (lengths.min(initial=0.0) >= 0 and lengths.max(initial=0.0) < np.inf):
+            raise ValueError(f"{name}: every entry must be finite and not negative")
+
+
+def _require_lon_lat(lon_lat: FloatArray) -> None:
+    if not np.isfinite(lon_lat).all() or np.abs(lon_lat[:, 1]).max(initial=0.0) > 90:
+        raise ValueError("locations: longitude and latitude must be finite, latitude in -90..90")

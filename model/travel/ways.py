@@ -1,0 +1,118 @@
+"""Ways around obstacles: who sees whom, whatever the speed, and what flights come of it."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from model.kernel.pausing import Pause, matrix_blocks, row_blocks
+from model.problem import BoolArray, FloatArray, IntArray
+from model.travel.detours import Sights, fly_around
+from model.travel.obstacles import TOUCH_M, Corners, Obstacles
+from model.travel.visibility import mark_dead_ends, mark_hidden
+from model.travel.wind import Wind
+
+SLACK_M = 2 * TOUCH_M
+"""How far a corner's neighbour may be on the wrong side of a flight that bends there."""
+
+LOOKS_AT_ONCE = 200_000
+"""Edges and lines of sight between two pauses: some milliseconds' work."""
+
+FLIGHTS_AT_ONCE = 2_000_000
+"""Flights from or to corners put together between two pauses."""
+
+
+class Legs(NamedTuple):
+    """Flights from each origin (row) to each target (column), infinite where there is none."""
+
+    distance: FloatArray  # (origin, target) metres
+    duration: FloatArray  # (origin, target) seconds
+
+
+class Pairs(NamedTuple):
+    """The (row, column) pairs that see each other, row after row."""
+
+    begin: IntArray  # (row + 1,) where the entries of each row begin
+    column: IntArray  # (entry,)
+    x: FloatArray  # (entry,) metres east from row to column
+    y: FloatArray  # (entry,) metres north
+
+    def flown(self, wind: Wind, back: bool = False) -> Sights:
+        """Return the flights from rows to columns, or back."""
+        lengths = np.hypot(self.x, self.y)
+        x, y = (-self.x, -self.y) if back else (self.x, self.y)
+        return Sights(self.begin, self.column, lengths, wind.durations(x, y, lengths))
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Flights that are not straight."""
+
+    blocked: BoolArray  # (node, node) straight flights that meet an obstacle
+    outward: Pairs  # nodes and the corners that they see
+    between: Pairs  # corners and the corners that they see
+
+    def replace_blocked(self, legs: Legs, wind: Wind, pause: Pause) -> None:
+        """Fly around where there is no straight flight. In place.
+
+        A straight flight is the quickest in steady wind too, so quickest ways bend only at corners.
+        """
+        outward, inward = self.outward.flown(wind), self.outward.flown(wind, back=True)
+        between = self.between.flown(wind)
+        size = 1 + FLIGHTS_AT_ONCE // (1 + len(outward.place) + 4 * len(between.place))
+        for rows in row_blocks(len(self.blocked), size, pause):
+            fly_around(outward, between, inward, self.blocked, wind.is_calm, rows.start, rows.stop,
+                       legs.distance, legs.duration)
+
+
+def find_ways(points: FloatArray, obstacles: Obstacles, pause: Pause) -> Ways:
+    """Find out which points and corners of obstacles see one another."""
+    inside = obstacles.hold(points)
+    blocked = inside[:, None] | inside
+    unreachable = np.count_nonzero(blocked)
+    _look_around(points, obstacles, blocked, pause)
+    corners = obstacles.corners
+    if np.count_nonzero(blocked) == unreachable:
+        corners = Corners(*(places[:0] for places in corners))
+    hidden = _dead_ends(points, corners, pause)
+    hidden[inside] = True
+    _look(points, corners.place, obstacles, hidden, pause)
+    apart = _dead_ends(corners.place, corners, pause)
+    apart |= apart.T
+    np.fill_diagonal(apart, True)
+    _look_around(corners.place, obstacles, apart, pause)
+    return Ways(blocked, _pairs(points, corners.place, hidden),
+                _pairs(corners.place, corners.place, apart))
+
+
+def _look_around(points: FloatArray, obstacles: Obstacles, hidden: BoolArray,
+                 pause: Pause) -> None:
+    """Mark the pairs of points that don't see each other. In place."""
+    _look(points, points, obstacles, hidden, pause, mutual=True)
+    for rows in matrix_blocks(len(points), pause):
+        hidden[rows] |= hidden[:, rows].T
+
+
+def _look(starts: FloatArray, ends: FloatArray, obstacles: Obstacles, hidden: BoolArray,
+          pause: Pause, mutual: bool = False) -> None:
+    """Mark the ends that each start doesn't see; mutually, those behind it alone. In place."""
+    if len(obstacles.edges) == 0:
+        return
+    size = 1 + LOOKS_AT_ONCE // (len(obstacles.edges) + len(ends))
+    for rows in row_blocks(len(starts), size, pause):
+        mark_hidden(starts, ends, obstacles.edges, hidden, rows.start, rows.stop, mutual)
+
+
+def _dead_ends(starts: FloatArray, corners: Corners, pause: Pause) -> BoolArray:
+    """Mark the (start, corner) pairs that no quickest way goes along."""
+    dead = np.zeros((len(starts), len(corners.place)), np.bool_)
+    for rows in row_blocks(len(starts), 1 + LOOKS_AT_ONCE // (1 + len(corners.place)), pause):
+        mark_dead_ends(starts, *corners, SLACK_M, dead, rows.start, rows.stop)
+    return dead
+
+
+def _pairs(starts: FloatArray, ends: FloatArray, hidden: BoolArray) -> Pairs:
+    row, column = np.nonzero(~hidden)
+    begin = np.zeros(len(starts) + 1, np.int64)
+    np.cumsum(np.bincount(row, minlength=len(starts)), out=begin[1:])
+    return Pairs(begin, column, ends[column, 0] - starts[row, 0], ends[column, 1] - starts[row, 1])

@@ -1,0 +1,184 @@
+from dataclasses import replace
+
+import pytest
+
+from model.judge.explain import Reason, explain
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.problem import MAX_MONEY, MAX_QUANTITY, UNREACHABLE, SpeedProfile, Travel
+from model.solution import Solution
+
+MINUTE = 60_000
+KM = 1_000_000
+
+NOBODY_SERVED = Solution((), (1, 2, 3, 4))
+
+# d is at km 4: reached by truck at 8, served until 13, back at 21
+
+
+def reason_for_d(problem, solution=NOBODY_SERVED):
+    (reason,) = explain(problem, solution, 4)
+    return reason
+
+
+@pytest.mark.parametrize(("code", "on_truck", "on_customer", "message", "remedy"), [
+    ("SKILLS", {"skills": frozenset({"lift"})}, {"skills": frozenset({"lift", "crane"})},
+     "truck lacks crane.", "fits if truck had crane"),
+    ("CAPACITY", {}, {"demand": (10_500,)}, "Its demand of 10.5 exceeds the capacity of 10.",
+     "fits if capacity were at least 10.5"),
+    ("TIME_WINDOW", {}, {"latest": 7 * MINUTE},
+     "The earliest arrival is 1 minute after its window closes.",
+     "fits if its window closed 1 minute later"),
+    ("TIME_WINDOW", {"earliest": 10 * MINUTE}, {"latest": 6 * MINUTE - 1},
+     "The earliest arrival is 12.1 minutes after its window closes.",
+     "fits if its window closed 12.1 minutes later"),
+    ("SHIFT", {"latest": 19 * MINUTE}, {}, "truck would be back 2 minutes after its shift ends.",
+     "fits if truck's shift ended 2 minutes later"),
+    ("WORKING_HOURS", {"max_working_duration": 20 * MINUTE}, {"earliest": 60 * MINUTE},
+     "Serving it alone takes 1 minute more than truck may work.",
+     "fits if truck could work 1 minute longer"),
+    ("RANGE", {"max_trip_distance": 7 * KM - 1}, {},
+     "A trip there and back is 1.1 km longer than a trip may be.",
+     "fits if trips could be 1.1 km longer"),
+    ("SHIFT", {"latest": 19 * MINUTE, "max_working_duration": MINUTE}, {},
+     "truck would be back 2 minutes after its shift ends.", None),
+    ("KIND", {}, {"served_by": "drone"}, "Only a drone may serve it and truck carries none.",
+     "fits if a truck may serve it"),
+    ("KIND", {"latest": 0}, {"served_by": "drone"},
+     "Only a drone may serve it and truck carries none.", None),
+])
+def test_reason_names_the_rule_and_a_remedy_that_works(
+    code, on_truck, on_customer, message, remedy, tiny_problem, customers, truck
+):
+    *others, d = customers
+    problem = tiny_problem(*others, replace(d, **on_customer), truck=replace(truck, **on_truck))
+    assert reason_for_d(problem) == Reason(0, code, message, remedy)
+
+
+@pytest.mark.parametrize(("code", "on_drones", "message", "remedy"), [
+    ("CAPACITY", {"capacity": (900,)}, "Its demand of 1 exceeds the drone capacity of 0.9.",
+     "fits if the drone capacity were at least 1"),
+    # 4 minutes there, 5 of service, 4 back; from c's place still 7
+    ("RANGE", {"endurance": 6 * MINUTE},
+     "A flight from the depot and back lasts 7 minutes more than the endurance.",
+     "fits if endurance were 7 minutes longer"),
+])
+def test_reason_of_a_drone(code, on_drones, message, remedy, tiny_problem, customers, truck,
+                           drones):
+    *others, d = customers
+    carrier = replace(truck, drones=replace(drones, **on_drones))
+    problem = tiny_problem(*others, replace(d, served_by="drone"), truck=carrier)
+    assert reason_for_d(problem) == Reason(0, code, message, remedy)
+
+
+def test_no_flight_leads_there(tiny_problem, customers, truck, drones):
+    *others, d = customers
+    problem = tiny_problem(*others, replace(d, served_by="drone"),
+                           truck=replace(truck, drones=drones))
+    closed = problem.travel[1].duration.copy()
+    closed[:4, 4] = UNREACHABLE
+    travel = (problem.travel[0], Travel(closed, problem.travel[1].distance))
+    reason = reason_for_d(replace(problem, travel=travel))
+    assert (reason.code, reason.remedy) == ("RANGE", "fits if a truck may serve it")
+
+
+def serve(problem, *nodes):
+    """One vehicle for each node."""
+    return tuple(schedule(problem, RouteDecision(0, vehicle, (TripDecision((0, node, 0)),)))
+                 for vehicle, node in enumerate(nodes))
+
+
+def test_one_more_vehicle_would_do(tiny_problem, customers, truck):
+    problem = tiny_problem(*customers, truck=truck)
+    reason = reason_for_d(problem, Solution(serve(problem, 1, 2), (3, 4)))
+    assert reason == Reason(0, "FLEET_EXHAUSTED", "truck could serve it alone, but all 2 are in "
+                            "use.", "fits with one more vehicle")
+
+
+def test_leaving_out_is_cheaper(tiny_problem, customers, truck):
+    problem = tiny_problem(*customers, truck=replace(truck, fixed_cost=12.5, cost_per_km=1.0),
+                           unassigned_cost=20.0)
+    reason = reason_for_d(problem, Solution(serve(problem, 1), (2, 3, 4)))
+    assert (reason.code, reason.remedy) == ("COST", "served if unassigned_cost were above 20.50")
+
+
+@pytest.mark.parametrize(("on_truck", "on_customer", "code"), [
+    ({}, {"latest": MAX_QUANTITY - 1, "release_time": MAX_QUANTITY - 1}, "TIME_WINDOW"),
+    ({"latest": MAX_QUANTITY}, {"earliest": MAX_QUANTITY - 1}, "SHIFT"),
+    ({"fixed_cost": MAX_MONEY, "cost_per_km": 1.0}, {}, "COST"),
+])
+def test_no_remedy_asks_for_what_no_request_can_state(on_truck, on_customer, code, tiny_problem,
+                                                      customers, truck):
+    *others, d = customers
+    problem = tiny_problem(*others, replace(d, **on_customer), truck=replace(truck, **on_truck))
+    reason = reason_for_d(problem)
+    assert (reason.code, reason.remedy) == (code, None)
+
+
+def test_search_left_it_out(tiny_problem, customers, truck):
+    problem = tiny_problem(*customers, truck=truck)
+    reason = reason_for_d(problem, Solution(serve(problem, 1), (2, 3, 4)))
+    assert (reason.code, reason.remedy) == ("SEARCH", None)
+
+
+def test_drone_from_another_stop_counts(tiny_problem, customers, truck, drones):
+    *others, d = customers
+    near = replace(truck, drones=replace(drones, endurance=7 * MINUTE))
+    problem = tiny_problem(*others, replace(d, served_by="drone"), truck=near)
+    reason = reason_for_d(problem, Solution(serve(problem, 1, 2), (3, 4)))
+    assert (reason.code, reason.remedy) == ("FLEET_EXHAUSTED", None)
+    assert reason.message == ("A drone of truck could serve it from a stop at c, "
+                              "but all 2 are in use.")
+
+
+def test_drone_is_tried_where_the_truck_fails(tiny_problem, customers, truck, drones):
+    *others, d = customers
+    problem = tiny_problem(*others, replace(d, latest=5 * MINUTE),  # by air 5, by road 8
+                           truck=replace(truck, drones=drones))
+    assert reason_for_d(problem).code == "SEARCH"
+
+
+def test_drone_leaves_late_enough_not_to_wait(tiny_problem, customers, truck, drones):
+    *others, d = customers
+    carrier = replace(truck, drones=replace(drones, endurance=13 * MINUTE))
+    problem = tiny_problem(*others, replace(d, served_by="drone", earliest=60 * MINUTE),
+                           truck=carrier)
+    assert reason_for_d(problem).code == "SEARCH"
+
+
+def test_later_start_avoids_slow_hours(tiny_problem, customers, truck):
+    slow_first = replace(truck, speed_profile=SpeedProfile((30 * MINUTE,), (500_000, 1_000_000)),
+                         max_working_duration=21 * MINUTE)
+    problem = tiny_problem(*customers, truck=slow_first)
+    assert reason_for_d(problem).code == "SEARCH"  # fits from minute 30 on
+    closing = replace(slow_first, latest=50 * MINUTE)
+    assert reason_for_d(tiny_problem(*customers, truck=closing)).code == "WORKING_HOURS"
+
+
+def test_each_vehicle_type_has_its_reason(tiny_problem, customers, truck):
+    small = replace(truck, id="van", capacity=(500,), depot=1)
+    problem = tiny_problem(*customers, truck=truck, more_types=(small,), num_depots=2)
+    reasons = explain(problem, Solution((), (2, 3, 4, 5)), 5)
+    assert [(reason.vehicle_type, reason.code) for reason in reasons] == [
+        (0, "SEARCH"), (1, "CAPACITY"),
+    ]
+
+
+def test_where_no_time_is_left_no_more_is_said_than_is_true(
+    tiny_problem, customers, truck, monkeypatch
+):
+    monkeypatch.setattr("model.judge.explain.attempts", None)
+    problem = tiny_problem(*customers, truck=replace(truck, latest=19 * MINUTE))
+    (reason,) = explain(problem, NOBODY_SERVED, 4, until=0.0)
+    assert reason == Reason(0, "SEARCH", "The search found no room for it on truck; there was no "
+                            "time left to find out whether there could be any.")
+
+
+def test_who_is_left_out_after_the_time_is_told_so_for_each_type(tiny_problem, customers, truck):
+    van = replace(truck, id="van", depot=1)
+    problem = tiny_problem(*customers, truck=truck, more_types=(van,), num_depots=2)
+    reasons = explain(problem, Solution((), (2, 3, 4, 5)), 5, until=0.0)
+    assert [(reason.vehicle_type, reason.code, reason.remedy) for reason in reasons] == [
+        (0, "SEARCH", None), (1, "SEARCH", None)]
+    assert "on truck" in reasons[0].message
+    assert "on van" in reasons[1].message
+    assert reasons is explain(problem, Solution((), (2, 3, 4, 5)), 4, until=0.0)

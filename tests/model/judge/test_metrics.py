@@ -1,0 +1,70 @@
+from dataclasses import replace
+
+import pytest
+
+from model.judge.check import check
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
+from model.solution import Cost, Solution
+
+MINUTE = 60_000
+KM = 1_000_000
+
+# to a (arrival 2, departure 7), b (9, 14), back at 18; 4 km
+# c by drone: take-off 3, at c 5 to 10, at b 11, recovered 12; 3 km
+C_BY_DRONE = TripDecision((0, 1, 2, 0), (SortieDecision((3,), 1, 2),), start=0)
+
+
+def plan(problem, trip):
+    """One route of this trip; d, if there, is unassigned."""
+    route = schedule(problem, RouteDecision(0, 0, (trip,)))
+    return Solution((route,), tuple(range(4, problem.num_nodes)))
+
+
+def test_cost_by_term(tiny_problem, customers, truck, drones):
+    paid = replace(truck, fixed_cost=20.0, cost_per_km=1.5, cost_per_hour=60.0,
+                   drones=replace(drones, cost_per_km=0.5, cost_per_hour=6.0))
+    problem = tiny_problem(*customers, truck=paid, unassigned_cost=100.0)
+    evaluation = check(problem, plan(problem, C_BY_DRONE))
+    # truck 4 km and 18 min; flight 3 km and 9 min with its recovery; d is left out
+    assert evaluation.cost.fixed == 20.0
+    assert evaluation.cost.distance == pytest.approx(4 * 1.5 + 3 * 0.5)
+    assert evaluation.cost.time == pytest.approx(18.0 + 0.9)
+    assert evaluation.cost.unassigned == 100.0
+    assert evaluation.cost.total == pytest.approx(146.4)
+    assert evaluation.routes[0].cost == pytest.approx(46.4)
+
+
+def test_soft_windows_cost(tiny_problem, customers, truck, drones):
+    a = replace(customers[0], earliest=4 * MINUTE, early_cost_per_hour=30.0)  # waits 2 min
+    b = replace(customers[1], latest=8 * MINUTE, late_cost_per_hour=60.0)  # reached at 11
+    c = replace(customers[2], latest=2 * MINUTE, late_cost_per_hour=120.0)  # reached at 5
+    problem = tiny_problem(a, b, c, truck=replace(truck, drones=drones))
+    evaluation = check(problem, plan(problem, C_BY_DRONE))
+    assert evaluation.violations == ()
+    assert evaluation.cost == Cost(lateness=3.0 + 6.0, earliness=1.0)
+
+
+def test_metrics_of_a_route(tiny_problem, customers, truck, drones):
+    problem = tiny_problem(*customers[:3], truck=replace(
+        truck, drones=drones, max_working_duration=36 * MINUTE))
+    evaluation = check(problem, plan(problem, C_BY_DRONE))
+    route = evaluation.routes[0]
+    assert (route.working_duration, route.working_rate) == (18 * MINUTE, 0.5)
+    trip = route.trips[0]
+    assert (trip.load, trip.load_rate) == ((3000,), 0.3)
+    assert (trip.distance, trip.duration) == (4 * KM, 18 * MINUTE)
+    assert trip.stop_loads == ((3000,), (1000,), (0,), (0,))  # c's parcel leaves with the drone
+    assert (trip.sorties[0].distance, trip.sorties[0].duration) == (3 * KM, 9 * MINUTE)
+    assert evaluation.makespan == 18 * MINUTE
+
+
+def test_plan_without_routes_has_no_makespan(tiny_problem, customers, truck):
+    problem = tiny_problem(*customers, truck=truck)
+    evaluation = check(problem, Solution((), (1, 2, 3, 4)))
+    assert (evaluation.violations, evaluation.makespan) == ((), 0)
+    assert evaluation.cost == Cost(unassigned=4000.0)
+
+
+def test_working_rate_needs_a_limit(tiny_problem, customers, truck, drones):
+    problem = tiny_problem(*customers, truck=replace(truck, drones=drones))
+    assert check(problem, plan(problem, C_BY_DRONE)).routes[0].working_rate is None

@@ -1,0 +1,141 @@
+"""A flag raised while compiled code runs, and what ends at it."""
+
+import math
+import threading
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.judge.check import check
+from model.kernel.alarm import Alarm, silent
+from model.kernel.instance import pack
+from model.problem import FULL_SPEED, Problem, SpeedProfile
+from model.search.beginning.construct import begin_anew, insert_missing
+from model.search.beginning.translate import make_searcher, read_plan
+from model.search.improve import SearchConfig, improve
+from model.search.moves.anneal import ANY, anneal
+from model.search.moves.recreate import BY_FAR
+from model.search.route.state import I_TURN, V_BEST, V_COST, Searcher
+from model.search.world import make_world
+from model.solution import Solution
+from training.instances import generate
+
+SOON = 1.0
+"""Seconds in which a search has to end that is told to, on the busiest machine."""
+
+NEVER = 10**9
+"""Turns that no search makes in that time."""
+
+
+def problem_of(variant: str, num_customers: int = 60) -> Problem:
+    """Return a problem of a variant."""
+    return generate(np.random.default_rng(5), num_customers, variant)
+
+
+def begun(problem: Problem) -> tuple[Searcher, np.ndarray]:
+    """Return a search that has begun, and the flag that it looks at."""
+    flag = silent()
+    world = make_world(problem, pack([problem]), stop=flag)
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    begin_anew(world, searcher, True)
+    return searcher, flag
+
+
+def test_rings_at_its_deadline_and_not_before() -> None:
+    with Alarm(math.inf) as alarm:
+        assert not alarm.has_rung
+    with Alarm(time.perf_counter()) as alarm:
+        assert alarm.has_rung
+
+
+def test_rings_once_the_caller_wants_no_more() -> None:
+    asked = threading.Event()
+    wants_no_more = threading.Event()
+
+    def should_stop() -> bool:
+        asked.set()
+        return wants_no_more.is_set()
+
+    with Alarm(math.inf, should_stop) as alarm:
+        assert asked.wait(SOON)
+        assert not alarm.has_rung
+        wants_no_more.set()
+        latest = time.perf_counter() + SOON
+        while not alarm.has_rung:
+            assert time.perf_counter() < latest
+
+
+@pytest.mark.parametrize("variant", ["cvrp", "soft", "drone", "mixed", "multitrip"])
+def test_turns_end_while_compiled_code_runs(variant: str) -> None:
+    problem = problem_of(variant)
+    world = make_world(problem, pack([problem]))
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    begin_anew(world, searcher, True)
+    began = time.perf_counter()
+    with Alarm(began + 0.05) as alarm:
+        anneal(world._replace(stop=alarm.flag), searcher, NEVER, ANY)
+    assert time.perf_counter() - began < SOON
+    assert 0 < searcher.count[I_TURN] < NEVER
+    assert check(problem, read_plan(world, searcher)).violations == ()
+
+
+@pytest.mark.parametrize("variant", ["cvrp", "drone", "mixed"])
+def test_nothing_changes_after_the_alarm(variant: str) -> None:
+    problem = problem_of(variant)
+    searcher, flag = begun(problem)
+    world = make_world(problem, pack([problem]), stop=flag)
+    anneal(world, searcher, 50, ANY)
+    turns, costs = int(searcher.count[I_TURN]), searcher.value.copy()
+    flag[0] = 1
+    anneal(world, searcher, 50, ANY)
+    assert searcher.count[I_TURN] == turns
+    assert (searcher.value[[V_COST, V_BEST]] == costs[[V_COST, V_BEST]]).all()
+
+
+def test_an_insertion_of_all_leaves_out_whom_there_is_no_time_for() -> None:
+    problem = problem_of("vrptw")
+    flag = silent()
+    world = make_world(problem, pack([problem]), stop=flag)
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    flag[0] = 1
+    insert_missing(world, searcher, BY_FAR)
+    nobody = read_plan(world, searcher)
+    assert nobody.routes == ()
+    assert len(nobody.unassigned) == problem.num_customers
+    flag[0] = 0
+    insert_missing(world, searcher, BY_FAR)
+    assert read_plan(world, searcher).unassigned == ()
+
+
+def one_long_trip(num_customers: int, steps: int) -> Problem:
+    """Return a problem whose every insertion times one long trip again, by a speed profile."""
+    problem = problem_of("soft", num_customers)
+    times = tuple(range(1000, 1000 * (steps + 1), 1000))
+    factors = (FULL_SPEED, *(FULL_SPEED - 1 - 37 * (number % 1000) for number in range(steps)))
+    kind = replace(problem.vehicle_types[0], count=1, capacity=(10**9,) * problem.num_dimensions,
+                   speed_profile=SpeedProfile(times, factors), latest=10**11,
+                   max_working_duration=None, max_trip_distance=None)
+    return replace(problem, vehicle_types=(kind,))
+
+
+def test_a_beginning_ends_at_the_deadline() -> None:
+    problem = one_long_trip(500, 200)
+    instance = pack([problem], neighbours=False)
+    improve(problem, instance, Solution((), ()), SearchConfig(), time.perf_counter())
+    began = time.perf_counter()
+    found = improve(problem, instance, Solution((), ()), SearchConfig(), began + 0.1)
+    assert time.perf_counter() - began < SOON
+    assert not found.whole
+    assert check(problem, found.solution).violations == ()
+
+
+def test_a_beginning_ends_once_the_caller_wants_no_more() -> None:
+    problem = one_long_trip(500, 200)
+    began = time.perf_counter()
+    found = improve(problem, pack([problem], neighbours=False), Solution((), ()), SearchConfig(),
+                    began + 60.0, should_stop=lambda: True)
+    assert time.perf_counter() - began < SOON
+    assert not found.whole
+    assert check(problem, found.solution).violations == ()

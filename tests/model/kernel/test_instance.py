@@ -1,0 +1,96 @@
+"""Tests of packed problems."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.judge.timing import leg_end
+from model.kernel.clock import arrival_by_profile
+from model.kernel.instance import (
+    NO_PROFILE, NODE_DEMAND, NODE_HARD, NODE_LATEST, TYPE_CAPACITY, TYPE_DRONES,
+    TYPE_MAX_WORKING, TYPE_PROFILE, pack,
+)
+from model.problem import UNLIMITED, Problem
+from model.simulation.vehicle_log import setting_of
+from tests.model.rollouts import random_problems
+from tests.model.tiny import RUSH_HOUR
+
+
+def test_packing_nothing_is_an_error() -> None:
+    with pytest.raises(ValueError, match="problems"):
+        pack([])
+
+
+def test_a_row_holds_the_same_numbers_whatever_is_packed_with_it() -> None:
+    problems = random_problems(seed=51, count=40)
+    together = pack(problems)
+    for row, problem in enumerate(problems):
+        alone = pack([problem])
+        for name in alone._fields:
+            one, padded = getattr(alone, name)[0], getattr(together, name)[row]
+            inside = tuple(slice(length) for length in one.shape)
+            np.testing.assert_array_equal(padded[inside], one, err_msg=name)
+
+
+def test_columns_state_limits_windows_and_demands(tiny_problem, customers, truck, drones) -> None:
+    soft = replace(customers[0], latest=5, late_cost_per_hour=2.0)
+    problem = tiny_problem(soft, customers[1], truck=truck,
+                           more_types=(replace(truck, max_working_duration=7, drones=drones),))
+    instance = pack([problem])
+    assert instance.size.tolist() == [[1, 2, 2, 1]]
+    assert instance.node[0, 1:, NODE_LATEST].tolist() == [5, UNLIMITED]
+    assert instance.node[0, 1:, NODE_HARD].tolist() == [0, 1]
+    assert instance.node[0, 1:, NODE_DEMAND].tolist() == [1000, 1000]
+    assert instance.late_early[0, 1].tolist() == [2.0, 0.0]
+    assert instance.type[0, :, TYPE_MAX_WORKING].tolist() == [UNLIMITED, 7]
+    assert instance.type[0, :, TYPE_CAPACITY].tolist() == [10_000, 10_000]
+    assert instance.type[0, :, TYPE_DRONES].tolist() == [0, 1]
+    assert (instance.type[0, :, TYPE_PROFILE] == NO_PROFILE).all()
+
+
+def compatible(problem: Problem) -> tuple[list[bool], list[bool]]:
+    """Return whom the first type may serve, by truck and by drone."""
+    instance = pack([problem])
+    return instance.can_drive[0, 0].tolist(), instance.can_fly[0, 0].tolist()
+
+
+def test_kind_skills_capacity_and_payload_decide_who_may_serve_whom(
+        tiny_problem, customers, truck, drones) -> None:
+    a, b, c, d = customers
+    customers = (replace(a, served_by="drone"), replace(b, served_by="truck"),
+                 replace(c, skills=frozenset({"cold"})), replace(d, demand=(6000,)))
+    by_truck, by_drone = compatible(tiny_problem(*customers, truck=replace(truck, drones=drones)))
+    assert by_truck == [False, False, True, False, True]
+    assert by_drone == [False, True, False, False, False]
+    skilled = replace(truck, skills=frozenset({"cold", "lift"}), capacity=(5000,), drones=drones)
+    by_truck, by_drone = compatible(tiny_problem(*customers, truck=skilled))
+    assert by_truck == [False, False, True, True, False]
+    assert by_drone == [False, True, False, True, False]
+    assert not any(compatible(tiny_problem(*customers, truck=truck))[1])
+
+
+def test_compiled_legs_end_when_the_checker_says(tiny_problem, customers, truck) -> None:
+    problem = tiny_problem(*customers, truck=replace(truck, speed_profile=RUSH_HOUR))
+    setting = setting_of(pack([problem]), 0, 0)
+    rng = np.random.default_rng(3)
+    times = [0, *RUSH_HOUR.times, *rng.integers(0, 2_000_000, 500).tolist()]
+    for leave in times:
+        duration = int(rng.integers(0, 1_500_000))
+        arrival = arrival_by_profile(setting.profile_time, setting.profile_factor,
+                                     len(RUSH_HOUR.times), duration, leave)
+        assert arrival == leg_end(leave, duration, RUSH_HOUR)
+
+
+def test_neighbours_are_the_nearest_other_customers_in_order(tiny_problem, customers,
+                                                             truck) -> None:
+    problem = tiny_problem(*customers, truck=truck, places=(0.0, 1.0, 2.5, 4.0, 8.0))
+    neighbour = pack([problem]).neighbour[0]
+    assert neighbour[0, :4].tolist() == [1, 2, 3, -1]
+    assert neighbour[4, :4].tolist() == [3, 2, 1, -1]
+    assert sorted(neighbour[2, :2].tolist()) == [1, 3]
+    assert neighbour[1, 0] == 2
+
+
+def test_a_single_customer_has_no_neighbour(tiny_problem, customers, truck) -> None:
+    assert (pack([tiny_problem(customers[0], truck=truck)]).neighbour == -1).all()

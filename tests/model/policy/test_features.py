@@ -1,0 +1,122 @@
+"""Tests of what a policy sees."""
+
+import numpy as np
+import pytest
+from model.kernel.instance import pack
+from model.policy import features
+from model.policy.tokens import scales, tokens
+from model.problem import Problem
+from model.simulation.simulator import DRIVE, OPEN, apply, encode_action, reset
+from tests.conftest import MINUTE
+from tests.model.rollouts import Batch, Units, in_other_units, random_problems, roll
+
+TOLERANCE = 1e-5
+SIGNED = {
+    16,  # the detour may be a short cut where the triangle inequality fails
+    22,  # the way to the next customer may be shorter than the way from here
+    26,  # as 16
+}
+SIGNED_STATE = {7}  # the capacity left may fall short of the demand left
+
+
+@pytest.fixture(scope="module")
+def problems() -> list[Problem]:
+    return random_problems(seed=31, count=160)
+
+
+@pytest.fixture(scope="module")
+def alone(problems: list[Problem]) -> list[Batch]:
+    return [roll([problem], seed=4) for problem in problems]
+
+
+def test_tokens_are_finite_and_bounded(alone: list[Batch]) -> None:
+    for batch in alone:
+        assert np.isfinite(batch.tokens.node).all()
+        assert (np.abs(batch.tokens.node[..., :2]) <= 1).all()
+        assert ((batch.tokens.node[..., 2:] >= 0) & (batch.tokens.node[..., 2:] <= 2)).all()
+        assert ((batch.tokens.type >= 0) & (batch.tokens.type <= 2)).all()
+
+
+def test_features_are_finite_and_bounded(alone: list[Batch]) -> None:
+    steps = [step for batch in alone for step in batch.rollouts[0].steps]
+    action = np.concatenate([step.feature for step in steps])
+    state = np.stack([step.glob for step in steps])
+    for values, signed, bound in ((action, SIGNED, 5), (state, SIGNED_STATE, 5)):
+        assert (np.abs(values) <= bound).all()
+        unsigned = [column for column in range(values.shape[1]) if column not in signed]
+        assert (values[:, unsigned] >= 0).all()
+
+
+def test_every_action_feature_tells_actions_apart(alone: list[Batch]) -> None:
+    action = np.concatenate([step.feature for batch in alone for step in batch.rollouts[0].steps])
+    assert action.shape[1] == features.NUM_ACTION_FEATURES
+    assert (action.std(axis=0) > 0.01).all()
+
+
+def test_each_action_has_one_kind_and_its_token(problems: list[Problem],
+                                                alone: list[Batch]) -> None:
+    for problem, batch in zip(problems, alone, strict=True):
+        for step in batch.rollouts[0].steps:
+            codes = np.array(step.codes)
+            assert (step.feature[:, :4].argmax(axis=1) == codes % 4).all()
+            assert (step.feature[:, :4].sum(axis=1) == 1).all()
+            offset = np.where(codes % 4 == OPEN, problem.num_nodes, 0)
+            assert (np.array(step.token) == codes // 4 + offset).all()
+
+
+@pytest.mark.parametrize("units", [Units(length=2), Units(time=4), Units(amount=8),
+                                   Units(money=0.25)], ids=str)
+def test_features_are_free_of_units(problems: list[Problem], alone: list[Batch],
+                                    units: Units) -> None:
+    for problem, batch in zip(problems, alone, strict=True):
+        if units.time > 1 and any(kind.speed_profile for kind in problem.vehicle_types):
+            continue  # legs are rounded up to a millisecond
+        other = roll([in_other_units(problem, units)], seed=4)
+        np.testing.assert_allclose(other.tokens.node, batch.tokens.node, atol=TOLERANCE)
+        np.testing.assert_allclose(other.tokens.type, batch.tokens.type, atol=TOLERANCE)
+        assert other.rollouts[0].actions == batch.rollouts[0].actions
+        for step, same in zip(batch.rollouts[0].steps, other.rollouts[0].steps, strict=True):
+            assert step.codes == same.codes
+            np.testing.assert_allclose(same.feature, step.feature, atol=TOLERANCE)
+            np.testing.assert_allclose(same.glob, step.glob, atol=TOLERANCE)
+
+
+def test_padding_has_no_effect(problems: list[Problem], alone: list[Batch]) -> None:
+    for first in range(0, len(problems), 16):
+        together = roll(problems[first : first + 16], seed=4)
+        width = together.instance.node.shape[1]
+        for row, one in enumerate(alone[first : first + 16]):
+            nodes, kinds = one.tokens.node.shape[1], one.tokens.type.shape[1]
+            np.testing.assert_array_equal(together.tokens.node[row, :nodes], one.tokens.node[0])
+            np.testing.assert_array_equal(together.tokens.type[row, :kinds], one.tokens.type[0])
+            assert not together.tokens.node[row, nodes:].any()
+            assert not together.tokens.type[row, kinds:].any()
+            assert not together.tokens.mask[row, nodes:width].any()
+            assert together.tokens.mask[row].sum() == nodes + kinds
+            same, alone_steps = together.rollouts[row], one.rollouts[0]
+            assert same.actions == alone_steps.actions
+            np.testing.assert_array_equal(same.cost, alone_steps.cost)
+            for step, packed in zip(alone_steps.steps, same.steps, strict=True):
+                assert packed.codes == step.codes
+                assert packed.here == step.here
+                np.testing.assert_array_equal(packed.feature, step.feature)
+                np.testing.assert_array_equal(packed.glob, step.glob)
+
+
+def test_company_is_the_unserved_customers_nearby(tiny_problem, customers, truck) -> None:
+    problem = tiny_problem(*customers, truck=truck, places=(0.0, 1.0, 2.0, 4.0, 8.0))
+    instance = pack([problem])
+    scale = scales(instance)
+    assert scale.near[0] == 2 * 2 * MINUTE  # neighbours are 1, 1, 2, 4 km away, 2 minutes a km
+    state = reset(instance, np.zeros(1, np.int64))
+    seen = features.empty_observation(1, problem.num_nodes, 1)
+    types = tokens(instance, scale, problem.coordinates[None]).type
+    for action in (encode_action(OPEN, 0), encode_action(DRIVE, 2)):
+        apply(instance, state, 0, action)
+    features.observe(instance, scale, state, types, 0, 1, 1, seen)
+    of_node = {int(code) // 4: seen.feature[0, index, 20:23] for index, code
+               in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == DRIVE}
+    # From 2 km: customer 1 has 4 km (3 away) next and nobody third but 8 km (7 away).
+    np.testing.assert_allclose(of_node[1], [3 / 5, 7 / 9, (3 - 1) / 2 / 3], rtol=1e-6)
+    np.testing.assert_allclose(of_node[3], [3 / 5, 4 / 6, (3 - 2) / 2 / 3], rtol=1e-6)
+    np.testing.assert_allclose(of_node[4], [4 / 6, 7 / 9, (4 - 6) / 2 / 3], rtol=1e-6)

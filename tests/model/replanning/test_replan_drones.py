@@ -1,0 +1,95 @@
+"""Replanning while drones are in the air."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision, schedule
+from model.planner import Planner
+from model.problem import Customer, DroneType, Problem, VehicleType
+from model.replanning.replan import Replanning, SettledPartError, Terms
+from model.solution import Route, Solution
+from tests.model.street import (
+    MINUTE, ONE, OPTIONS, A, B, C, D, minutes, planned, replan, route_of, served, solution_of,
+    with_customer,
+)
+
+
+def _flying(street: Problem, drones: DroneType) -> tuple[Problem, Solution]:
+    """Return a plan: from a (2 to 7 min) the drone flies to c at 3 min, back at b.
+
+    It is at c at 5 min, serves until 10 and is at b at 11; there it is recovered until 12. The
+    truck is at b from 9 to 14 min and goes on to d.
+    """
+    problem = replace(street, vehicle_types=(replace(street.vehicle_types[0], drones=drones),))
+    trip = TripDecision((0, A, B, D, 0), (SortieDecision((C,), 1, 2),))
+    return problem, solution_of(problem, RouteDecision(0, 0, (trip,)))
+
+
+def test_truck_meets_a_drone_in_the_air_where_planned(planner: Planner, street: Problem,
+                                                      drones: DroneType) -> None:
+    problem, plan = _flying(street, drones)
+    # At 4 min it stands at a; b lies on the way to the drone.
+    solution = replan(planner, problem, Terms(plan, 4 * MINUTE))
+    trip = solution.routes[0].trips[0]
+    assert minutes(trip)[:2] == [(0, 0, 0), (A, 2, 7)]
+    assert trip.stops[2].node == B
+    assert trip.sorties[0] == plan.routes[0].trips[0].sorties[0]
+    assert served(*solution.routes) == {A, B, C, D}
+
+
+def test_launch_that_has_not_begun_may_change(planner: Planner, street: Problem,
+                                              drones: DroneType) -> None:
+    problem, plan = _flying(street, drones)
+    closed = with_customer(problem, C, served_by="truck")
+    solution = replan(planner, closed, Terms(plan, MINUTE))
+    trip = solution.routes[0].trips[0]
+    assert C in [stop.node for stop in trip.stops]
+    assert minutes(trip)[1][:2] == (A, 2)
+    assert served(*solution.routes) == {A, B, C, D}
+
+
+def test_broken_truck_s_drone_comes_home_with_what_it_has_served(planner: Planner, street: Problem,
+                                                                 drones: DroneType) -> None:
+    problem, plan = _flying(street, drones)
+    broken = frozenset({ONE})
+    solution = replan(planner, problem, Terms(plan, 6 * MINUTE, unavailable=broken))
+    assert served(route_of(solution, ONE)) == {A, C}
+    assert route_of(solution, ONE).trips[0].sorties[0].recovery_stop == 2
+    solution = replan(planner, problem, Terms(plan, 4 * MINUTE, unavailable=broken))
+    assert served(route_of(solution, ONE)) == {A}
+
+
+def test_idle_drone_may_be_launched_where_the_truck_stands_from_now_on(
+        planner: Planner, tiny_problem: Callable[..., Problem], customers: tuple[Customer, ...],
+        truck: VehicleType, drones: DroneType) -> None:
+    a, b, *_ = customers
+    problem = tiny_problem(replace(a, service_duration=60 * MINUTE), b,
+                           truck=replace(truck, count=1, cost_per_km=1.0, drones=drones))
+    plan = planned(problem, ((A, B),))
+    replanning = Replanning(problem, Terms(plan, 30 * MINUTE))
+    flown = Solution((Route(0, 0, (replace(
+        schedule(problem, RouteDecision(0, 0, (TripDecision(
+            (0, A, 0), (SortieDecision((B,), 1, 1),), ((), (
+                Operation(0, True), Operation(0, False)), ())),))).trips[0]),)),))
+    # As soon as the truck is there, the drone would have been launched at 2 min.
+    assert "FROZEN" not in [item.code for item in replanning.check(flown).violations]
+    assert "TIME_MISMATCH" in [item.code for item in replanning.check(flown).violations]
+    result = replanning.plan(planner, OPTIONS).solution
+    (sortie,) = result.routes[0].trips[0].sorties
+    assert sortie.launch_time == 31 * MINUTE
+
+
+def test_past_that_can_t_have_been_is_refused(street: Problem, drones: DroneType) -> None:
+    problem, plan = _flying(street, drones)
+    flights = problem.travel[1]
+    closed = flights.duration.copy()
+    closed[A, C] = 2**50
+    far = flights.distance.copy()
+    far[A, C] = 2**50
+    problem = replace(problem, travel=(problem.travel[0],
+                                       replace(flights, duration=closed, distance=far)))
+    with pytest.raises(SettledPartError, match="no flight") as caught:
+        Replanning(problem, Terms(plan, 4 * MINUTE))
+    assert caught.value.violations[0].path == "routes[0].trips[0].sorties[0]"

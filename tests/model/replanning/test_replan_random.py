@@ -1,0 +1,199 @@
+"""Random problems, planned, changed while under way, and planned on."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.judge.check import check
+from model.judge.past import Vehicle
+from model.planner import Planner, PlanOptions
+from model.problem import Problem, Travel
+from model.replanning.replan import Replanning, Terms
+from model.solution import Route, Solution, Trip
+from tests.model.street import served
+from tests.model.tiny import draw_late, draw_tiny
+from training.instances import VARIANTS, generate
+
+OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=40)
+
+
+def nobody(problem: Problem) -> Solution:
+    """Return the plan that serves nobody."""
+    return Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+
+
+def part_of(problem: Problem, customers: list[int]) -> Problem:
+    """Return a problem with some of its customers."""
+    nodes = [*range(problem.num_depots), *customers]
+    grid = np.ix_(nodes, nodes)
+    return replace(problem, customers=tuple(map(problem.customer_at, customers)),
+                   travel=tuple(Travel(kind.duration[grid], kind.distance[grid])
+                                for kind in problem.travel),
+                   coordinates=problem.coordinates[nodes])
+
+
+def renumbered(trip: Trip, nodes: dict[int, int]) -> Trip:
+    """Return a trip with other nodes."""
+    return Trip(tuple(replace(stop, node=nodes[stop.node]) for stop in trip.stops),
+                tuple(replace(sortie, visits=tuple(replace(visit, node=nodes[visit.node])
+                                                   for visit in sortie.visits))
+                      for sortie in trip.sorties))
+
+
+def instants(plan: Solution) -> list[int]:
+    """Return when anything of a plan happens."""
+    stops = [stop for route in plan.routes for trip in route.trips for stop in trip.stops]
+    sorties = [sortie for route in plan.routes for trip in route.trips for sortie in trip.sorties]
+    return [*(time for stop in stops for time in (stop.arrival, stop.departure)),
+            *(time for sortie in sorties for time in (sortie.launch_time, sortie.recovery_time))]
+
+
+def begun(problem: Problem, route: Route, now: int) -> list[tuple[int, list[int], list[int]]]:
+    """Return the trips that have begun: number, stops left, sorties launched."""
+    drones = problem.vehicle_types[route.vehicle_type].drones
+    launch_duration = 0 if drones is None else drones.launch_duration
+    found = []
+    for number, trip in enumerate(route.trips):
+        left = [index for index, stop in enumerate(trip.stops) if stop.departure <= now]
+        launched = [index for index, sortie in enumerate(trip.sorties)
+                    if sortie.launch_time - launch_duration <= now]
+        if left or launched:
+            found.append((number, left, launched))
+    return found
+
+
+def settled(problem: Problem, plan: Solution, now: int) -> set[int]:
+    """Return the customers who can't be cancelled any more."""
+    nodes = set()
+    for route in plan.routes:
+        for number, left, launched in begun(problem, route, now):
+            trip = route.trips[number]
+            nodes |= {stop.node for stop in trip.stops[:len(left) + 1]}
+            for index in launched:
+                nodes |= {visit.node for visit in trip.sorties[index].visits}
+                nodes.add(trip.stops[trip.sorties[index].recovery_stop].node)
+    return nodes
+
+
+def assert_unchanged(problem: Problem, before: Solution, after: Solution, now: int,
+                     broken: frozenset[Vehicle]) -> None:
+    """Hold all that had departed by now against the new plan, to the millisecond."""
+    routes = {(route.vehicle_type, route.vehicle): route for route in after.routes}
+    for route in before.routes:
+        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        if vehicle in broken:
+            continue
+        for number, left, launched in begun(problem, route, now):
+            old, new = route.trips[number], routes[vehicle].trips[number]
+            assert [new.stops[index] for index in left] == [old.stops[index] for index in left]
+            flights = {(sortie.drone, sortie.launch_stop, sortie.launch_time, sortie.visits)
+                       for sortie in new.sorties}
+            for index in launched:
+                sortie = old.sorties[index]
+                assert (sortie.drone, sortie.launch_stop, sortie.launch_time,
+                        sortie.visits) in flights
+
+
+def something_happens(rng: np.random.Generator, problem: Problem, latest: int) -> Problem:
+    """Change windows, demands, releases and shifts."""
+    customers = list(problem.customers)
+    for index, customer in enumerate(customers):
+        if rng.random() < 0.1:
+            closing = int(rng.integers(0, latest + 1))
+            customers[index] = replace(customer, earliest=min(customer.earliest, closing),
+                                       latest=closing)
+        elif rng.random() < 0.05:
+            customers[index] = replace(customer, release_time=int(rng.integers(0, latest + 1)))
+        elif rng.random() < 0.05:
+            doubled = tuple(2 * amount for amount in customer.demand)
+            customers[index] = replace(customer, demand=doubled)
+    kinds = problem.vehicle_types
+    if rng.random() < 0.1:
+        end = int(latest * rng.random())
+        kinds = tuple(replace(kind, latest=max(kind.earliest, min(kind.latest, end)))
+                      for kind in kinds)
+    return replace(problem, customers=tuple(customers), vehicle_types=kinds)
+
+
+def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator) -> None:
+    """Plan a part of a problem, let things happen, and plan on."""
+    customers = np.arange(whole.num_depots, whole.num_nodes)
+    new = set(rng.choice(customers, max(1, len(customers) // 6), replace=False).tolist())
+    first = [int(node) for node in customers if node not in new]
+    old = part_of(whole, first)
+    plan = planner.plan(old, OPTIONS, start=nobody(old)).solution
+    if not plan.routes:
+        return
+    times = instants(plan)
+    now = int(rng.choice(times)) if rng.random() < 0.3 else int(
+        min(times) + rng.choice([0.0, 0.4, 0.4, 0.7]) * (max(times) - min(times)))
+    fixed = settled(old, plan, now)
+    gone = {node for index, node in enumerate(first, old.num_depots)
+            if index not in fixed and rng.random() < 0.1}
+    kept = [int(node) for node in customers if node not in gone]
+    here = {node: index for index, node in enumerate(kept, whole.num_depots)}
+    nodes = {index: here.get(node, -1) for index, node in enumerate(first, old.num_depots)}
+    nodes |= {depot: depot for depot in range(whole.num_depots)}
+    given = Solution(tuple(
+        replace(route, trips=tuple(renumbered(trip, nodes) for trip in route.trips))
+        for route in plan.routes))
+    problem = something_happens(rng, part_of(whole, kept), max(times))
+    broken = frozenset(Vehicle(route.vehicle_type, route.vehicle) for route in plan.routes
+                       if rng.random() < 0.15)
+    pinned = frozenset(node for node in served(*given.routes) if rng.random() < 0.1)
+    replanning = Replanning(problem, Terms(given, now, pinned, broken))
+    result = replanning.plan(planner, OPTIONS)
+    assert replanning.check(result.solution).violations == ()
+    assert result.final_cost <= result.decoded_cost
+    assert_unchanged(problem, given, result.solution, now, broken)
+    excused = {(item.code, item.path) for item in replanning.excused}
+    # By the plain rules, only what had happened breaks any, or waited for the present.
+    for item in check(problem, result.solution).violations:
+        assert (item.code, item.path) in excused or item.code in ("TIME_MISMATCH", "RELEASE")
+    for node in result.solution.unassigned:
+        assert len(replanning.reasons(result.solution, node)) == len(problem.vehicle_types)
+    again = replanning.plan(planner, replace(OPTIONS, search_iterations=0), start=result.solution)
+    assert again.final_cost == pytest.approx(result.final_cost)
+    replan_later(planner, problem, result.solution, now + (max(times) - now) // 2, broken)
+
+
+def replan_later(planner: Planner, problem: Problem, plan: Solution, now: int,
+                 broken: frozenset[Vehicle]) -> None:
+    """Plan on from a plan that went on itself."""
+    replanning = Replanning(problem, Terms(plan, now, unavailable=broken))
+    result = replanning.plan(planner, OPTIONS)
+    assert replanning.check(result.solution).violations == ()
+    assert_unchanged(problem, plan, result.solution, now, broken)
+
+
+@pytest.mark.parametrize("seed", range(120))
+def test_tiny_plans_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 5))
+    replan_and_check(planner, draw_tiny(rng), rng)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_tiny_plans_whose_launches_are_held_back_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 8))
+    replan_and_check(planner, draw_late(rng), rng)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("seed", range(4))
+def test_plans_of_all_classes_go_on(planner: Planner, variant: str, seed: int) -> None:
+    rng = np.random.default_rng((seed, 6))
+    replan_and_check(planner, generate(rng, 20, variant), rng)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_nobody_is_lost_who_was_served_and_nothing_happens(planner: Planner,
+                                                           variant: str) -> None:
+    problem = generate(np.random.default_rng(7), 20, variant)
+    plan = planner.plan(problem, replace(OPTIONS, search_iterations=200),
+                        start=nobody(problem)).solution
+    times = instants(plan)
+    now = min(times) + 2 * (max(times) - min(times)) // 5
+    result = Replanning(problem, Terms(plan, now)).plan(planner, OPTIONS)
+    assert set(result.solution.unassigned) <= set(plan.unassigned)
+    assert result.final_cost <= check(problem, plan).cost.total * (1 + 1e-9)

@@ -1,0 +1,186 @@
+"""Tests of the decision process: legal plans, an exact mask, compilation."""
+
+import os
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from model.judge.check import check
+from model.kernel.instance import pack
+from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
+from model.simulation.extract import extract
+from model.simulation.simulator import (
+    DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
+)
+from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
+from tests.model.rollouts import choose, legal, random_problems, record, roll
+from tests.model.tiny import draw_tiny
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@dataclass
+class Position:
+    """Where a rollout stands, as the oracle sees it."""
+
+    used: list[int]
+    vehicle: Vehicle | None = None
+    served: set[int] = field(default_factory=set)
+
+    def advance(self, problem: Problem, code: int) -> None:
+        """Do an action. In place."""
+        kind, target = code % NUM_KINDS, code // NUM_KINDS
+        if kind == OPEN:
+            self.vehicle = Vehicle(target, self.used[target])
+            self.used[target] += 1
+            return
+        assert self.vehicle is not None
+        self.vehicle = after(problem, self.vehicle, kind, target)
+        if kind != RETURN:
+            self.served.add(target)
+
+
+def walk(problem: Problem, rng: np.random.Generator) -> Iterator[tuple[list[int], Position]]:
+    """Yield the legal actions along a random rollout, none at its end, and where it stands."""
+    instance = pack([problem])
+    state = reset(instance, np.zeros(1, np.int64))
+    position = Position([0] * len(problem.vehicle_types))
+    while codes := legal(problem, instance, state):
+        yield codes, position
+        code = codes[choose(rng, codes)]
+        apply(instance, state, 0, code)
+        position.advance(problem, code)
+    yield [], position
+
+
+def test_random_rollouts_pass_the_checker_at_the_cost_it_finds() -> None:
+    problems = random_problems(seed=17, count=2400)
+    for first in range(0, len(problems), 50):
+        group = problems[first : first + 50]
+        for problem, rollout in zip(group, roll(group, seed=first).rollouts, strict=True):
+            solution = extract(problem, pack([problem]), rollout.actions)
+            evaluation = check(problem, solution)
+            assert evaluation.violations == ()
+            cost = evaluation.cost
+            terms = (cost.fixed, cost.distance, cost.time, cost.lateness, cost.earliness,
+                     cost.unassigned)
+            assert rollout.cost.tolist() == pytest.approx(terms, rel=1e-9, abs=1e-9)
+
+
+def test_random_rollouts_of_all_rules_at_once_pass_the_checker() -> None:
+    for seed in range(1500):
+        problem = draw_tiny(np.random.default_rng(seed), drone_share=0.7)
+        rollout = roll([problem], seed).rollouts[0]
+        evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
+        assert evaluation.violations == (), f"seed {seed}"
+        assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
+
+
+def test_random_rollouts_use_every_kind_of_action() -> None:
+    kinds = Counter(code % NUM_KINDS for problem in random_problems(seed=18, count=160)
+                    for code in roll([problem], seed=1).rollouts[0].actions)
+    assert min(kinds[kind] for kind in (DRIVE, LAUNCH, RETURN, OPEN)) > 50
+
+
+def test_a_trip_under_way_may_always_return() -> None:
+    for problem in random_problems(seed=19, count=300):
+        is_under_way = False
+        for step in roll([problem], seed=2).rollouts[0].steps:
+            assert is_under_way == (RETURN in [code % NUM_KINDS for code in step.codes])
+            is_under_way = step.codes[step.choice] % NUM_KINDS in (DRIVE, LAUNCH)
+
+
+def test_a_finished_rollout_has_no_legal_action() -> None:
+    for problem in random_problems(seed=20, count=40):
+        batch = roll([problem], seed=3)
+        assert batch.state.done[0]
+        assert legal(problem, batch.instance, batch.state) == []
+
+
+@pytest.mark.parametrize("drone_share", [0.0, 0.5, 1.0])
+def test_an_action_is_legal_exactly_if_the_vehicle_could_go_home_after_it(
+        drone_share: float) -> None:
+    kinds: Counter[int] = Counter()
+    for seed in range(700):
+        rng = np.random.default_rng(seed)
+        problem = draw_tiny(rng, drone_share)
+        for codes, position in walk(problem, rng):
+            expected = legal_codes(problem, position.vehicle, position.served, position.used)
+            assert sorted(codes) == sorted(expected), f"seed {seed}"
+            kinds.update(code % NUM_KINDS for code in codes)
+    assert min(kinds[kind] for kind in (DRIVE, RETURN, OPEN)) > 500
+    assert drone_share == 0 or kinds[LAUNCH] > 500
+
+
+def test_no_departure_at_all_makes_a_forbidden_action_legal_if_windows_are_hard() -> None:
+    for seed in range(250):
+        rng = np.random.default_rng(seed)
+        problem = draw_tiny(rng, drone_share=0.0)
+        problem = replace(problem, customers=tuple(
+            replace(customer, late_cost_per_hour=None) for customer in problem.customers))
+        for codes, position in walk(problem, rng):
+            expected = legal_codes(problem, position.vehicle, position.served, position.used,
+                                   any_start=True)
+            assert sorted(codes) == sorted(expected), f"seed {seed}"
+
+
+def test_the_distance_of_a_trip_begins_at_zero_when_the_trip_begins_with_a_launch(
+        tiny_problem, customers, truck, drones) -> None:
+    truck = replace(truck, count=1, max_trips=2, max_trip_distance=4_000_000, drones=drones)
+    problem = tiny_problem(*customers, truck=truck)
+    instance = pack([problem])
+    state = reset(instance, np.zeros(1, np.int64))
+    for kind, target in ((OPEN, 0), (DRIVE, 1), (RETURN, 0), (LAUNCH, 3), (DRIVE, 2)):
+        assert encode_action(kind, target) in legal(problem, instance, state)
+        apply(instance, state, 0, encode_action(kind, target))
+    assert np.flatnonzero(state.served[0]).tolist() == [1, 2, 3]
+
+
+def test_drones_that_queue_to_be_recovered_count_against_the_working_duration() -> None:
+    # Launched 13 minutes later, both drones would still be back as early, but the first would
+    # have to wait for the second's launch, and the truck for both.
+    legs = np.array([[30 if 4 in (i, j) and i != j else int(i != j) for j in range(5)]
+                     for i in range(5)]) * MINUTE
+    by_drone = Customer("", (1,), served_by="drone")
+    customers = (Customer("", (1,), earliest=40 * MINUTE),
+                 replace(by_drone, earliest=20 * MINUTE), replace(by_drone, earliest=25 * MINUTE),
+                 Customer("", (1,)))
+    drones = DroneType(2, (9,), 1, endurance=25 * MINUTE, launch_duration=5 * MINUTE,
+                       recovery_duration=10 * MINUTE)
+    drive_on = encode_action(DRIVE, 4)
+    for limit in range(85, 97):
+        truck = VehicleType("", 1, (9,), 0, max_working_duration=limit * MINUTE, drones=drones)
+        problem = Problem((Depot(""),), customers, (truck,), (Travel(legs, legs),) * 2,
+                          np.zeros((5, 2)), 1.0)
+        instance = pack([problem])
+        state = reset(instance, np.zeros(1, np.int64))
+        for kind, target in ((OPEN, 0), (DRIVE, 1), (LAUNCH, 2), (LAUNCH, 3)):
+            apply(instance, state, 0, encode_action(kind, target))
+        assert (drive_on in legal(problem, instance, state)) == (limit >= 91)
+
+
+def test_before_a_vehicle_opens_every_row_looks_the_same() -> None:
+    problem = draw_tiny(np.random.default_rng(5))
+    state = reset(pack([problem]), np.zeros(3, np.int64))
+    for name in ("problem", "served", "num_unserved", "used", "done", "vehicle", "cost"):
+        rows = getattr(state, name)[:3]
+        assert (rows == rows[0]).all(), name
+
+
+def test_compiled_and_interpreted_rollouts_agree(tmp_path: Path) -> None:
+    command = ("import sys; from pathlib import Path; from tests.model import rollouts as r;"
+               "r.record(r.random_problems(seed=23, count=48, largest=8), Path(sys.argv[1]))")
+    subprocess.run([sys.executable, "-c", command, str(tmp_path / "interpreted.npz")], cwd=ROOT,
+                   check=True, env={**os.environ, "NUMBA_DISABLE_JIT": "1"})
+    record(random_problems(seed=23, count=48, largest=8), tmp_path / "compiled.npz")
+    with np.load(tmp_path / "compiled.npz") as compiled, \
+            np.load(tmp_path / "interpreted.npz") as interpreted:
+        assert set(compiled) == set(interpreted)
+        for name in compiled:
+            np.testing.assert_allclose(compiled[name], interpreted[name], rtol=1e-6, atol=1e-7)

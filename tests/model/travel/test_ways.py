@@ -1,0 +1,123 @@
+"""Ways around areas, against a plain search over all corners, and how they may be ended."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from model.kernel.pausing import Pause
+from model.problem import FloatArray
+from model.travel import airspace as module
+from model.travel.airspace import Airspace, Flights, Ring, flight_legs, invalid_polygon_reason
+from model.travel.matrices import planar_distances
+from model.travel.obstacles import Obstacles, count_crossings
+from model.travel.ways import Ways, find_ways
+
+SPEED = 36.0  # km/h, 10 m/s
+MARGIN_M = 0.0005
+SQUARE: Ring = ((0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0))
+COORDINATE = st.integers(-6, 6).map(lambda number: 50.0 * number)
+CORNERS = st.lists(st.tuples(COORDINATE, COORDINATE), min_size=3, max_size=7)
+AREAS = st.lists(CORNERS.filter(lambda ring: invalid_polygon_reason(ring) is None).map(tuple),
+                 min_size=1, max_size=4)
+PLACES = st.lists(st.tuples(COORDINATE, COORDINATE), min_size=2, max_size=5)
+
+
+def circle(corners: int, radius: float = 1000.0, x: float = 0.0) -> Ring:
+    angles = [2 * math.pi * corner / corners for corner in range(corners)]
+    return tuple((x + radius * math.cos(angle), radius * math.sin(angle)) for angle in angles)
+
+
+def shortest(places: FloatArray, rings: list[Ring]) -> FloatArray:
+    """Return the (place, place) distances around areas, by all corners of all boundaries."""
+    areas = shapely.union_all([shapely.Polygon(ring) for ring in rings])
+    closed = areas.buffer(MARGIN_M, join_style="mitre").buffer(-2 * MARGIN_M, join_style="mitre")
+    points = np.concatenate([places, shapely.get_coordinates(areas)])
+    distance = np.full((len(points), len(points)), np.inf)
+    for one, other in itertools.combinations_with_replacement(range(len(points)), 2):
+        if not shapely.LineString([points[one], points[other]]).intersects(closed):
+            length = math.dist(points[one], points[other])
+            distance[one, other] = distance[other, one] = length
+    for middle in range(len(points)):
+        distance = np.minimum(distance, distance[:, middle, None] + distance[middle])
+    return distance[:len(places), :len(places)]
+
+
+@given(PLACES, AREAS)
+@settings(max_examples=60, deadline=None)
+def test_ways_are_those_of_a_plain_search(places: list[tuple[float, float]],
+                                          areas: list[Ring]) -> None:
+    points = np.array(places)
+    flown = flight_legs(points, Airspace(tuple(areas)), SPEED).distance
+    assert flown == pytest.approx(shortest(points, areas), abs=1e-3)
+
+
+@pytest.mark.parametrize("corners", [30, 500])
+def test_round_areas_are_flown_along_their_boundary(corners: int) -> None:
+    areas = Airspace((circle(corners), circle(corners, 500.0)))
+    legs = flight_legs(np.array([(-2000.0, 0.0), (2000.0, 0.0)]), areas, SPEED)
+    # Two tangents of 60 degrees each and the arc of 60 degrees between them.
+    assert legs.distance[0, 1] == pytest.approx(2 * math.sqrt(3) * 1000 + math.pi / 3 * 1000,
+                                                rel=1e-3)
+
+
+def test_a_way_bends_where_areas_touch() -> None:
+    touching = ((100.0, 100.0), (200.0, 100.0), (200.0, 200.0), (100.0, 200.0))
+    walls = ((0.0, 100.0), (0.0, 300.0), (-500.0, 300.0), (-500.0, 100.0)), (
+        (200.0, 100.0), (200.0, -300.0), (600.0, -300.0), (600.0, 100.0))
+    start, end = (40.0, 110.0), (190.0, 10.0)
+    legs = flight_legs(np.array([start, end]), Airspace((SQUARE, touching, *walls)), SPEED)
+    expected = math.dist(start, (100.0, 100.0)) + math.dist((100.0, 100.0), end)
+    assert legs.distance[0, 1] == pytest.approx(expected)
+
+
+def test_who_sees_whom_is_found_out_once_for_all_speeds(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = 0
+
+    def note(points: FloatArray, obstacles: Obstacles, pause: Pause) -> Ways:
+        nonlocal found
+        found += 1
+        return find_ways(points, obstacles, pause)
+
+    monkeypatch.setattr(module, "find_ways", note)
+    points = np.array([(-50.0, 50.0), (150.0, 60.0)])
+    for wind in (0.0, 20.0):
+        flights = Flights(points, Airspace((SQUARE,), wind), planar_distances(points))
+        for speed in (40.0, 50.0, 60.0):
+            flights.legs(speed)
+    assert found == 2
+
+
+def test_every_part_of_the_work_can_be_ended() -> None:
+    points = np.random.default_rng(0).uniform(-3000, 3000, (300, 2))
+    areas = Airspace((circle(300), circle(300, x=1500.0)))
+    pauses = 0
+
+    class EndedError(Exception):
+        pass
+
+    def count() -> None:
+        nonlocal pauses
+        pauses += 1
+
+    Flights(points, areas, planar_distances(points), count).legs(SPEED)
+    assert pauses > 4
+    for last in range(1, pauses):
+        left = iter(range(last))
+
+        def end(left: object = left) -> None:
+            if next(left, None) is None:  # type: ignore[call-overload]
+                raise EndedError
+
+        with pytest.raises(EndedError):
+            Flights(points, areas, planar_distances(points), end).legs(SPEED)
+
+
+def test_crossings_of_areas_are_counted() -> None:
+    bar: Ring = ((-10.0, 40.0), (110.0, 40.0), (110.0, 60.0), (-10.0, 60.0))
+    assert count_crossings([SQUARE]) == 0
+    assert count_crossings([SQUARE, bar]) == 4

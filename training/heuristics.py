@@ -1,0 +1,35 @@
+"""Rules of thumb in the same simulator, to compare policies with."""
+
+import numpy as np
+
+from model.policy.features import Observation
+from model.problem import FloatArray, IntArray
+from model.simulation.simulator import DRIVE, LAUNCH, OPEN, RETURN
+from training.rollout import Batch, Simulation
+
+DURATION_FEATURE = 4
+
+
+def nearest_choice(batch: Batch, seen: Observation, row: int, problem: int) -> int:
+    """Choose the nearest feasible customer; drones fly to customers that no truck may serve."""
+    count = int(seen.count[row])
+    feature = seen.feature[row, :count]
+    token = seen.token[row, :count]
+    by_truck = batch.instance.can_drive[problem].any(axis=0)
+    customer = np.minimum(token, len(by_truck) - 1)
+    score = np.select(
+        [feature[:, DRIVE] > 0, (feature[:, LAUNCH] > 0) & ~by_truck[customer],
+         feature[:, RETURN] > 0, feature[:, OPEN] > 0],
+        [feature[:, DURATION_FEATURE], feature[:, DURATION_FEATURE], 100.0, 200.0], 300.0)
+    return int(score.argmin())
+
+
+def nearest_neighbour(batch: Batch) -> FloatArray:
+    """Plan each problem by the nearest feasible customer; return the true costs, (problem,)."""
+    simulation = Simulation(batch, range(batch.num_problems), 1, 1)
+    choice: IntArray = np.zeros(batch.num_problems, np.int64)
+    while simulation.step(choice):
+        for row in np.flatnonzero(simulation.seen.count).tolist():
+            choice[row] = nearest_choice(batch, simulation.seen, row, row)
+    simulation.close()
+    return simulation.state.cost[: batch.num_problems].sum(axis=1)
