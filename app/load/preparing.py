@@ -36,11 +36,16 @@ class Preparing:
         How long it may take, with the search; infinite: as long as it will.
     limit
         Where `seconds` come from, in words.
+    work, advice
+        What takes the time, and what would take less, in words.
     """
 
     should_stop: Callable[[], bool] = lambda: False
     seconds: float = float("inf")
     limit: str = ""
+    work: str = "Legs and flights"
+    advice: str = ("send fewer customers, fewer ways to travel, or no-fly areas with fewer "
+                   "corners")
     began: float = field(default_factory=time.perf_counter)
 
     def pause(self) -> None:
@@ -66,14 +71,17 @@ class Preparing:
         if total > self._allowed:
             raise self._refusal(f"take about {total:.1f} s")
 
+    def allows(self, seconds: float) -> bool:
+        """Tell whether there is time enough for what may come next."""
+        return time.perf_counter() - self.began + seconds <= self._allowed
+
     @property
     def _allowed(self) -> float:
         return max(SHORTEST, SHARE * self.seconds)
 
     def _refusal(self, found: str) -> InvalidRequestError:
-        message = (f"Legs and flights {found} on one core, and {self._allowed:.1f} s may be spent "
-                   f"on them by {self.limit}: allow more time, or send fewer customers, fewer ways "
-                   "to travel, or no-fly areas with fewer corners.")
+        message = (f"{self.work} {found} on one core, and {self._allowed:.1f} s may be spent "
+                   f"on them by {self.limit}: allow more time, or {self.advice}.")
         return InvalidRequestError([InputError(code="TOO_MUCH_WORK", path="$", message=message)])
 
 

@@ -7,10 +7,12 @@ from typing import Any
 
 from pydantic_core import to_json
 
+from app.errors import InvalidRequestError
+from app.load.preparing import Preparing
 from app.service import ReceivedBody
 from app.settings import Settings
 from app.vroom.checking import drive, route_faults
-from app.vroom.errors import input_error
+from app.vroom.errors import TOO_LARGE, VroomError, input_error
 from app.vroom.kinds import Kind
 from app.vroom.models import Routes
 from app.vroom.places import Places, find_places
@@ -26,6 +28,10 @@ from model.solution import Solution
 
 EXPLORATION_SECONDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
 """How long to search by `options.x`."""
+
+LEAST_PREPARING = 0.25
+"""Seconds that may pass before the search, however short its time limit: on a busy machine a small
+request would be refused else."""
 
 SECONDS_PER_JOB = 2e-4
 """Kept back for the last check and the reply."""
@@ -46,16 +52,38 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
         If the plan found breaks a rule.
     """
     request = read_request(body.content, settings.max_customers, settings.max_customers)
-    places = find_places(request, settings.vroom_speeds, settings.max_legs)
+    preparing = preparing_of(request.options, body, settings, should_stop)
+    try:
+        return _answer(planner, request, body, settings, preparing, on_plan)
+    except InvalidRequestError as error:
+        raise VroomError(TOO_LARGE, error.errors[0].message) from error
+
+
+def preparing_of(stated: VroomOptionsInput, body: ReceivedBody, settings: Settings,
+                 should_stop: Callable[[], bool]) -> Preparing:
+    """Return the work before the search, which is a part of the time limit."""
+    seconds = search_seconds(stated, settings)
+    return Preparing(
+        should_stop, max(LEAST_PREPARING, seconds),
+        f"the time limit of {seconds:g} s, which options.l states up to "
+        f"{settings.max_plan_seconds:g} s (TANDEM_MAX_PLAN_SECONDS)", began=body.received_at,
+        work="Legs and a first plan",
+        advice="send fewer jobs, or fewer vehicles that drive unlike each other")
+
+
+def _answer(planner: Planner, request: VroomRequest, body: ReceivedBody, settings: Settings,
+            preparing: Preparing, on_plan: Callable[[Mapping[str, Any]], None]) -> bytes:
+    places = find_places(request, settings.vroom_speeds, settings.max_legs, preparing)
     options = PlanOptions(
         planner.policies[0],
         threads=min(request.options.t or settings.search_threads, os.cpu_count() or 1))
 
     def plan(problem: Problem, options: PlanOptions, start: Solution,
              tell: Callable[[Progress], None]) -> PlanResult:
-        return planner.plan(problem, options, listener=Listener(should_stop, tell), start=start)
+        return planner.plan(problem, options, listener=Listener(preparing.should_stop, tell),
+                            start=start)
 
-    planning = Planning(request, places, plan, options, settings.max_legs)
+    planning = Planning(request, places, plan, options, settings.max_legs, preparing)
     start = stated_routes(request, places, planning.kinds)
     loaded = time.perf_counter()
     seconds = search_seconds(request.options, settings) - SECONDS_PER_JOB * len(request.jobs)

@@ -5,6 +5,8 @@ from math import isqrt
 
 import numpy as np
 
+from app.load.preparing import UNHURRIED, Preparing
+from app.load.work import attempt_seconds, model_seconds
 from app.settings import MAX_LEGS
 from app.vroom.alternatives import choose_windows
 from app.vroom.drives import Drive, Drives
@@ -16,6 +18,7 @@ from app.vroom.places import NOWHERE, Places, on_globe
 from app.vroom.reply import has_windows
 from app.vroom.schemas import VroomRequest, Window
 from app.vroom.timing import TIME_SCALE
+from model.kernel.pausing import Pause
 from model.problem import (
     MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, Customer, Depot, FloatArray, IntArray, Problem,
     Travel, VehicleType,
@@ -50,38 +53,62 @@ class Converter:
         self.kinds = find_kinds(request, places)
         self._is_timed = has_windows(request)
         self._origin = self._find_origin()
+        self._shifts = {kind.stated.time_window for kind in self.kinds}
 
-    def model(self, slots: Slots) -> Model:
-        """Return the problem of serving jobs, at least one, each in one of its windows."""
+    def model(self, slots: Slots, preparing: Preparing = UNHURRIED) -> Model:
+        """Return the problem of serving jobs, at least one, each in one of its windows.
+
+        Where both it and a relaxed one are more than there is time for, it stands alone.
+
+        Raises
+        ------
+        VroomError
+            If it would be too large.
+        RequestError
+            If the work on it is to end.
+        """
         nodes = Nodes.of(self._places, self.kinds, slots)
-        if len(nodes.origins) ** 2 > self._max_legs:
+        number = len(nodes.origins)
+        if number**2 > self._max_legs:
             raise VroomError(TOO_LARGE, "Too many starts and ends of vehicles and windows of jobs "
-                                        f"({len(nodes.origins)}), maximum is "
-                                        f"{isqrt(self._max_legs)} (TANDEM_MAX_LEGS)")
-        problem, is_compromise = self._problem(nodes)
-        relaxed: tuple[Problem, ...] = ()
-        if is_compromise:
-            relaxed = (choose_windows(self._problem(nodes, strict=problem)[0], nodes),)
+                                        f"({number}), maximum is {isqrt(self._max_legs)} "
+                                        "(TANDEM_MAX_LEGS)")
+        drives = self._drives(nodes, relaxed=False, pause=preparing.pause)
+        ways = drives.count(self.kinds)
         surplus = find_loads(self._request, self.kinds, relaxed=True).surplus
+        is_compromise = drives.is_compromise or surplus is not None
+        self._require_room(ways, number)
+        once = model_seconds(number, ways)
+        preparing.expect(once + attempt_seconds(number, ways))
+        relaxes = is_compromise and preparing.allows(2 * (once + attempt_seconds(number, ways)))
+        if relaxes:
+            self._require_room(2 * ways, number)
+        problem = self._problem(nodes, drives)
+        relaxed: tuple[Problem, ...] = ()
+        if relaxes:
+            looser = self._drives(nodes, relaxed=True, pause=preparing.pause)
+            relaxed = (choose_windows(self._problem(nodes, looser), nodes),)
         return Model(choose_windows(problem, nodes), nodes, len(self.kinds), relaxed,
-                     None if surplus is None else tuple(surplus[list(nodes.jobs)].tolist()),
+                     None if surplus is None or not relaxes
+                     else tuple(surplus[list(nodes.jobs)].tolist()),
                      has_longest=self._has_longest())
 
-    def _problem(self, nodes: Nodes, strict: Problem | None = None) -> tuple[Problem, bool]:
-        """Return the problem, and whether it is a compromise between rules and costs.
+    def _drives(self, nodes: Nodes, relaxed: bool, pause: Pause) -> Drives:
+        return Drives(self._request, self._places, self.kinds, nodes, self._is_timed, relaxed,
+                      pause)
 
-        With one that is, `strict`, return a relaxed one beside it.
-        """
-        relaxed = strict is not None
-        loads = find_loads(self._request, self.kinds, relaxed)
-        drives = Drives(self._request, self._places, self.kinds, nodes, self._is_timed, relaxed)
-        beside = 0 if strict is None else len(strict.travel)
-        driven = []
-        for kind in self.kinds:
-            driven.append(drives.drive(kind))
-            if (beside + len(drives.travels)) * len(nodes.origins) ** 2 > self._max_legs:
-                raise VroomError(TOO_LARGE, "Too many vehicles that drive unlike each other for so "
-                                            "many jobs (TANDEM_MAX_LEGS).")
+    def _require_room(self, ways: int, nodes: int) -> None:
+        """Refuse more matrices than are held at a time."""
+        if ways * nodes**2 > self._max_legs:
+            raise VroomError(TOO_LARGE, "Too many vehicles that drive unlike each other for so "
+                                        f"many jobs: {ways} ways to travel between {nodes} places "
+                                        f"and windows, maximum is {self._max_legs} legs "
+                                        "(TANDEM_MAX_LEGS).")
+
+    def _problem(self, nodes: Nodes, drives: Drives) -> Problem:
+        """Return the problem by given drives."""
+        loads = find_loads(self._request, self.kinds, drives.relaxed)
+        driven = [drives.drive(kind) for kind in self.kinds]
         depots = {depot: node for node, depot in enumerate(nodes.depots)}
         vehicle_types = tuple(
             self._vehicle_type(number, depots[kind.start, kind.end], drive, loads)
@@ -91,18 +118,18 @@ class Converter:
             self._customer(job, int(service), window, loads)
             for job, service, window in zip(nodes.jobs, services, nodes.windows, strict=True))
         travels = tuple(drives.travels)
-        problem = Problem(
+        return Problem(
             depots=tuple(Depot(str(node)) for node in range(len(depots))), customers=customers,
             vehicle_types=vehicle_types, travel=travels,
             coordinates=self._coordinates(nodes, travels),
             unassigned_cost=dearest_plan(vehicle_types, travels, len(depots)))
-        return problem, drives.is_compromise or loads.surplus is not None
 
     def _has_longest(self) -> bool:
         """Tell whether some legs are longer than the planner can count."""
-        return any(max(int(legs.durations.max()) * kind.rates.time // TIME_SCALE,
-                       int(legs.distances.max())) > LONGEST
-                   for kind in self.kinds for legs in [self._places.legs[kind.stated.profile]])
+        longest = {profile: (int(legs.durations.max()), int(legs.distances.max()))
+                   for profile, legs in self._places.legs.items()}
+        return any(max(seconds * kind.rates.time // TIME_SCALE, metres) > LONGEST
+                   for kind in self.kinds for seconds, metres in [longest[kind.stated.profile]])
 
     def _find_origin(self) -> int:
         """Return the instant in seconds that the planner's time begins with."""
@@ -153,9 +180,8 @@ class Converter:
 
     def may_start(self, window: Window) -> bool:
         """Tell whether any vehicle works within a time window."""
-        shifts = [kind.stated.time_window for kind in self.kinds]
         return any(shift is None or (shift[0] <= window[1] and window[0] <= shift[1])
-                   for shift in shifts)
+                   for shift in self._shifts)
 
     def _coordinates(self, nodes: Nodes, travels: Sequence[Travel]) -> FloatArray:
         """Return where the policy sees the nodes: on the map, or as the legs place them."""

@@ -6,6 +6,7 @@ charges for: travel time, metres, or the cost itself. Where nothing has a time w
 time is free to stand for another quantity that is limited.
 """
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -17,7 +18,11 @@ from app.vroom.nodes import LONGEST, PARTS, Nodes, at_most_longest
 from app.vroom.places import Legs, Places
 from app.vroom.schemas import VroomRequest
 from app.vroom.timing import COST_SCALE, TIME_SCALE, service_of, setup_of
+from model.kernel.pausing import Pause, go_on
 from model.problem import MAX_QUANTITY, IntArray, Travel
+
+Key = tuple[object, ...]
+"""Tells a pair of matrices from others."""
 
 WHOLE = 10**11
 """A limit of which legs use up shares."""
@@ -38,7 +43,7 @@ class Drives:
     """Collects the matrices for a request; equal ones are built once."""
 
     def __init__(self, request: VroomRequest, places: Places, kinds: tuple[Kind, ...],
-                 nodes: Nodes, is_timed: bool, relaxed: bool) -> None:
+                 nodes: Nodes, is_timed: bool, relaxed: bool, pause: Pause = go_on) -> None:
         """Begin with no matrices.
 
         Parameters
@@ -47,27 +52,41 @@ class Drives:
             Whether anything has a time window.
         relaxed
             Where limits and costs can't both be planned, plan the costs; else the limits.
+        pause
+            Called before each pair of matrices.
         """
         self.travels: list[Travel] = []
         self._request = request
         self._places = places
         self._nodes = nodes
         self._is_timed = is_timed
-        self._relaxed = relaxed
-        self._index: dict[tuple[object, ...], int] = {}
+        self.relaxed = relaxed
+        self._pause = pause
+        self._index: dict[Key, int] = {}
+        self._limits_kept: dict[Key, Drive] = {}
+        self._longest: dict[int, int] = {}  # by the matrix, which the places hold
+        self._ratios: dict[str, Fraction | None] = {}  # by profile
         self.actions = Actions(request, places, kinds, nodes, relaxed)
         self.is_compromise = self.actions.is_compromise  # whether there was such a case
 
-    def drive(self, kind: Kind) -> Drive:
-        """Return how the vehicles of a kind drive.
+    def count(self, kinds: Iterable[Kind]) -> int:
+        """Return how many pairs of matrices the vehicles of some kinds need; builds none.
 
         Raises
         ------
         VroomError
             If they are limited in what isn't known.
         """
+        return len({self._choose(kind)[0] for kind in kinds})
+
+    def drive(self, kind: Kind) -> Drive:
+        """Return how the vehicles of a kind drive; raises as `count` does."""
+        return self._choose(kind)[1]()
+
+    def _choose(self, kind: Kind) -> tuple[Key, Callable[[], Drive]]:
+        """Return what tells the matrices of a kind from others, and what builds them."""
         legs = self._places.legs[kind.stated.profile]
-        tariff = Tariff.of(kind, legs)
+        tariff = Tariff.of(kind, legs, self._ratio(kind) if _is_mixed(kind) else None)
         seconds, metres = self._limits(kind, legs, tariff)
         if tariff.ratio is not None and metres is not None:
             as_seconds = min(LONGEST, int(metres / tariff.ratio))
@@ -79,9 +98,10 @@ class Drives:
         if not self._is_timed and (tariff.is_metric or seconds is None or metres is None):
             return self._untimed(kind, tariff, seconds, metres)
         self.is_compromise = True
-        if self._relaxed:
+        if self.relaxed:
             return self._by(kind, tariff.basis, tariff.rate, None)
-        return self._limited(kind, tariff, seconds, metres)
+        key = ("limited", *self._key(kind, "costs", "durations"), tariff, seconds, metres)
+        return key, lambda: self._limited(kind, tariff, seconds, metres, key)
 
     def _limits(self, kind: Kind, legs: Legs,
                 tariff: "Tariff") -> tuple[int | None, int | None]:
@@ -101,34 +121,48 @@ class Drives:
                 metres = None
         return seconds, metres
 
+    def _ratio(self, kind: Kind) -> Fraction | None:
+        """Return metres by second if that is the same for all legs of a kind's profile."""
+        profile = kind.stated.profile
+        if profile not in self._ratios:
+            self._ratios[profile] = _ratio(self._places.legs[profile])
+        return self._ratios[profile]
+
     def _longest_route(self, matrix: IntArray) -> int:
         """Return what no route exceeds: the longest leg to each job and to an end."""
-        spread, depots = self._nodes.spread(matrix), len(self._nodes.depots)
-        to_jobs = spread[:, depots:].max(axis=0)[self._nodes.first_of_each_job()]
-        return int(to_jobs.sum() + spread[:, :depots].max())
+        if id(matrix) not in self._longest:
+            spread, depots = self._nodes.spread(matrix), len(self._nodes.depots)
+            to_jobs = spread[:, depots:].max(axis=0)[self._nodes.first_of_each_job()]
+            self._longest[id(matrix)] = int(to_jobs.sum() + spread[:, :depots].max())
+        return self._longest[id(matrix)]
 
-    def _by(self, kind: Kind, basis: str, rate: float, limit: int | None) -> Drive:
-        """Return a drive that costs `rate` per 1,000 of what the basis measures."""
-        return Drive(self._travel(kind, basis, "durations"), rate,
-                     max_distance=None if limit is None else limit * PARTS)
+    def _by(self, kind: Kind, basis: str, rate: float,
+            limit: int | None) -> tuple[Key, Callable[[], Drive]]:
+        """Choose a drive that costs `rate` per 1,000 of what the basis measures."""
+        return self._key(kind, basis, "durations"), lambda: Drive(
+            self._travel(kind, basis, "durations"), rate,
+            max_distance=None if limit is None else limit * PARTS)
 
     def _untimed(self, kind: Kind, tariff: "Tariff", seconds: int | None,
-                 metres: int | None) -> Drive:
-        """Return a drive whose working time stands for one of the limited quantities."""
+                 metres: int | None) -> tuple[Key, Callable[[], Drive]]:
+        """Choose a drive whose working time stands for one of the limited quantities."""
         rates = kind.rates
         if tariff.is_metric and metres is not None:
-            return Drive(
+            return self._key(kind, "distances", "durations"), lambda: Drive(
                 self._travel(kind, "distances", "durations"),
                 rates.distance_cost * 1000 / COST_SCALE,
                 rates.time_cost * 3600 / COST_SCALE,
                 metres * PARTS, None if seconds is None else seconds * PARTS)
         clock, limit = ("durations", seconds) if seconds is not None else ("distances", metres)
-        return Drive(self._travel(kind, tariff.basis, clock), tariff.rate,
-                     max_working=None if limit is None else limit * PARTS)
+        return self._key(kind, tariff.basis, clock), lambda: Drive(
+            self._travel(kind, tariff.basis, clock), tariff.rate,
+            max_working=None if limit is None else limit * PARTS)
 
     def _limited(self, kind: Kind, tariff: "Tariff", seconds: int | None,
-                 metres: int | None) -> Drive:
+                 metres: int | None, key: Key) -> Drive:
         """Return a drive that keeps its limits and costs about what it should."""
+        if key in self._limits_kept:
+            return self._limits_kept[key]
         cost = float(self._measure(kind, tariff.basis).sum()) * tariff.rate
         limited = (self._share(kind, seconds, metres) if seconds is not None and metres is not None
                    else self._measure(kind, "distances" if seconds is None else "durations"))
@@ -137,7 +171,9 @@ class Drives:
             limit = (metres or seconds or 0) * PARTS
         self.travels.append(Travel(self._durations(kind, "durations"), limited))
         total = float(limited.sum())
-        return Drive(len(self.travels) - 1, cost / total if total else 0.0, max_distance=limit)
+        drive = Drive(len(self.travels) - 1, cost / total if total else 0.0, max_distance=limit)
+        self._limits_kept[key] = drive
+        return drive
 
     def _share(self, kind: Kind, seconds: int, metres: int) -> IntArray:
         """Return which share a leg uses up of the limit of which it uses up more."""
@@ -150,15 +186,21 @@ class Drives:
         whole: IntArray = np.minimum(rounded, MAX_QUANTITY).astype(np.int64)
         return whole
 
-    def _travel(self, kind: Kind, basis: str, clock: str) -> int:
-        """Return the index of matrices that measure `basis`, with times by `clock`."""
+    def _key(self, kind: Kind, basis: str, clock: str) -> Key:
+        """Return what tells matrices that measure `basis`, with times by `clock`, from others."""
         rates = kind.rates
-        key: tuple[object, ...] = (kind.stated.profile, basis, clock)
+        key: Key = (kind.stated.profile, basis, clock)
         if basis == "costs":
             key = (*key, kind.type, rates.time_cost, rates.distance_cost, rates.task_cost)
         if self._is_timed:
             key = (*key, kind.type, rates.time)
+        return key
+
+    def _travel(self, kind: Kind, basis: str, clock: str) -> int:
+        """Return the index of matrices that measure `basis`, with times by `clock`."""
+        key = self._key(kind, basis, clock)
         if key not in self._index:
+            self._pause()
             self._index[key] = len(self.travels)
             self.travels.append(Travel(self._durations(kind, clock), self._measure(kind, basis)))
         return self._index[key]
@@ -198,12 +240,11 @@ class Tariff:
     ratio: Fraction | None  # metres by second, where all legs have the same
 
     @classmethod
-    def of(cls, kind: Kind, legs: Legs) -> "Tariff":
-        """Find what the cost of a kind is proportional to."""
+    def of(cls, kind: Kind, legs: Legs, ratio: Fraction | None) -> "Tariff":
+        """Find what the cost of a kind is proportional to; `ratio` if all legs have the same."""
         rates = kind.rates
         if legs.costs is not None or rates.task_cost:
             return cls("costs", PARTS, False, None)
-        ratio = _ratio(legs) if _is_mixed(kind) else None
         if ratio is not None:
             cost = rates.time_cost + rates.distance_cost * ratio
             return cls("durations", float(cost * 1000 / COST_SCALE), True, ratio)

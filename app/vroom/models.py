@@ -8,7 +8,7 @@ import numpy as np
 from app.vroom.nodes import Nodes, Slots
 from app.vroom.schemas import Window
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import MAX_QUANTITY, BoolArray, Problem
+from model.problem import MAX_QUANTITY, BoolArray, IntArray, Problem
 from model.solution import Route, Solution
 
 Routes = Mapping[int, Sequence[Sequence[int]]]
@@ -100,11 +100,13 @@ class Model:
         service = np.array([customer.service_duration for customer in customers], np.int64)
         demand = np.array([customer.demand for customer in customers], np.int64)
         servable: BoolArray = np.zeros(len(customers), np.bool_)
+        shortest = {travel: _shortest_legs(problem.travel[travel].duration, first)
+                    for travel in {kind.travel
+                                   for kind in problem.vehicle_types[: self.num_kinds]}}
         for kind in problem.vehicle_types[: self.num_kinds]:
-            duration = problem.travel[kind.travel].duration.copy()
-            np.fill_diagonal(duration, MAX_QUANTITY)
-            arrival = kind.earliest + duration[:, first:].min(axis=0)
-            end = np.maximum(arrival, earliest) + service + duration[first:].min(axis=1)
+            to, back = shortest[kind.travel]
+            arrival = kind.earliest + to
+            end = np.maximum(arrival, earliest) + service + back
             servable |= ((demand <= np.array(kind.capacity)).all(axis=1) & (arrival <= latest)
                          & (end <= kind.latest)
                          & [customer.skills <= kind.skills for customer in customers])
@@ -112,6 +114,13 @@ class Model:
         for index in np.flatnonzero(servable):
             slots.setdefault(self.nodes.jobs[index], []).append(self.nodes.windows[index])
         return slots
+
+
+def _shortest_legs(duration: IntArray, first: int) -> tuple[IntArray, IntArray]:
+    """Return the shortest leg to each customer, and from each, by itself excepted."""
+    legs = duration.copy()
+    np.fill_diagonal(legs, MAX_QUANTITY)
+    return legs[:, first:].min(axis=0), legs[first:].min(axis=1)
 
 
 class _Writer:

@@ -2,12 +2,16 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from app.load.preparing import UNHURRIED, Preparing
+from app.load.work import legs_seconds
 from app.settings import MAX_LEGS
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError
 from app.vroom.schemas import Coordinates, VroomMatricesInput, Table, VroomRequest
+from model.kernel.pausing import Pause
 from model.problem import FloatArray, IntArray
 from model.travel.matrices import great_circle_distances
 
@@ -45,7 +49,7 @@ Place = tuple[Coordinates | None, int | None]
 
 
 def find_places(request: VroomRequest, speeds: Mapping[str, float],
-                max_legs: int = MAX_LEGS) -> Places:
+                max_legs: int = MAX_LEGS, preparing: Preparing = UNHURRIED) -> Places:
     """Number the places of a request and find the legs between them.
 
     Parameters
@@ -56,11 +60,15 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float],
         km/h by profile, for legs that no matrix states.
     max_legs
         Most legs of all profiles together.
+    preparing
+        May end the work.
 
     Raises
     ------
     VroomError
         If a place or a matrix is missing or wrong, or there are too many legs.
+    RequestError
+        If the work is to end.
     """
     matrices = _stated_matrices(request)
     numbers: dict[Coordinates | int, int] = {}
@@ -84,7 +92,8 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float],
     if len(profiles) * len(known)**2 > max_legs:
         raise VroomError(TOO_LARGE, f"Too many legs: {len(profiles)} profiles and {len(known)} "
                                     f"places, maximum is {max_legs} legs (TANDEM_MAX_LEGS)")
-    finder = _LegFinder(request, matrices, known, speeds)
+    preparing.expect(legs_seconds(len(known), len(profiles), 0, len(matrices) < len(profiles)))
+    finder = _LegFinder(request, matrices, known, speeds, preparing.pause)
     legs = {profile: finder.find(profile) for profile in profiles}
     return Places(jobs, starts, ends, tuple(coordinates for coordinates, _ in known),
                   tuple(index for _, index in known), legs, finder.tells_distances)
@@ -118,9 +127,10 @@ class _LegFinder:
     """Finds the legs of profiles."""
 
     def __init__(self, request: VroomRequest, matrices: Mapping[str, VroomMatricesInput],
-                 known: list[Place], speeds: Mapping[str, float]) -> None:
+                 known: list[Place], speeds: Mapping[str, float], pause: Pause) -> None:
         self._matrices = matrices
         self._speeds = speeds
+        self._pause = pause
         self._known = known
         self._per_km = {v.profile for v in request.vehicles if v.costs.per_km > 0}
         self._geometry = request.options.g
@@ -140,7 +150,7 @@ class _LegFinder:
             if stated.distances is not None:
                 raise VroomError(INPUT, "Custom matrix provided for distances but not for "
                                         f"durations for {profile} profile.")
-            metres = self._great_circles()
+            metres = self._great_circles
             speed = self._speed(profile) / _METRES_PER_SECOND
             return Legs(_whole(metres / speed), _whole(metres), costs, True)
         durations = self._table(profile, "durations", stated.durations)
@@ -148,7 +158,7 @@ class _LegFinder:
             distances = self._table(profile, "distances", stated.distances)
             return Legs(durations, distances, costs, True)
         if self._geometry or profile in self._per_km:
-            return Legs(durations, _whole(self._great_circles()), costs, True)
+            return Legs(durations, _whole(self._great_circles), costs, True)
         return Legs(durations, np.zeros_like(durations), costs, False)
 
     def _stated(self, profile: str) -> VroomMatricesInput:
@@ -161,6 +171,7 @@ class _LegFinder:
                                     f"a profile whose speed is known: {stated}.")
         return self._speeds[profile]
 
+    @cached_property
     def _great_circles(self) -> FloatArray:
         points = [point for point, _ in self._known if point is not None]
         if len(points) < len(self._known):
@@ -168,7 +179,7 @@ class _LegFinder:
         if not on_globe(points):
             raise VroomError(INPUT, "Coordinates are [longitude, latitude] within 180 and 90 "
                                     "degrees: correct them, or swap the two.")
-        return great_circle_distances(np.array(points, np.float64))
+        return great_circle_distances(np.array(points, np.float64), self._pause)
 
     def _table(self, profile: str, name: str, table: Table) -> IntArray:
         """Return a matrix with a row and a column for each site."""

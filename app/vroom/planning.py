@@ -12,6 +12,8 @@ from operator import attrgetter
 
 import numpy as np
 
+from app.load.preparing import UNHURRIED, Preparing
+from app.load.work import attempt_seconds, model_seconds
 from app.vroom.alternatives import bring_first, leave_out_by_priority
 from app.vroom.checking import drive, route_faults
 from app.vroom.convert import Converter
@@ -39,6 +41,9 @@ CHOOSING_JOBS = 0.7
 
 RELAXED = 0.85
 """Share of the time for relaxed problems, where there are any."""
+
+SPARE = 3.0
+"""Stages pay while there is time for so many problems to be built and planned."""
 
 PRICES = 6
 """How many prices are tried for what makes relaxed plans break rules."""
@@ -79,7 +84,8 @@ class Planning:
     """
 
     def __init__(self, request: VroomRequest, places: Places, plan: Plan,
-                 options: PlanOptions, max_legs: int) -> None:
+                 options: PlanOptions, max_legs: int,
+                 preparing: Preparing = UNHURRIED) -> None:
         self._plan = plan
         self._options = options
         self._request = request
@@ -88,6 +94,8 @@ class Planning:
         self.kinds = self._converter.kinds
         self._priorities = [job.priority for job in request.jobs]
         self._costs: dict[tuple[int, tuple[int, ...]], int | None] = {}
+        self._preparing = preparing
+        self._has_tried = False
 
     def find(self, deadline: float, start: Routes) -> Found:
         """Return the best plan found until `deadline`, on `time.perf_counter`.
@@ -100,7 +108,7 @@ class Planning:
         slots = {index: self._reachable(job) for index, job in enumerate(self._request.jobs)}
         if not are_few(slots):
             return self._find_in_rounds(slots, deadline, start)
-        model = self._converter.model(slots)
+        model = self._converter.model(slots, self._preparing)
         if start:
             self._require_start(model, start)
         return self._find_by(model, slots, deadline, start)
@@ -109,17 +117,19 @@ class Planning:
         """Return the best plan found by a few windows of each job at a time."""
         rng = np.random.default_rng(0)
         best = self._judged(start)
-        hull = self._converter.model(hulls(slots))
-        seconds = max(LEAST_SECONDS, THROUGH_GAPS * _left(deadline))
+        hull = self._converter.model(hulls(slots), self._preparing)
+        seconds = max(LEAST_SECONDS, THROUGH_GAPS * self._left(deadline))
         options = replace(self._options, time_limit=seconds)
         given = hull.solution({}, self._start_windows)
         routes = hull.routes(self._plan(hull.problem, options, given, _tell_nobody).solution)
         best = max(best, self._filled(self._mended(routes), slots, deadline),
                    key=attrgetter("value"))
-        share = max(LEAST_SECONDS, _left(deadline) / ROUNDS)
+        share = max(LEAST_SECONDS, self._left(deadline) / ROUNDS)
         for number in range(ROUNDS):
             # Whoever is left out gets a chance, even if that takes longer.
-            if _left(deadline) <= 0 and (number > 0 or len(best.served) == len(slots)):
+            if self._left(deadline) <= 0 and (number > 0 or len(best.served) == len(slots)):
+                break
+            if number > 0 and self._left(deadline) < self._price(hull):
                 break
             starts = {job: window for kind, its_routes in best.routes.items()
                       for jobs in its_routes
@@ -185,19 +195,33 @@ class Planning:
         servable = model.servable()
         if not servable:
             return self._judged({})
-        if servable != slots:
+        price = self._price(model)
+        if servable != slots and self._left(deadline) > SPARE * price:
             model = self._converter.model(servable)
         if len({self._priorities[job] for job in servable}) == 1:
-            return self._improve(model, _left(deadline), start)
-        found = self._improve(model, FIRST_LOOK * _left(deadline), start)
+            return self._improve(model, self._left(deadline), start)
+        if self._left(deadline) < SPARE * price:
+            everyone = leave_out_by_priority(model, self._priorities)
+            return self._improve(everyone, self._left(deadline), start)
+        found = self._improve(model, FIRST_LOOK * self._left(deadline), start)
         if len(found.served) < len(servable):
             everyone = leave_out_by_priority(model, self._priorities)
-            found = self._improve(everyone, CHOOSING_JOBS * _left(deadline), found.routes)
-            if not found.served:
+            found = self._improve(everyone, CHOOSING_JOBS * self._left(deadline), found.routes)
+            if not found.served or self._left(deadline) < price:
                 return found
             model = self._converter.model(
                 {job: windows for job, windows in servable.items() if job in found.served})
-        return self._improve(model, _left(deadline), found.routes)
+        return self._improve(model, self._left(deadline), found.routes)
+
+    def _left(self, deadline: float) -> float:
+        """Return the seconds left, none once nobody waits for more."""
+        return 0.0 if self._preparing.should_stop() else deadline - time.perf_counter()
+
+    def _price(self, model: Model) -> float:
+        """Return about how long it takes to build a model again and to plan it, without search."""
+        nodes, each = model.problem.num_nodes, len(model.problem.travel)
+        return ((1 + len(model.relaxed)) * model_seconds(nodes, each)
+                + attempt_seconds(nodes, each))
 
     def _reachable(self, job: VroomJobInput) -> list[Window | None]:
         """Return the windows of a job in which any vehicle works."""
@@ -227,23 +251,23 @@ class Planning:
         best = self._judged(start)
         if model.relaxed:
             best = self._relax(model, RELAXED * seconds, best)
-        return self._attempt(model, model.problem, _left(deadline), best)[0]
+        return self._attempt(model, model.problem, self._left(deadline), best)[0]
 
     def _relax(self, model: Model, seconds: float, best: Found) -> Found:
         """Plan a relaxed problem, where both ways count at a price that makes plans keep rules."""
         (relaxed,) = model.relaxed
         if model.surplus is None:
             return self._attempt(model, relaxed, seconds, best)[0]
-        price = 0.0
-        for _ in range(PRICES):
+        price, prices = 0.0, max(1, min(PRICES, int(seconds / (2 * _price_of(relaxed)))))
+        for _ in range(prices):
             problem = bring_first(model, price)
-            best, keeps_rules = self._attempt(model, problem, seconds / PRICES, best)
+            best, keeps_rules = self._attempt(model, problem, seconds / prices, best)
             price = price * CHEAPER if keeps_rules else max(LEAST_PRICE, price * DEARER)
         return best
 
     def _attempt(self, model: Model, problem: Problem, seconds: float,
                  best: Found) -> tuple[Found, bool]:
-        """Plan a problem of a model once.
+        """Plan a problem of a model once, if there is time or no plan yet.
 
         Returns
         -------
@@ -256,8 +280,13 @@ class Planning:
                 found = self._sound(model.routes(progress.plan()))
                 best = max(best, found, key=attrgetter("value"))
 
+        price = _price_of(problem)
+        if self._has_tried and seconds < price:
+            return best, False
+        self._has_tried |= bool(best.served) or problem is model.problem
+        until = time.perf_counter() + seconds
         given = self._given(replace(model, problem=problem), best.routes)
-        options = replace(self._options, time_limit=max(LEAST_SECONDS, seconds))
+        options = replace(self._options, time_limit=max(LEAST_SECONDS, self._left(until)))
         routes = model.routes(self._plan(problem, options, given, meet).solution)
         found = self._sound(routes) if model.is_loose else self._judged(routes)
         return max(best, found, key=attrgetter("value")), found.routes == routes
@@ -311,9 +340,9 @@ class Planning:
         return self._costs[key]
 
 
+def _price_of(problem: Problem) -> float:
+    return attempt_seconds(problem.num_nodes, len(problem.travel))
+
+
 def _tell_nobody(progress: Progress) -> None:
     """Let a plan on the way pass."""
-
-
-def _left(deadline: float) -> float:
-    return deadline - time.perf_counter()

@@ -1,0 +1,144 @@
+"""The time limit of `POST /vroom` holds for large requests, and what can't keep it is refused."""
+
+import json
+import random
+import time
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from app.errors import InvalidRequestError
+from app.load.preparing import Preparing, StoppedError
+from app.service import ReceivedBody
+from app.settings import Settings
+from app.vroom.answering import answer
+from app.vroom.convert import Converter
+from app.vroom.drives import Drives
+from app.vroom.errors import TOO_LARGE, VroomError
+from app.vroom.places import Places, find_places
+from app.vroom.schemas import VroomRequest
+from model.planner import ALONE, Listener, PlanOptions, PlanResult
+from model.problem import Problem
+from model.solution import Solution
+from tests.app.conftest import FirstFitPlanner
+
+Data = dict[str, Any]
+
+SPEEDS = {"car": 40.0}
+
+
+def crowd(jobs: int, speeds: int = 1, **options: Any) -> Data:
+    """Return jobs in a city with windows, for vehicles of a speed each."""
+    rng = random.Random(0)
+    hub = [10.0, 54.0]
+    return {
+        "vehicles": [{"id": number, "start": hub, "end": hub, "capacity": [9],
+                      "speed_factor": 1 + number / 100} for number in range(speeds)],
+        "jobs": [{"id": number, "delivery": [1], "time_windows": [[0, 40_000]],
+                  "priority": rng.randrange(100),
+                  "location": [rng.uniform(10, 10.4), rng.uniform(54, 54.4)]}
+                 for number in range(jobs)],
+        "options": options}
+
+
+def asked(request: Data, planner: Any, settings: Settings | None = None,
+          should_stop: Callable[[], bool] = lambda: False) -> Data:
+    body = ReceivedBody(json.dumps(request).encode(), time.perf_counter())
+    reply: Data = json.loads(answer(planner, body, settings or Settings(), should_stop))
+    return reply
+
+
+@pytest.fixture
+def no_matrices(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let no matrix be built."""
+    def build(*given: Any) -> None:
+        raise AssertionError("a matrix was built")
+
+    monkeypatch.setattr(Drives, "_travel", build)
+    monkeypatch.setattr(Drives, "_limited", build)
+
+
+@pytest.mark.usefixtures("no_matrices")
+def test_more_work_than_there_is_time_for_is_refused_before_it_is_done() -> None:
+    with pytest.raises(VroomError) as refusal:
+        asked(crowd(1000, 40, l=0.5), FirstFitPlanner())
+    assert refusal.value.code == TOO_LARGE
+    for word in ("take about", "time limit of 0.5 s", "options.l", "TANDEM_MAX_PLAN_SECONDS"):
+        assert word in str(refusal.value)
+
+
+@pytest.mark.usefixtures("no_matrices")
+def test_more_matrices_than_memory_holds_are_refused_before_one_is_built() -> None:
+    with pytest.raises(VroomError, match=r"\d+ ways .*TANDEM_MAX_LEGS") as refusal:
+        asked(crowd(100, 40, l=10), FirstFitPlanner(), Settings(max_legs=200_000))
+    assert refusal.value.code == TOO_LARGE
+
+
+def test_legs_are_not_looked_for_where_there_is_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.vroom.places.great_circle_distances", None)
+    with pytest.raises(VroomError, match="take about") as refusal:
+        asked(crowd(4000, l=0.5), FirstFitPlanner())
+    assert refusal.value.code == TOO_LARGE
+
+
+def converted(request: Data, preparing: Preparing) -> int:
+    """Build the problem of a request; return how many pairs of matrices it has."""
+    read = VroomRequest.model_validate_json(json.dumps(request))
+    places: Places = find_places(read, SPEEDS)
+    converter = Converter(read, places)
+    slots = {index: [(0, 40_000)] for index in range(len(read.jobs))}
+    return len(converter.model(slots, preparing).problem.travel)
+
+
+def test_matrices_are_no_longer_built_once_the_client_has_left() -> None:
+    asked_so_far: list[bool] = []
+
+    def should_stop() -> bool:
+        asked_so_far.append(True)
+        return len(asked_so_far) > 5
+
+    with pytest.raises(StoppedError):
+        converted(crowd(10, 40), Preparing(should_stop, began=-1e9))
+    assert len(asked_so_far) == 6
+
+
+def test_matrices_are_no_longer_built_once_the_time_is_over(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.vroom.convert.model_seconds", lambda *_: 0.0)
+    monkeypatch.setattr("app.vroom.convert.attempt_seconds", lambda *_: 0.0)
+    with pytest.raises(InvalidRequestError):
+        converted(crowd(10, 40), Preparing(seconds=1.0, began=-1e9))
+
+
+class NotingPlanner(FirstFitPlanner):
+    """Notes how long it may take each time."""
+
+    def __init__(self) -> None:
+        self.given: list[float] = []
+
+    def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
+             listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
+        self.given.append(options.time_limit)
+        return super().plan(problem, options, received_at, listener, start)
+
+
+@pytest.fixture
+def mixed() -> Data:
+    """Return jobs of which some bring and some take, for vehicles too small for all."""
+    request = crowd(12, l=2.0)
+    for job in request["jobs"][::2]:
+        job["pickup"] = job.pop("delivery")
+    request["vehicles"][0]["capacity"] = [3]
+    return request
+
+
+@pytest.mark.parametrize(("seconds", "most"), [(1e-9, 100), (0.3, 7), (1.0, 2)])
+def test_stages_that_there_is_no_time_for_are_left_out(
+        monkeypatch: pytest.MonkeyPatch, mixed: Data, seconds: float, most: int) -> None:
+    monkeypatch.setattr("app.vroom.planning.attempt_seconds", lambda *_: seconds)
+    planner = NotingPlanner()
+    asked(mixed, planner)
+    assert len(planner.given) <= most
+    if seconds < 0.3:
+        assert len(planner.given) > 7
