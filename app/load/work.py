@@ -18,7 +18,7 @@ EDGE, LOOK, LOOK_AT_FEW = 1e-7, 1e-7, 3e-8
 these: the last where areas have few edges."""
 
 
-SPREAD, LAID_OUT, LISTED = 3e-8, 5e-8, 1e-4
+SPREAD, LAID_OUT, LISTED = 3e-8, 5e-8, 5e-5
 """Seconds for each leg of a way to travel by VROOM's rules, to work it out and to hand it to a
 search; and for each job of a plan, to judge it."""
 

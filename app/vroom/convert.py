@@ -1,6 +1,6 @@
 """VROOM's jobs and vehicles -> the planner's `Problem`, and its plans back to routes of jobs."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import isqrt
 
 import numpy as np
@@ -18,7 +18,7 @@ from app.vroom.places import NOWHERE, Places, on_globe
 from app.vroom.reply import has_windows
 from app.vroom.schemas import VroomRequest, Window
 from app.vroom.timing import TIME_SCALE
-from model.kernel.pausing import Pause
+from model.kernel.pausing import Pause, go_on
 from model.problem import (
     MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, Customer, Depot, FloatArray, IntArray, Problem,
     Travel, VehicleType,
@@ -122,7 +122,7 @@ class Converter:
             depots=tuple(Depot(str(node)) for node in range(len(depots))), customers=customers,
             vehicle_types=vehicle_types, travel=travels,
             coordinates=self._coordinates(nodes, travels),
-            unassigned_cost=dearest_plan(vehicle_types, travels, len(depots)))
+            unassigned_cost=dearest_plan(vehicle_types, travels, len(depots), drives.pause))
 
     def _has_longest(self) -> bool:
         """Tell whether some legs are longer than the planner can count."""
@@ -201,13 +201,28 @@ def _by_landmarks(duration: IntArray) -> FloatArray:
 
 
 def dearest_plan(vehicle_types: Sequence[VehicleType], travels: Sequence[Travel],
-                 num_depots: int) -> float:
+                 num_depots: int, pause: Pause = go_on) -> float:
     """Return more than any plan costs: serving one job more is always worth it."""
     fixed = max(kind.fixed_cost for kind in vehicle_types)
-    tariffs = {(kind.travel, kind.cost_per_km, kind.cost_per_hour) for kind in vehicle_types}
-    costs = [travels[travel].distance * (per_km / MM_PER_KM)
-             + travels[travel].duration * (per_hour / MS_PER_HOUR)
-             for travel, per_km, per_hour in tariffs]
-    to_jobs = np.max([cost[:, num_depots:].max(axis=0) for cost in costs], axis=0)
-    to_end = max(float(cost[:, :num_depots].max()) for cost in costs)
+    to_nodes = np.zeros(len(travels[0].distance))
+    for travel, per_km, per_hour in _dearest_tariffs(vehicle_types):
+        pause()
+        cost = travels[travel].distance * (per_km / MM_PER_KM)
+        if per_hour:
+            cost += travels[travel].duration * (per_hour / MS_PER_HOUR)
+        to_nodes = np.maximum(to_nodes, cost.max(axis=0))
+    to_jobs, to_end = to_nodes[num_depots:], float(to_nodes[:num_depots].max())
     return 1.0 + float(to_jobs.sum()) + len(to_jobs) * (to_end + fixed)
+
+
+def _dearest_tariffs(vehicle_types: Sequence[VehicleType]) -> Iterator[tuple[int, float, float]]:
+    """Yield ways to travel with the rates of them by which no others are dearer."""
+    rates: dict[int, set[tuple[float, float]]] = {}
+    for kind in vehicle_types:
+        rates.setdefault(kind.travel, set()).add((kind.cost_per_km, kind.cost_per_hour))
+    for travel, pairs in rates.items():
+        most_per_hour = -1.0
+        for per_km, per_hour in sorted(pairs, reverse=True):
+            if per_hour > most_per_hour:
+                most_per_hour = per_hour
+                yield travel, per_km, per_hour

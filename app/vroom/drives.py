@@ -61,7 +61,7 @@ class Drives:
         self._nodes = nodes
         self._is_timed = is_timed
         self.relaxed = relaxed
-        self._pause = pause
+        self.pause = pause
         self._index: dict[Key, int] = {}
         self._limits_kept: dict[Key, Drive] = {}
         self._longest: dict[int, int] = {}  # by the matrix, which the places hold
@@ -200,7 +200,7 @@ class Drives:
         """Return the index of matrices that measure `basis`, with times by `clock`."""
         key = self._key(kind, basis, clock)
         if key not in self._index:
-            self._pause()
+            self.pause()
             self._index[key] = len(self.travels)
             self.travels.append(Travel(self._durations(kind, clock), self._measure(kind, basis)))
         return self._index[key]

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
 from app.errors import InvalidRequestError
@@ -13,13 +14,13 @@ from app.load.preparing import Preparing, StoppedError
 from app.service import ReceivedBody
 from app.settings import Settings
 from app.vroom.answering import answer
-from app.vroom.convert import Converter
+from app.vroom.convert import Converter, dearest_plan
 from app.vroom.drives import Drives
 from app.vroom.errors import TOO_LARGE, VroomError
 from app.vroom.places import Places, find_places
 from app.vroom.schemas import VroomRequest
 from model.planner import ALONE, Listener, PlanOptions, PlanResult
-from model.problem import Problem
+from model.problem import MM_PER_KM, MS_PER_HOUR, Problem, Travel, VehicleType
 from model.solution import Solution
 from tests.app.conftest import FirstFitPlanner
 
@@ -62,9 +63,9 @@ def no_matrices(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("no_matrices")
 def test_more_work_than_there_is_time_for_is_refused_before_it_is_done() -> None:
     with pytest.raises(VroomError) as refusal:
-        asked(crowd(1000, 40, l=0.5), FirstFitPlanner())
+        asked(crowd(1000, 80, l=2.0), FirstFitPlanner())
     assert refusal.value.code == TOO_LARGE
-    for word in ("take about", "time limit of 0.5 s", "options.l", "TANDEM_MAX_PLAN_SECONDS"):
+    for word in ("take about", "time limit of 2 s", "options.l", "TANDEM_MAX_PLAN_SECONDS"):
         assert word in str(refusal.value)
 
 
@@ -142,3 +143,19 @@ def test_stages_that_there_is_no_time_for_are_left_out(
     assert len(planner.given) <= most
     if seconds < 0.3:
         assert len(planner.given) > 7
+
+
+def test_what_a_plan_costs_at_most_is_found_without_a_look_at_each_tariff() -> None:
+    rng = np.random.default_rng(0)
+    duration, distance = rng.integers(0, 10**7, (2, 6, 6))
+    kinds = [VehicleType(str(number), 1, (1,), 0, fixed_cost=3.0, cost_per_km=per_km,
+                         cost_per_hour=per_hour)
+             for number, (per_km, per_hour) in enumerate(
+                 [*((0.1 * rate, 0.0) for rate in range(50)), (1.0, 7.0), (0.5, 7.0)])]
+    looks: list[None] = []
+    bound = dearest_plan(kinds, [Travel(duration, distance)], 1, lambda: looks.append(None))
+    costs = [distance * (kind.cost_per_km / MM_PER_KM)
+             + duration * (kind.cost_per_hour / MS_PER_HOUR) for kind in kinds]
+    to_nodes = np.max(costs, axis=(0, 1))
+    assert bound == pytest.approx(1 + to_nodes[1:].sum() + 5 * (to_nodes[0] + 3))
+    assert len(looks) == 2
