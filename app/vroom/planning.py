@@ -23,7 +23,7 @@ from app.vroom.nodes import Slots
 from app.vroom.places import Places
 from app.vroom.schemas import VroomJobInput, VroomRequest, Window
 from app.vroom.timing import Driver
-from app.vroom.windows import are_few, choose_few, hulls
+from app.vroom.windows import MOST_BESIDE, are_few, choose_few, hulls
 from model.judge.check import check
 from model.planner import PlanCheckError, PlanOptions, PlanResult
 from model.problem import Problem
@@ -126,10 +126,9 @@ class Planning:
                    key=attrgetter("value"))
         share = max(LEAST_SECONDS, self._left(deadline) / ROUNDS)
         for number in range(ROUNDS):
-            # Whoever is left out gets a chance, even if that takes longer.
-            if self._left(deadline) <= 0 and (number > 0 or len(best.served) == len(slots)):
-                break
-            if number > 0 and self._left(deadline) < self._price(hull):
+            # Whoever is left out gets a chance, even if that takes a little longer.
+            late = LEAST_FILLING if number == 0 and len(best.served) < len(slots) else 0.0
+            if self._left(deadline) + late <= self._price(hull, MOST_BESIDE):
                 break
             starts = {job: window for kind, its_routes in best.routes.items()
                       for jobs in its_routes
@@ -217,9 +216,12 @@ class Planning:
         """Return the seconds left, none once nobody waits for more."""
         return 0.0 if self._preparing.should_stop() else deadline - time.perf_counter()
 
-    def _price(self, model: Model) -> float:
-        """Return about how long it takes to build a model again and to plan it, without search."""
-        nodes, each = model.problem.num_nodes, len(model.problem.travel)
+    def _price(self, model: Model, more: int = 0) -> float:
+        """Return about how long it takes to build a model again and to plan it, without search.
+
+        The model may be built with `more` nodes then.
+        """
+        nodes, each = model.problem.num_nodes + more, len(model.problem.travel)
         return ((1 + len(model.relaxed)) * model_seconds(nodes, each)
                 + attempt_seconds(nodes, each))
 

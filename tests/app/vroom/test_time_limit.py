@@ -145,6 +145,22 @@ def test_stages_that_there_is_no_time_for_are_left_out(
         assert len(planner.given) > 7
 
 
+@pytest.mark.parametrize(("seconds", "most"), [(1e-9, 100), (2.0, 1)])
+def test_windows_are_not_chosen_again_where_there_is_no_time(
+        monkeypatch: pytest.MonkeyPatch, seconds: float, most: int) -> None:
+    monkeypatch.setattr("app.vroom.planning.attempt_seconds", lambda *_: seconds)
+    request = crowd(3, l=1.5)
+    for job in request["jobs"]:
+        job |= {"priority": 0, "skills": [7],
+                "time_windows": [[1000 * begin, 1000 * begin + 500] for begin in range(20)]}
+    request["vehicles"].append({"id": 7, "start": [10.0, 54.0], "skills": [7], "capacity": [1]})
+    planner = NotingPlanner()
+    asked(request, planner)
+    assert len(planner.given) <= most
+    if seconds < 1.0:
+        assert len(planner.given) > 1
+
+
 def test_what_a_plan_costs_at_most_is_found_without_a_look_at_each_tariff() -> None:
     rng = np.random.default_rng(0)
     duration, distance = rng.integers(0, 10**7, (2, 6, 6))
