@@ -29,7 +29,8 @@ SLOW = (
     *(f"tests/app/{name}" for name in (
         "jobs/test_crashes.py", "jobs/test_routes.py", "jobs/test_studies.py",
         "load/test_overload.py", "load/test_shutdown.py", "observe/", "pictures/",
-        "test_api_fuzz.py", "test_clients.py", "test_replanning.py", "vroom/test_planning.py")),
+        "test_api_fuzz.py", "test_clients.py", "test_replanning.py", "vroom/test_planning.py",
+        "vroom/test_windows.py")),
     *(f"tests/model/{name}" for name in (
         "search/test_anneal.py", "search/test_improve.py", "search/test_kept.py",
         "search/test_optimum.py", "search/test_starts.py", "test_parts.py", "test_planner.py",
