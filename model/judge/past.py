@@ -4,7 +4,7 @@ What has departed stays as it is, to the millisecond. A truck that is driving ar
 says and serves that stop; a drone that was launched flies its sortie to the end. All else is free.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
@@ -95,6 +95,18 @@ def known_trips(problem: Problem, plan: Solution, now: int,
         if trips:
             known[vehicle] = trips
     return known
+
+
+def parcels_aboard(problem: Problem, plan: Solution, now: int,
+                   vehicles: Collection[Vehicle]) -> dict[Vehicle, frozenset[int]]:
+    """Return whose parcels some vehicles had loaded on the last trip that they began by `now`.
+
+    That of a vehicle that breaks down counts too, even if nothing of it is known afterwards.
+    """
+    routes = tuple(route for route in plan.routes
+                   if (route.vehicle_type, route.vehicle) in vehicles)
+    begun = known_trips(problem, Solution(routes), now, frozenset())
+    return {vehicle: trips[-1].aboard for vehicle, trips in begun.items()}
 
 
 def _known_trips(problem: Problem, route: Route, launch_duration: int, now: int,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, check
 from model.judge.explain import Reason, explain_type, unexplained
-from model.judge.past import Past, Vehicle, known_trips
+from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
 from model.judge.rules import Violation
 from model.kernel.instance import pack
@@ -87,7 +87,7 @@ class Replanning:
         unreadable = [item for item in broken if item.code in UNREADABLE]
         if unreadable:
             raise SettledPartError(_as_given(terms.plan, self._settled, unreadable))
-        past = replace(past, returned=_returned(past, self._kept, terms))
+        past = replace(past, returned=_returned(problem, self._kept, terms))
         workers, returned = find_workers(problem, past, self._kept)
         self.past = replace(past, returned=returned)
         self._left = what_is_left(problem, self.past, self._kept, workers)
@@ -218,11 +218,15 @@ def _released(problem: Problem, past: Past) -> Problem:
     return replace(problem, customers=tuple(customers))
 
 
-def _returned(past: Past, kept: Mapping[Vehicle, Kept], terms: Terms) -> dict[int, int]:
+def _returned(problem: Problem, kept: Mapping[Vehicle, Kept], terms: Terms) -> dict[int, int]:
     """Return when the parcels of vehicles that are unavailable are at the depot again."""
-    back = past.now if terms.parcels_back is None else terms.parcels_back
-    return {node: back for vehicle in past.unavailable if vehicle in kept
-            for node in past.trips[vehicle][-1].aboard - kept[vehicle].served}
+    if terms.now is None:
+        return {}
+    back = terms.now if terms.parcels_back is None else terms.parcels_back
+    loaded = parcels_aboard(problem, terms.plan, terms.now, terms.unavailable)
+    served = {vehicle: route.served for vehicle, route in kept.items() if vehicle in loaded}
+    return {node: back for vehicle, nodes in loaded.items()
+            for node in nodes - served.get(vehicle, set())}
 
 
 def _begin(left: Remainder, begun: Solution, options: PlanOptions,

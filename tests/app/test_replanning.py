@@ -125,6 +125,16 @@ def test_broken_vehicle_does_nothing_more(client: httpx.Client, street: Request,
     assert {name for name, _ in served} == {"b", "c", "d"}
 
 
+def test_vehicle_that_breaks_down_on_its_way_out_brings_its_parcels_back(
+        client: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
+    plan = replanned(client, street, plan=tour, freeze_before=30, unavailable=["truck-1"],
+                     parcels_back=500)
+    assert [route["vehicle"] for route in plan["routes"]] == ["truck-2"]
+    assert plan["summary"]["served"] == 4
+    for trip in halts(plan, "truck-2"):
+        assert {name for name, _ in trip} <= {"hub", "d"} or trip[0][1] >= 500
+
+
 def test_closed_window_leaves_a_parcel_aboard(client: httpx.Client, street: Request,
                                               tour: dict[str, Any]) -> None:
     street["customers"][2]["time_window"] = {"latest": 250}

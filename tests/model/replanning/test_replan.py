@@ -101,6 +101,23 @@ def test_truck_that_breaks_down_before_its_first_customer_vanishes(planner: Plan
     assert served(*solution.routes) == {A, B, C, D}
 
 
+@pytest.mark.parametrize("trips", [((A, B),), ((D,), (A, B))])
+def test_parcels_of_a_trip_that_vanishes_come_back_too(planner: Planner, street: Problem,
+                                                       trips: tuple[tuple[int, ...], ...]) -> None:
+    plan = planned(street, trips)
+    left = plan.routes[0].trips[-1].stops[0].departure
+    terms = Terms(plan, left + MINUTE, unavailable=frozenset({ONE}), parcels_back=60 * MINUTE)
+    replanning = Replanning(street, terms)
+    at_once = TripDecision((0, A, B, 0), start=left + MINUTE)
+    assert "RETURN" in [item.code for item in replanning.check(
+        solution_of(street, RouteDecision(0, 1, (at_once,)))).violations]
+    solution = replan(planner, street, terms)
+    assert served(*solution.routes) == {A, B, C, D}
+    for trip in route_of(solution, TWO).trips:
+        on_it = {stop.node for stop in trip.stops}
+        assert not on_it & {A, B} or trip.stops[0].arrival >= 60 * MINUTE
+
+
 def test_closed_window_leaves_out_whom_nobody_reaches_in_time(planner: Planner,
                                                               street: Problem) -> None:
     plan = planned(street, ((A, B, C, D),))
