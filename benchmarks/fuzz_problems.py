@@ -13,7 +13,7 @@ import random
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
@@ -69,19 +69,12 @@ class Study:
         if not is_whole:
             plan = damaged(rng, plan)
             self.ask("/check", {"problem": later, "plan": plan})
-        day = max((trip["stops"][-1]["departure"] for route in plan["routes"]
-                   for trip in route["trips"] if trip["stops"]), default=3600)
-        given = {"routes": plan["routes"], "unassigned": plan["unassigned"]}
-        now = rng.choice((None, 0, min(1e9, rng.random() * day)))
-        replanned = self.planned(later | {"replan": {
-            "plan": given, "freeze_before": now, "pin_all": rng.random() < 0.2,
-            "unavailable": [route["vehicle"] for route in plan["routes"] if rng.random() < 0.1],
-            "parcels_back": rng.choice((None, None, 0, 5e8))}})
+        terms = replan_terms(rng, plan)
+        request = later | {"replan": terms}
+        replanned = self.planned(request)
         self.replanned += replanned is not None
-        if is_whole and replanned is not None and now is not None:
-            moved = happened(plan, now) - happened(replanned, now)
-            if moved:
-                raise Fault(f"what had happened before {now} is another past: {sorted(moved)[:3]}")
+        if is_whole and replanned is not None and terms["freeze_before"] is not None:
+            hold_to_the_past(request, plan, replanned)
 
     def planned(self, request: Data) -> Data | None:
         """Return the plan of a request, found sound; None if it is refused. In place."""
@@ -141,21 +134,105 @@ def changed(rng: random.Random, request: Data, plan: Data) -> Data:
     return later
 
 
-def happened(plan: Data, now: float) -> set[tuple[str, ...]]:
-    """Return what a plan has done before an instant: stops left and flights begun, in words."""
+def replan_terms(rng: random.Random, plan: Data) -> Data:
+    """Return how to plan on from a plan: at some instant, without vehicles that broke down."""
+    day = max((trip["stops"][-1]["departure"] for route in plan["routes"]
+               for trip in route["trips"] if trip["stops"]), default=3600)
+    return {
+        "plan": {"routes": plan["routes"], "unassigned": plan["unassigned"]},
+        "freeze_before": rng.choice((None, 0, min(1e9, rng.random() * day))),
+        "pin_all": rng.random() < 0.2,
+        "unavailable": [route["vehicle"] for route in plan["routes"] if rng.random() < 0.1],
+        "parcels_back": rng.choice((None, None, 0, 5e8))}
+
+
+def hold_to_the_past(request: Data, plan: Data, replanned: Data) -> None:
+    """Compare what had happened by a plan with the plan that goes on from it.
+
+    Raises
+    ------
+    Fault
+        If that was changed, or parcels leave the depot that aren't there.
+    """
+    terms = request["replan"]
+    now, broken = terms["freeze_before"], set(terms["unavailable"])
+    moved = happened(plan, now, broken, is_calm(request)) - happened(replanned, now)
+    if moved:
+        raise Fault(f"what had happened before {now} is another past: {sorted(moved)[:3]}")
+    back = terms["parcels_back"] or 0
+    others = {route["vehicle"] for route in replanned["routes"]} - broken
+    early = left_depot(plan, now, broken) & left_depot(replanned, back, others)
+    if early:
+        raise Fault(f"parcels leave the depot before {back}, when they are back: "
+                    f"{sorted(early)[:3]}")
+
+
+def is_calm(request: Data) -> bool:
+    """Tell whether drones can fly from anywhere to anywhere."""
+    airspace = request.get("airspace") or {}
+    wind = (airspace.get("wind") or {}).get("speed_kmh", 0)
+    return not (request.get("matrices") or airspace.get("no_fly") or wind)
+
+
+def happened(plan: Data, now: float, broken: Collection[str] = (),
+             lands_anywhere: bool = True) -> set[tuple[str, ...]]:
+    """Return what a plan has done before an instant: stops left and flights begun, in words.
+
+    Vehicles that are broken by then have done what they had begun to serve, and a trip on which
+    that is nobody is no more.
+    """
     done: set[tuple[str, ...]] = set()
     for route in plan["routes"]:
         for trip in route["trips"]:
-            if not trip["stops"] or trip["stops"][0]["departure"] >= now:
+            if not _has_left(trip, now):
+                continue
+            is_cut = route["vehicle"] in broken and trip["stops"][-1]["departure"] >= now
+            flown = _flown(trip, now, is_cut, lands_anywhere)
+            if is_cut and not flown and all(
+                    stop["service_start"] >= now for stop in _customer_stops(trip)):
                 continue
             done |= {(route["vehicle"], "stop", stop["id"], f"{stop['arrival']:.3f}",
                       f"{stop['departure']:.3f}")
                      for stop in trip["stops"] if stop["departure"] < now}
             done |= {(route["vehicle"], "flight", customer["id"], f"{sortie['launch_time']:.3f}",
-                      f"{customer['arrival']:.3f}")
-                     for sortie in trip["sorties"] for customer in sortie["customers"]
-                     if sortie["launch_time"] < now}
+                      f"{customer['arrival']:.3f}") for sortie, customer in flown}
     return done
+
+
+def _flown(trip: Data, now: float, is_cut: bool, lands_anywhere: bool) -> list[tuple[Data, Data]]:
+    """Return the flights of a trip that were begun before an instant, each with its customers.
+
+    If the trip is cut short then, only whom they had begun to serve; where drones can't land
+    anywhere, only by those who are aboard again, as the others may be lost.
+    """
+    flown = [(sortie, customer) for sortie in trip["sorties"] for customer in sortie["customers"]
+             if sortie["launch_time"] < now]
+    if is_cut:
+        flown = [(sortie, customer) for sortie, customer in flown
+                 if customer["service_start"] < now and (
+                     lands_anywhere
+                     or trip["stops"][sortie["recovery_stop"]]["departure"] < now)]
+    return flown
+
+
+def left_depot(plan: Data, now: float, vehicles: Collection[str]) -> set[str]:
+    """Return whose parcels have left a depot before an instant with some vehicles."""
+    return {visit["id"] for route in plan["routes"] if route["vehicle"] in vehicles
+            for trip in route["trips"] if _has_left(trip, now) for visit in _visits(trip)}
+
+
+def _has_left(trip: Data, now: float) -> bool:
+    return bool(trip["stops"]) and trip["stops"][0]["departure"] < now
+
+
+def _customer_stops(trip: Data) -> list[Data]:
+    return [stop for stop in trip["stops"] if stop["kind"] == "customer"]
+
+
+def _visits(trip: Data) -> list[Data]:
+    """Return what a trip does for each of its customers."""
+    return [*_customer_stops(trip),
+            *(customer for sortie in trip["sorties"] for customer in sortie["customers"])]
 
 
 def damaged(rng: random.Random, plan: Data) -> Data:

@@ -11,7 +11,7 @@ from typing import Any
 import httpx
 import pytest
 
-from benchmarks.fuzz_problems import Fault, Study, happened
+from benchmarks.fuzz_problems import Fault, Study, happened, hold_to_the_past
 from benchmarks.wild_problems import wild_request
 
 Data = dict[str, Any]
@@ -70,16 +70,54 @@ def test_wild_requests_are_drawn_from_the_generator_alone() -> None:
     assert len({json.dumps(request) for request in drawn}) == 50
 
 
-def test_what_has_happened_is_what_was_left_by_then() -> None:
-    """A truck is under way at 50, its drone in the air; another leaves later."""
-    def stop(name: str, arrival: float, departure: float) -> Data:
-        return {"id": name, "arrival": arrival, "departure": departure}
+def stop(name: str, arrival: float, departure: float) -> Data:
+    """Return a stop, at which service begins at once."""
+    return {"kind": "depot" if name == "hub" else "customer", "id": name, "arrival": arrival,
+            "service_start": arrival, "departure": departure}
 
-    flight = {"launch_time": 45.0, "customers": [{"id": "C", "arrival": 60.0}]}
-    trip = {"stops": [stop("hub", 0, 10), stop("A", 20, 45), stop("B", 49, 70)],
+
+@pytest.fixture
+def day() -> Data:
+    """Return a plan: a truck is under way at 50, its drone in the air; another leaves later."""
+    flight = {"launch_time": 45.0, "recovery_stop": 2,
+              "customers": [{"id": "C", "arrival": 60.0, "service_start": 60.0}]}
+    trip = {"stops": [stop("hub", 0, 10), stop("A", 20, 45), stop("B", 49, 70),
+                      stop("hub", 99, 99)],
             "sorties": [flight, flight | {"launch_time": 70.0}]}
-    later = {"stops": [stop("hub", 40, 51), stop("D", 60, 61)], "sorties": []}
-    plan = {"routes": [{"vehicle": "t-1", "trips": [trip]}, {"vehicle": "t-2", "trips": [later]}]}
-    assert happened(plan, 50.0) == {
+    later = {"stops": [stop("hub", 40, 51), stop("D", 60, 61), stop("hub", 80, 80)], "sorties": []}
+    return {"routes": [{"vehicle": "t-1", "trips": [trip]}, {"vehicle": "t-2", "trips": [later]}]}
+
+
+def test_what_has_happened_is_what_was_left_by_then(day: Data) -> None:
+    assert happened(day, 50.0) == {
         ("t-1", "stop", "hub", "0.000", "10.000"), ("t-1", "stop", "A", "20.000", "45.000"),
         ("t-1", "flight", "C", "45.000", "60.000")}
+
+
+def test_broken_vehicle_has_done_what_it_had_begun_to_serve(day: Data) -> None:
+    left = {("t-1", "stop", "hub", "0.000", "10.000"), ("t-1", "stop", "A", "20.000", "45.000")}
+    assert happened(day, 50.0, {"t-1"}) == left
+    other = {("t-2", "stop", "hub", "40.000", "51.000")}
+    assert happened(day, 60.5, {"t-1"}) == left | other | {
+        ("t-1", "flight", "C", "45.000", "60.000")}
+    # Its drone may have nowhere to land in a storm.
+    assert happened(day, 60.5, {"t-1"}, lands_anywhere=False) == left | other
+    assert happened(day, 20.0, {"t-1"}) == set()
+    assert happened(day, 20.0, {"t-2"}) == {("t-1", "stop", "hub", "0.000", "10.000")}
+
+
+@pytest.mark.parametrize(("now", "is_broken", "start", "fault"), [
+    (20.0, True, 500, None), (20.0, True, 499, "parcels leave the depot before 500"),
+    (20.0, False, 500, "another past"), (21.0, True, 500, "another past"), (10.0, True, 20, None)])
+def test_plans_that_go_on_keep_to_the_past(day: Data, now: float, is_broken: bool, start: float,
+                                           fault: str | None) -> None:
+    trip = {"stops": [stop("hub", start, start), stop("A", 600, 600), stop("hub", 700, 700)],
+            "sorties": []}
+    replanned = {"routes": [{"vehicle": "t-3", "trips": [trip]}]}
+    request = {"replan": {"freeze_before": now, "unavailable": ["t-1"] * is_broken,
+                          "parcels_back": 500}}
+    if fault is None:
+        hold_to_the_past(request, day, replanned)
+    else:
+        with pytest.raises(Fault, match=fault):
+            hold_to_the_past(request, day, replanned)
