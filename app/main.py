@@ -19,13 +19,13 @@ from app.jobs.gate import WorkerGate
 from app.jobs.routes import router as jobs_router
 from app.jobs.setup import running_jobs
 from app.jobs.working import Surroundings
-from app.load.bounds import Bounds
 from app.load.setup import prepare_for_load
 from app.observe.observer import Observer
 from app.observe.routes import metrics_router
-from app.openapi import TAGS, allowed_methods, describe, operation_id
-from app.routes import router
-from app.service import PlanService
+from app.plans.routes import router
+from app.plans.service import PlanService
+from app.requests.bounds import Bounds
+from app.schemas.openapi import TAGS, allowed_methods, describe, operation_id
 from app.settings import Settings
 from app.vroom.routes import router as vroom_router
 from model.planner import PlanCheckError, Planner, load_planner

@@ -30,7 +30,7 @@ import httpx
 from benchmarks.postgres import running_postgres
 
 ROOT = Path(__file__).resolve().parent.parent
-EXAMPLE = ROOT / "app" / "examples" / "table1.json"
+EXAMPLE = ROOT / "app" / "schemas" / "examples" / "table1.json"
 
 LONGEST_START = 600.0
 """Seconds that the service may take to be ready."""

@@ -24,10 +24,10 @@ from pydantic_core import to_json
 from rich.console import Console
 from rich.table import Table
 
-from app.convert import to_problem
-from app.reading import read_request
-from app.replies import plan_reply
-from app.service import plan_options
+from app.conversion.problem import to_problem
+from app.plans.replies import plan_reply
+from app.plans.service import plan_options
+from app.requests.reading import read_request
 from app.settings import DEFAULT_POLICY, Settings
 from model.judge.check import check
 from model.kernel.instance import pack

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from vrplib import read_solution  # type: ignore[import-untyped]
 
-from app.importers import read_instance_file
-from app.instance_files import FileVehicles, InstanceFile, Rounding, distances
+from app.files.importers import read_instance_file
+from app.files.instance import FileVehicles, InstanceFile, Rounding, distances
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
     MM_PER_KM,

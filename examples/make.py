@@ -14,10 +14,9 @@ from typing import Any
 
 from shapely import Point, Polygon
 
-from app.convert import to_problem
-from app.openapi import EXAMPLES as DOCUMENTED
-from app.openapi import EXAMPLES_DIR
-from app.schemas_request import PlanRequest
+from app.conversion.problem import to_problem
+from app.schemas.openapi import EXAMPLES_DIR, EXAMPLES as DOCUMENTED
+from app.schemas.request import PlanRequest
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Stop, Visit
 

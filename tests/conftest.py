@@ -27,9 +27,10 @@ Result = TypeVar("Result")
 SLOW = (
     "tests/benchmarks/", "tests/console/", "tests/training/", "tests/test_end_to_end.py",
     *(f"tests/app/{name}" for name in (
-        "jobs/test_crashes.py", "jobs/test_routes.py", "jobs/test_studies.py",
+        "cli/test_plot.py", "jobs/test_crashes.py", "jobs/test_routes.py", "jobs/test_studies.py",
         "load/test_overload.py", "load/test_shutdown.py", "observe/", "pictures/",
-        "test_api_fuzz.py", "test_clients.py", "test_replanning.py", "vroom/test_planning.py",
+        "plans/test_task.py", "schemas/test_clients.py", "test_api_fuzz.py",
+        "vroom/test_planning.py",
         "vroom/test_windows.py")),
     *(f"tests/model/{name}" for name in (
         "search/test_anneal.py", "search/test_improve.py", "search/test_kept.py",

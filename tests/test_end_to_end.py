@@ -11,7 +11,7 @@ import httpx
 import pytest
 from typer.testing import CliRunner
 
-from app.cli import cli as command_line
+from app.cli.commands import cli as command_line
 from tests.conftest import free_port
 
 ROOT = Path(__file__).parent.parent

@@ -14,9 +14,9 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from app.access.keys import LAST_USED_STEP, SCOPES, Keys, KeyStore, Scope, StoredKey, find_key
 from app.access.limits import Limits, client_address
-from app.database import is_misfit
+from app.database.connections import is_misfit
+from app.database.migrations.running import SchemaError
 from app.errors import RequestError
-from app.migrations.running import SchemaError
 
 logger = logging.getLogger(__name__)
 

@@ -11,8 +11,8 @@ from typing import Literal
 
 from sqlalchemy import Engine, insert, select, update
 
-from app.migrations.running import upgrade
-from app.tables import KEYS
+from app.database.migrations.running import upgrade
+from app.database.tables import KEYS
 
 Scope = Literal["plan", "jobs", "admin"]
 SCOPES: tuple[Scope, ...] = ("plan", "jobs", "admin")

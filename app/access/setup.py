@@ -13,7 +13,7 @@ from app.access.headers import SecurityHeaders
 from app.access.hosts import ANY, TrustedHosts, is_loopback
 from app.access.keys import KeyStore
 from app.access.limits import Limits, Rates
-from app.database import make_engine
+from app.database.connections import make_engine
 from app.settings import Settings
 
 REQUEST_HEADERS = ("Authorization", "Content-Type", "Idempotency-Key", "Last-Event-ID", "X-API-Key",

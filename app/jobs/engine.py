@@ -16,7 +16,8 @@ from pydantic_core import to_json
 from sqlalchemy import Engine, event
 from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 
-from app.database import is_misfit, is_outage
+from app.database.connections import is_misfit, is_outage
+from app.jobs.housekeeping import Warden
 from app.jobs.identity import Identity
 from app.jobs.planning import NOT_COMPUTED, PlanWork, Slice, Stopping
 from app.jobs.queues import (
@@ -26,7 +27,6 @@ from app.jobs.queues import (
 from app.jobs.replies import summary
 from app.jobs.store import JobStore
 from app.jobs.studies import StudyWork
-from app.jobs.warden import Warden
 from app.jobs.webhook import Caller, UnreachableError, wait_after
 
 logger = logging.getLogger(__name__)

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 from pydantic_core import from_json, to_json
 
+from app.conversion.preparing import StoppedError
 from app.errors import RequestError
 from app.jobs.rows import JobRow, Standing
 from app.jobs.schemas import State
 from app.jobs.search import Find, Past, Search
 from app.jobs.store import JobStore, now_ms
-from app.load.bounds import Bounds
-from app.load.preparing import StoppedError
-from app.replanning import task_of
-from app.replies import Data
-from app.schemas_request import PlanRequest
-from app.service import plan_options, preparing
+from app.plans.replies import Data
+from app.plans.service import plan_options, preparing
+from app.plans.task import task_of
+from app.requests.bounds import Bounds
+from app.schemas.request import PlanRequest
 from model.planner import PlanCheckError, Planner
 
 logger = logging.getLogger(__name__)

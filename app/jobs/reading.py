@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
+from app.conversion.preparing import Preparing
 from app.jobs.errors import TooManyScenariosError
 from app.jobs.rows import JobRow
 from app.jobs.scenarios import (
@@ -9,10 +10,9 @@ from app.jobs.scenarios import (
 )
 from app.jobs.schemas import Kind
 from app.jobs.store import JobStore
-from app.load.bounds import Bounds
-from app.load.preparing import Preparing
-from app.reading import read_request
-from app.schemas_request import PlanRequest
+from app.requests.bounds import Bounds
+from app.requests.reading import read_request
+from app.schemas.request import PlanRequest
 from app.settings import Settings
 
 

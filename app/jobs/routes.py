@@ -22,10 +22,10 @@ from app.jobs.service import JobService, Submission, is_job_id
 from app.jobs.setup import JobDesk
 from app.jobs.webhook import check_url
 from app.load.abandoned import watching
-from app.openapi import ERROR_RESPONSES, EXAMPLES, event_stream, json_body
-from app.routes import Body
-from app.schemas_request import PlanRequest
-from app.service import ReceivedBody
+from app.plans.routes import Body
+from app.plans.service import ReceivedBody
+from app.schemas.openapi import ERROR_RESPONSES, EXAMPLES, event_stream, json_body
+from app.schemas.request import PlanRequest
 
 router = APIRouter(tags=["jobs"])
 

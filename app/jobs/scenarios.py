@@ -9,18 +9,18 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import from_json, to_json
 
+from app.conversion.preparing import UNHURRIED, Preparing
+from app.conversion.travels import Ground
 from app.errors import (
     MAX_LISTED_ERRORS, InputError, InvalidRequestError, json_path, schema_error,
 )
 from app.jobs.grid import GridPath, Place, places, put, read_path
 from app.jobs.schemas import CompareRequest, Kind, SweepRequest
-from app.load.bounds import UNBOUNDED, Bounds
-from app.load.preparing import UNHURRIED, Preparing
-from app.load.refusal import require_readable
-from app.reading import read_json, read_request, request_errors
-from app.replanning import task_of
-from app.schemas_request import PlanRequest
-from app.travels import Ground
+from app.plans.task import task_of
+from app.requests.bounds import UNBOUNDED, Bounds
+from app.requests.reading import read_json, read_request, request_errors
+from app.requests.refusal import require_readable
+from app.schemas.request import PlanRequest
 
 Sections = Mapping[str, Any]
 """Fields of a request as JSON."""

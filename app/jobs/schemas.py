@@ -9,8 +9,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.schemas_request import MAX_VEHICLE_TYPES, Name, PlanRequest, VehicleTypeInput
-from app.schemas_response import CostReply, LoadRateReply, PlanReply
+from app.schemas.request import MAX_VEHICLE_TYPES, Name, PlanRequest, VehicleTypeInput
+from app.schemas.response import CostReply, LoadRateReply, PlanReply
 
 Kind = Literal["plan", "compare", "sweep"]
 State = Literal["queued", "running", "done", "failed", "cancelled"]

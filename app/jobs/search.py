@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 
 from pydantic_core import to_json
 
-from app.plan_reading import plan_to_solution
-from app.replanning import Task
-from app.replies import Data
+from app.plans.replies import Data
+from app.plans.task import Task
+from app.requests.plan_reading import plan_to_solution
 from model.planner import Elapsed, Listener, Planner, PlanOptions, PlanResult, Start
 from model.search.improve import Progress
 from model.solution import Solution

@@ -19,7 +19,7 @@ from app.jobs.rows import JobRow, NewJob, OpenPlans, Standing
 from app.jobs.schemas import Kind, State
 from app.jobs.store import JobStore
 from app.jobs.studies import study_result
-from app.schemas_request import PlanRequest
+from app.schemas.request import PlanRequest
 
 CANCEL_PATIENCE = 5.0
 """Seconds for whoever runs a job to stop it, before it is ended with what is written down."""

@@ -10,19 +10,19 @@ from anyio import CapacityLimiter, to_thread
 from dbos import DBOS
 from sqlalchemy.exc import SQLAlchemyError
 
-from app.database import is_misfit, is_outage
-from app.jobs.connections import connect
-from app.jobs.engine import JobEngine
+from app.database.connections import is_misfit, is_outage
+from app.database.durable import connect
+from app.database.migrations.running import SchemaError
 from app.jobs.errors import JobsUnavailableError
 from app.jobs.events import Watcher
 from app.jobs.planning import PlanWork
 from app.jobs.queues import Queues
 from app.jobs.service import JobService
+from app.jobs.worker import JobEngine
 from app.jobs.working import Surroundings, make_engine, make_store, open_limits
-from app.migrations.running import SchemaError
 from app.observe.metrics import JobCounts
 from app.pictures.scene import Scene
-from app.schemas_request import PlanRequest
+from app.schemas.request import PlanRequest
 
 logger = logging.getLogger(__name__)
 

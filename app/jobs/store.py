@@ -14,11 +14,11 @@ from sqlalchemy import (
 )
 from sqlalchemy.exc import IntegrityError
 
-from app.database import Purpose, alone
+from app.database.connections import Purpose, alone
+from app.database.migrations.running import find_misfit, upgrade
+from app.database.tables import JOBS, REQUESTS, RESULTS
 from app.jobs.rows import OPEN, JobRow, NewJob, OpenPlans, Standing
 from app.jobs.schemas import Kind, State
-from app.migrations.running import find_misfit, upgrade
-from app.tables import JOBS, REQUESTS, RESULTS
 
 FAST = 1
 """zlib's level: plans are written each second."""

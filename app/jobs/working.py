@@ -4,9 +4,9 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from app.database import database_url
-from app.jobs.connections import connect
-from app.jobs.engine import Duties, JobEngine
+from app.database.connections import database_url
+from app.database.durable import connect
+from app.jobs.housekeeping import Warden
 from app.jobs.identity import Identity, take_identity
 from app.jobs.planning import PlanWork
 from app.jobs.queues import Queues
@@ -15,8 +15,8 @@ from app.jobs.schemas import Data
 from app.jobs.service import JobService, OpenLimits
 from app.jobs.store import JobStore
 from app.jobs.studies import StudyWork
-from app.jobs.warden import Warden
 from app.jobs.webhook import Caller, may_call_private
+from app.jobs.worker import Duties, JobEngine
 from app.observe.metrics import Metrics
 from app.settings import Settings
 from model.planner import Planner

@@ -9,7 +9,7 @@ from fastapi import Request
 
 from app.errors import BodyTooLargeError, RequestError
 from app.load.admission import OverloadedError
-from app.service import ReceivedBody
+from app.plans.service import ReceivedBody
 
 
 class SlowBodyError(RequestError):

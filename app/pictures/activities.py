@@ -7,10 +7,10 @@ from itertools import pairwise
 from math import inf
 from typing import Literal
 
-from app.names import number_in
+from app.conversion.names import number_in
 from app.pictures.scene import Scene
-from app.schemas_plan import RouteInput, SortieInput, StopInput, TripInput
-from app.schemas_request import DronesInput, VehicleTypeInput
+from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
+from app.schemas.request import DronesInput, VehicleTypeInput
 
 Activity = Literal["drive", "wait", "serve", "fly", "launch", "reload"]
 

@@ -5,7 +5,7 @@ from html import escape
 
 from app.pictures.drawing import draw_svg
 from app.pictures.scene import Scene, clock
-from app.schemas_plan import RouteInput, SortieInput, StopInput, TripInput
+from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
 
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; margin: 2rem auto;

@@ -9,11 +9,11 @@ import numpy as np
 from pydantic_core import from_json
 
 from app.errors import InputError, InvalidRequestError, json_path
-from app.plan_reading import read_plan
-from app.replanning import task_of
-from app.replies import cost_reply, summary_reply
-from app.schemas_plan import PlanInput, RouteInput, SortieInput, TripInput
-from app.schemas_request import CustomerInput, DepotInput, PlanRequest, VehicleTypeInput
+from app.plans.replies import cost_reply, summary_reply
+from app.plans.task import task_of
+from app.requests.plan_reading import read_plan
+from app.schemas.plan import PlanInput, RouteInput, SortieInput, TripInput
+from app.schemas.request import CustomerInput, DepotInput, PlanRequest, VehicleTypeInput
 from model.problem import FloatArray
 from model.travel.matrices import LocalProjection
 

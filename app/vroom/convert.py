@@ -5,8 +5,8 @@ from math import isqrt
 
 import numpy as np
 
-from app.load.preparing import UNHURRIED, Preparing
-from app.load.work import attempt_seconds, model_seconds
+from app.conversion.preparing import UNHURRIED, Preparing
+from app.conversion.work import attempt_seconds, model_seconds
 from app.settings import MAX_LEGS
 from app.vroom.alternatives import choose_windows
 from app.vroom.drives import Drive, Drives

@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from app.load.preparing import UNHURRIED, Preparing
-from app.load.work import legs_seconds
+from app.conversion.preparing import UNHURRIED, Preparing
+from app.conversion.work import legs_seconds
 from app.settings import MAX_LEGS
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError
 from app.vroom.schemas import Coordinates, VroomMatricesInput, Table, VroomRequest

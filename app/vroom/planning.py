@@ -12,8 +12,8 @@ from operator import attrgetter
 
 import numpy as np
 
-from app.load.preparing import UNHURRIED, Preparing
-from app.load.work import attempt_seconds, model_seconds
+from app.conversion.preparing import UNHURRIED, Preparing
+from app.conversion.work import attempt_seconds, model_seconds
 from app.vroom.alternatives import bring_first, leave_out_by_priority
 from app.vroom.checking import drive, route_faults
 from app.vroom.convert import Converter

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from pydantic_core import from_json
 
 from app.errors import InvalidRequestError, schema_error
-from app.load.refusal import MAX_COUNTED_ERRORS, require_readable
+from app.requests.refusal import MAX_COUNTED_ERRORS, require_readable
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError, input_error
 from app.vroom.reply import amount_of
 from app.vroom.schemas import DEFAULT_COST_PER_HOUR, VroomVehicleInput, VroomRequest

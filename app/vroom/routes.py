@@ -8,8 +8,9 @@ from fastapi import APIRouter, Request, Response
 from app.access.guard import Plan
 from app.errors import MEDIA_TYPE
 from app.load.abandoned import Planning
-from app.openapi import SCHEMA_REF, json_body
+from app.plans.routes import Body, Service
 from app.routes import Body, Service
+from app.schemas.openapi import SCHEMA_REF, json_body
 from app.vroom.answering import answer
 from app.vroom.errors import INTERNAL, VroomError, VroomErrorReply
 from app.vroom.schemas import VroomRequest

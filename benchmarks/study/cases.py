@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from app.schemas_request import PlanRequest
+from app.schemas.request import PlanRequest
 from benchmarks.study.tasks import Task, Windows
 
 Data = dict[str, Any]

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from pydantic_core import to_json
 
-from app.convert import to_problem
-from app.replies import plan_reply
+from app.conversion.problem import to_problem
+from app.plans.replies import plan_reply
 from app.settings import DEFAULT_POLICY, Settings
 from benchmarks.study.cases import request_of
 from benchmarks.study.tasks import GREEDY, NOBODY, NUM_SAMPLES, POLICIES, Planned, Task, TripRow

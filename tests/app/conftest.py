@@ -165,10 +165,10 @@ def client() -> Iterator[httpx.Client]:
 @pytest.fixture
 def smallest() -> dict[str, Any]:
     """Return the smallest example request."""
-    return json.loads((APP_DIR / "examples" / "smallest.json").read_text("utf-8"))
+    return json.loads((APP_DIR / "schemas" / "examples" / "smallest.json").read_text("utf-8"))
 
 
 @pytest.fixture
 def with_drones() -> dict[str, Any]:
     """Return the example request with drones."""
-    return json.loads((APP_DIR / "examples" / "drones.json").read_text("utf-8"))
+    return json.loads((APP_DIR / "schemas" / "examples" / "drones.json").read_text("utf-8"))

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from app.access.keys import SCOPES, KeyStore
-from app.database import make_engine
+from app.database.connections import make_engine
 from app.settings import Settings
 from tests.app.observe.server import running
 

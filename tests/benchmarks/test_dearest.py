@@ -11,8 +11,8 @@ from typing import Any
 import httpx
 import pytest
 
-from app.reading import read_request
-from app.schemas_request import PlanRequest
+from app.requests.reading import read_request
+from app.schemas.request import PlanRequest
 from app.vroom.schemas import VroomRequest
 from benchmarks.dear_requests import (
     KINDS, LARGEST, PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,

@@ -8,7 +8,7 @@ import json
 import httpx
 import pytest
 
-from app.reading import read_request
+from app.requests.reading import read_request
 from benchmarks.punctuality import ask, requests, told
 
 REQUESTS = requests()

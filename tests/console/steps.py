@@ -6,7 +6,7 @@ from typing import Any
 from playwright.sync_api import Locator, Page, expect
 
 ROOT = Path(__file__).resolve().parents[2]
-EXAMPLES = ROOT / "app" / "examples"
+EXAMPLES = ROOT / "app" / "schemas" / "examples"
 STATIC = ROOT / "app" / "console" / "static"
 
 

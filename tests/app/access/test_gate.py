@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from app.access.headers import SecurityHeaders
 from app.access.hosts import TrustedHosts
 from app.access.setup import ExposedError, check_exposure
-from app.cli import cli
+from app.cli.commands import cli
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.conftest import complete

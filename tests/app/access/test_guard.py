@@ -13,7 +13,7 @@ from sqlalchemy.exc import OperationalError
 
 from app.access.guard import REFRESH_SECONDS
 from app.access.keys import KeyStore, Scope
-from app.database import make_engine
+from app.database.connections import make_engine
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 

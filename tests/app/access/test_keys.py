@@ -14,7 +14,7 @@ import pytest
 from sqlalchemy import Engine
 
 from app.access.keys import KeyStore, StoredKey, find_key
-from app.database import FILE_NAME, database_url, make_engine
+from app.database.connections import FILE_NAME, database_url, make_engine
 from app.settings import Settings
 
 

@@ -11,7 +11,7 @@ from fastapi import Request
 
 from app.access.keys import KeyStore
 from app.access.limits import Limits, Rates, TooManyRequestsError, client_address
-from app.database import make_engine
+from app.database.connections import make_engine
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 

@@ -8,7 +8,7 @@ import httpx
 import pytest
 
 from app.access.keys import KeyStore
-from app.database import make_engine
+from app.database.connections import make_engine
 from app.settings import Settings
 from tests.app.jobs.stepping import SteppingPlanner, eventually, request_of, submit
 

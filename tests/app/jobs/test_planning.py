@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 from pydantic_core import from_json, to_json
 
+from app.conversion.preparing import Preparing
+from app.database.durable import connect
 from app.jobs import planning
-from app.jobs.connections import connect
 from app.jobs.planning import MAX_CRASHES, POISONOUS, PlanWork, Slice, Stopping
 from app.jobs.reading import JobReader
 from app.jobs.rows import JobRow, NewJob, Standing
 from app.jobs.store import JobStore
-from app.load.preparing import Preparing
-from app.schemas_request import PlanRequest
+from app.schemas.request import PlanRequest
 from app.settings import Settings
 from tests.app.jobs.stepping import NUM_CUSTOMERS, SteppingPlanner, request_of
 

@@ -11,9 +11,9 @@ from dbos import DBOS
 from sqlalchemy import Engine, text
 
 from app.access.keys import KeyStore
-from app.database import make_engine
-from app.migrations.running import newest, upgrade
-from app.migrations.version import VERSION_TABLE
+from app.database.connections import make_engine
+from app.database.migrations.running import newest, upgrade
+from app.database.migrations.version import VERSION_TABLE
 from app.settings import Settings
 from tests.app.jobs.conftest import Postgres
 from tests.app.jobs.stepping import SteppingPlanner, eventually, request_of

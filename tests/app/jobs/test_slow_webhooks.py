@@ -5,7 +5,7 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import httpx
 
-from app.jobs.engine import CALLS_OF_A_HOST, WEBHOOKS_AT_ONCE
+from app.jobs.worker import CALLS_OF_A_HOST, WEBHOOKS_AT_ONCE
 from tests.app.jobs.receiving import Receiver, drip
 from tests.app.jobs.stepping import eventually, request_of, submit
 

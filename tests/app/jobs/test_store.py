@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from sqlalchemy import Connection
 
-from app.jobs.connections import connect
+from app.database.durable import connect
 from app.jobs.rows import NewJob, OpenPlans, Standing
 from app.jobs.store import JobStore, now_ms
 from app.settings import Settings

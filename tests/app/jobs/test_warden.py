@@ -8,12 +8,12 @@ from datetime import UTC, datetime, timedelta
 import pytest
 from dbos import DBOS
 
-from app.jobs.connections import connect
+from app.database.durable import connect
+from app.jobs.housekeeping import LOST, PATIENCE, Warden
 from app.jobs.queues import Queues
 from app.jobs.rows import JobRow, NewJob, Standing
 from app.jobs.service import JobService, OpenLimits, Submission
 from app.jobs.store import JobStore
-from app.jobs.warden import LOST, PATIENCE, Warden
 from app.settings import Settings
 
 

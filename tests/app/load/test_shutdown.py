@@ -14,7 +14,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.load.serving import run_server
+from app.cli.serving import run_server
 from app.settings import Settings
 from tests.app.load.waiting import ROOT, process_of_its_own, status_of, until
 from tests.conftest import free_port

@@ -12,7 +12,7 @@ import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
 from app.access.keys import KeyStore
-from app.database import make_engine
+from app.database.connections import make_engine
 from app.observe.metrics import MULTIPROCESS_DIR, Metrics
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
@@ -79,7 +79,7 @@ def test_requests_and_plans_are_counted(fresh: httpx.Client, smallest: Request) 
 
 
 def test_plans_for_vroom_are_counted_too(fresh: httpx.Client) -> None:
-    example = ROOT / "app" / "examples" / "vroom_matrix.json"
+    example = ROOT / "app" / "schemas" / "examples" / "vroom_matrix.json"
     reply = fresh.post("/vroom", content=example.read_bytes())
     assert reply.status_code == 200, reply.text
     status = "partial" if reply.json()["unassigned"] else "complete"

@@ -8,10 +8,11 @@ import pytest
 from pydantic_core import to_json
 
 from app.pictures.scene import Scene
-from app.plan_reading import parse_plan
-from app.reading import read_request
-from app.service import ReceivedBody, answer
-from tests.app.conftest import APP_DIR, FirstFitPlanner
+from app.plans.service import ReceivedBody, answer
+from app.requests.plan_reading import parse_plan
+from app.requests.reading import read_request
+from app.schemas.openapi import EXAMPLES_DIR
+from tests.app.conftest import FirstFitPlanner
 
 Request = dict[str, Any]
 Drawn = Callable[..., Scene]
@@ -70,4 +71,4 @@ def two_trips(rich: Request) -> Request:
 @pytest.fixture
 def example() -> Callable[[str], Request]:
     """Return a function that reads an example."""
-    return lambda name: dict(json.loads((APP_DIR / "examples" / f"{name}.json").read_text("utf-8")))
+    return lambda name: dict(json.loads((EXAMPLES_DIR / f"{name}.json").read_text("utf-8")))

@@ -17,7 +17,7 @@ from tests.app.conftest import FirstFitPlanner
 
 Data = dict[str, Any]
 
-EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("vroom_*.json"))
+EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "schemas" / "examples").glob("vroom_*.json"))
 
 
 @pytest.fixture

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.conversion.preparing import Preparing, StoppedError
 from app.errors import InvalidRequestError
-from app.load.preparing import Preparing, StoppedError
-from app.service import ReceivedBody
+from app.plans.service import ReceivedBody
 from app.settings import Settings
 from app.vroom.answering import answer
 from app.vroom.convert import Converter, dearest_plan

@@ -1,0 +1,1 @@
+"""The command `tandem`, a file for each group of its commands."""

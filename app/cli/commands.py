@@ -1,0 +1,152 @@
+"""The `tandem` command."""
+
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.access.setup import ExposedError, check_exposure
+from app.cli.database import database_cli
+from app.cli.file_errors import EXIT_BAD_INPUT, refuse
+from app.cli.keys import keys_cli
+from app.cli.plot import plot
+from app.cli.serving import run_server
+from app.cli.settings_page import settings_page
+from app.errors import RequestError
+from app.files.importers import FileFormat, convert_file
+from app.files.instance import Rounding
+from app.plans.service import ReceivedBody, answer
+from app.plans.task import task_of
+from app.plans.warming import showing
+from app.requests.plan_reading import plan_to_solution
+from app.requests.reading import read_request
+from app.settings import Settings
+from model.judge.check import Evaluation
+from model.planner import Planner, load_planner
+
+EXIT_INFEASIBLE = 1
+
+cli = typer.Typer(help="Plan deliveries for trucks that carry drones.", no_args_is_help=True,
+                  add_completion=False)
+cli.add_typer(keys_cli, name="keys")
+cli.add_typer(database_cli, name="database")
+cli.command()(plot)
+
+ProblemFile = Annotated[Path, typer.Argument(help="Request of POST /plan as JSON.", exists=True,
+                                             dir_okay=False)]
+PlanFile = Annotated[Path, typer.Argument(help="Reply of POST /plan as JSON.", exists=True,
+                                          dir_okay=False)]
+Output = Annotated[Path | None, typer.Option("--output", "-o", help="File to write the plan to.")]
+InstanceFormat = Annotated[FileFormat, typer.Option(
+    "--format", help="auto knows Solomon's format by its headings; all else is VRPLIB.")]
+RoundingOption = Annotated[Rounding, typer.Option(help=(
+    "How distances are rounded. exact: as the crow flies; round: to whole units, as CVRPLIB does "
+    "without time windows; trunc: to whole units, downwards; dimacs: to tenths, downwards, as is "
+    "usual with time windows; thousandths: as is usual with mixed fleets. All but exact write "
+    "matrices, large ones for many customers."))]
+
+
+@cli.command()
+def serve(
+    host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="Port to listen on.", min=0, max=65535)] = 8000,
+    workers: Annotated[int, typer.Option(help="Processes that share the port.", min=1,
+                                         max=256)] = 1,
+) -> None:
+    """Answer planning requests over HTTP."""
+    settings = Settings()
+    try:
+        check_exposure(settings, host)
+    except ExposedError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
+    run_server(settings, host, port, workers)
+
+
+@cli.command("settings")
+def list_settings() -> None:
+    """List all settings, the environment variables that they are read from, as Markdown."""
+    typer.echo(settings_page(), nl=False)
+
+
+@cli.command()
+def warm() -> None:
+    """Compile everything that planning needs, so that later starts are quick."""
+    _warm_planner(Settings())
+    typer.echo("ready")
+
+
+@cli.command()
+def plan(problem_file: ProblemFile, output: Output = None) -> None:
+    """Plan one problem."""
+    settings = Settings()
+    planner = _warm_planner(settings)
+    body = ReceivedBody(problem_file.read_bytes(), time.perf_counter())
+    try:
+        reply = answer(planner, body, settings.search_threads)
+    except RequestError as error:
+        refuse(problem_file, error)
+    if output is None:
+        typer.echo(reply)
+    else:
+        output.write_bytes(reply)
+
+
+@cli.command("check")
+def check_plan(problem_file: ProblemFile, plan_file: PlanFile) -> None:
+    """Judge a plan: print the rules it breaks and its cost. Exits with 1 if it breaks any."""
+    try:
+        task = task_of(read_request(problem_file.read_bytes(), policies=None))
+    except RequestError as error:
+        refuse(problem_file, error)
+    try:
+        solution = plan_to_solution(plan_file.read_bytes(), task.problem)
+    except RequestError as error:
+        refuse(plan_file, error)
+    evaluation = task.check(solution)
+    _print_evaluation(evaluation)
+    if not evaluation.is_feasible:
+        raise typer.Exit(EXIT_INFEASIBLE)
+
+
+@cli.command()
+def convert(
+    instance_file: Annotated[Path, typer.Argument(
+        metavar="INPUT", help="Instance in VRPLIB or Solomon format.", exists=True,
+        dir_okay=False)],
+    output: Annotated[Path | None, typer.Option(
+        "--output", "-o", help="File to write the request to.")] = None,
+    file_format: InstanceFormat = "auto",
+    rounding: RoundingOption = "exact",
+) -> None:
+    """Turn a published instance into a request of POST /plan, a unit being 1 m, 1 s and 1 cost."""
+    try:
+        request = convert_file(instance_file, file_format, rounding)
+    except RequestError as error:
+        refuse(instance_file, error)
+    if output is None:
+        typer.echo(request)
+    else:
+        output.write_bytes(request)
+
+
+def main() -> None:
+    """Run the command line."""
+    cli()
+
+
+def _warm_planner(settings: Settings) -> Planner:
+    planner = load_planner(settings.weights_dir, settings.policies)
+    with showing(lambda line: typer.echo(line, err=True)) as show:
+        planner.warm(show)
+    return planner
+
+
+def _print_evaluation(evaluation: Evaluation) -> None:
+    for violation in evaluation.violations:
+        typer.echo(f"{violation.code} {violation.path}: {violation.message}")
+    cost = evaluation.cost
+    for term in ("fixed", "distance", "time", "lateness", "earliness", "unassigned", "total"):
+        typer.echo(f"{term:10} {getattr(cost, term):.6f}")
+    typer.echo("feasible" if evaluation.is_feasible else "infeasible")

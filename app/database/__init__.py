@@ -1,0 +1,1 @@
+"""The service's own database: connections, tables, and the versions that these came through."""

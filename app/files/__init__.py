@@ -1,0 +1,1 @@
+"""Published instance files -> requests."""

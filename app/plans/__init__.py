@@ -1,0 +1,1 @@
+"""A valid request -> a plan and its reply; a plan -> what is wrong with it."""

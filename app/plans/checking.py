@@ -1,0 +1,115 @@
+"""Any plan against any problem: every rule that it breaks and its true cost."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails, to_json
+
+from app.conversion.preparing import Preparing
+from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_error
+from app.plans.replies import Data, cost_reply, summary_reply
+from app.plans.task import task_of, violation_reply
+from app.requests.bounds import Bounds, bound_errors
+from app.requests.plan_reading import Known, plan_errors, read_plan
+from app.requests.reading import partial_draft, read_json, request_errors
+from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
+from app.requests.validation import Draft, semantic_errors
+from app.schemas.check import CheckRequest
+from app.schemas.plan import PlanInput
+from app.settings import MAX_NUM_SAMPLES, MAX_TIME_LIMIT
+
+PROBLEM, PLAN = "problem", "plan"
+
+
+def answer_check(body: bytes, bounds: Bounds,
+                 should_stop: Callable[[], bool] = lambda: False) -> bytes:
+    """Return the reply to a request of `POST /check` as JSON, unless the work is to end.
+
+    Raises
+    ------
+    RequestError
+        If `body` is no valid request, or the work is to end.
+    """
+    request = read_check(body, bounds)
+    task = task_of(request.problem, Preparing(
+        should_stop, bounds.time_limit, f"the {bounds.time_limit:g} s of {bounds.time_setting}"))
+    solution = read_plan(request.plan, task.problem, (PLAN,))
+    evaluation = task.check(solution)
+    reply: Data = {
+        "feasible": evaluation.is_feasible,
+        "violations": [violation_reply(violation, f"$.{PROBLEM}", f"$.{PLAN}")
+                       for violation in evaluation.violations],
+        "cost": cost_reply(evaluation.cost),
+        "summary": summary_reply(task.problem, solution, evaluation),
+    }
+    return to_json(reply)
+
+
+def read_check(body: bytes, bounds: Bounds) -> CheckRequest:
+    """Return the request that `body` holds; nothing is planned, so its options aren't bounded.
+
+    Raises
+    ------
+    NotJsonError
+        If `body` is not JSON.
+    InvalidRequestError
+        With every error found, if it is not a valid request.
+    """
+    bounds = replace(bounds, num_samples=MAX_NUM_SAMPLES, time_limit=MAX_TIME_LIMIT)
+    require_readable(body, CheckRequest)
+    try:
+        request = CheckRequest.model_validate_json(body)
+    except ValidationError as error:
+        raise _refusal(error, body, bounds) from error
+    problem = request.problem
+    errors = [*_within(PROBLEM, request_errors(problem, None, bounds)),
+              *plan_errors(request.plan, Known.of(problem.depots, problem.customers,
+                                                  problem.fleet), (PLAN,))]
+    if errors:
+        raise InvalidRequestError(errors)
+    return request
+
+
+def _refusal(error: ValidationError, body: bytes, bounds: Bounds) -> RequestError:
+    """Return the refusal of a body that doesn't fit the schema, other errors included."""
+    if error.error_count() > MAX_COUNTED_ERRORS:
+        message = f"The request has {error.error_count()} errors: compare it with the schema."
+        return InvalidRequestError([InputError(code="TOO_MANY_ERRORS", path="$", message=message)])
+    details = error.errors(include_url=False)
+    of_problem = [_inner(item) for item in details if item["loc"][:1] == (PROBLEM,)]
+    others = [item for item in details if item["loc"][:1] != (PROBLEM,)]
+    errors = [*map(schema_error, others), *_within(PROBLEM, map(schema_error, of_problem))]
+    if len(body) <= MAX_SEARCHED_BYTES or details[0]["type"] == "json_invalid":
+        try:
+            raw = read_json(body)
+        except NotJsonError as not_json:
+            return not_json
+        if isinstance(raw, dict) and isinstance(raw.get(PROBLEM), dict):
+            draft = partial_draft(raw[PROBLEM], of_problem)
+            errors += _within(PROBLEM, [*semantic_errors(draft, None),
+                                        *bound_errors(draft, bounds)])
+            errors += _plan_errors(raw, others, draft)
+    return InvalidRequestError(errors)
+
+
+def _inner(item: ErrorDetails) -> ErrorDetails:
+    """Return what is wrong with a part, as seen from there."""
+    inner = item.copy()
+    inner["loc"] = item["loc"][1:]
+    return inner
+
+
+def _within(part: str, errors: Iterable[InputError]) -> list[InputError]:
+    """Return a part's errors as seen from the whole."""
+    return [error.model_copy(update={"path": f"$.{part}{error.path[1:]}"}) for error in errors]
+
+
+def _plan_errors(raw: dict[str, Any], details: Sequence[ErrorDetails],
+                 draft: Draft) -> list[InputError]:
+    """Return what a plan names that a partly broken problem surely doesn't have."""
+    if PLAN not in raw or any(item["loc"][:1] == (PLAN,) for item in details):
+        return []
+    plan = PlanInput.model_validate_json(to_json(raw[PLAN]))
+    return plan_errors(plan, Known.of(draft.depots, draft.customers, draft.fleet), (PLAN,))

@@ -1,0 +1,184 @@
+"""A plan -> the reply of `POST /plan`, as plain data (see `app.schemas.response`)."""
+
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+from app.conversion.units import whole
+from model.judge.check import Evaluation
+from model.judge.explain import Reason, explain
+from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
+from model.planner import PlanOptions, PlanResult
+from model.problem import Problem
+from model.solution import Cost, Route, Solution, Sortie, Stop, Trip, Visit
+
+Data = dict[str, Any]
+
+MAX_LOAD_RATE = 1e9
+"""Stands for any load where there is no capacity, since JSON knows no infinity."""
+
+Reasons = Callable[[Solution, int, float], tuple[Reason, ...]]
+"""Says why a plan leaves a customer out, as far as is found until an instant."""
+
+
+def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
+               reasons: Reasons | None = None, explain_until: float = math.inf) -> Data:
+    """Return the reply but for `solver.elapsed`'s `validate` and `total`, which are 0.
+
+    `reasons` are those of vehicles that have done nothing yet unless stated; none is looked for
+    after `explain_until`, on `time.perf_counter`.
+    """
+    solution, evaluation = result.solution, result.evaluation
+    elapsed = result.elapsed
+    why = reasons or partial(explain, problem)
+    return {
+        "status": "partial" if solution.unassigned else "complete",
+        "cost": cost_reply(evaluation.cost),
+        "routes": [_route(problem, route, metrics)
+                   for route, metrics in zip(solution.routes, evaluation.routes, strict=True)],
+        "unassigned": [_unassigned(problem, node, why(solution, node, explain_until))
+                       for node in solution.unassigned],
+        "summary": summary_reply(problem, solution, evaluation),
+        "solver": {
+            "policy": options.policy,
+            "decoding": options.decoding,
+            "seed": options.seed,
+            "start": result.start,
+            "decoded_cost": result.decoded_cost,
+            "final_cost": result.final_cost,
+            "search_iterations": result.search_iterations,
+            "threads": result.threads,
+            "deterministic": result.deterministic,
+            "elapsed": {"validate": 0.0, "decode": elapsed.decode, "search": elapsed.search,
+                        "check": elapsed.check, "total": 0.0},
+        },
+    }
+
+
+def vehicle_name(problem: Problem, route: Route) -> str:
+    """Return the name of a vehicle, such as `truck-1`."""
+    return f"{problem.vehicle_types[route.vehicle_type].id}-{route.vehicle + 1}"
+
+
+def cost_reply(cost: Cost) -> Data:
+    """Return a cost by term."""
+    return {"total": cost.total, "fixed": cost.fixed, "distance": cost.distance, "time": cost.time,
+            "lateness": cost.lateness, "earliness": cost.earliness, "unassigned": cost.unassigned}
+
+
+def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
+    name = vehicle_name(problem, route)
+    return {
+        "vehicle": name,
+        "type": problem.vehicle_types[route.vehicle_type].id,
+        "working_duration": whole(metrics.working_duration),
+        "working_rate": metrics.working_rate,
+        "cost": metrics.cost,
+        "trips": [_trip(problem, name, trip, measured)
+                  for trip, measured in zip(route.trips, metrics.trips, strict=True)],
+    }
+
+
+def _trip(problem: Problem, vehicle: str, trip: Trip, metrics: TripMetrics) -> Data:
+    return {
+        "load": _amounts(problem, metrics.load),
+        "load_rate": metrics.load_rate,
+        "distance": whole(metrics.distance),
+        "duration": whole(metrics.duration),
+        "stops": [_stop(problem, stop, load)
+                  for stop, load in zip(trip.stops, metrics.stop_loads, strict=True)],
+        "sorties": [_sortie(problem, vehicle, sortie, measured)
+                    for sortie, measured in zip(trip.sorties, metrics.sorties, strict=True)],
+    }
+
+
+def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
+    is_depot = stop.node < len(problem.depots)
+    place = (problem.depots[stop.node] if is_depot
+             else problem.customers[stop.node - len(problem.depots)])
+    return {
+        "kind": "depot" if is_depot else "customer",
+        "id": place.id,
+        "arrival": stop.arrival / 1000,
+        "service_start": stop.service_start / 1000,
+        "departure": stop.departure / 1000,
+        "waiting": (stop.service_start - stop.arrival) / 1000,
+        "lateness": 0.0 if is_depot else _lateness(problem, stop),
+        "load": _amounts(problem, load),
+    }
+
+
+def _amounts(problem: Problem, load: Sequence[int]) -> list[float]:
+    """Return amounts in the client's unit."""
+    return [amount / 10**places
+            for amount, places in zip(load, problem.amount_decimals, strict=True)]
+
+
+def _lateness(problem: Problem, halt: Stop | Visit) -> float:
+    latest = problem.customers[halt.node - len(problem.depots)].latest
+    return max(0, halt.arrival - latest) / 1000
+
+
+def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetrics) -> Data:
+    return {
+        "drone": f"{vehicle}/drone-{sortie.drone + 1}",
+        "launch_stop": sortie.launch_stop,
+        "recovery_stop": sortie.recovery_stop,
+        "customers": [
+            {
+                "id": problem.customer_at(visit.node).id,
+                "arrival": visit.arrival / 1000,
+                "service_start": visit.service_start / 1000,
+                "departure": visit.departure / 1000,
+                "lateness": _lateness(problem, visit),
+            }
+            for visit in sortie.visits
+        ],
+        "launch_time": whole(sortie.launch_time),
+        "recovery_time": whole(sortie.recovery_time),
+        "distance": whole(metrics.distance),
+        "duration": whole(metrics.duration),
+    }
+
+
+def _unassigned(problem: Problem, node: int, reasons: tuple[Reason, ...]) -> Data:
+    return {
+        "id": problem.customer_at(node).id,
+        "reasons": [
+            {
+                "vehicle_type": problem.vehicle_types[reason.vehicle_type].id,
+                "code": reason.code,
+                "message": reason.message,
+                "remedy": reason.remedy,
+            }
+            for reason in reasons
+        ],
+    }
+
+
+def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) -> Data:
+    """Return a plan in numbers, even if it breaks rules."""
+    trips = [trip for route in evaluation.routes for trip in route.trips]
+    sorties = [sortie for trip in trips for sortie in trip.sorties]
+    rates = [min(trip.load_rate, MAX_LOAD_RATE) for trip in trips] or [0.0]
+    return {
+        "customers": problem.num_customers,
+        "served": _served(problem, solution),
+        "vehicles": len(solution.routes),
+        "trips": len(trips),
+        "sorties": len(sorties),
+        "distance": whole(sum(trip.distance for trip in trips)),
+        "drone_distance": whole(sum(sortie.distance for sortie in sorties)),
+        "load_rate": {"min": min(rates), "mean": sum(rates) / len(rates), "max": max(rates)},
+        "makespan": whole(evaluation.makespan),
+    }
+
+
+def _served(problem: Problem, solution: Solution) -> int:
+    """Return how many customers are served, each counted once."""
+    nodes = {stop.node for route in solution.routes for trip in route.trips
+             for stop in trip.stops[1:-1]}
+    nodes |= {visit.node for route in solution.routes for trip in route.trips
+              for sortie in trip.sorties for visit in sortie.visits}
+    return sum(problem.num_depots <= node < problem.num_nodes for node in nodes)

@@ -1,0 +1,1 @@
+"""Bytes -> a valid request, or every error of it at once."""

@@ -1,0 +1,229 @@
+"""A plan as `POST /plan` sent it -> `Solution`, so that it can be checked again or gone on from."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from pydantic import ValidationError
+
+from app.conversion.names import number_in
+from app.conversion.units import thousandths
+from app.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_error
+from app.requests.reading import read_json
+from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput
+from app.schemas.request import CustomerInput, DepotInput, VehicleTypeInput
+from model.problem import Problem
+from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+
+NO_MORE = -1
+"""Node of a customer whom a plan serves and the problem no longer has."""
+
+Path = tuple[str | int, ...]
+Value = TypeVar("Value")
+Entries = Sequence[DepotInput | CustomerInput | VehicleTypeInput | None] | None
+
+_UNKNOWN: dict[str, ErrorCode] = {
+    "customer": "UNKNOWN_CUSTOMER",
+    "depot": "UNKNOWN_DEPOT",
+    "vehicle type": "UNKNOWN_VEHICLE_TYPE",
+}
+
+
+def plan_to_solution(body: bytes, problem: Problem) -> Solution:
+    """Return the plan for `problem` that `body` holds.
+
+    Raises
+    ------
+    NotJsonError
+        If `body` is not JSON.
+    InvalidRequestError
+        If it holds no plan, or names what `problem` doesn't have.
+    """
+    return read_plan(parse_plan(body), problem)
+
+
+def parse_plan(body: bytes) -> PlanInput:
+    """Return the plan that `body` holds, whatever it names.
+
+    Raises
+    ------
+    NotJsonError
+        If `body` is not JSON.
+    InvalidRequestError
+        If it holds no plan.
+    """
+    try:
+        return PlanInput.model_validate_json(body)
+    except ValidationError as error:
+        read_json(body)
+        details = error.errors(include_url=False)
+        raise InvalidRequestError([schema_error(item) for item in details]) from error
+
+
+def read_plan(plan: PlanInput, problem: Problem, path: Path = ()) -> Solution:
+    """Return a plan for `problem`; `path` is where it is in the request.
+
+    Raises
+    ------
+    InvalidRequestError
+        If it names what `problem` doesn't have.
+    """
+    reader = _PlanReader(Known.by(problem), None)
+    solution = reader.plan(plan, path)
+    if reader.errors:
+        raise InvalidRequestError(reader.errors)
+    return solution
+
+
+def plan_errors(plan: PlanInput, known: "Known", path: Path = ()) -> list[InputError]:
+    """Return an error for all that a plan names and that isn't known."""
+    reader = _PlanReader(known, None)
+    reader.plan(plan, path)
+    return reader.errors
+
+
+def read_earlier_plan(plan: PlanInput, problem: Problem) -> Solution:
+    """Return a plan made before some of its customers were cancelled, who become `NO_MORE`.
+
+    Raises
+    ------
+    ValueError
+        If it names depots, vehicles or drones that `problem` doesn't have.
+    """
+    reader = _PlanReader(Known.by(problem), NO_MORE)
+    solution = reader.plan(plan, ())
+    if reader.errors:
+        raise ValueError(f"plan: {reader.errors[0].message}")
+    return solution
+
+
+@dataclass(frozen=True)
+class Known:
+    """What a problem has by name: nodes, and types with the time that a recovery takes in ms.
+
+    None where some of it is broken, so that nothing can be said to be missing.
+    """
+
+    depots: Mapping[str, int] | None
+    customers: Mapping[str, int] | None
+    types: Mapping[str, tuple[int, int]] | None
+
+    @classmethod
+    def by(cls, problem: Problem) -> "Known":
+        """Return what a problem has."""
+        return cls(
+            {depot.id: node for node, depot in enumerate(problem.depots)},
+            {customer.id: node
+             for node, customer in enumerate(problem.customers, problem.num_depots)},
+            {kind.id: (index, 0 if kind.drones is None else kind.drones.recovery_duration)
+             for index, kind in enumerate(problem.vehicle_types)})
+
+    @classmethod
+    def of(cls, depots: Entries, customers: Entries, fleet: Entries) -> "Known":
+        """Return what the parts of a request have; their numbers mean nothing."""
+        kinds = _by_name(fleet)
+        return cls(_by_name(depots), _by_name(customers),
+                   None if kinds is None else dict.fromkeys(kinds, (0, 0)))
+
+
+def _by_name(entries: Entries) -> dict[str, int] | None:
+    if entries is None or None in entries:
+        return None
+    return {entry.id: 0 for entry in entries if entry is not None}
+
+
+class _PlanReader:
+    """Finds what a plan names; `errors` collects what isn't there.
+
+    Customers who aren't are at `cancelled`, if that is a node.
+    """
+
+    def __init__(self, known: Known, cancelled: int | None) -> None:
+        self.errors: list[InputError] = []
+        self._known = known
+        self._cancelled = cancelled
+
+    def plan(self, plan: PlanInput, path: Path) -> Solution:
+        routes = tuple(self._route((*path, "routes", index), route)
+                       for index, route in enumerate(plan.routes))
+        unassigned = [self._customer((*path, "unassigned", index, "id"), left_out.id)
+                      for index, left_out in enumerate(plan.unassigned)]
+        return Solution(routes, tuple(node for node in unassigned if node != self._cancelled))
+
+    def _route(self, path: Path, route: RouteInput) -> Route:
+        vehicle_type, recovery_duration = self._find(
+            (*path, "type"), "vehicle type", self._known.types, route.type, (0, 0))
+        vehicle = self._number((*path, "vehicle"), f"{route.type}-", route.vehicle)
+        trips = tuple(
+            self._trip((*path, "trips", index), trip, route.vehicle, recovery_duration)
+            for index, trip in enumerate(route.trips)
+        )
+        return Route(vehicle_type, vehicle, trips)
+
+    def _customer(self, path: Path, name: str) -> int:
+        customers = self._known.customers
+        if self._cancelled is not None and customers is not None:
+            return customers.get(name, self._cancelled)
+        return self._find(path, "customer", customers, name, 0)
+
+    def _trip(self, path: Path, trip: TripInput, vehicle: str, recovery_duration: int) -> Trip:
+        return Trip(
+            stops=tuple(self._stop((*path, "stops", index), stop)
+                        for index, stop in enumerate(trip.stops)),
+            sorties=tuple(self._sortie((*path, "sorties", index), sortie, vehicle,
+                                       recovery_duration)
+                          for index, sortie in enumerate(trip.sorties)),
+        )
+
+    def _stop(self, path: Path, stop: StopInput) -> Stop:
+        return Stop(
+            node=(self._customer((*path, "id"), stop.id) if stop.kind == "customer"
+                  else self._find((*path, "id"), stop.kind, self._known.depots, stop.id, 0)),
+            arrival=thousandths(stop.arrival),
+            service_start=thousandths(stop.service_start),
+            departure=thousandths(stop.departure),
+        )
+
+    def _sortie(self, path: Path, sortie: SortieInput, vehicle: str,
+                recovery_duration: int) -> Sortie:
+        recovery_time = thousandths(sortie.recovery_time)
+        return Sortie(
+            drone=self._number((*path, "drone"), f"{vehicle}/drone-", sortie.drone),
+            launch_stop=sortie.launch_stop,
+            recovery_stop=sortie.recovery_stop,
+            visits=self._visits((*path, "customers"), sortie.customers),
+            launch_time=thousandths(sortie.launch_time),
+            recovery_start=recovery_time - recovery_duration,
+            recovery_time=recovery_time,
+        )
+
+    def _visits(self, path: Path, visits: Sequence[VisitInput]) -> tuple[Visit, ...]:
+        return tuple(
+            Visit(
+                node=self._customer((*path, index, "id"), visit.id),
+                arrival=thousandths(visit.arrival),
+                service_start=thousandths(visit.service_start),
+                departure=thousandths(visit.departure),
+            )
+            for index, visit in enumerate(visits)
+        )
+
+    def _find(self, path: Path, kind: str, known: Mapping[str, Value] | None, name: str,
+              otherwise: Value) -> Value:
+        if known is None:
+            return otherwise
+        if name not in known:
+            message = f"The problem has no {kind} {name!r}: use the id of one it has."
+            self.errors.append(InputError(code=_UNKNOWN[kind], path=json_path(path),
+                                          message=message))
+        return known.get(name, otherwise)
+
+    def _number(self, path: Path, prefix: str, name: str) -> int:
+        """Return the 0-based number at the end of a vehicle's or drone's name."""
+        number = number_in(prefix, name)
+        if number is None:
+            message = f"The name must be {prefix!r} and a number from 1: correct it."
+            self.errors.append(InputError(code="WRONG_NAME", path=json_path(path),
+                                          message=message))
+            return 0
+        return number

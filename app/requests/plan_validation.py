@@ -1,0 +1,314 @@
+"""What the schema can't tell of a plan to go on from, by itself and beside its request."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from app.conversion.names import number_in
+from app.conversion.units import thousandths
+from app.errors import ErrorCode, InputError, json_path
+from app.schemas.plan import MAX_INSTANT, RouteInput, SortieInput, TripInput
+from app.schemas.request import CustomerInput, DepotInput, ReplanInput, VehicleTypeInput
+
+Path = tuple[str | int, ...]
+Errors = Iterator[InputError]
+Entry = TypeVar("Entry")
+
+
+@dataclass(frozen=True)
+class Names:
+    """What a request has; None: it isn't known, since some of it is broken."""
+
+    depots: Sequence[DepotInput] | None
+    customers: frozenset[str] | None
+    fleet: Mapping[str, VehicleTypeInput] | None
+
+    @classmethod
+    def of(cls, depots: Sequence[DepotInput | None] | None,
+           customers: Sequence[CustomerInput | None] | None,
+           fleet: Sequence[VehicleTypeInput | None] | None) -> "Names":
+        """Collect the names of a request's parts, None standing for what is broken."""
+        known, kinds = _unbroken(customers), _unbroken(fleet)
+        return cls(_unbroken(depots),
+                   None if known is None else frozenset(customer.id for customer in known),
+                   None if kinds is None else {kind.id: kind for kind in kinds})
+
+    def home(self, vehicle_type: VehicleTypeInput) -> str | None:
+        """Return the depot of a type."""
+        if vehicle_type.depot is not None or not self.depots:
+            return vehicle_type.depot
+        return self.depots[0].id
+
+
+def _unbroken(entries: Sequence[Entry | None] | None) -> list[Entry] | None:
+    whole = [entry for entry in entries or () if entry is not None]
+    return whole if entries is not None and len(whole) == len(entries) else None
+
+
+def replan_errors(replan: ReplanInput | None, names: Names) -> list[InputError]:
+    """Return every error of what is to be replanned, by place in the request."""
+    if replan is None:
+        return []
+    checker = _Checker(replan, names)
+    return [*checker.routes(), *checker.customers(), *checker.unavailable(), *checker.pinned(),
+            *checker.instants()]
+
+
+def _error(code: ErrorCode, path: Path, message: str) -> InputError:
+    return InputError(code=code, path=json_path(("replan", *path)), message=message)
+
+
+@dataclass(frozen=True)
+class _Begun:
+    """The part of a trip that has departed."""
+
+    left: int  # stops
+    launched: tuple[int, ...]  # sorties
+
+    def __bool__(self) -> bool:
+        return bool(self.left or self.launched)
+
+
+def _begun(trip: TripInput, launch_duration: int, now: int) -> _Begun:
+    left = 0
+    while left < len(trip.stops) and thousandths(trip.stops[left].departure) <= now:
+        left += 1
+    return _Begun(left, tuple(
+        index for index, sortie in enumerate(trip.sorties)
+        if thousandths(sortie.launch_time) - launch_duration <= now))
+
+
+class _Checker:
+    """Compares a plan with its request."""
+
+    def __init__(self, replan: ReplanInput, names: Names) -> None:
+        self._replan = replan
+        self._names = names
+        self._now = (-1 if replan.freeze_before is None
+                     else thousandths(replan.freeze_before))
+        self._vehicles = {route.vehicle for route in replan.plan.routes}
+
+    def routes(self) -> Errors:
+        """What is wrong with the routes."""
+        seen: set[str] = set()
+        for index, route in enumerate(self._replan.plan.routes):
+            path: Path = ("plan", "routes", index)
+            if route.vehicle in seen:
+                yield _error("DUPLICATE_VEHICLE", (*path, "vehicle"),
+                             "Another route has the same vehicle: give each its own.")
+            seen.add(route.vehicle)
+            kind = None if self._names.fleet is None else self._names.fleet.get(route.type)
+            if self._names.fleet is not None and kind is None:
+                yield _error("UNKNOWN_VEHICLE_TYPE", (*path, "type"),
+                             f"The fleet has no type {route.type!r}: use the id of one it has.")
+            yield from self._name_errors((*path, "vehicle"), route, kind)
+            yield from self._trips(path, route, kind)
+
+    def _name_errors(self, path: Path, route: RouteInput,
+                     kind: VehicleTypeInput | None) -> Errors:
+        number = number_in(f"{route.type}-", route.vehicle)
+        if number is None:
+            yield _error("WRONG_NAME", path, f"The name must be '{route.type}-' and a number from "
+                         "1: correct it.")
+        elif kind is not None and number >= kind.count:
+            yield _error("UNKNOWN_VEHICLE", path,
+                         f"The fleet has {kind.count} of this type: raise its count, and list the "
+                         "vehicle in replan.unavailable if it does nothing more.")
+
+    def _trips(self, path: Path, route: RouteInput, kind: VehicleTypeInput | None) -> Errors:
+        launch_duration = (0 if kind is None or kind.drones is None
+                           else thousandths(kind.drones.launch_duration))
+        free = last_end = 0
+        for number, trip in enumerate(route.trips):
+            here = (*path, "trips", number)
+            shape = list(self._shape_errors(here, trip, route.vehicle))
+            yield from shape
+            begun = _begun(trip, launch_duration, self._now)
+            if shape or not begun:
+                free += 1
+                continue
+            if free:
+                yield _error("TIMES_DISORDERED", here,
+                             "The trip has begun before the one ahead of it: order their times.")
+            if kind is not None:
+                yield from self._begun_errors(here, trip, kind, begun)
+            yield from _order_errors(here, trip, begun, launch_duration, last_end)
+            last_end = thousandths(trip.stops[-1].departure)
+            # What follows a trip that is not over has not begun.
+            free += begun.left < len(trip.stops)
+
+    def _shape_errors(self, path: Path, trip: TripInput, vehicle: str) -> Errors:
+        kinds = [stop.kind for stop in trip.stops]
+        if (len(kinds) < 2 or (kinds[0], kinds[-1]) != ("depot", "depot")
+                or "depot" in kinds[1:-1]):
+            yield _error("TRIP_SHAPE", (*path, "stops"),
+                         "A trip begins and ends at a depot, with customers between: state it so.")
+        if len(kinds) == 2 and not trip.sorties:
+            yield _error("TRIP_SHAPE", path, "The trip serves nobody: leave it out.")
+        for index, stop in enumerate(trip.stops):
+            if (stop.kind == "depot" and self._names.depots is not None
+                    and all(depot.id != stop.id for depot in self._names.depots)):
+                yield _error("UNKNOWN_DEPOT", (*path, "stops", index, "id"),
+                             f"No depot has the id {stop.id!r}: use the id of one in depots.")
+        for index, sortie in enumerate(trip.sorties):
+            here = (*path, "sorties", index)
+            if not 0 <= sortie.launch_stop <= sortie.recovery_stop < len(kinds):
+                yield _error("SORTIE_STOPS", here, f"The trip has {len(kinds)} stops, and a sortie "
+                             "ends no earlier than it begins: correct launch_stop and "
+                             "recovery_stop.")
+            if not sortie.customers:
+                yield _error("TRIP_SHAPE", (*here, "customers"),
+                             "The sortie serves nobody: leave it out.")
+            if number_in(f"{vehicle}/drone-", sortie.drone) is None:
+                yield _error("WRONG_NAME", (*here, "drone"), f"The name must be '{vehicle}/drone-' "
+                             "and a number from 1: correct it.")
+
+    def _begun_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
+                      begun: _Begun) -> Errors:
+        """What of a trip that has begun the request doesn't have."""
+        home = self._names.home(kind)
+        for index in (0, len(trip.stops) - 1):
+            if home is not None and trip.stops[index].id != home:
+                yield _error("WRONG_DEPOT", (*path, "stops", index, "id"),
+                             f"The trip has begun, and vehicles of {kind.id} start and end at "
+                             f"{home!r}: correct one of the two.")
+        count = 0 if kind.drones is None else kind.drones.count
+        for index in begun.launched:
+            number = number_in("", trip.sorties[index].drone.rpartition("-")[2])
+            if number is not None and number >= count:
+                yield _error("UNKNOWN_DRONE", (*path, "sorties", index, "drone"),
+                             f"The drone has been launched, and vehicles of {kind.id} have {count}:"
+                             " raise the count.")
+        for place, name in _committed(trip, begun):
+            if self._names.customers is not None and name not in self._names.customers:
+                yield _error("UNKNOWN_CUSTOMER", (*path, *place, "id"),
+                             f"A vehicle has served {name!r} or is on its way there by "
+                             "replan.freeze_before, too late to cancel: keep it in customers.")
+
+    def customers(self) -> Errors:
+        """Customers who are in the plan more than once."""
+        first: dict[str, Path] = {}
+        for path, name in _planned(self._replan.plan.routes):
+            if name in first:
+                yield _error("PLANNED_TWICE", (*path, "id"),
+                             f"The plan serves {name!r} at {json_path(first[name])} too: remove "
+                             "one.")
+            first.setdefault(name, ("replan", *path))
+        for index, left_out in enumerate(self._replan.plan.unassigned):
+            if left_out.id in first:
+                yield _error("PLANNED_TWICE", ("plan", "unassigned", index, "id"),
+                             f"The plan serves {left_out.id!r}: remove it from one of the two.")
+
+    def unavailable(self) -> Errors:
+        """Vehicles that the fleet doesn't have."""
+        counts = Counter(self._replan.unavailable)
+        for index, name in enumerate(self._replan.unavailable):
+            path: Path = ("unavailable", index)
+            if counts[name] > 1:
+                yield _error("DUPLICATE_VEHICLE", path, "The vehicle is listed more than once: "
+                             "remove all but one.")
+            if self._names.fleet is not None and not any(
+                    (number := number_in(f"{kind.id}-", name)) is not None and number < kind.count
+                    for kind in self._names.fleet.values()):
+                yield _error("UNKNOWN_VEHICLE", path, f"The fleet has no vehicle {name!r}: use a "
+                             "type's id, '-' and a number from 1 to its count.")
+
+    def pinned(self) -> Errors:
+        """Customers who can't stay with their vehicle."""
+        served = {name: path for path, name in _planned(self._replan.plan.routes)}
+        for index, name in enumerate(self._replan.pinned):
+            path: Path = ("pinned", index)
+            if self._names.customers is not None and name not in self._names.customers:
+                yield _error("UNKNOWN_CUSTOMER", path, f"The request has no customer {name!r}: "
+                             "remove it here, or add it there.")
+            elif name not in served:
+                yield _error("NOT_PLANNED", path, f"No vehicle serves {name!r} in the plan: remove "
+                             "it here.")
+            else:
+                route = served[name][2]
+                vehicle = self._replan.plan.routes[int(route)].vehicle
+                if vehicle in self._replan.unavailable:
+                    yield _error("PINNED_TO_UNAVAILABLE", path, f"{vehicle} serves {name!r} in the "
+                                 "plan and is unavailable: remove one of the two here.")
+
+    def instants(self) -> Errors:
+        """Instants that contradict each other."""
+        back, now = self._replan.parcels_back, self._replan.freeze_before
+        if back is not None and now is None:
+            yield _error("MISSING_FIELD", ("freeze_before",), "Without it no parcel is aboard that "
+                         "could come back: add it, or remove parcels_back.")
+        elif back is not None and now is not None and back < now:
+            yield _error("OUT_OF_RANGE", ("parcels_back",),
+                         f"The parcels are back before {now:g} s, when the vehicles stop: raise "
+                         "it.")
+
+
+def _planned(routes: Sequence[RouteInput]) -> Iterator[tuple[Path, str]]:
+    """Yield where each customer is in a plan."""
+    for index, route in enumerate(routes):
+        for number, trip in enumerate(route.trips):
+            path: Path = ("plan", "routes", index, "trips", number)
+            for place, stop in enumerate(trip.stops):
+                if stop.kind == "customer":
+                    yield (*path, "stops", place), stop.id
+            for flight, sortie in enumerate(trip.sorties):
+                for place, visit in enumerate(sortie.customers):
+                    yield (*path, "sorties", flight, "customers", place), visit.id
+
+
+def _committed(trip: TripInput, begun: _Begun) -> Iterator[tuple[Path, str]]:
+    """Yield the customers of a trip to whom a vehicle is on its way, or where a drone is met."""
+    meetings = {trip.sorties[index].recovery_stop for index in begun.launched}
+    for place, stop in enumerate(trip.stops):
+        if stop.kind == "customer" and (place <= begun.left or place in meetings):
+            yield ("stops", place), stop.id
+    for flight in begun.launched:
+        for place, visit in enumerate(trip.sorties[flight].customers):
+            yield ("sorties", flight, "customers", place), visit.id
+
+
+def _order_errors(path: Path, trip: TripInput, begun: _Begun, launch_duration: int,
+                  last_end: int) -> Errors:
+    """What of a trip that has begun can't have happened in the order of its times."""
+    time = last_end
+    for place, stop in enumerate(trip.stops[:begun.left + 1]):
+        instants = [("arrival", stop.arrival), ("service_start", stop.service_start),
+                    ("departure", stop.departure)]
+        for name, instant in instants:
+            if not time <= thousandths(instant) <= thousandths(MAX_INSTANT):
+                yield _error("TIMES_DISORDERED", (*path, "stops", place, name),
+                             f"{instant:g} s lies before what comes ahead of it in the plan, and "
+                             "has happened: order the times.")
+                return
+            time = thousandths(instant)
+    for flight in begun.launched:
+        yield from _flight_errors((*path, "sorties", flight), trip, trip.sorties[flight], begun,
+                                  launch_duration)
+
+
+def _flight_errors(path: Path, trip: TripInput, sortie: SortieInput, begun: _Begun,
+                   launch_duration: int) -> Errors:
+    place = trip.stops[sortie.launch_stop]
+    take_off = thousandths(sortie.launch_time)
+    has_left = sortie.launch_stop < begun.left
+    if (sortie.launch_stop > begun.left
+            or take_off - launch_duration < thousandths(place.arrival)
+            or (has_left and take_off > thousandths(place.departure))):
+        yield _error("TIMES_DISORDERED", (*path, "launch_time"),
+                     "The drone has been launched while the truck was not at the launch stop: "
+                     "order the times.")
+    time = take_off
+    for index, visit in enumerate(sortie.customers):
+        for name in ("arrival", "service_start", "departure"):
+            instant = thousandths(getattr(visit, name))
+            if not time <= instant <= thousandths(MAX_INSTANT):
+                yield _error("TIMES_DISORDERED", (*path, "customers", index, name),
+                             f"{instant / 1000:g} s lies before what comes ahead of it, and the "
+                             "drone has been launched: order the times.")
+                return
+            time = instant
+    if thousandths(sortie.recovery_time) < time:
+        yield _error("TIMES_DISORDERED", (*path, "recovery_time"),
+                     "The drone is recovered before it has served its customers, and has been "
+                     "launched: order the times.")

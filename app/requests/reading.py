@@ -1,0 +1,165 @@
+"""Bytes -> a valid `PlanRequest`, or every error of the request at once."""
+
+from collections.abc import Collection, Sequence
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails, from_json, to_json
+
+from app.errors import (
+    InputError,
+    InvalidRequestError,
+    NotJsonError,
+    RequestError,
+    schema_error,
+)
+from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
+from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
+from app.requests.validation import Draft, semantic_errors
+from app.schemas.request import (
+    AirspaceInput,
+    CustomerInput,
+    DepotInput,
+    MatrixInput,
+    OptionsInput,
+    PlanRequest,
+    ReplanInput,
+    VehicleTypeInput,
+)
+
+Section = TypeVar("Section", bound=BaseModel)
+Parts = set[tuple[str | int, ...]]
+
+
+def read_request(body: bytes, policies: Collection[str] | None,
+                 bounds: Bounds = UNBOUNDED) -> PlanRequest:
+    """Return the request that `body` holds.
+
+    Parameters
+    ----------
+    body
+        JSON.
+    policies
+        Those that may be asked for; None allows any.
+    bounds
+        How large the request may be.
+
+    Raises
+    ------
+    NotJsonError
+        If `body` is not JSON.
+    InvalidRequestError
+        With every error found, if it is not a valid request.
+    """
+    require_readable(body, PlanRequest)
+    try:
+        request = PlanRequest.model_validate_json(body)
+    except ValidationError as error:
+        raise _refusal(error, body, policies, bounds) from error
+    errors = request_errors(request, policies, bounds)
+    if errors:
+        raise InvalidRequestError(errors)
+    return request
+
+
+def request_errors(request: PlanRequest, policies: Collection[str] | None,
+                   bounds: Bounds) -> list[InputError]:
+    """Return every error of a request that fits the schema."""
+    draft = _whole_draft(request)
+    errors = [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
+    return errors or list(leg_errors(request, bounds))
+
+
+def read_json(body: bytes) -> Any:
+    """Return the JSON value that `body` holds.
+
+    Raises
+    ------
+    NotJsonError
+        If `body` is not JSON.
+    """
+    try:
+        return from_json(body, allow_inf_nan=False)
+    except ValueError as error:
+        raise NotJsonError(f"The body is not JSON, {error}: send one JSON object.") from error
+
+
+def _refusal(error: ValidationError, body: bytes,
+             policies: Collection[str] | None, bounds: Bounds) -> RequestError:
+    """Return the refusal of a body that doesn't fit the schema, semantic errors included."""
+    if error.error_count() > MAX_COUNTED_ERRORS:
+        message = f"The request has {error.error_count()} errors: compare it with the schema."
+        return InvalidRequestError([InputError(code="TOO_MANY_ERRORS", path="$", message=message)])
+    details = error.errors(include_url=False)
+    errors = [schema_error(item) for item in details]
+    if len(body) <= MAX_SEARCHED_BYTES or details[0]["type"] == "json_invalid":
+        try:
+            raw = read_json(body)
+        except NotJsonError as not_json:
+            return not_json
+        if isinstance(raw, dict):
+            draft = partial_draft(raw, details)
+            errors += [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
+    return InvalidRequestError(errors)
+
+
+def _broken_parts(details: Sequence[ErrorDetails]) -> Parts:
+    """Return the sections, and the entries of sections, that hold an error."""
+    return {item["loc"][:2] for item in details}
+
+
+def _whole_draft(request: PlanRequest) -> Draft:
+    return Draft(
+        coordinate_system=request.coordinate_system,
+        planar_unit=request.planar_unit,
+        depots=request.depots,
+        customers=request.customers,
+        fleet=request.fleet,
+        matrices=request.matrices,
+        matrices_known=True,
+        airspace=request.airspace,
+        options=request.options,
+        replan=request.replan,
+    )
+
+
+def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails]) -> Draft:
+    """Return the well-formed parts of a request, by what is wrong with the others."""
+    broken = _broken_parts(details)
+    scale_known = not {("coordinate_system",), ("planar_unit",)} & broken
+    return Draft(
+        coordinate_system=raw.get("coordinate_system", "planar") if scale_known else None,
+        planar_unit=raw.get("planar_unit", 1.0) if scale_known else 1.0,
+        depots=_entries(raw, broken, "depots", DepotInput),
+        customers=_entries(raw, broken, "customers", CustomerInput),
+        fleet=_entries(raw, broken, "fleet", VehicleTypeInput),
+        matrices=_matrices(raw, broken),
+        matrices_known=("matrices",) not in broken,
+        airspace=_section(raw, broken, "airspace", AirspaceInput),
+        options=_section(raw, broken, "options", OptionsInput),
+        replan=(None if raw.get("replan") is None
+                else _section(raw, broken, "replan", ReplanInput)),
+    )
+
+
+def _entries(raw: dict[str, Any], broken: Parts, name: str,
+             kind: type[Section]) -> list[Section | None] | None:
+    """Return the entries of a list, None for broken ones, or None if the list is."""
+    if (name,) in broken:
+        return None
+    return [None if (name, index) in broken else kind.model_validate_json(to_json(value))
+            for index, value in enumerate(raw[name])]
+
+
+def _section(raw: dict[str, Any], broken: Parts, name: str, kind: type[Section]) -> Section | None:
+    if any(part[0] == name for part in broken):
+        return None
+    return kind.model_validate_json(to_json(raw.get(name, {})))
+
+
+def _matrices(raw: dict[str, Any], broken: Parts) -> dict[str, MatrixInput | None] | None:
+    if ("matrices",) in broken or raw.get("matrices") is None:
+        return None
+    return {name: None if ("matrices", name) in broken
+            else MatrixInput.model_validate_json(to_json(value))
+            for name, value in raw["matrices"].items()}

@@ -1,0 +1,150 @@
+"""The API's own description, with examples that run as they stand."""
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.routing import APIRoute
+from pydantic import BaseModel
+
+from app.errors import MEDIA_TYPE, ProblemDocument
+
+SCHEMA_REF = "#/components/schemas/{model}"
+
+EXAMPLES_DIR = Path(__file__).parent / "examples"
+
+EXAMPLES = {
+    "smallest": "Two customers, one truck, all else by default",
+    "drones": "Trucks with a drone each, time windows and a shift",
+    "table1": "The paper's hundred customers, four trucks with a drone each",
+    "hetero_day": "A heterogeneous fleet on several trips within working hours",
+    "city_day": "A city: geographic, rush hours, a no-fly area, wind",
+    "replan": "A truck is under way: an order has come in, another was cancelled",
+}
+ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {
+    status: {
+        "description": description,
+        "content": {MEDIA_TYPE: {"schema": {"$ref": SCHEMA_REF.format(model="ProblemDocument")}}},
+    }
+    for status, description in (
+        (400, "The body is not JSON."),
+        (413, "The body is too large."),
+        (422, "The request is not valid; every error is listed."),
+        (500, "The plan found broke a rule, so it is withheld."),
+        (503, "The service is starting, stopping or busy: try again after `Retry-After` seconds."),
+    )
+}
+TAGS = [
+    {"name": "planning", "description": "Plans within seconds."},
+    {"name": "jobs", "description": "Long plans, comparisons and sweeps in the background."},
+    {"name": "operations", "description": "For those who run the service."},
+]
+REFUSALS = {
+    "400": "There is a key in the URL, or the request can't be read.",
+    "401": "There is no valid API key.",
+    "403": "The API key lacks the scope, or a page of another origin asks.",
+    "421": "The service is not called by this name, and access is open.",
+    "429": "A rate limit or a share of the open jobs is used up, or too many keys were wrong: try "
+    "again after `Retry-After` seconds.",
+    "503": "The service is busy, or about to stop: try again after `Retry-After` seconds.",
+}
+"""What every endpoint that needs a key may answer before it looks at a request."""
+
+POST_REFUSALS = {"408": "The body took too long to arrive."}
+"""What those with a body may answer beside."""
+
+
+def operation_id(route: APIRoute) -> str:
+    """Name an operation as its function: generated clients call their functions so."""
+    return route.name
+
+
+def json_body(model: type[BaseModel], examples: Mapping[str, str] = {}) -> dict[str, Any]:
+    """Return `openapi_extra` of an endpoint that reads its body itself.
+
+    Endpoints do so for speed and for all errors at once; FastAPI then doesn't know the schema.
+
+    Parameters
+    ----------
+    model
+        What the body must be.
+    examples
+        Names of files in `app/schemas/examples` and what they show.
+    """
+    content: dict[str, Any] = {"schema": model.model_json_schema(ref_template=SCHEMA_REF)}
+    content["schema"]["title"] = model.__name__
+    if examples:
+        content["examples"] = {
+            name: {"summary": summary,
+                   "value": json.loads((EXAMPLES_DIR / f"{name}.json").read_text("utf-8"))}
+            for name, summary in examples.items()
+        }
+    return {"requestBody": {"required": True, "content": {"application/json": content}}}
+
+
+def event_stream(**events: type[BaseModel]) -> dict[str, Any]:
+    """Return the content of a reply of server-sent events: what `data` of each event is."""
+    data = {"type": "string", "contentMediaType": "application/json", "contentSchema": {
+        "anyOf": [model.model_json_schema() for model in events.values()]}}
+    return {"text/event-stream": {"itemSchema": {
+        "type": "object",
+        "properties": {"event": {"enum": list(events)}, "id": {"type": "string"}, "data": data},
+        "required": ["event", "id", "data"],
+    }}}
+
+
+def describe(app: FastAPI) -> Callable[[], dict[str, Any]]:
+    """Return the function that makes `app`'s description, bodies read by hand included."""
+    describe_endpoints = app.openapi
+
+    def openapi() -> dict[str, Any]:
+        if app.openapi_schema is not None:
+            return app.openapi_schema
+        description = describe_endpoints()
+        schemas = description["components"]["schemas"]
+        _file(schemas, ProblemDocument.model_json_schema(ref_template=SCHEMA_REF))
+        for body in _bodies(description):
+            if "$ref" not in body["schema"]:
+                body["schema"] = _file(schemas, body["schema"])
+        _add_refusals(description)
+        return description
+
+    return openapi
+
+
+def allowed_methods(request: Request) -> dict[str, str]:
+    """Return the header that lists what a known path takes; Starlette lists one endpoint's."""
+    route = request.scope.get("route")
+    operations = request.app.openapi()["paths"].get(getattr(route, "path", None), {})
+    return {"Allow": ", ".join(method.upper() for method in operations)} if operations else {}
+
+
+def _bodies(description: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield the JSON content of every operation's request."""
+    for operations in description["paths"].values():
+        for operation in operations.values():
+            content = operation.get("requestBody", {}).get("content", {})
+            if "application/json" in content:
+                yield content["application/json"]
+
+
+def _add_refusals(description: dict[str, Any]) -> None:
+    """Document how endpoints that need a key turn requests away. In place."""
+    content = {MEDIA_TYPE: {"schema": {"$ref": SCHEMA_REF.format(model="ProblemDocument")}}}
+    for operations in description["paths"].values():
+        for method, operation in operations.items():
+            if "security" not in operation:
+                continue
+            refusals = REFUSALS | (POST_REFUSALS if method == "post" else {})
+            for status, reason in refusals.items():
+                operation["responses"].setdefault(
+                    status, {"description": reason, "content": content})
+
+
+def _file(schemas: dict[str, Any], schema: dict[str, Any]) -> dict[str, str]:
+    """Move a schema and what it is made of to where all are kept; return a reference to it."""
+    schemas |= schema.pop("$defs", {})
+    schemas[schema["title"]] = schema
+    return {"$ref": SCHEMA_REF.format(model=schema["title"])}

@@ -1,0 +1,228 @@
+"""What a client gets back from `POST /plan`, units in every field.
+
+Replies are written by `app.plans.replies` as plain data for speed; these classes document them, and
+a test holds the two together.
+"""
+
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+
+class _Reply(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class CostReply(_Reply):
+    """What the plan costs, by term, in the currency of the request's costs."""
+
+    total: float = Field(description="Sum of all terms.")
+    fixed: float = Field(description="Vehicles used.")
+    distance: float = Field(description="Kilometres driven and flown.")
+    time: float = Field(description="Hours worked and flown.")
+    lateness: float = Field(description="Late arrivals.")
+    earliness: float = Field(description="Waiting for windows to open.")
+    unassigned: float = Field(description="Customers left out.")
+
+
+class StopReply(_Reply):
+    """A place where the truck halts. Times in seconds since plan start."""
+
+    kind: Literal["depot", "customer"] = Field(description="What the place is.")
+    id: str = Field(description="Id of the depot or customer.")
+    arrival: float = Field(description="Arrival; at the trip's first stop, when loading is done.")
+    service_start: float = Field(description="Start of service; at depots the arrival.")
+    departure: float = Field(
+        description="Departure, once service, launches and recoveries are done; at the trip's last "
+        "stop, its end."
+    )
+    waiting: float = Field(description="Wait for the time window to open in seconds.")
+    lateness: float = Field(description="Arrival after the time window's end in seconds.")
+    load: list[float] = Field(description="Load when the truck leaves, per dimension.")
+
+
+class VisitReply(_Reply):
+    """A customer served by a drone. Times in seconds since plan start."""
+
+    id: str = Field(description="Id of the customer.")
+    arrival: float = Field(description="Arrival of the drone.")
+    service_start: float = Field(description="Start of service.")
+    departure: float = Field(description="Departure of the drone.")
+    lateness: float = Field(description="Arrival after the time window's end in seconds.")
+
+
+class SortieReply(_Reply):
+    """One drone flight. Times in seconds since plan start."""
+
+    drone: str = Field(description="Name of the drone, `<vehicle>/drone-<number>`.")
+    launch_stop: int = Field(description="Index in `stops` where it is launched.")
+    recovery_stop: int = Field(description="Index in `stops` where it is recovered.")
+    customers: list[VisitReply] = Field(description="Customers served, in order.")
+    launch_time: float = Field(description="Take-off; the launch lies before it.")
+    recovery_time: float = Field(description="End of the recovery.")
+    distance: float = Field(description="Distance flown in metres.")
+    duration: float = Field(description="From take-off to the end of the recovery in seconds.")
+
+
+class TripReply(_Reply):
+    """Depot to depot on one loading."""
+
+    load: list[float] = Field(description="Demand carried, drones' parcels too, per dimension.")
+    load_rate: float = Field(description="Load / capacity, the largest over dimensions, 0 to 1.")
+    distance: float = Field(description="Distance driven in metres.")
+    duration: float = Field(description="From first departure or take-off to the end in seconds.")
+    stops: list[StopReply] = Field(description="Stops in order, the depot first and last.")
+    sorties: list[SortieReply] = Field(description="Drone flights of this trip.")
+
+
+class RouteReply(_Reply):
+    """One vehicle's work."""
+
+    vehicle: str = Field(description="Name of the vehicle, `<type>-<number>`.")
+    type: str = Field(description="Id of the vehicle type.")
+    working_duration: float = Field(
+        description="From first departure to last return in seconds, waiting included."
+    )
+    working_rate: float | None = Field(
+        description="Working duration / longest allowed, 0 to 1. Null without a longest."
+    )
+    cost: float = Field(description="Cost of the vehicle and its drones.")
+    trips: list[TripReply] = Field(description="Trips in order.")
+
+
+class ReasonReply(_Reply):
+    """Why vehicles of one type don't serve a customer."""
+
+    vehicle_type: str = Field(description="Id of the vehicle type.")
+    code: str = Field(description="Stable name of the reason.")
+    message: str = Field(description="The reason in words.")
+    remedy: str | None = Field(description="A change that would suffice. Null: none is known.")
+
+
+class UnassignedReply(_Reply):
+    """A customer that no vehicle serves."""
+
+    id: str = Field(description="Id of the customer.")
+    reasons: list[ReasonReply] = Field(description="Reasons by vehicle type.")
+
+
+class LoadRateReply(_Reply):
+    """Load rates over all trips, 0 to 1; all 0 without trips."""
+
+    min: float = Field(description="Smallest.")
+    mean: float = Field(description="Mean.")
+    max: float = Field(description="Largest.")
+
+
+class SummaryReply(_Reply):
+    """The plan in numbers."""
+
+    customers: int = Field(description="Customers of the request.")
+    served: int = Field(description="Customers served.")
+    vehicles: int = Field(description="Vehicles used.")
+    trips: int = Field(description="Trips of all vehicles.")
+    sorties: int = Field(description="Drone flights.")
+    distance: float = Field(description="Distance driven in metres.")
+    drone_distance: float = Field(description="Distance flown in metres.")
+    load_rate: LoadRateReply = Field(description="Load rates of the trips.")
+    makespan: float = Field(description="Last return of any vehicle, seconds since plan start.")
+
+
+class ElapsedReply(_Reply):
+    """Where the time went, in seconds."""
+
+    validate_: float = Field(alias="validate", description="Reading and checking the request.")
+    decode: float = Field(description="The policy's plan.")
+    search: float = Field(description="Its improvement.")
+    check: float = Field(description="The independent check.")
+    total: float = Field(description="From the last byte received to the reply, queueing included.")
+
+
+class SolverReply(_Reply):
+    """How the plan was made."""
+
+    policy: str = Field(description="Policy that was asked for.")
+    decoding: str = Field(description="How its decisions were taken.")
+    seed: int = Field(description="Seed of all random draws.")
+    start: Literal["policy", "insertion", "given"] = Field(
+        description="What the search began with: the policy's plan, one made by insertion where "
+        "the policy would take too much of `time_limit`, or one given with the request."
+    )
+    decoded_cost: float = Field(description="Cost of the plan that the search began with.")
+    final_cost: float = Field(description="Cost of this plan.")
+    search_iterations: int = Field(
+        description="Iterations of the search, of all its threads together."
+    )
+    threads: int = Field(description="Threads of the search.")
+    deterministic: bool = Field(
+        description="True if the same request gets the same plan again, with as many threads: all "
+        "iterations asked for were made, or none was. False if the clock ended the search."
+    )
+    elapsed: ElapsedReply = Field(description="Seconds by phase.")
+
+
+class ViolationReply(_Reply):
+    """A broken rule."""
+
+    code: str = Field(description="Stable name of the rule.")
+    path: str = Field(description="Where it is broken, such as `$.plan.routes[0].trips[1]`.")
+    message: str = Field(description="How it is broken.")
+
+
+class SettledReply(_Reply):
+    """How far a vehicle's work is settled."""
+
+    vehicle: str = Field(description="Name of the vehicle.")
+    trip: int = Field(description="Index in `trips` of the last one that has begun.")
+    stop: int = Field(
+        description="Index in its `stops` of the last one that can't be changed: the truck has "
+        "been there, is on its way there, or meets a drone there that is in the air."
+    )
+
+
+class ReplanReply(_Reply):
+    """What became of the plan that was given."""
+
+    settled: list[SettledReply] = Field(
+        description="Vehicles that have departed before `freeze_before`. They come first in "
+        "`routes`, in this order."
+    )
+    excused: list[ViolationReply] = Field(
+        description="Rules that are broken already by what has happened, such as a window that was "
+        "closed after service had begun there. Nothing can mend them."
+    )
+
+
+class PlanReply(_Reply):
+    """A plan that passed the independent check."""
+
+    status: Literal["complete", "partial"] = Field(
+        description="`partial` if customers stay unassigned."
+    )
+    cost: CostReply = Field(description="Cost by term.")
+    routes: list[RouteReply] = Field(description="One entry per vehicle used.")
+    unassigned: list[UnassignedReply] = Field(description="Customers left out, with reasons.")
+    summary: SummaryReply = Field(description="The plan in numbers.")
+    solver: SolverReply = Field(description="How the plan was made.")
+    replan: ReplanReply | None = Field(
+        None, description="What became of the plan given. Left out if none was."
+    )
+
+
+class LivenessReply(_Reply):
+    """The process runs."""
+
+    status: Literal["live"] = Field(description="Always the same.")
+
+
+class ReadinessReply(_Reply):
+    """Whether plans can be computed now."""
+
+    status: Literal["ready", "starting", "stopping", "unavailable"] = Field(
+        description="`ready` if all plans can be computed; `unavailable` while the database's "
+        "tables don't fit this version, or keys are needed and can't be read."
+    )
+    detail: str = Field(description="The same in words, and what can be planned already.")
+    progress: float | None = Field(
+        None, ge=0, le=1, description="While the planner is made ready: how much of it is, by a "
+        "rough estimate.")

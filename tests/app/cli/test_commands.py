@@ -1,0 +1,83 @@
+"""The `tandem` command on files."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from app.cli import commands
+from app.cli.file_errors import EXIT_BAD_INPUT
+from model.planner import Planner
+
+Request = dict[str, Any]
+
+
+@pytest.fixture(autouse=True)
+def _planner(monkeypatch: pytest.MonkeyPatch, planner: Planner) -> None:
+    monkeypatch.setattr(commands, "load_planner", lambda weights_dir, names: planner)
+
+
+def _write(file: Path, content: Any) -> str:
+    file.write_text(json.dumps(content), "utf-8")
+    return str(file)
+
+
+def test_plan_is_written_and_passes_the_check(tmp_path: Path, with_drones: Request) -> None:
+    problem, plan = _write(tmp_path / "problem.json", with_drones), str(tmp_path / "plan.json")
+    planned = CliRunner().invoke(commands.cli, ["plan", problem, "-o", plan])
+    assert planned.exit_code == 0, planned.output
+    checked = CliRunner().invoke(commands.cli, ["check", problem, plan])
+    assert checked.exit_code == 0, checked.output
+    total = json.loads(Path(plan).read_text("utf-8"))["cost"]["total"]
+    assert f"total      {total:.6f}\nfeasible\n" in checked.output
+
+
+def test_plan_goes_to_standard_output_by_default(tmp_path: Path, smallest: Request) -> None:
+    problem = _write(tmp_path / "problem.json", smallest)
+    planned = CliRunner().invoke(commands.cli, ["plan", problem])
+    assert json.loads(planned.stdout)["status"] == "complete"
+
+
+def test_infeasible_plan_is_told_with_its_violations(tmp_path: Path, smallest: Request) -> None:
+    problem, plan = _write(tmp_path / "problem.json", smallest), tmp_path / "plan.json"
+    CliRunner().invoke(commands.cli, ["plan", problem, "-o", str(plan)])
+    smallest["fleet"][0]["capacity"] = [14]
+    checked = CliRunner().invoke(
+        commands.cli, ["check", _write(tmp_path / "smaller.json", smallest), str(plan)])
+    assert checked.exit_code == commands.EXIT_INFEASIBLE
+    assert "routes[0].trips[0]" in checked.output
+    assert checked.output.endswith("infeasible\n")
+
+
+def test_wrong_input_is_told_as_over_http(tmp_path: Path, smallest: Request) -> None:
+    smallest["fleet"][0]["depot"] = "moon"
+    smallest["customers"][0]["demand"] = ["x"]
+    problem = _write(tmp_path / "problem.json", smallest)
+    for command in (["plan", problem], ["check", problem, problem]):
+        told = CliRunner().invoke(commands.cli, command)
+        assert told.exit_code == EXIT_BAD_INPUT
+        assert "WRONG_TYPE $.customers[0].demand[0]: " in told.stderr
+        assert "UNKNOWN_DEPOT $.fleet[0].depot: " in told.stderr
+
+
+def test_what_is_no_plan_is_refused(tmp_path: Path, smallest: Request) -> None:
+    problem = _write(tmp_path / "problem.json", smallest)
+    told = CliRunner().invoke(commands.cli, ["check", problem, problem])
+    assert told.exit_code == EXIT_BAD_INPUT
+    assert "MISSING_FIELD $.routes: " in told.stderr
+
+
+def test_warm_says_when_it_is_done() -> None:
+    result = CliRunner().invoke(commands.cli, ["warm"])
+    assert result.stdout == "ready\n"
+    assert "compiling nothing, about 100% done" in result.stderr
+
+
+def test_serve_runs_the_application(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[dict[str, Any]] = []
+    monkeypatch.setattr("uvicorn.run", lambda app, **options: calls.append(options))
+    assert CliRunner().invoke(commands.cli, ["serve", "--port", "81"]).exit_code == 0
+    (options,) = calls
+    assert (options["host"], options["port"]) == ("127.0.0.1", 81)

@@ -1,0 +1,148 @@
+"""The work on a request before its search ends with its time, its client and its process."""
+
+import json
+import math
+import random
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import pytest
+
+from app.conversion import travels
+from app.conversion.preparing import PATIENCE, Preparing, StoppedError
+from app.errors import InvalidRequestError
+from app.jobs.reading import JobReader
+from app.plans.task import task_of
+from app.requests.reading import read_request
+from app.settings import Settings
+from model.travel.airspace import Flights
+from tests.app.conftest import FirstFitPlanner
+from tests.app.load.waiting import until
+
+Request = dict[str, Any]
+
+
+@pytest.fixture
+def client(serve: Callable[..., httpx.Client]) -> httpx.Client:
+    """Return a client of a service that is ready."""
+    return ready(serve(FirstFitPlanner(), Settings(role="api")))
+
+
+def ready(client: httpx.Client) -> httpx.Client:
+    """Return a client once its service plans."""
+    until(lambda: client.get("/health/ready").status_code == 200, 60.0)
+    return client
+
+
+def circle(corners: int, x: float = 0.0, radius: float = 1000.0) -> list[list[float]]:
+    angles = [2 * math.pi * corner / corners for corner in range(corners)]
+    return [[x + radius * math.cos(angle), radius * math.sin(angle)] for angle in angles]
+
+
+def crowd(customers: int, no_fly: list[list[list[float]]], **options: Any) -> Request:
+    """Return customers around no-fly areas, for a truck with a drone."""
+    rng = random.Random(0)
+    drones = {"count": 1, "capacity": [1]}
+    return {
+        "depots": [{"id": "hub", "location": [-5000, -5000]}],
+        "customers": [{"id": str(number), "demand": [1],
+                       "location": [rng.uniform(-5000, 5000), rng.uniform(-5000, 5000)]}
+                      for number in range(customers)],
+        "fleet": [{"id": "truck", "count": 1, "capacity": [9], "drones": drones}],
+        "airspace": {"no_fly": no_fly}, "options": options}
+
+
+def bars(count: int) -> list[list[list[float]]]:
+    """Return areas of which each crosses half of the others."""
+    lying = [[[-5.0, y], [9e3, y], [9e3, y + 1.0], [-5.0, y + 1.0]]
+             for y in (10.0 * number for number in range(count))]
+    return lying + [[[y, x] for x, y in ring] for ring in lying]
+
+
+def test_more_work_than_the_time_limit_allows_is_refused_with_an_estimate(
+        client: httpx.Client) -> None:
+    request = crowd(3000, [circle(500), circle(500, 500.0)], time_limit=0.2)
+    reply = client.post("/plan", json=request)
+    assert reply.status_code == 422
+    [error] = reply.json()["errors"]
+    assert error["code"] == "TOO_MUCH_WORK"
+    for word in ("take about", "time_limit of 0.2 s", "TANDEM_MAX_PLAN_SECONDS"):
+        assert word in error["message"]
+
+
+def test_without_a_time_limit_the_setting_limits_the_work(
+        serve: Callable[..., httpx.Client]) -> None:
+    client = ready(serve(FirstFitPlanner(), Settings(role="api", max_plan_seconds=0.2)))
+    request = {"problem": crowd(3000, [circle(500)]), "plan": {"routes": []}}
+    [error] = client.post("/check", json=request).json()["errors"]
+    assert "the 0.2 s of TANDEM_MAX_PLAN_SECONDS" in error["message"]
+
+
+def test_areas_that_cross_too_often_are_refused(client: httpx.Client) -> None:
+    reply = client.post("/plan", json=crowd(1, bars(60)))
+    [error] = reply.json()["errors"]
+    assert (error["code"], error["path"]) == ("TOO_MANY_CORNERS", "$.airspace.no_fly")
+    assert "14400 times" in error["message"]
+
+
+def test_work_ends_when_the_clock_says_so_though_the_estimate_did_not(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(travels, "legs_seconds", lambda *_: 0.0)
+    request = read_request(json.dumps(crowd(300, [circle(100)])).encode(), None)
+    past = Preparing(seconds=1.0, limit="a limit", began=-1e9)
+    with pytest.raises(InvalidRequestError) as refusal:
+        task_of(request, past)
+    assert refusal.value.errors[0].code == "TOO_MUCH_WORK"
+
+
+def test_work_ends_when_it_is_told_to() -> None:
+    request = read_request(json.dumps(crowd(300, [circle(100)])).encode(), None)
+    with pytest.raises(StoppedError):
+        task_of(request, Preparing(lambda: True, began=-1e9))
+
+
+def test_what_is_nearly_ready_is_done() -> None:
+    stopped = Preparing(lambda: True)
+    assert PATIENCE > 0
+    stopped.pause()
+
+
+@pytest.fixture
+def flown(monkeypatch: pytest.MonkeyPatch) -> list[Flights]:
+    """Count how often it is found out who sees whom."""
+    made = []
+
+    def note(*given: Any) -> Flights:
+        made.append(Flights(*given))
+        return made[-1]
+
+    monkeypatch.setattr(travels, "Flights", note)
+    return made
+
+
+def sweep(grid: Request) -> bytes:
+    base = crowd(5, [circle(50)]) | {"replan": {"plan": {"routes": []}}}
+    return json.dumps({"base": base, "grid": grid}).encode()
+
+
+def test_scenarios_on_the_same_ground_share_their_flights(flown: list[Flights]) -> None:
+    reader = JobReader(["attention"], Settings())
+    grid = {"fleet[0].drones.speed_kmh": [40, 50, 60], "customers[0].service_duration": [1, 2]}
+    assert reader.validate("sweep", sweep(grid)) == 6
+    assert len(flown) == 1
+
+
+def test_scenarios_on_other_ground_fly_anew(flown: list[Flights]) -> None:
+    reader = JobReader(["attention"], Settings())
+    assert reader.validate("sweep", sweep({"planar_unit": [1, 2]})) == 2
+    assert len(flown) == 2
+
+
+def test_a_sweep_is_let_go_when_its_client_leaves(flown: list[Flights],
+                                                  monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.conversion.preparing.PATIENCE", 0.0)
+    reader = JobReader(["attention"], Settings())
+    with pytest.raises(StoppedError):
+        reader.validate("sweep", sweep({"planar_unit": [1, 2, 3]}), lambda: len(flown) == 1)
+    assert len(flown) == 1

@@ -1,0 +1,189 @@
+"""Any plan against any problem, over HTTP."""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import pytest
+from typer.testing import CliRunner
+
+from app.cli import commands
+from app.schemas.check import CheckReply
+
+Request = dict[str, Any]
+
+
+def planned(client: httpx.Client, problem: Request) -> dict[str, Any]:
+    """Return the service's plan for a problem."""
+    reply = client.post("/plan", json=problem)
+    assert reply.status_code == 200, reply.text
+    return reply.json()
+
+
+def judged(client: httpx.Client, problem: Request, plan: object) -> dict[str, Any]:
+    """Return the service's judgement."""
+    reply = client.post("/check", json={"problem": problem, "plan": plan})
+    assert reply.status_code == 200, reply.text
+    CheckReply.model_validate(reply.json())
+    return reply.json()
+
+
+def refused(client: httpx.Client, body: object) -> list[tuple[str, str]]:
+    """Return the code and path of every error of a refused request."""
+    reply = client.post("/check", json=body)
+    assert reply.status_code == 422, reply.text
+    assert reply.headers["content-type"] == "application/problem+json"
+    return [(error["code"], error["path"]) for error in reply.json()["errors"]]
+
+
+@pytest.mark.parametrize("name", ["smallest", "with_drones"])
+def test_a_reply_passed_back_unchanged_is_feasible_at_the_same_cost(
+        client: httpx.Client, request: pytest.FixtureRequest, name: str) -> None:
+    problem = request.getfixturevalue(name)
+    plan = planned(client, problem)
+    verdict = judged(client, problem, plan)
+    assert (verdict["feasible"], verdict["violations"]) == (True, [])
+    assert verdict["cost"] == plan["cost"]
+    assert verdict["summary"] == plan["summary"]
+
+
+def test_a_plan_of_routes_alone_is_enough(client: httpx.Client, smallest: Request) -> None:
+    plan = planned(client, smallest)
+    stops = [{key: stop[key] for key in ("kind", "id", "arrival", "service_start", "departure")}
+             for stop in plan["routes"][0]["trips"][0]["stops"]]
+    bare = {"routes": [{"vehicle": "truck-1", "type": "truck", "trips": [{"stops": stops}]}]}
+    assert judged(client, smallest, bare)["feasible"]
+
+
+def test_every_broken_rule_is_told_with_its_place(client: httpx.Client, smallest: Request) -> None:
+    plan = planned(client, smallest)
+    smallest["customers"][0]["time_window"] = {"latest": 1}
+    smallest["fleet"][0]["capacity"] = [0]
+    stop = plan["routes"][0]["trips"][0]["stops"][2]
+    stop["arrival"] += 1
+    smallest["customers"].append({"id": "forgotten", "location": [1, 1], "demand": [1]})
+    verdict = judged(client, smallest, plan)
+    assert not verdict["feasible"]
+    trip = "$.plan.routes[0].trips[0]"
+    assert {(item["code"], item["path"]) for item in verdict["violations"]} == {
+        ("MISSING", "$.problem.customers[2]"), ("CAPACITY", trip),
+        ("TIME_WINDOW", f"{trip}.stops[1]"), ("TIME_MISMATCH", f"{trip}.stops[2]")}
+    assert (verdict["summary"]["customers"], verdict["summary"]["served"]) == (3, 2)
+
+
+def test_flights_are_judged_under_the_names_of_the_wire(client: httpx.Client,
+                                                        smallest: Request) -> None:
+    smallest["customers"][0]["served_by"] = "drone"
+    smallest["fleet"][0]["drones"] = {"count": 1, "capacity": [100]}
+    plan = planned(client, smallest)
+    smallest["customers"][0]["time_window"] = {"latest": 0}
+    (violation,) = judged(client, smallest, plan)["violations"]
+    assert violation["path"] == "$.plan.routes[0].trips[0].sorties[0].customers[0]"
+
+
+@pytest.mark.parametrize("plan", [
+    {"routes": []},
+    {"routes": [{"vehicle": "truck-99", "type": "truck", "trips": []}]},
+    {"routes": [{"vehicle": "truck-1", "type": "truck", "trips": [{"stops": []}]}]},
+])
+def test_a_plan_that_makes_no_sense_is_judged_not_refused(client: httpx.Client, smallest: Request,
+                                                          plan: Request) -> None:
+    verdict = judged(client, smallest, plan)
+    assert not verdict["feasible"]
+    assert verdict["cost"]["total"] == 0
+
+
+def test_all_errors_of_problem_and_plan_come_at_once(client: httpx.Client,
+                                                     smallest: Request) -> None:
+    plan = planned(client, smallest)
+    smallest["fleet"][0]["depot"] = "moon"
+    plan["routes"][0]["trips"][0]["stops"][1]["id"] = "nobody"
+    assert refused(client, {"problem": smallest, "plan": plan}) == [
+        ("UNKNOWN_DEPOT", "$.problem.fleet[0].depot"),
+        ("UNKNOWN_CUSTOMER", "$.plan.routes[0].trips[0].stops[1].id")]
+    # With an error of the schema too, what is known of the rest is still compared.
+    smallest["fleet"][0]["count"] = "two"
+    smallest["planar_unit"] = 0
+    plan["routes"][0]["trips"][0]["stops"][0]["id"] = "mars"
+    assert set(refused(client, {"problem": smallest, "plan": plan, "more": 1})) == {
+        ("UNKNOWN_FIELD", "$.more"),
+        ("OUT_OF_RANGE", "$.problem.planar_unit"), ("WRONG_TYPE", "$.problem.fleet[0].count"),
+        ("UNKNOWN_CUSTOMER", "$.plan.routes[0].trips[0].stops[1].id"),
+        ("UNKNOWN_DEPOT", "$.plan.routes[0].trips[0].stops[0].id")}
+
+
+def test_unknown_fields_and_missing_parts_are_refused(client: httpx.Client,
+                                                      smallest: Request) -> None:
+    plan = planned(client, smallest)
+    plan["routes"][0]["colour"] = "red"
+    assert refused(client, {"problem": smallest, "plan": plan}) == [
+        ("UNKNOWN_FIELD", "$.plan.routes[0].colour")]
+    assert refused(client, {}) == [("MISSING_FIELD", "$.plan"), ("MISSING_FIELD", "$.problem")]
+    assert refused(client, []) == [("WRONG_TYPE", "$")]
+
+
+@pytest.mark.parametrize("body", [b"", b"{", b"\xff", b'{"problem": NaN}'])
+def test_what_is_not_json_is_refused(client: httpx.Client, body: bytes) -> None:
+    assert client.post("/check", content=body).status_code == 400
+
+
+def test_loads_without_capacity_stay_numbers(client: httpx.Client, smallest: Request) -> None:
+    plan = planned(client, smallest)
+    smallest["fleet"][0]["capacity"] = [0]
+    reply = client.post("/check", json={"problem": smallest, "plan": plan})
+    verdict = json.loads(reply.content, parse_constant=pytest.fail)
+    assert verdict["summary"]["load_rate"]["max"] == 1e9
+
+
+def test_a_replanned_plan_is_held_against_the_past(client: httpx.Client,
+                                                   smallest: Request) -> None:
+    plan = planned(client, smallest)
+    smallest["replan"] = {"plan": plan, "freeze_before": 450}
+    assert judged(client, smallest, plan)["feasible"]
+    changed = json.loads(json.dumps(plan))
+    changed["routes"][0]["trips"][0]["stops"][1]["departure"] += 1
+    codes = {item["code"] for item in judged(client, smallest, changed)["violations"]}
+    assert "FROZEN" in codes
+
+
+def test_the_command_holds_a_plan_against_the_past_too(
+        client: httpx.Client, smallest: Request, tmp_path: Any) -> None:
+    plan = planned(client, smallest)
+    smallest["replan"] = {"plan": plan, "freeze_before": 450}
+    changed = json.loads(json.dumps(plan))
+    changed["routes"][0]["trips"][0]["stops"][1]["departure"] += 1
+    (tmp_path / "problem.json").write_text(json.dumps(smallest))
+    for name, content in (("plan", plan), ("changed", changed)):
+        (tmp_path / f"{name}.json").write_text(json.dumps(content))
+
+    def run(name: str) -> Any:
+        return CliRunner().invoke(commands.cli, ["check", str(tmp_path / "problem.json"),
+                                            str(tmp_path / f"{name}.json")])
+
+    assert run("plan").exit_code == 0
+    assert run("changed").exit_code == commands.EXIT_INFEASIBLE
+    assert "FROZEN" in run("changed").output
+
+
+def test_the_documented_example_runs_as_it_stands(client: httpx.Client) -> None:
+    operation = client.get("/openapi.json").json()["paths"]["/check"]["post"]
+    (example,) = operation["requestBody"]["content"]["application/json"]["examples"].values()
+    verdict = client.post("/check", json=example["value"]).json()
+    assert {item["code"] for item in verdict["violations"]} == {"CAPACITY", "TIME_WINDOW"}
+
+
+def test_a_service_that_is_not_warm_yet_judges(
+        serve: Callable[..., httpx.Client], planner: Any, smallest: Request) -> None:
+    client = serve(planner)
+    empty = {"routes": [], "unassigned": [{"id": "A"}, {"id": "B"}]}
+    assert judged(client, smallest, empty)["feasible"]
+
+
+def test_a_plan_that_takes_decades_can_be_judged_too(client: httpx.Client,
+                                                     smallest: Request) -> None:
+    for customer in smallest["customers"]:
+        customer["service_duration"] = 1e9
+    plan = planned(client, smallest)
+    assert plan["summary"]["makespan"] > 2e9
+    assert judged(client, smallest, plan)["cost"] == plan["cost"]

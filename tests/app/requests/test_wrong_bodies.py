@@ -1,0 +1,228 @@
+"""What a body takes that is wrong all over: little memory, little time, and words for it."""
+
+import json
+import random
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from pydantic import BaseModel, ValidationError
+
+from app.errors import InvalidRequestError
+from app.jobs.schemas import CompareRequest, SweepRequest
+from app.requests import refusal
+from app.requests.refusal import require_readable
+from app.requests.scan import DEPTH, ERRORS, PARTS, scan
+from app.requests.shapes import LONG, shapes_of
+from app.schemas.check import CheckRequest
+from app.schemas.request import PlanRequest
+from app.settings import Settings
+from app.vroom.schemas import VroomRequest
+from tests.app.conftest import APP_DIR, FirstFitPlanner
+from tests.app.requests.wrong_bodies import SHAPES, body_of
+
+MULTIPLE, BESIDE = 32, 250 * 2**20
+"""What reading a body may take: so many times its length, and so many bytes beside."""
+
+LONGEST = 0.25
+"""Seconds within which others are answered meanwhile, on a machine that does other things too."""
+
+MODELS: tuple[type[BaseModel], ...] = (
+    PlanRequest, CheckRequest, VroomRequest, SweepRequest, CompareRequest)
+
+Data = dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def taken() -> list[tuple[str, str, int, int, float, str]]:
+    """Return what reading each wrong body took."""
+    done = subprocess.run([sys.executable, "-m", "tests.app.requests.wrong_bodies"],
+                          cwd=Path(__file__).parents[3], check=True, capture_output=True, text=True)
+    return [tuple(json.loads(line)) for line in done.stdout.splitlines()]
+
+
+def counted(body: bytes, model: type[BaseModel]) -> tuple[int, int]:
+    """Return how many errors and parts a scan counts."""
+    most, found = np.full(4, 2**60), np.zeros(4, np.int64)
+    levels = np.zeros((DEPTH, 6), np.int64)
+    assert scan(np.frombuffer(body, np.uint8), shapes_of(model), most, levels, found)
+    return int(found[ERRORS]), int(found[PARTS])
+
+
+def test_refused_bodies_take_a_bounded_multiple_of_their_length(
+        taken: list[tuple[str, str, int, int, float, str]]) -> None:
+    assert len(taken) == sum(map(len, SHAPES.values()))
+    for endpoint, name, length, grown, _, outcome in taken:
+        assert outcome != "read", (endpoint, name)
+        assert grown <= MULTIPLE * length + BESIDE, (endpoint, name, grown / length)
+
+
+def test_refused_bodies_take_little_time(
+        taken: list[tuple[str, str, int, int, float, str]]) -> None:
+    for endpoint, name, _, _, seconds, outcome in taken:
+        assert seconds < 3, (endpoint, name, outcome)
+    assert sorted(seconds for *_, seconds, _ in taken)[len(taken) // 2] < 0.5
+
+
+def _examples() -> Iterator[tuple[type[BaseModel], bytes]]:
+    for path in sorted((APP_DIR / "schemas" / "examples").glob("*.json")):
+        body = path.read_bytes()
+        if path.name.startswith("vroom"):
+            yield VroomRequest, body
+        elif path.name.startswith("check"):
+            yield CheckRequest, body
+        else:
+            yield PlanRequest, body
+
+
+def test_what_fits_the_schema_has_no_errors() -> None:
+    seen = set()
+    for model, body in _examples():
+        model.model_validate_json(body)
+        assert counted(body, model)[0] == 0
+        seen.add(model)
+    assert len(seen) == 3
+
+
+def _changes(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    """Yield the path of every value."""
+    if path:
+        yield path
+    entries = (value.items() if isinstance(value, dict)
+               else enumerate(value) if isinstance(value, list) else ())
+    for key, inner in entries:
+        yield from _changes(inner, (*path, key))
+
+
+@pytest.mark.parametrize("wrong", [None, True, "", "a" * 1000, -1, 0.5, 1e300, [], {}, [[[0]]],
+                                   {"a": {"b": 1}}, [None] * 5, ["x", "y"], [0.5, -1]])
+def test_no_fewer_errors_are_counted_than_there_are(wrong: Any) -> None:
+    for model, body in _examples():
+        request = json.loads(body)
+        paths = list(_changes(request))
+        for path in random.Random(7).sample(paths, min(len(paths), 100)):
+            changed = json.loads(body)
+            place = changed
+            for key in path[:-1]:
+                place = place[key]
+            place[path[-1]] = wrong
+            if isinstance(place, dict):
+                place |= {"unknown": wrong}
+            text = json.dumps(changed).encode()
+            try:
+                model.model_validate_json(text)
+                errors = 0
+            except ValidationError as error:
+                errors = error.error_count()
+            assert counted(text, model)[0] >= errors, (path, text)
+
+
+def test_every_long_array_of_numbers_is_left_at_its_first_error() -> None:
+    def arrays(schema: Any) -> Iterator[Data]:
+        if isinstance(schema, dict):
+            if schema.get("type") == "list":
+                yield schema
+            schema = list(schema.values())
+        if isinstance(schema, list | tuple):
+            for inner in schema:
+                yield from arrays(inner)
+
+    for model in MODELS:
+        for array in arrays(model.__pydantic_core_schema__):
+            if (array.get("items_schema", {}).get("type") in ("int", "float")
+                    and (array.get("max_length") or LONG + 1) > LONG):
+                assert array.get("fail_fast"), (model, array)
+    with pytest.raises(ValidationError) as refused:
+        PlanRequest.model_validate({
+            "depots": [], "customers": [], "fleet": [],
+            "matrices": {"a": {"durations": [["x"] * 5, ["y"]], "distances": None}},
+            "replan": {"plan": {"routes": [{"vehicle": "a", "type": "a", "trips": [
+                {"stops": [], "load": ["x"] * 5}]}]}}})
+    assert refused.value.error_count() == 2
+
+
+def test_refusal_says_where_and_why() -> None:
+    def refused(endpoint: str, name: str) -> tuple[str, str, str]:
+        model = {"plan": PlanRequest, "sweep": SweepRequest}[endpoint]
+        with pytest.raises(InvalidRequestError) as error:
+            require_readable(body_of(SHAPES[endpoint][name], 2**20), model)
+        (found,) = error.value.errors
+        return found.code, found.path, found.message
+
+    assert refused("plan", "numbers for routes")[:2] == (
+        "TOO_MANY_ERRORS", "$.replan.plan.routes[20000]")
+    assert refused("plan", "skills without end") == (
+        "WRONG_LENGTH", "$.customers[0].skills",
+        "There are more than 100 entries: remove some.")
+    code, path, message = refused("plan", "what isn't read, lists")
+    assert (code, path[:24]) == ("TOO_MANY_PARTS", "$.replan.plan.solver.a[2")
+    assert "objects and arrays, more than any request needs" in message
+    assert refused("sweep", "keys")[:2] == ("WRONG_LENGTH", "$.grid")
+    assert refused("plan", "hidden routes")[0] == "TOO_MANY_ERRORS"
+
+
+def test_large_valid_requests_are_let_through() -> None:
+    customers = [{"id": str(index), "location": [index, 0.5], "demand": [1, 2, 3],
+                  "location_index": index, "skills": ["a", "b"],
+                  "time_window": {"earliest": 0, "latest": 1e6}} for index in range(10_000)]
+    row = b"[" + b",".join([b"1234.5"] * 2000) + b"]"
+    body = (json.dumps({"depots": [{"id": "a"}], "fleet": [], "customers": customers}).encode()[:-1]
+            + b',"matrices":{"truck":{"durations":[' + b",".join([row] * 2000) + b"]}}}")
+    assert len(body) > 28 * 2**20
+    require_readable(body, PlanRequest)
+    assert counted(body, PlanRequest)[0] == 0
+
+
+def test_long_bodies_tell_what_the_schema_tells_beside_their_legs() -> None:
+    row = b"[" + b",".join([b"1.5"] * 1500) + b"]"
+    legs = b"[" + b",".join([row] * 1500) + b"]"
+    with pytest.raises(InvalidRequestError) as refused:
+        require_readable(b'{"depots":[],"x":[1],"customers":[{"id":3,"demand":[1]}],"matrices":'
+                         b'{"truck":{"durations":' + legs + b"}}}", PlanRequest)
+    assert [(error.code, error.path) for error in refused.value.errors] == [
+        ("WRONG_TYPE", "$.customers[0].id"), ("MISSING_FIELD", "$.fleet"),
+        ("UNKNOWN_FIELD", "$.x")]
+    assert refused.value.errors[0].message == (
+        "The value must be a JSON string: state one, not this.")
+
+
+def test_short_bodies_keep_each_of_their_errors(client: httpx.Client, smallest: Data) -> None:
+    smallest["customers"] = [{"id": str(index), "demand": index} for index in range(1800)]
+    reply = client.post("/plan", json=smallest)
+    assert len(reply.request.content) > refusal.LEAST_BYTES
+    assert reply.json()["detail"] == "The request has 1800 errors; the first 1000 are listed."
+
+
+def test_others_are_answered_while_wrong_bodies_are_refused(
+        serve: Callable[..., httpx.Client], tmp_path: Path) -> None:
+    client = serve(FirstFitPlanner(), Settings(data_dir=tmp_path))
+    while client.get("/health/ready").status_code != 200:
+        pass
+    gaps: list[float] = []
+    done = threading.Event()
+
+    def listen() -> None:
+        with httpx.Client(base_url=client.base_url, trust_env=False) as own:
+            while not done.is_set():
+                began = time.perf_counter()
+                own.get("/health/live")
+                gaps.append(time.perf_counter() - began)
+
+    listener = threading.Thread(target=listen)
+    listener.start()
+    for path, endpoint, name in (
+            ("/plan", "plan", "numbers for routes"), ("/jobs", "plan", "unknown fields"),
+            ("/vroom", "vroom", "empty jobs"), ("/sweep", "sweep", "keys"),
+            ("/compare", "compare", "empty types"), ("/check", "check", "numbers for routes")):
+        reply = client.post(path, content=body_of(SHAPES[endpoint][name], 30 * 2**20))
+        assert reply.status_code in (400, 422), (path, reply.text)
+    done.set()
+    listener.join()
+    assert max(gaps) < LONGEST
