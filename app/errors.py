@@ -8,12 +8,13 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 from pydantic_core import ErrorDetails
 
-from app.observe.metrics import Refusal
-
 MEDIA_TYPE = "application/problem+json"
 
 MAX_LISTED_ERRORS = 1000
 """A reply lists no more errors than this; `detail` states how many there are."""
+
+Refusal = Literal["overload", "rate_limit", "access", "starting"]
+"""Why a request is turned away without a look at its content, as metrics count it."""
 
 _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
@@ -147,7 +148,7 @@ class RequestError(ValueError):
     name = "bad-request"
     title = "The request can't be read"
     refusal: ClassVar[Refusal | None] = None
-    """How metrics count requests that were turned away without a look at their content."""
+    """None: its content was looked at."""
 
     def __init__(self, detail: str, errors: Sequence[InputError] = ()) -> None:
         super().__init__(detail)

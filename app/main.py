@@ -15,6 +15,7 @@ from app.access.gate import KeyScrubber
 from app.access.setup import control_access, guarding
 from app.console.routes import mount_console
 from app.errors import InvalidRequestError, RequestError, problem_response, schema_error
+from app.health import router as health_router
 from app.jobs.gate import WorkerGate
 from app.jobs.routes import router as jobs_router
 from app.jobs.setup import running_jobs
@@ -22,7 +23,7 @@ from app.jobs.working import Surroundings
 from app.load.setup import prepare_for_load
 from app.observe.observer import Observer
 from app.observe.routes import metrics_router
-from app.plans.routes import router
+from app.plans.routes import router as plans_router
 from app.plans.service import PlanService
 from app.requests.bounds import Bounds
 from app.schemas.openapi import TAGS, allowed_methods, describe, operation_id
@@ -72,7 +73,8 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     app.state.settings = settings
     observer.enter(app)
     shutdown = prepare_for_load(app, settings)
-    app.include_router(router)
+    app.include_router(plans_router)
+    app.include_router(health_router)
     app.include_router(jobs_router)
     app.include_router(vroom_router)
     app.include_router(metrics_router(settings))

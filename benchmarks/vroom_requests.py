@@ -20,7 +20,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from app.plans.service import ReceivedBody
+from app.load.bodies import ReceivedBody
 from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.answering import answer
 from model.planner import Planner, load_planner

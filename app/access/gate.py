@@ -1,7 +1,7 @@
 """What is refused before any endpoint is looked for, by a request's head alone."""
 
 import re
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from urllib.parse import unquote_to_bytes
 
 from starlette.datastructures import Headers
@@ -9,8 +9,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.access.hosts import TrustedHosts, is_same_host
 from app.access.keys import PREFIX
-from app.errors import problem_response
-from app.observe.metrics import Metrics
+from app.errors import Refusal, problem_response
 
 KEY_IN_URL = "key_in_url"
 """Where the state of a request says that its address had a key."""
@@ -53,21 +52,21 @@ class Gate:
         Names by which the service may be called.
     origins
         Other origins whose pages may call the service.
-    metrics
-        Where refusals are counted.
+    count_refusal
+        Is told of each refusal.
     """
 
     def __init__(self, app: ASGIApp, hosts: TrustedHosts, origins: Collection[str],
-                 metrics: Metrics) -> None:
+                 count_refusal: Callable[[Refusal], None]) -> None:
         self._app = app
         self._hosts = hosts
         self._origins = frozenset(origins)
-        self._metrics = metrics
+        self._count_refusal = count_refusal
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         refusal = self._refusal(scope) if scope["type"] == "http" else None
         if refusal is not None:
-            self._metrics.count_refusal("access")
+            self._count_refusal("access")
         await (refusal or self._app)(scope, receive, send)
 
     def _refusal(self, scope: Scope) -> ASGIApp | None:

@@ -61,7 +61,7 @@ def control_access(app: FastAPI, settings: Settings) -> None:
     needs_no_key = settings.access != "keys"
     trusted = TrustedHosts(settings.trusted_hosts or (() if needs_no_key else (ANY,)))
     app.add_middleware(Gate, hosts=trusted, origins=settings.cors_origins,
-                       metrics=app.state.metrics)
+                       count_refusal=app.state.metrics.count_refusal)
     if settings.cors_origins:
         app.add_middleware(
             CORSMiddleware, allow_origins=settings.cors_origins,

@@ -16,7 +16,8 @@ from app.cli.settings_page import settings_page
 from app.errors import RequestError
 from app.files.importers import FileFormat, convert_file
 from app.files.instance import Rounding
-from app.plans.service import ReceivedBody, answer
+from app.load.bodies import ReceivedBody
+from app.plans.service import answer
 from app.plans.task import task_of
 from app.plans.warming import showing
 from app.requests.plan_reading import plan_to_solution

@@ -22,8 +22,7 @@ from app.jobs.service import JobService, Submission, is_job_id
 from app.jobs.setup import JobDesk
 from app.jobs.webhook import check_url
 from app.load.abandoned import watching
-from app.plans.routes import Body
-from app.plans.service import ReceivedBody
+from app.load.bodies import Body, ReceivedBody
 from app.schemas.openapi import ERROR_RESPONSES, EXAMPLES, event_stream, json_body
 from app.schemas.request import PlanRequest
 

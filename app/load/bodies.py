@@ -4,12 +4,21 @@ import asyncio
 import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from typing import Annotated
 
-from fastapi import Request
+from fastapi import Depends, Request
 
 from app.errors import BodyTooLargeError, RequestError
 from app.load.admission import OverloadedError
-from app.plans.service import ReceivedBody
+
+
+@dataclass(frozen=True)
+class ReceivedBody:
+    """A request's body and when its last byte came, on `time.perf_counter`."""
+
+    content: bytes
+    received_at: float
 
 
 class SlowBodyError(RequestError):
@@ -90,3 +99,13 @@ class Bodies:
     def _too_large(self) -> BodyTooLargeError:
         return BodyTooLargeError(f"The body has more than {self.max_bytes} bytes: send less at a "
                                  "time.")
+
+
+async def read_body(request: Request) -> AsyncIterator[ReceivedBody]:
+    """Read the body, as far as it stays within the limits."""
+    bodies: Bodies = request.app.state.bodies
+    async with bodies.read(request) as body:
+        yield body
+
+
+Body = Annotated[ReceivedBody, Depends(read_body)]

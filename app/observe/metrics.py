@@ -24,7 +24,8 @@ from prometheus_client.metrics_core import GaugeMetricFamily, Metric
 from prometheus_client.multiprocess import MultiProcessCollector, mark_process_dead
 from prometheus_client.registry import Collector
 
-Refusal = Literal["overload", "rate_limit", "access", "starting"]
+from app.errors import Refusal
+
 Stage = Literal["queue", "validate", "decode", "search", "check"]
 JobCounts = Mapping[tuple[str, str], int]
 """Number of jobs by kind and state."""

@@ -11,6 +11,7 @@ from pydantic_core import to_json
 
 from app.conversion.preparing import Preparing
 from app.errors import NotReadyError
+from app.load.bodies import ReceivedBody
 from app.plans.replies import Data
 from app.plans.task import task_of
 from app.plans.warming import showing, words
@@ -22,14 +23,6 @@ from model.kernel.warming import Warmth
 from model.planner import ALONE, Listener, Planner, PlanOptions
 
 logger = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True)
-class ReceivedBody:
-    """A request's body and when its last byte came, on `time.perf_counter`."""
-
-    content: bytes
-    received_at: float
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from fastapi import APIRouter, Request, Response
 from app.access.guard import Plan
 from app.errors import MEDIA_TYPE
 from app.load.abandoned import Planning
+from app.load.bodies import Body
 from app.plans.routes import Body, Service
 from app.routes import Body, Service
 from app.schemas.openapi import SCHEMA_REF, json_body

@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 from pydantic_core import to_json
 
+from app.load.bodies import ReceivedBody
 from app.pictures.scene import Scene
-from app.plans.service import ReceivedBody, answer
+from app.plans.service import answer
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_request
 from app.schemas.openapi import EXAMPLES_DIR

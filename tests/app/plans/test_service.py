@@ -9,8 +9,9 @@ from typing import Any
 import httpx
 import pytest
 
+from app.load.bodies import ReceivedBody
 from app.main import create_app
-from app.plans.service import PlanService, ReceivedBody, answer, plan_options
+from app.plans.service import PlanService, answer, plan_options
 from app.schemas.request import OptionsInput
 from app.settings import DEFAULT_POLICY, Settings
 from model.kernel.warming import Tell, Warmth

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 from app.errors import InvalidRequestError, RequestError
-from app.plans.service import ReceivedBody, answer
+from app.load.bodies import ReceivedBody
+from app.plans.service import answer
 from app.schemas.response import PlanReply
 from model.planner import Planner
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from app.plans.service import ReceivedBody
+from app.load.bodies import ReceivedBody
 from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.answering import answer
 from app.vroom.errors import VroomError

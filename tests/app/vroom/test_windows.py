@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.plans.service import ReceivedBody
+from app.load.bodies import ReceivedBody
 from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.answering import answer
 from app.vroom.errors import TOO_LARGE, VroomError
