@@ -19,7 +19,6 @@ from app.health import router as health_router
 from app.jobs.gate import WorkerGate
 from app.jobs.routes import router as jobs_router
 from app.jobs.setup import running_jobs
-from app.jobs.working import Surroundings
 from app.load.setup import prepare_for_load
 from app.observe.observer import Observer
 from app.observe.routes import metrics_router
@@ -57,9 +56,9 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
                               Bounds.of_plans(settings))
         service.start()
         app.state.service = service
-        around = Surroundings(settings, loaded, lambda: service.readiness().is_ready,
-                              observer.metrics, observer.record_plan)
-        with (guarding(settings) as app.state.guard, running_jobs(around) as app.state.jobs,
+        jobs = running_jobs(settings, loaded, lambda: service.readiness().is_ready,
+                            observer.metrics, observer.record_plan)
+        with (guarding(settings) as app.state.guard, jobs as app.state.jobs,
               shutdown.listening(settings.drain_seconds)):
             yield
         service.stop()

@@ -4,7 +4,7 @@ import logging
 from collections.abc import Collection
 from datetime import datetime
 
-from dbos import DBOSClient, DBOSPortableJSONSerializer, EnqueueOptions
+from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer, EnqueueOptions
 from sqlalchemy import Connection, Engine
 
 from app.jobs.rows import NewJob
@@ -39,7 +39,7 @@ class Queues:
     Parameters
     ----------
     engine
-        Connections to the database, which has DBOS's tables.
+        Connections to the database.
     """
 
     def __init__(self, engine: Engine) -> None:
@@ -47,6 +47,10 @@ class Queues:
         self.engine = engine
         self.client = DBOSClient(system_database_engine=engine, application_name=APPLICATION,
                                  serializer=SERIALIZER, lazy=True, retry_connection_errors=False)
+
+    def prepare(self) -> None:
+        """Make DBOS's tables, or bring them to this version. In place."""
+        DBOS.migrate(self.engine.url.render_as_string(hide_password=False))
 
     def add_job(self, connection: Connection, job: NewJob) -> None:
         """Enqueue a job when the transaction of `connection` commits. In place."""

@@ -11,6 +11,7 @@ from sse_starlette import EventSourceResponse
 
 from app.access.guard import Guard, Jobs, Principal
 from app.errors import InputError, InvalidRequestError
+from app.jobs.desk import JobDesk
 from app.jobs.events import events, while_admitted
 from app.jobs.replies import summary
 from app.jobs.rows import JobRow
@@ -19,7 +20,6 @@ from app.jobs.schemas import (
     SweepRequest,
 )
 from app.jobs.service import JobService, Submission, is_job_id
-from app.jobs.setup import JobDesk
 from app.jobs.webhook import check_url
 from app.load.abandoned import watching
 from app.load.bodies import Body, ReceivedBody

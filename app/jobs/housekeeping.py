@@ -1,15 +1,22 @@
 """Jobs whose process is gone for good, jobs that were lost, and jobs that expired."""
 
 import logging
+import threading
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
+
+from sqlalchemy.exc import DBAPIError
 
 from app.jobs.queues import Queues
 from app.jobs.rows import JobRow
 from app.jobs.store import JobStore, now_ms
 
 logger = logging.getLogger(__name__)
+
+PERIOD = 5.0
+"""Seconds between two looks for jobs whose process is gone."""
 
 PATIENCE = 30.0
 """Seconds without any sign of life, though the database answers, after which a job's process is
@@ -35,7 +42,7 @@ class Sighting:
     since: float
 
 
-class Warden:
+class Housekeeper:
     """Looks after jobs on behalf of all processes; each may have one.
 
     Parameters
@@ -50,6 +57,14 @@ class Warden:
         self._store = store
         self._queues = queues
         self._sightings: Mapping[str, Sighting] = {}
+
+    def look_until(self, stopping: threading.Event) -> None:
+        """Look every few seconds until told to stop. In place."""
+        while not stopping.wait(PERIOD):
+            try:
+                self.look(time.monotonic())
+            except DBAPIError as error:
+                logger.warning("the database can't be reached: %s", type(error).__name__)
 
     def look(self, now: float) -> None:
         """Give jobs to others whose process gave no sign of life for long. In place.

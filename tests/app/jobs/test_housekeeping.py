@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
 import pytest
-from dbos import DBOS
 
 from app.database.durable import connect
-from app.jobs.housekeeping import LOST, PATIENCE, Warden
+from app.jobs.housekeeping import LOST, PATIENCE, Housekeeper
 from app.jobs.queues import Queues
 from app.jobs.rows import JobRow, NewJob, Standing
 from app.jobs.service import JobService, OpenLimits, Submission
@@ -24,9 +23,9 @@ class Office:
     store: JobStore
     queues: Queues
 
-    def warden(self) -> Warden:
-        """Return a warden."""
-        return Warden(self.store, self.queues)
+    def housekeeper(self) -> Housekeeper:
+        """Return a housekeeper."""
+        return Housekeeper(self.store, self.queues)
 
     def job(self) -> str:
         """Add a job and return its id."""
@@ -58,7 +57,7 @@ def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
     queues = Queues(engine)
     store = JobStore(engine, 1000, queues.add_webhook, lambda *_: None)
     store.prepare()
-    DBOS.migrate(str(engine.url))
+    queues.prepare()
     yield Office(store, queues)
     engine.dispose()
 
@@ -66,11 +65,11 @@ def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
 def test_job_without_sign_of_life_is_given_to_others(office: Office) -> None:
     job = office.job()
     taken = office.begin(job)
-    warden = office.warden()
-    warden.look(100.0)
-    warden.look(100.0 + PATIENCE - 1)
+    housekeeper = office.housekeeper()
+    housekeeper.look(100.0)
+    housekeeper.look(100.0 + PATIENCE - 1)
     assert office.queues.taken() == [job]
-    warden.look(100.0 + PATIENCE)
+    housekeeper.look(100.0 + PATIENCE)
     assert office.queues.taken() == []
     assert office.queues.alive([job]) == {job}
     assert office.row(job).state == "queued"
@@ -80,37 +79,37 @@ def test_job_without_sign_of_life_is_given_to_others(office: Office) -> None:
 def test_job_that_goes_on_is_left_alone(office: Office) -> None:
     job = office.job()
     taken = office.begin(job)
-    warden = office.warden()
+    housekeeper = office.housekeeper()
     for now in range(0, 300, 20):
-        warden.look(float(now))
+        housekeeper.look(float(now))
         assert office.store.note(job, taken.attempt, Standing(0.5, 1, 1.0)) is False
     assert office.queues.taken() == [job]
 
 
-def test_two_wardens_rescue_a_job_once(office: Office) -> None:
+def test_two_housekeepers_rescue_a_job_once(office: Office) -> None:
     job = office.job()
     office.begin(job)
-    wardens = [office.warden(), office.warden()]
-    for warden in wardens:
-        warden.look(0.0)
+    housekeepers = [office.housekeeper(), office.housekeeper()]
+    for housekeeper in housekeepers:
+        housekeeper.look(0.0)
     before = office.row(job).attempt
-    for warden in wardens:
-        warden.look(PATIENCE)
+    for housekeeper in housekeepers:
+        housekeeper.look(PATIENCE)
     assert office.row(job).attempt == before + 1
 
 
 def test_waiting_jobs_are_never_held_to_be_dead(office: Office) -> None:
     job = office.job()
-    warden = office.warden()
-    warden.look(0.0)
-    warden.look(10 * PATIENCE)
+    housekeeper = office.housekeeper()
+    housekeeper.look(0.0)
+    housekeeper.look(10 * PATIENCE)
     assert office.row(job).attempt == 0
 
 
 def test_job_that_no_queue_knows_fails(office: Office) -> None:
     lost, kept = office.job(), office.job()
     office.queues.forget([lost])
-    office.warden().reconcile()
+    office.housekeeper().reconcile()
     assert (office.row(lost).state, office.row(lost).error) == ("failed", LOST)
     assert office.row(kept).state == "queued"
 
@@ -120,8 +119,8 @@ def test_expired_jobs_are_deleted(office: Office, monkeypatch: pytest.MonkeyPatc
     office.store.finish(old, None, "cancelled")
     later = office.row(old).expires_at
     assert later is not None
-    monkeypatch.setattr("app.jobs.warden.now_ms", lambda: later + 1)
-    office.warden().expire()
+    monkeypatch.setattr("app.jobs.housekeeping.now_ms", lambda: later + 1)
+    office.housekeeper().expire()
     assert office.store.find(old) is None
     assert office.store.find(young) is not None
 
@@ -140,13 +139,13 @@ def test_key_may_be_used_again_once_its_job_expired(
     office.queues.drop([job.id])
     later = office.row(job.id).expires_at
     assert later is not None
-    monkeypatch.setattr("app.jobs.warden.now_ms", lambda: later + 1)
-    warden = office.warden()
-    warden.expire()
+    monkeypatch.setattr("app.jobs.housekeeping.now_ms", lambda: later + 1)
+    housekeeper = office.housekeeper()
+    housekeeper.expire()
     assert office.store.find(job.id) is None
     again, is_new = submit()
     assert is_new
-    warden.reconcile()
+    housekeeper.reconcile()
     assert office.row(again.id).state == "queued"
     assert office.queues.alive([again.id]) == {again.id}
 

@@ -1,24 +1,23 @@
-"""The engine that works on jobs in this process: DBOS with our workflows, queues and schedule.
-
-DBOS is one per process, so the engine is too.
-"""
+"""What works on jobs in this process: DBOS with our workflows, queues and schedule."""
 
 import logging
+import socket
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from contextlib import ExitStack
+from dataclasses import asdict
 from datetime import datetime
 from typing import Any
 
 from dbos import DBOS, DBOSConfig, EnqueueOptions, ScheduleInput, StepOptions
 from pydantic_core import to_json
 from sqlalchemy import Engine, event
-from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 
-from app.database.connections import is_misfit, is_outage
-from app.jobs.housekeeping import Warden
-from app.jobs.identity import Identity
+from app.database.connections import database_url, is_misfit, is_outage
+from app.database.durable import connect
+from app.jobs.housekeeping import Housekeeper
+from app.jobs.identity import Identity, take_identity
 from app.jobs.planning import NOT_COMPUTED, PlanWork, Slice, Stopping
 from app.jobs.queues import (
     APPLICATION, APPLICATION_VERSION, EXPIRY_WORKFLOW, FORMER_WEBHOOKS, PLAN_WORKFLOW, PLANS,
@@ -28,6 +27,7 @@ from app.jobs.replies import summary
 from app.jobs.store import JobStore
 from app.jobs.studies import StudyWork
 from app.jobs.webhook import Caller, UnreachableError, wait_after
+from app.settings import Settings
 
 logger = logging.getLogger(__name__)
 
@@ -39,9 +39,6 @@ STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE = 100, 20
 CALLS_OF_A_HOST = 2
 """Of all webhooks called at once: a host that is slow to answer keeps the places of no other."""
 
-WARDEN_PERIOD = 5.0
-"""Seconds between two looks for jobs whose process is gone."""
-
 EXPIRY_TIMES = "*/5 * * * *"
 
 STOP_PATIENCE = 5.0
@@ -52,41 +49,44 @@ RETRY = 1.0
 
 OUTAGE_ATTEMPTS = 100_000
 
+SLICE_STEP, CALL_STEP, ADDRESS_STEP = (
+    "JobEngine._work.<locals>.slice_of_work", "JobEngine._call", "JobEngine._webhook")
+"""What DBOS calls the steps of our workflows in the database. It goes on with a workflow that an
+earlier version began only if its steps are called as they were then."""
+
+LOCKS = "workers"
+"""Folder, in that for data, with the names that processes hold."""
+
 _ONE_PER_PROCESS = threading.Lock()
 
 
-@dataclass(frozen=True)
-class Duties:
-    """What an engine does."""
-
-    store: JobStore
-    plans: PlanWork
-    studies: StudyWork
-    warden: Warden
-    caller: Caller | None  # None: no webhooks are called
-    slots: int  # plans at once
-
-
-class JobEngine:
-    """Works on jobs until it is stopped.
+class Worker:
+    """Works on jobs from its start to its stop; DBOS is one per process, so workers are too.
 
     Parameters
     ----------
-    engine
-        Connections to the database, for this engine alone.
-    identity
-        The name of this process.
-    duties
-        What to do.
+    settings
+        Where the database is, what the process is called, and how many plans it makes at once.
+    store
+        Where jobs are kept.
+    plans, studies
+        What to do with jobs of each kind.
+    housekeeper
+        Who looks after jobs meanwhile.
+    caller
+        What calls webhooks; None: none are called.
     """
 
-    def __init__(self, engine: Engine, identity: Identity, duties: Duties) -> None:
-        self._engine = engine
-        self._identity = identity
-        self._duties = duties
+    def __init__(self, settings: Settings, store: JobStore, plans: PlanWork, studies: StudyWork,
+                 housekeeper: Housekeeper, caller: Caller | None) -> None:
+        self._settings = settings
+        self._store = store
+        self._plans = plans
+        self._studies = studies
+        self._housekeeper = housekeeper
+        self._caller = caller
         self._stopping = threading.Event()
-        self._watch = threading.Thread(target=self._look_after_others, name="job-warden",
-                                       daemon=True)
+        self._held = ExitStack()  # what is to be given back at the end
         self._step: StepOptions = {
             # An outage of the database ends no job: the search goes on meanwhile.
             "retries_allowed": True, "interval_seconds": RETRY, "backoff_rate": 1.0,
@@ -99,76 +99,61 @@ class JobEngine:
         Raises
         ------
         RuntimeError
-            If this process has an engine already.
+            If this process has a worker already.
         SQLAlchemyError
             If the database can't be reached; then nothing has begun.
         """
         if not _ONE_PER_PROCESS.acquire(blocking=False):
             raise RuntimeError("this process works on jobs already: give others TANDEM_ROLE=api")
-        try:
-            self._launch()
-        except SQLAlchemyError:
-            self._end()
-            raise
-        self._watch.start()
-        logger.info("working on jobs as %s, %d at once", self._identity.name, self._duties.slots)
+        with ExitStack() as held:
+            held.callback(_ONE_PER_PROCESS.release)
+            identity = _identity(self._settings)
+            held.callback(identity.release)
+            # Of its own, as it has to make no more of them when it has stopped.
+            engine = connect(self._settings)
+            held.callback(_close_for_good, engine)
+            held.callback(DBOS.destroy, destroy_registry=True)
+            self._launch(engine, identity)
+            self._held = held.pop_all()
+        threading.Thread(target=self._housekeeper.look_until, args=(self._stopping,),
+                         name="job-housekeeper", daemon=True).start()
+        logger.info("working on jobs as %s, %d at once", identity.name, self._settings.job_slots)
 
     def stop(self) -> None:
         """Hand back what is worked on, and end. In place."""
         self._stopping.set()
-        self._duties.plans.stop()
-        self._duties.studies.stop()
+        self._plans.stop()
+        self._studies.stop()
         deadline = time.monotonic() + STOP_PATIENCE
-        while not (self._duties.plans.is_idle and self._duties.studies.is_idle):
+        while not (self._plans.is_idle and self._studies.is_idle):
             if time.monotonic() > deadline:
                 break
             time.sleep(0.01)
-        self._end()
+        self._held.close()
 
-    def _launch(self) -> None:
-        DBOS(config=self._config())
-        self._register()
+    def _launch(self, engine: Engine, identity: Identity) -> None:
+        DBOS(config=_config(engine, identity))
+        expiry = self._register()
         DBOS.launch()
-        for queue, limit in ((PLANS, self._duties.slots), (STUDIES, STUDIES_AT_ONCE)):
+        for queue, limit in ((PLANS, self._settings.job_slots), (STUDIES, STUDIES_AT_ONCE)):
             DBOS.register_queue(queue, worker_concurrency=limit, polling_interval_sec=POLLING)
         DBOS.register_queue(WEBHOOKS, worker_concurrency=WEBHOOKS_AT_ONCE,
                             partition_worker_concurrency=CALLS_OF_A_HOST,
                             polling_interval_sec=POLLING)
         DBOS.register_queue(FORMER_WEBHOOKS, worker_concurrency=CALLS_OF_A_HOST,
                             polling_interval_sec=FORMER_POLLING)
-        DBOS.apply_schedules([self._expiry])
+        DBOS.apply_schedules([expiry])
 
-    def _end(self) -> None:
-        DBOS.destroy(destroy_registry=True)
-        # Workflows taken over by another process wait for its outcome in threads that would
-        # outlive this engine.
-        event.listen(self._engine, "do_connect", _refuse)
-        self._engine.dispose()
-        self._identity.release()
-        _ONE_PER_PROCESS.release()
-
-    def _config(self) -> DBOSConfig:
-        return {
-            "name": APPLICATION,
-            "system_database_engine": self._engine,
-            "application_version": APPLICATION_VERSION,
-            "executor_id": self._identity.name,
-            "serializer": SERIALIZER,
-            "log_level": "ERROR",
-            "enable_otlp": False,
-            "notification_listener_polling_interval_sec": 1.0,
-        }
-
-    def _register(self) -> None:
-        """Tell DBOS the workflows. In place."""
+    def _register(self) -> ScheduleInput:
+        """Tell DBOS the workflows; return when that which keeps house is due."""
         # Attempts are counted in the jobs' own rows, where progress sets them back to none.
         @DBOS.workflow(name=PLAN_WORKFLOW, max_recovery_attempts=None)
         def plan_job(job_id: str) -> None:
-            self._work(job_id, self._duties.plans.advance)
+            self._work(job_id, self._plans.advance)
 
         @DBOS.workflow(name=STUDY_WORKFLOW, max_recovery_attempts=None)
         def study_job(job_id: str) -> None:
-            self._work(job_id, self._duties.studies.advance)
+            self._work(job_id, self._studies.advance)
 
         @DBOS.workflow(name=WEBHOOK_WORKFLOW)
         def call_webhook(job_id: str, failures: int) -> None:
@@ -176,37 +161,38 @@ class JobEngine:
 
         @DBOS.workflow(name=EXPIRY_WORKFLOW)
         def expire_jobs(scheduled_at: datetime, context: Any) -> None:
-            self._duties.warden.expire()
-            self._duties.warden.reconcile()
+            self._housekeeper.expire()
+            self._housekeeper.reconcile()
 
-        self._expiry: ScheduleInput = {"schedule_name": EXPIRY_WORKFLOW, "schedule": EXPIRY_TIMES,
-                                       "workflow_fn": expire_jobs}
+        return {"schedule_name": EXPIRY_WORKFLOW, "schedule": EXPIRY_TIMES,
+                "workflow_fn": expire_jobs}
 
     def _work(self, job_id: str, advance: Callable[[str], Slice]) -> None:
         """Work on a job, slice by slice, each a checkpoint. In place."""
         def slice_of_work(job_id: str) -> dict[str, Any]:
             return asdict(advance(job_id))
 
+        slicing: StepOptions = {**self._step, "name": SLICE_STEP}
         try:
-            while not DBOS.run_step(self._step, slice_of_work, job_id)["over"]:
+            while not DBOS.run_step(slicing, slice_of_work, job_id)["over"]:
                 pass
         except Exception as error:  # whatever was not foreseen ends this job, not the process
             if self._stopping.is_set():
                 raise Stopping from error
             logger.exception("job %s failed", job_id)
-            self._duties.plans.drop(job_id)
-            self._duties.studies.drop(job_id)
-            self._duties.store.finish(job_id, None, "failed", error=NOT_COMPUTED)
+            self._plans.drop(job_id)
+            self._studies.drop(job_id)
+            self._store.finish(job_id, None, "failed", error=NOT_COMPUTED)
 
     def _call_webhook(self, job_id: str, failures: int) -> None:
         """Call a job's webhook, or enqueue a later call. In place."""
-        problem = DBOS.run_step(self._step, self._call, job_id)
+        problem = DBOS.run_step({**self._step, "name": CALL_STEP}, self._call, job_id)
         if problem is None:
             return
         wait = wait_after(failures + 1)
         logger.warning("webhook of job %s: %s; %s", job_id, problem,
                        "given up" if wait is None else f"tried again after {wait:g} s")
-        url = DBOS.run_step(self._step, self._webhook, job_id)
+        url = DBOS.run_step({**self._step, "name": ADDRESS_STEP}, self._webhook, job_id)
         if wait is not None and url is not None:
             options: EnqueueOptions = {**webhook_options(job_id, url, failures + 1),
                                        "delay_seconds": wait}
@@ -214,31 +200,24 @@ class JobEngine:
 
     def _webhook(self, job_id: str) -> str | None:
         """Return a job's webhook, if it is there and over."""
-        row = self._duties.store.find(job_id)
+        row = self._store.find(job_id)
         return row.webhook if row is not None and row.is_over else None
 
     def _call(self, job_id: str) -> str | None:
         """Call a job's webhook; return what went wrong."""
-        row = self._duties.store.find(job_id)
+        row = self._store.find(job_id)
         if row is None or row.webhook is None or not row.is_over:
             return None
-        if self._duties.caller is None:
+        if self._caller is None:
             return "there is no TANDEM_WEBHOOK_SECRET to sign it with"
         finished = summary(row)
         body = to_json({"type": f"job.{row.state}", "timestamp": finished["finished_at"],
                         "data": finished}).decode()
         try:
-            self._duties.caller.call(row.webhook, f"msg_{job_id}", body)
+            self._caller.call(row.webhook, f"msg_{job_id}", body)
         except UnreachableError as error:
             return str(error)
         return None
-
-    def _look_after_others(self) -> None:
-        while not self._stopping.wait(WARDEN_PERIOD):
-            try:
-                self._duties.warden.look(time.monotonic())
-            except DBAPIError as error:
-                logger.warning("the database can't be reached: %s", type(error).__name__)
 
     def _is_outage(self, error: BaseException) -> bool:
         """Tell whether a step failed only because of the database, which somebody will mend."""
@@ -247,5 +226,34 @@ class JobEngine:
         return is_outage(error) or is_misfit(error)
 
 
+def _config(engine: Engine, identity: Identity) -> DBOSConfig:
+    return {
+        "name": APPLICATION,
+        "system_database_engine": engine,
+        "application_version": APPLICATION_VERSION,
+        "executor_id": identity.name,
+        "serializer": SERIALIZER,
+        "log_level": "ERROR",
+        "enable_otlp": False,
+        "notification_listener_polling_interval_sec": 1.0,
+    }
+
+
+def _identity(settings: Settings) -> Identity:
+    is_local = database_url(settings).get_backend_name() == "sqlite"
+    worker = settings.worker_id or ("local" if is_local else socket.gethostname())
+    return take_identity(worker, settings.data_dir / LOCKS)
+
+
+def _close_for_good(engine: Engine) -> None:
+    """Close all connections, and refuse to make others. In place.
+
+    Workflows taken over by another process wait for its outcome in threads that would outlive this
+    worker.
+    """
+    event.listen(engine, "do_connect", _refuse)
+    engine.dispose()
+
+
 def _refuse(*_: object) -> None:
-    raise RuntimeError("the engine has stopped")
+    raise RuntimeError("the worker has stopped")
