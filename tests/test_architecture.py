@@ -4,9 +4,7 @@ import ast
 import os
 import subprocess
 import sys
-from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterator
-from functools import cache
+from collections.abc import Callable, Iterator
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -113,28 +111,6 @@ def folder(name: str) -> str:
     return name.rpartition("/")[0] or name
 
 
-@cache
-def imported_files(path: Path) -> set[Path]:
-    """Return the files of this tree that one of them imports."""
-    stems = [ROOT / module.replace(".", "/") for module in imported_modules(path)]
-    files = {file for stem in stems for file in (stem.with_suffix(".py"), stem / "__init__.py")}
-    return {file for file in files if file.is_file()} - {path}
-
-
-def room_of(path: Path) -> str:
-    """Return the name on the first level of `app` that a file belongs to."""
-    return path.relative_to(ROOT / "app").with_suffix("").parts[0]
-
-
-def arrows_of_app(node_of: Callable[[Path], Hashable]) -> dict[Hashable, set[Hashable]]:
-    """Return what each node of `app` imports, files being grouped to nodes."""
-    arrows = defaultdict[Hashable, set[Hashable]](set)
-    for path in sources("app"):
-        files = (file for file in imported_files(path) if ROOT / "app" in file.parents)
-        arrows[node_of(path)] |= {node_of(file) for file in files} - {node_of(path)}
-    return arrows
-
-
 def code_lines(function: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
     """Return how many lines a function's body has, without its docstring."""
     body = function.body[ast.get_docstring(function) is not None:]
@@ -175,9 +151,17 @@ def test_parts_of_model_import_along_the_arrows() -> None:
     assert sum(map(len, arrows.values())) <= MOST_ARROWS
 
 
+def test_parts_of_app_import_only_those_before_them() -> None:
+    arrows = between(imported_files("app"), first_level)
+    assert set(arrows) == set(APP_ORDER)
+    behind = {part: arrows[part] - set(APP_ORDER[:place]) for place, part in enumerate(APP_ORDER)}
+    assert {part: parts for part, parts in behind.items() if parts} == {}
+
+
+@pytest.mark.parametrize("package", ["app", "model"])
 @pytest.mark.parametrize("part", [first_level, folder, str], ids=["part", "folder", "file"])
-def test_no_circles_within_model(part: Callable[[str], str]) -> None:
-    list(TopologicalSorter(between(imported_files("model"), part)).static_order())
+def test_there_are_no_circles(package: str, part: Callable[[str], str]) -> None:
+    TopologicalSorter(between(imported_files(package), part)).prepare()
 
 
 def test_compiled_code_is_filed_under_all_its_sources() -> None:
@@ -205,23 +189,6 @@ def test_functions_are_short(path: Path) -> None:
     long = {function.name: code_lines(function) for function in functions
             if code_lines(function) > MAX_FUNCTION_LINES}
     assert long == {}
-
-
-def test_everything_in_app_has_its_place() -> None:
-    rooms = {room_of(path) for path in sources("app")} - {"__init__"}
-    assert rooms == set(APP_ORDER)
-
-
-@pytest.mark.parametrize("room", APP_ORDER)
-def test_folders_of_app_import_only_folders_before_them(room: str) -> None:
-    assert arrows_of_app(room_of)[room] <= set(APP_ORDER[:APP_ORDER.index(room)])
-
-
-@pytest.mark.parametrize("node_of", [
-    lambda path: path, lambda path: path if path.parent == ROOT / "app" else path.parent,
-], ids=["files", "folders"])
-def test_no_circle_is_in_app(node_of: Callable[[Path], Path]) -> None:
-    TopologicalSorter(arrows_of_app(node_of)).prepare()
 
 
 def test_coroutines_are_run_where_no_browser_has_its_loop() -> None:

@@ -10,7 +10,6 @@ from pydantic_core import to_json
 from app.conversion.preparing import Preparing
 from app.errors import InvalidRequestError
 from app.load.bodies import ReceivedBody
-from app.plans.service import ReceivedBody
 from app.settings import Settings
 from app.vroom.checking import drive, route_faults
 from app.vroom.errors import TOO_LARGE, VroomError, input_error

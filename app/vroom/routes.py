@@ -9,8 +9,7 @@ from app.access.guard import Plan
 from app.errors import MEDIA_TYPE
 from app.load.abandoned import Planning
 from app.load.bodies import Body
-from app.plans.routes import Body, Service
-from app.routes import Body, Service
+from app.plans.routes import Service
 from app.schemas.openapi import SCHEMA_REF, json_body
 from app.vroom.answering import answer
 from app.vroom.errors import INTERNAL, VroomError, VroomErrorReply

@@ -11,7 +11,7 @@ import pytest
 
 from app.conversion.preparing import Preparing, StoppedError
 from app.errors import InvalidRequestError
-from app.plans.service import ReceivedBody
+from app.load.bodies import ReceivedBody
 from app.settings import Settings
 from app.vroom.answering import answer
 from app.vroom.convert import Converter, dearest_plan
