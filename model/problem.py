@@ -75,6 +75,7 @@ class Customer:
     served_by: ServedBy = "either"
     skills: frozenset[str] = frozenset()
     release_time: int = 0  # parcel is at the depot from then on
+    unassigned_cost: float | None = None  # of leaving it out; None: the problem's
 
     def __post_init__(self) -> None:
         for amount in self.demand:
@@ -87,6 +88,8 @@ class Customer:
         _require_rate(f"customer {self.id} early_cost_per_hour", self.early_cost_per_hour)
         if self.late_cost_per_hour is not None:
             _require_rate(f"customer {self.id} late_cost_per_hour", self.late_cost_per_hour)
+        if self.unassigned_cost is not None:
+            _require_rate(f"customer {self.id} unassigned_cost", self.unassigned_cost)
 
 
 @dataclass(frozen=True)
@@ -210,7 +213,7 @@ class Problem:
     vehicle_types: tuple[VehicleType, ...]
     travel: tuple[Travel, ...]
     coordinates: FloatArray  # (node, 2) any planar unit, seen by the policy alone
-    unassigned_cost: float  # per customer left out
+    unassigned_cost: float  # per customer left out who states no other
     amount_decimals: tuple[int, ...] = ()  # (dimension,) of demands and capacities; for people
     num_dimensions: int = field(init=False)
 
@@ -266,6 +269,11 @@ class Problem:
     def num_nodes(self) -> int:
         """Depots and customers."""
         return len(self.depots) + len(self.customers)
+
+    def cost_of_leaving_out(self, customer: Customer) -> float:
+        """Return what leaving a customer out costs."""
+        own = customer.unassigned_cost
+        return self.unassigned_cost if own is None else own
 
     def customer_at(self, node: int) -> Customer:
         """Return the customer at a node.

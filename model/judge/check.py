@@ -7,7 +7,9 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from model.judge.metrics import RouteMetrics, flight_legs, measure_route, measure_trip
+from model.judge.metrics import (
+    RouteMetrics, flight_legs, measure_route, measure_trip, unassigned_cost,
+)
 from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
 from model.judge.past_rules import begins_with, past_violations
 from model.judge.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
@@ -37,7 +39,7 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN) ->
     if past is not EVERYTHING_OPEN:
         violations += past_violations(problem, solution, past)
     metrics: list[RouteMetrics] = []
-    costs = [Cost(unassigned=len(solution.unassigned) * problem.unassigned_cost)]
+    costs = [Cost(unassigned=unassigned_cost(problem, solution.unassigned))]
     makespan = 0
     for index, route in enumerate(solution.routes):
         judged = judge_route(problem, route, f"routes[{index}]", past)

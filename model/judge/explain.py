@@ -102,11 +102,13 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
         message = f"{way}, but all {vehicle_type.count} are in use."
         return Reason(index, "FLEET_EXHAUSTED", message,
                       None if hosts else "fits with one more vehicle")
-    if not hosts and cost >= problem.unassigned_cost:
+    left_out = problem.cost_of_leaving_out(attempt.customer)
+    if not hosts and cost >= left_out:
         price = f"{ceil(cost * 100) / 100:.2f}"
-        left_out = f"leaving it out costs {problem.unassigned_cost:.2f}"
-        message = f"{way} at a cost of {price}; {left_out}."
-        remedy = f"served if unassigned_cost were above {price}" if cost < MAX_MONEY else None
+        message = f"{way} at a cost of {price}; leaving it out costs {left_out:.2f}."
+        whose = "" if attempt.customer.unassigned_cost is None else "its "
+        remedy = (f"served if {whose}unassigned_cost were above {price}" if cost < MAX_MONEY
+                  else None)
         return Reason(index, "COST", message, remedy)
     return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
 

@@ -1,6 +1,6 @@
 """What a timed route carries, drives and costs."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
@@ -121,6 +121,14 @@ def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
                 late = arrival - customer.latest
                 lateness += late * customer.late_cost_per_hour / MS_PER_HOUR
     return lateness, earliness
+
+
+def unassigned_cost(problem: Problem, nodes: Sequence[int]) -> float:
+    """Return what leaving out the customers at some nodes costs; others there cost as most do."""
+    first, end = problem.num_depots, problem.num_nodes
+    own = [problem.customers[node - first].unassigned_cost for node in nodes if first <= node < end]
+    stated = [cost for cost in own if cost is not None]
+    return (len(nodes) - len(stated)) * problem.unassigned_cost + sum(stated)
 
 
 def measure_route(

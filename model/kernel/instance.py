@@ -45,7 +45,8 @@ class Instance(NamedTuple):
     profile_factor: IntArray  # (problem, type, change + 1)
     duration: IntArray  # (problem, travel, node, node)
     distance: IntArray  # (problem, travel, node, node)
-    unassigned_cost: FloatArray  # (problem,)
+    unassigned_cost: FloatArray  # (problem,) of whoever it costs least to leave out
+    unassigned_more: FloatArray  # (problem, node) what leaving out another costs above that
     neighbour: IntArray  # (problem, node, rank) nearest customers first, -1 behind the last
 
 
@@ -79,6 +80,7 @@ def pack(problems: Sequence[Problem], neighbours: bool = True) -> Instance:
         duration=np.zeros((rows, travels, nodes, nodes), np.int64),
         distance=np.zeros((rows, travels, nodes, nodes), np.int64),
         unassigned_cost=np.array([problem.unassigned_cost for problem in problems]),
+        unassigned_more=np.zeros((rows, nodes)),
         neighbour=np.full((rows, nodes, MAX_NEIGHBOURS), -1, np.int64),
     )
     for row, problem in enumerate(problems):
@@ -108,6 +110,9 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
         instance.late_early[row, depots:nodes] = [
             (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
             for customer in problem.customers]
+        costs = np.array([problem.cost_of_leaving_out(customer) for customer in problem.customers])
+        instance.unassigned_cost[row] = costs.min()
+        instance.unassigned_more[row, depots:nodes] = costs - costs.min()
     for index, kind in enumerate(problem.vehicle_types):
         instance.type[row, index] = _type_columns(kind)
         drones = kind.drones

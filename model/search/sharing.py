@@ -13,7 +13,7 @@ from model.search.route.layout import (
 from model.search.route.refresh import locate
 from model.search.route.state import (
     I_ACTIVE, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher,
-    copy_route, keep_best, list_active,
+    copy_route, keep_best, left_out_cost, list_active,
 )
 
 DIVIDED_FROM = 200
@@ -197,7 +197,7 @@ def take_part(world: World, whole: Searcher, part: Searcher, owner: IntArray, nu
     for node in range(world.num_depots, world.num_nodes):
         if now.where[node, W_SLOT] != ELSEWHERE:
             count[I_CUSTOMERS] += 1
-    part.value[V_COST] = cost + len(missing) * world.unassigned_cost
+    part.value[V_COST] = cost + left_out_cost(world, missing, len(missing))
     keep_best(part)
 
 

@@ -110,8 +110,9 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         scan_all=scan_all,
         adds_up=not bool((mode & (MODE_SETTLED | MODE_PROFILE)).any()),
         keeps=scan_all and (not general or blink <= LEAST_BLINK),
-        must_serve=_must_serve(problem), blink=blink,
-        unassigned_cost=float(problem.unassigned_cost),
+        blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
+        unassigned_more=instance.unassigned_more[0],
+        must_serve=_must_serve(problem, instance),
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
         type=columns, rate=rate, mode=mode, visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
@@ -168,14 +169,15 @@ def _modes(instance: Instance, columns: IntArray, place: IntArray) -> IntArray:
     return mode
 
 
-def _must_serve(problem: Problem) -> bool:
-    """Tell whether leaving a customer out costs more than the longest drive there and back."""
+def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
+    """Mark the nodes that cost more to leave out than the longest drive there and back."""
     dearest = 0.0
     for kind in problem.vehicle_types:
         distance = problem.travel[kind.travel].distance
         longest = float(distance[kind.depot].max() + distance[:, kind.depot].max())
         dearest = max(dearest, kind.fixed_cost + longest / MM_PER_KM * kind.cost_per_km)
-    return problem.unassigned_cost > dearest
+    must_serve: BoolArray = instance.unassigned_cost[0] + instance.unassigned_more[0] > dearest
+    return must_serve
 
 
 def _swaps(problem: Problem, mode: IntArray) -> BoolArray:

@@ -316,8 +316,12 @@ def finish(instance: Instance, state: State, r: int) -> None:
     """
     if state.vehicle[r, V_TYPE] != NO_VEHICLE:
         close_vehicle(instance, state, r)
-    state.cost[r, COST_UNASSIGNED] += (state.num_unserved[r]
-                                       * instance.unassigned_cost[state.problem[r]])
+    b = state.problem[r]
+    state.cost[r, COST_UNASSIGNED] += state.num_unserved[r] * instance.unassigned_cost[b]
+    if state.num_unserved[r] > 0:
+        for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
+            if not state.served[r, node]:
+                state.cost[r, COST_UNASSIGNED] += instance.unassigned_more[b, node]
     state.done[r] = True
 
 

@@ -67,5 +67,7 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
 ON_CUSTOMER: dict[str, Callable[[Customer, str], Customer]] = {
     "fits if its window closed (.+) minutes? later": lambda customer, text: replace(
         customer, latest=customer.latest + _units(text, MINUTE)),
+    "served if its unassigned_cost were above (.+)": lambda customer, text: replace(
+        customer, unassigned_cost=float(text) + 0.01),
     "fits if a truck may serve (it)": lambda customer, _: replace(customer, served_by="either"),
 }

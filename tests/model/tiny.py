@@ -96,6 +96,13 @@ def draw_tiny(rng: np.random.Generator, drone_share: float = 0.6) -> Problem:
         coordinates=rng.random((num_nodes, 2)), unassigned_cost=100.0)
 
 
+def with_own_costs(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which leaving out some customers costs less or more than the others."""
+    return replace(problem, customers=tuple(
+        replace(customer, unassigned_cost=float(rng.integers(0, 200)))
+        if rng.random() < 0.6 else customer for customer in problem.customers))
+
+
 def draw_late(rng: np.random.Generator) -> Problem:
     """Draw a problem with drones some of whose windows open long after all else is done."""
     problem = draw_tiny(rng, drone_share=1.0)

@@ -8,7 +8,7 @@ from model.search.moves.anneal import anneal
 from model.search.moves.recreate import BY_FAR, BY_WIDTH
 from model.search.route.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, World
 from model.search.route.state import (
-    I_ABSENT, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher, go_back, list_active,
+    I_ABSENT, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher, go_back, list_active, missing_cost,
 )
 
 CONSTRUCTED = (BY_FAR, BY_WIDTH)
@@ -67,6 +67,6 @@ def _construct(world: World, searcher: Searcher) -> None:
     """Plan anew by insertion in the best of several orders, if that is better. In place."""
     for order in CONSTRUCTED:
         disband(searcher)
-        searcher.value[V_COST] = searcher.count[I_MISSING] * world.unassigned_cost
+        searcher.value[V_COST] = missing_cost(world, searcher)
         insert_missing(world, searcher, order)
     go_back(searcher)

@@ -24,7 +24,7 @@ from model.search.route.refresh import clear_holds, locate, refresh, settle
 from model.search.route.routes import drive_forward, load_trips
 from model.search.route.state import (
     COUNTS, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_COST, Searcher, keep_best,
-    list_active,
+    left_out_cost, list_active,
 )
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
@@ -145,7 +145,8 @@ def begin(world: World, searcher: Searcher, num_routes: int) -> None:
             searcher.missing[count[I_MISSING]] = node
             count[I_MISSING] += 1
     count[I_STAMP], count[I_CUSTOMERS] = 1, world.num_nodes - world.num_depots
-    searcher.value[V_COST] = cost + count[I_MISSING] * world.unassigned_cost
+    left_out = left_out_cost(world, searcher.missing, count[I_MISSING])
+    searcher.value[V_COST] = cost + left_out
     list_active(searcher)
     keep_best(searcher)
 
@@ -167,8 +168,8 @@ def leg_cost(world: World, searcher: Searcher) -> float:
                 legs += 1
     if cost > 0.0:
         return cost / legs
-    missing = searcher.count[I_MISSING] * world.unassigned_cost
-    return max(1e-9, (searcher.value[V_COST] - missing) / len(world.place))
+    left_out = left_out_cost(world, searcher.missing, searcher.count[I_MISSING])
+    return max(1e-9, (searcher.value[V_COST] - left_out) / len(world.place))
 
 
 def write_route(fleet: Fleet, slot: int, route: Route) -> None:

@@ -21,8 +21,8 @@ from model.search.route.randomness import below, uniform
 from model.search.route.refresh import locate
 from model.search.route.state import (
     I_ABSENT, I_ACTIVE, I_CUSTOMERS, I_LEAN, I_MISSING, I_TOUCHED, I_TURN, V_BEST, V_COOLING,
-    V_COST, V_TEMPERATURE, Searcher, accept, copy_route, keep_best, list_active, served_cost, touch,
-    turn_cost,
+    V_COST, V_TEMPERATURE, Searcher, accept, copy_route, keep_best, left_out_cost, list_active,
+    served_cost, touch, turn_cost,
 )
 
 ANY = -1
@@ -82,19 +82,26 @@ def ruin(world: World, searcher: Searcher, first: int) -> None:
 
 
 @inlined
-def rarer_absences(searcher: Searcher) -> bool:
-    """Tell whether as many are left out after this turn as before, but who seldom were.
+def rarer_absences(world: World, searcher: Searcher) -> bool:
+    """Tell whether after this turn others are left out who must not be, and seldom were.
 
-    Counts the absences. In place.
+    They are as many as before, and all who are left out cost no more. Counts the absences. In
+    place.
     """
     count, absences = searcher.count, searcher.absences
-    before = after = 0
+    before = after = more = 0
     for index in range(count[I_MISSING]):
-        before += absences[searcher.missing[index]]
+        if world.must_serve[searcher.missing[index]]:
+            before += absences[searcher.missing[index]]
+            more -= 1
     for index in range(count[I_ABSENT]):
-        after += absences[searcher.absent[index]]
-        absences[searcher.absent[index]] += 1
-    return count[I_ABSENT] == count[I_MISSING] and after < before
+        if world.must_serve[searcher.absent[index]]:
+            after += absences[searcher.absent[index]]
+            absences[searcher.absent[index]] += 1
+            more += 1
+    dearer = (left_out_cost(world, searcher.absent, count[I_ABSENT])
+              > left_out_cost(world, searcher.missing, count[I_MISSING]))
+    return more == 0 and after < before and not dearer
 
 
 @spliced
@@ -179,8 +186,8 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
             if world.mixed:
                 cheapen_types(world, searcher)
         cost = turn_cost(world, searcher)
-        forced = (done and not building and world.must_serve and count[I_ABSENT] > 0
-                  and rarer_absences(searcher))
+        forced = (done and not building and count[I_ABSENT] > 0
+                  and rarer_absences(world, searcher))
         if building or cost < limit or forced:
             accept(searcher, cost)
             if cost < value[V_BEST]:

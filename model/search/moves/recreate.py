@@ -129,11 +129,12 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare
             cost = find_beside(world, searcher, node, enlarge)
         if cost == INFEASIBLE:
             cost = find_place(world, searcher, node, enlarge)
-        wanted = cost < world.unassigned_cost or (opening and index == first)
+        left_out = world.unassigned_cost + world.unassigned_more[node]
+        wanted = cost < left_out or (opening and index == first)
         if cost == INFEASIBLE or not wanted or not insert(world, searcher, node):
             absent[left] = node
             left += 1
-        spare -= min(cost, world.unassigned_cost)
+        spare -= min(cost, left_out)
         if spare < 0.0:
             return False
     count[I_ABSENT] = left

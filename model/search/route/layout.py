@@ -82,9 +82,10 @@ class World(NamedTuple):
     scan_all: bool  # else insertion looks beside neighbours only
     adds_up: bool  # to insert a customer never saves anything, if no detour does
     keeps: bool  # customers' best places on routes are kept from turn to turn
-    must_serve: bool  # leaving a customer out costs more than any route for one
     blink: float  # how often a better place for a customer is overlooked
-    unassigned_cost: float
+    unassigned_cost: float  # of whoever it costs least to leave out
+    unassigned_more: FloatArray  # (node,) what leaving out another costs above that
+    must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
     place: IntArray  # (node, 8) P_ columns, demand in three dimensions
     price: FloatArray  # (node, 2) cost per ms of lateness and of waiting
     type: IntArray  # (type, TYPE_COLUMNS)

@@ -155,10 +155,34 @@ def served_cost(searcher: Searcher) -> float:
 
 
 @spliced
+def unassigned_more(world: World, nodes: IntArray, count: int) -> float:
+    """Return what leaving out the first customers of a list costs above the least for each."""
+    more = 0.0
+    for index in range(count):
+        more += world.unassigned_more[nodes[index]]
+    return more
+
+
+@spliced
+def left_out_cost(world: World, nodes: IntArray, count: int) -> float:
+    """Return what leaving out the first customers of a list costs."""
+    return count * world.unassigned_cost + unassigned_more(world, nodes, count)
+
+
+@compiled
+def missing_cost(world: World, searcher: Searcher) -> float:
+    """Return what the customers left out cost."""
+    return left_out_cost(world, searcher.missing, searcher.count[I_MISSING])
+
+
+@spliced
 def turn_cost(world: World, searcher: Searcher) -> float:
     """Return the cost of the routes as they are after this turn."""
-    more = searcher.count[I_ABSENT] - searcher.count[I_MISSING]
-    return served_cost(searcher) + more * world.unassigned_cost
+    count = searcher.count
+    fewer_or_more = (count[I_ABSENT] - count[I_MISSING]) * world.unassigned_cost
+    others = (unassigned_more(world, searcher.absent, count[I_ABSENT])
+              - unassigned_more(world, searcher.missing, count[I_MISSING]))
+    return served_cost(searcher) + (fewer_or_more + others)
 
 
 @spliced

@@ -6,6 +6,7 @@ from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import MAX_MONEY, MAX_QUANTITY, UNREACHABLE, SpeedProfile, Travel
 from model.solution import Solution
+from tests.model.remedies import applied
 
 MINUTE = 60_000
 KM = 1_000_000
@@ -99,6 +100,19 @@ def test_leaving_out_is_cheaper(tiny_problem, customers, truck):
                            unassigned_cost=20.0)
     reason = reason_for_d(problem, Solution(serve(problem, 1), (2, 3, 4)))
     assert (reason.code, reason.remedy) == ("COST", "served if unassigned_cost were above 20.50")
+
+
+def test_leaving_out_this_one_is_cheaper(tiny_problem, customers, truck):
+    *others, d = customers
+    problem = tiny_problem(*others, replace(d, unassigned_cost=20.0),
+                           truck=replace(truck, fixed_cost=12.5, cost_per_km=1.0))
+    reason = reason_for_d(problem, Solution(serve(problem, 1), (2, 3, 4)))
+    assert (reason.code, reason.message, reason.remedy) == (
+        "COST", "truck could serve it alone at a cost of 20.50; leaving it out costs 20.00.",
+        "served if its unassigned_cost were above 20.50")
+    changed = applied(problem, reason, 4)
+    assert changed.unassigned_cost == problem.unassigned_cost
+    assert reason_for_d(changed, Solution(serve(changed, 1), (2, 3, 4))).code == "SEARCH"
 
 
 @pytest.mark.parametrize(("on_truck", "on_customer", "code"), [

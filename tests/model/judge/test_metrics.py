@@ -34,6 +34,13 @@ def test_cost_by_term(tiny_problem, customers, truck, drones):
     assert evaluation.routes[0].cost == pytest.approx(46.4)
 
 
+def test_leaving_out_costs_what_the_customer_states(tiny_problem, customers, truck):
+    problem = tiny_problem(replace(customers[0], unassigned_cost=0.0), *customers[1:3],
+                           replace(customers[3], unassigned_cost=7.5), truck=truck,
+                           unassigned_cost=100.0)
+    assert check(problem, Solution((), (1, 2, 3, 4))).cost == Cost(unassigned=207.5)
+
+
 def test_soft_windows_cost(tiny_problem, customers, truck, drones):
     a = replace(customers[0], earliest=4 * MINUTE, early_cost_per_hour=30.0)  # waits 2 min
     b = replace(customers[1], latest=8 * MINUTE, late_cost_per_hour=60.0)  # reached at 11

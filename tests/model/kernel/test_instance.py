@@ -49,6 +49,15 @@ def test_columns_state_limits_windows_and_demands(tiny_problem, customers, truck
     assert (instance.type[0, :, TYPE_PROFILE] == NO_PROFILE).all()
 
 
+def test_leaving_out_costs_so_much_and_some_customers_more(tiny_problem, customers, truck) -> None:
+    a, b, c, d = customers
+    problem = tiny_problem(replace(a, unassigned_cost=25.0), replace(b, unassigned_cost=3.0), c, d,
+                           truck=truck, unassigned_cost=10.0)
+    instance = pack([problem, tiny_problem(a, b, truck=truck, unassigned_cost=10.0)])
+    assert instance.unassigned_cost.tolist() == [3.0, 10.0]
+    assert instance.unassigned_more.tolist() == [[0.0, 22.0, 0.0, 7.0, 7.0], [0.0] * 5]
+
+
 def compatible(problem: Problem) -> tuple[list[bool], list[bool]]:
     """Return whom the first type may serve, by truck and by drone."""
     instance = pack([problem])

@@ -31,12 +31,14 @@ def cheapest_cost(problem: Problem) -> float:
              for kind in kinds for size in range(1, len(everyone) + 1)
              for nodes in combinations(everyone, size)}
 
+    without = {node: problem.cost_of_leaving_out(problem.customer_at(node)) for node in everyone}
+
     @cache
     def cheapest(left: Nodes, used: tuple[int, ...]) -> float:
         """Return the cost of serving or leaving out the customers left."""
         if not left:
             return 0.0
-        best = problem.unassigned_cost + cheapest(left[1:], used)
+        best = without[left[0]] + cheapest(left[1:], used)
         for kind in kinds:
             if used[kind] < problem.vehicle_types[kind].count:
                 more = (*used[:kind], used[kind] + 1, *used[kind + 1:])

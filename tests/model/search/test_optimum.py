@@ -135,9 +135,19 @@ def optional_customers(rng: np.random.Generator) -> Problem:
                           unassigned_cost=8.0)
 
 
+def unequal_customers(rng: np.random.Generator) -> Problem:
+    """Leaving out some costs little, others much, and not all can be served."""
+    cost = (None, 1.0, 4.0, 500.0, 2000.0)
+    customers = tuple(
+        replace(customer, unassigned_cost=cost[int(rng.integers(5))])
+        for customer in plain_customers(rng, 6))
+    return street_problem(rng, customers, replace(TRUCK, count=1, fixed_cost=2.0),
+                          unassigned_cost=100.0)
+
+
 KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     plain, windows, timed_windows, soft_windows, costly_waiting, two_types, two_trips, one_drone,
-    two_drones, long_sorties, rush_hour, optional_customers)
+    two_drones, long_sorties, rush_hour, optional_customers, unequal_customers)
 
 
 def searched_cost(problem: Problem, turns: int = TURNS) -> float:

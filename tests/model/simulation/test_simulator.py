@@ -20,7 +20,7 @@ from model.simulation.simulator import (
 )
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
-from tests.model.tiny import draw_tiny
+from tests.model.tiny import draw_tiny, with_own_costs
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -80,6 +80,19 @@ def test_random_rollouts_of_all_rules_at_once_pass_the_checker() -> None:
         evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
         assert evaluation.violations == (), f"seed {seed}"
         assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
+
+
+def test_rollouts_count_what_leaving_out_each_customer_costs() -> None:
+    left_out = 0
+    for seed in range(200):
+        rng = np.random.default_rng(seed)
+        problem = with_own_costs(rng, draw_tiny(rng))
+        rollout = roll([problem], seed).rollouts[0]
+        evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
+        assert evaluation.violations == (), f"seed {seed}"
+        assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
+        left_out += evaluation.cost.unassigned > 0
+    assert left_out > 50
 
 
 def test_random_rollouts_use_every_kind_of_action() -> None:
