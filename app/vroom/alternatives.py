@@ -93,9 +93,7 @@ def bring_first(model: Model, price: float) -> Problem:
 
 
 def leave_out_by_priority(model: Model, priorities: Sequence[int]) -> Model:
-    """Return a model whose last kind of vehicle leaves jobs out, at a cost that goes by priority.
-
-    The planner's own cost of leaving a customer out is the same for all.
+    """Return a model in which leaving out a job costs the more, the higher its priority.
 
     Parameters
     ----------
@@ -103,31 +101,19 @@ def leave_out_by_priority(model: Model, priorities: Sequence[int]) -> Model:
         (request's job,).
     """
     stated = np.array([priorities[job] for job in model.nodes.jobs], np.int64)
-    return replace(
-        model, problem=_add_nobody(model.problem, stated), leaves_out=True,
-        relaxed=tuple(_add_nobody(relaxed, stated) for relaxed in model.relaxed))
+    return replace(model, problem=_with_dropping_costs(model.problem, stated),
+                   relaxed=tuple(_with_dropping_costs(relaxed, stated)
+                                 for relaxed in model.relaxed))
 
 
-def _add_nobody(problem: Problem, priorities: IntArray) -> Problem:
-    drop = _dropping_cost(problem, priorities)
-    first, number = problem.num_depots, problem.num_nodes
-    # Two on one route cost more than two routes, so that all routes are alike.
-    distance = np.zeros((number, number))
-    distance[:, first:] = drop
-    distance[first:, first:] *= 2
-    scale = min(1.0, MAX_QUANTITY / (distance.max() * MM_PER_KM))
-    whole: IntArray = np.rint(distance * scale * MM_PER_KM).astype(np.int64)
-    nobody = VehicleType(
-        "nobody", problem.num_customers, _largest_demand(problem), travel=len(problem.travel),
-        cost_per_km=1.0 / scale,
-        skills=frozenset(skill for customer in problem.customers for skill in customer.skills))
-    travel = Travel(np.zeros((number, number), np.int64), whole)
-    return replace(
-        problem, vehicle_types=(*problem.vehicle_types, nobody), travel=(*problem.travel, travel),
-        unassigned_cost=problem.unassigned_cost + 10 * float(drop.max()))
+def _with_dropping_costs(problem: Problem, priorities: IntArray) -> Problem:
+    costs = _dropping_costs(problem, priorities).tolist()
+    return replace(problem, customers=tuple(
+        replace(customer, unassigned_cost=cost)
+        for customer, cost in zip(problem.customers, costs, strict=True)))
 
 
-def _dropping_cost(problem: Problem, priorities: IntArray) -> FloatArray:
+def _dropping_costs(problem: Problem, priorities: IntArray) -> FloatArray:
     """Return (customer,) what leaving out costs: first by priority, then by number."""
     unit = gcd(*priorities.tolist()) or 1
     once = 2.0 * _dearest_trip(problem)
@@ -146,8 +132,3 @@ def _dearest_trip(problem: Problem) -> float:
                 + time / MS_PER_HOUR * kind.cost_per_hour + kind.fixed_cost)
         dearest = max(dearest, float(cost.max()))
     return dearest
-
-
-def _largest_demand(problem: Problem) -> tuple[int, ...]:
-    return tuple(max(column) for column in
-                 zip(*(customer.demand for customer in problem.customers), strict=True))

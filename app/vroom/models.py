@@ -23,7 +23,7 @@ class Model:
     """A problem for the planner, and what its parts stand for.
 
     Its first kinds of vehicles are the request's. Then comes one for each job with several windows,
-    which takes all but one of them for nothing; then perhaps one that leaves jobs out at a price.
+    which takes all but one of them for nothing.
     """
 
     problem: Problem
@@ -35,7 +35,6 @@ class Model:
     surplus: tuple[float, ...] | None = None
     """(customer,) what is taken minus what is brought, if that keeps plans from being true."""
     has_longest: bool = False  # whether legs are longer than `problem` can tell
-    leaves_out: bool = False  # whether the last kind of vehicle leaves jobs out
 
     @property
     def is_loose(self) -> bool:
@@ -79,12 +78,10 @@ class Model:
         several = self.num_kinds
         for job, copies in self.nodes.of_job().items():
             left = nodes_of[job]
-            missing = [left.pop(0)] if len(left) == len(copies) else []
-            for node in left:
+            # Of a job left out, one node is, and the others are taken all the same.
+            for node in left[1:] if len(left) == len(copies) else left:
                 writer.add(several, [node])
             several += len(copies) > 1
-            if self.leaves_out:
-                writer.add(len(self.problem.vehicle_types) - 1, missing)
         return writer.solution()
 
     def servable(self) -> Slots:
