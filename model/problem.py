@@ -215,6 +215,7 @@ class Problem:
     coordinates: FloatArray  # (node, 2) any planar unit, seen by the policy alone
     unassigned_cost: float  # per customer left out who states no other
     amount_decimals: tuple[int, ...] = ()  # (dimension,) of demands and capacities; for people
+    may_serve: BoolArray | None = None  # (vehicle type, customer); None: any type anyone
     num_dimensions: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -230,6 +231,10 @@ class Problem:
         _require(self.coordinates.shape == (self.num_nodes, 2), "coordinates shape",
                  self.coordinates.shape)
         _require(bool(np.isfinite(self.coordinates).all()), "coordinates", "not finite")
+        if self.may_serve is not None:
+            _require(self.may_serve.dtype == np.bool_, "may_serve dtype", self.may_serve.dtype)
+            _require(self.may_serve.shape == (len(self.vehicle_types), self.num_customers),
+                     "may_serve shape", self.may_serve.shape)
         for matrix in self.travel:
             _require(matrix.duration.shape == (self.num_nodes, self.num_nodes), "travel shape",
                      matrix.duration.shape)
@@ -269,6 +274,10 @@ class Problem:
     def num_nodes(self) -> int:
         """Depots and customers."""
         return len(self.depots) + len(self.customers)
+
+    def allows(self, vehicle_type: int, node: int) -> bool:
+        """Tell whether the table lets vehicles of a type serve the customer at a node."""
+        return self.may_serve is None or bool(self.may_serve[vehicle_type, node - self.num_depots])
 
     def cost_of_leaving_out(self, customer: Customer) -> float:
         """Return what leaving a customer out costs."""

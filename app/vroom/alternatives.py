@@ -1,4 +1,4 @@
-"""What the planner has no words for, said by vehicles that don't exist and by prices."""
+"""Which windows and which jobs are left out; the former by vehicles that don't exist."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -11,9 +11,6 @@ from app.vroom.nodes import PARTS, Nodes
 from model.problem import (
     MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, FloatArray, IntArray, Problem, Travel, VehicleType,
 )
-
-ONLY = "only"
-"""Skill for jobs with one window, which vehicles that take other windows lack."""
 
 SECOND_NODE = 0.05
 """What reaching a node of several costs more, by a mean leg; much more would heat the search."""
@@ -31,28 +28,25 @@ def choose_windows(problem: Problem, nodes: Nodes) -> Problem:
     several = {job: copies for job, copies in nodes.of_job().items() if len(copies) > 1}
     if not several:
         return problem
-    first = problem.num_depots
-    marks = {node: f"one of {job}" for job, copies in several.items() for node in copies}
-    customers = tuple(
-        replace(customer, skills=customer.skills | {marks.get(node, ONLY)})
-        for node, customer in enumerate(problem.customers, start=first))
-    kinds = [replace(kind, skills=kind.skills | {ONLY, *marks.values()})
-             for kind in problem.vehicle_types]
+    first, kinds = problem.num_depots, list(problem.vehicle_types)
+    table = np.zeros((len(kinds) + len(several), problem.num_customers), np.bool_)
+    table[: len(kinds)] = True if problem.may_serve is None else problem.may_serve
     for copies in several.values():
-        customer = customers[copies[0] - first]
-        skills = frozenset(skill for node in copies for skill in customers[node - first].skills)
+        customer = problem.customer_at(copies[0])
+        table[len(kinds), np.array(copies) - first] = True
         kinds.append(VehicleType(
             f"not {customer.id}", len(copies) - 1, customer.demand, travel=len(problem.travel),
-            max_trip_distance=PARTS, skills=skills))
+            max_trip_distance=PARTS, skills=customer.skills))
     number = problem.num_nodes
     each = np.zeros((number, number), np.int64)
     each[:, first:] = PARTS
     nowhere = Travel(np.zeros((number, number), np.int64), each)
     limited = {kind.travel for kind in problem.vehicle_types if kind.max_trip_distance is not None}
-    travels = tuple(travel if index in limited else _dearer_to(travel, list(marks))
+    chosen = [node for copies in several.values() for node in copies]
+    travels = tuple(travel if index in limited else _dearer_to(travel, chosen)
                     for index, travel in enumerate(problem.travel))
-    return replace(problem, customers=customers, vehicle_types=tuple(kinds),
-                   travel=(*travels, nowhere))
+    return replace(problem, vehicle_types=tuple(kinds), travel=(*travels, nowhere),
+                   may_serve=table)
 
 
 def _dearer_to(travel: Travel, nodes: list[int]) -> Travel:

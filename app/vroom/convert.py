@@ -20,8 +20,8 @@ from app.vroom.schemas import VroomRequest, Window
 from app.vroom.timing import TIME_SCALE
 from model.kernel.pausing import Pause, go_on
 from model.problem import (
-    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, Customer, Depot, FloatArray, IntArray, Problem,
-    Travel, VehicleType,
+    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, Depot, FloatArray,
+    IntArray, Problem, Travel, VehicleType,
 )
 from model.travel.matrices import local_coordinates
 
@@ -122,7 +122,8 @@ class Converter:
             depots=tuple(Depot(str(node)) for node in range(len(depots))), customers=customers,
             vehicle_types=vehicle_types, travel=travels,
             coordinates=self._coordinates(nodes, travels),
-            unassigned_cost=dearest_plan(vehicle_types, travels, len(depots), drives.pause))
+            unassigned_cost=dearest_plan(vehicle_types, travels, len(depots), drives.pause),
+            may_serve=self._startable(nodes.windows))
 
     def _has_longest(self) -> bool:
         """Tell whether some legs are longer than the planner can count."""
@@ -174,9 +175,14 @@ class Converter:
         if window is None:
             return Customer(name, demand, service * PARTS, skills=skills)
         if not self.may_start(window):
-            return Customer(name, demand, service * PARTS, skills=frozenset({"nobody"}))
+            return Customer(name, demand, service * PARTS, skills=skills)
         return Customer(name, demand, service * PARTS, self._instant(window[0]),
                         self._last_instant(window[1]), skills=skills)
+
+    def _startable(self, windows: Sequence[Window | None]) -> BoolArray:
+        """Return (kind, node) that nobody serves a job in a window in which nobody works."""
+        startable = [window is None or self.may_start(window) for window in windows]
+        return np.tile(np.array(startable, np.bool_), (len(self.kinds), 1))
 
     def may_start(self, window: Window) -> bool:
         """Tell whether any vehicle works within a time window."""

@@ -100,13 +100,14 @@ class Model:
         shortest = {travel: _shortest_legs(problem.travel[travel].duration, first)
                     for travel in {kind.travel
                                    for kind in problem.vehicle_types[: self.num_kinds]}}
-        for kind in problem.vehicle_types[: self.num_kinds]:
+        for number, kind in enumerate(problem.vehicle_types[: self.num_kinds]):
             to, back = shortest[kind.travel]
             arrival = kind.earliest + to
             end = np.maximum(arrival, earliest) + service + back
             servable |= ((demand <= np.array(kind.capacity)).all(axis=1) & (arrival <= latest)
                          & (end <= kind.latest)
-                         & [customer.skills <= kind.skills for customer in customers])
+                         & [customer.skills <= kind.skills for customer in customers]
+                         & (True if problem.may_serve is None else problem.may_serve[number]))
         slots: dict[int, list[Window | None]] = {}
         for index in np.flatnonzero(servable):
             slots.setdefault(self.nodes.jobs[index], []).append(self.nodes.windows[index])

@@ -75,7 +75,7 @@ def judge_route(problem: Problem, route: Route, path: str,
     measured, cost = measure_route(problem, timed, tuple([trip.metrics for trip in trips]))
     for stated, trip in zip(route.trips, trips, strict=True):
         violations += _mismatches(stated, trip.trip, trip.path)
-        violations += trip_violations(problem, vehicle_type, trip)
+        violations += trip_violations(problem, route.vehicle_type, trip)
     violations += route_violations(vehicle_type, trips, measured, path)
     return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure)
 

@@ -63,8 +63,8 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
         return _unknown(index, vehicle_type.id)
     if problem.customer_at(node).served_by == "drone" and vehicle_type.drones is None:
         message = f"Only a drone may serve it and {vehicle_type.id} carries none."
-        return Reason(index, "KIND", message, _remedy_by_truck(problem, vehicle_type, node))
-    tried = attempts(problem, vehicle_type, node)
+        return Reason(index, "KIND", message, _remedy_by_truck(problem, index, node))
+    tried = attempts(problem, index, node)
     first = next(tried)
     for attempt in chain((first,), tried):
         if not attempt.codes:
@@ -121,12 +121,12 @@ def _failed(problem: Problem, index: int, node: int, attempt: Attempt) -> Reason
     if diagnosis.problem and not check(diagnosis.problem, attempt.solution).violations:
         remedy = diagnosis.remedy
     elif attempt.customer.served_by == "drone":
-        remedy = _remedy_by_truck(problem, problem.vehicle_types[index], node)
+        remedy = _remedy_by_truck(problem, index, node)
     return Reason(index, diagnosis.code, diagnosis.message, remedy)
 
 
-def _remedy_by_truck(problem: Problem, vehicle_type: VehicleType, node: int) -> str | None:
-    small = small_problem(problem, vehicle_type, [node])
+def _remedy_by_truck(problem: Problem, index: int, node: int) -> str | None:
+    small = small_problem(problem, index, [node])
     customer = replace(small.customers[0], served_by="either")
     attempt = next(try_truck(replace(small, customers=(customer,))))
     return None if attempt.codes else "fits if a truck may serve it"
@@ -160,6 +160,12 @@ def _minutes(duration: int) -> str:
 
 def _km(distance: int) -> str:
     return f"{decimal(distance * 1000 // MM_PER_KM)} km"
+
+
+def _vehicle(attempt: Attempt) -> _Diagnosis:
+    name = attempt.vehicle_type.id
+    return _Diagnosis("VEHICLE", f"{name} may not serve it.", f"fits if {name} may serve it",
+                      replace(attempt.problem, may_serve=None))
 
 
 def _skills(attempt: Attempt) -> _Diagnosis:
@@ -271,6 +277,7 @@ def _working_hours(attempt: Attempt) -> _Diagnosis:
 
 
 DIAGNOSES: dict[str, Callable[[Attempt], _Diagnosis]] = {
+    "VEHICLE": _vehicle,
     "SKILLS": _skills,
     "CAPACITY": _capacity,
     "PAYLOAD": _payload,

@@ -49,10 +49,9 @@ def _exceeds(load: tuple[int, ...], limits: tuple[int, ...]) -> bool:
     return any(map(gt, load, limits))
 
 
-def trip_violations(
-    problem: Problem, vehicle_type: VehicleType, timed: TimedTrip
-) -> Iterator[Violation]:
-    """What a trip breaks on its own."""
+def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[Violation]:
+    """What a trip by a type of vehicle breaks on its own."""
+    vehicle_type = problem.vehicle_types[kind]
     trip, metrics, path = timed.trip, timed.metrics, timed.path
     if len(trip.stops) == 2 and not any(sortie.visits for sortie in trip.sorties):
         yield Violation("EMPTY_TRIP", "a trip without customers", path)
@@ -72,28 +71,31 @@ def trip_violations(
     if trip.stops[0].arrival < release:
         message = f"begins at {seconds(trip.stops[0].arrival)}, released at {seconds(release)}"
         yield Violation("RELEASE", message, path)
-    yield from _halt_violations(problem, vehicle_type, trip.stops[1:-1], f"{path}.stops", 1)
+    yield from _halt_violations(problem, kind, trip.stops[1:-1], f"{path}.stops", 1)
     drones = vehicle_type.drones
     if drones is not None and trip.sorties:
         yield from _drone_busy(timed)
         for index, sortie in enumerate(trip.sorties):
             sortie_path = f"{path}.sorties[{index}]"
-            yield from _sortie_violations(problem, vehicle_type, drones, trip, sortie, sortie_path)
+            yield from _sortie_violations(problem, kind, drones, trip, sortie, sortie_path)
 
 
 def _halt_violations(
     problem: Problem,
-    vehicle_type: VehicleType,
+    kind: int,
     halts: Sequence[Stop | Visit],
     path: str,
     first_index: int,
 ) -> Iterator[Violation]:
-    """What customers demand of those who come: kind of vehicle, skills and window."""
-    first_customer = len(problem.depots)
+    """What customers demand of those who come: type and kind of vehicle, skills and window."""
+    first_customer, vehicle_type = len(problem.depots), problem.vehicle_types[kind]
     for index, halt in enumerate(halts, first_index):
         customer = problem.customers[halt.node - first_customer]
-        kind = "truck" if isinstance(halt, Stop) else "drone"
-        if customer.served_by not in (kind, "either"):
+        if not problem.allows(kind, halt.node):
+            message = f"{vehicle_type.id} may not serve customer {customer.id}"
+            yield Violation("VEHICLE", message, f"{path}[{index}]")
+        way = "truck" if isinstance(halt, Stop) else "drone"
+        if customer.served_by not in (way, "either"):
             message = f"customer {customer.id} is served by {customer.served_by} only"
             yield Violation("SERVED_BY", message, f"{path}[{index}]")
         if not customer.skills <= vehicle_type.skills:
@@ -122,7 +124,7 @@ def _drone_busy(timed: TimedTrip) -> Iterator[Violation]:
 
 def _sortie_violations(
     problem: Problem,
-    vehicle_type: VehicleType,
+    kind: int,
     drones: DroneType,
     trip: Trip,
     sortie: Sortie,
@@ -133,7 +135,7 @@ def _sortie_violations(
     if not 1 <= len(sortie.visits) <= drones.max_customers_per_sortie:
         message = f"{len(sortie.visits)} customers, 1 to {drones.max_customers_per_sortie} allowed"
         yield Violation("SORTIE_SIZE", message, path)
-    yield from _halt_violations(problem, vehicle_type, sortie.visits, f"{path}.visits", 0)
+    yield from _halt_violations(problem, kind, sortie.visits, f"{path}.visits", 0)
     demands = [problem.customer_at(visit.node).demand for visit in sortie.visits]
     payload = tuple(map(sum, zip(*demands, strict=True)))
     if _exceeds(payload, drones.capacity):

@@ -14,6 +14,9 @@ from model.solution import Solution
 MAX_LAUNCH_PLACES = 4
 """Other customers' places, nearest first, where a drone is tried if it fails from the depot."""
 
+HOPELESS = frozenset({"VEHICLE", "SKILLS", "CAPACITY"})
+"""Rules that whoever breaks them on one trip breaks on all."""
+
 
 class Attempt(NamedTuple):
     """The customer, the last one of a problem of its own, on one trip."""
@@ -38,23 +41,25 @@ class Attempt(NamedTuple):
         return {violation.code for violation in self.evaluation.violations}
 
 
-def small_problem(problem: Problem, vehicle_type: VehicleType, nodes: list[int]) -> Problem:
-    """Return a problem of one vehicle, its home depot and the customers at `nodes`."""
+def small_problem(problem: Problem, kind: int, nodes: list[int]) -> Problem:
+    """Return a problem of one type of vehicle, its home depot and the customers at `nodes`."""
+    vehicle_type, table = problem.vehicle_types[kind], problem.may_serve
     places = np.array([vehicle_type.depot, *nodes])
     grid = np.ix_(places, places)
     drones = vehicle_type.drones
-    kinds = [problem.travel[vehicle_type.travel]]
+    travels = [problem.travel[vehicle_type.travel]]
     if drones is not None:
-        kinds.append(problem.travel[drones.travel])
+        travels.append(problem.travel[drones.travel])
         drones = replace(drones, travel=1)
     return Problem(
         depots=(problem.depots[vehicle_type.depot],),
         customers=tuple([problem.customer_at(node) for node in nodes]),
         vehicle_types=(replace(vehicle_type, depot=0, travel=0, drones=drones),),
-        travel=tuple([Travel(kind.duration[grid], kind.distance[grid]) for kind in kinds]),
+        travel=tuple([Travel(each.duration[grid], each.distance[grid]) for each in travels]),
         coordinates=problem.coordinates[places],
         unassigned_cost=problem.unassigned_cost,
         amount_decimals=problem.amount_decimals,
+        may_serve=None if table is None else table[kind, places[None, 1:] - problem.num_depots],
     )
 
 
@@ -63,21 +68,21 @@ def _judge(problem: Problem, decision: TripDecision) -> Attempt:
     return Attempt(problem, solution, check(problem, solution))
 
 
-def attempts(problem: Problem, vehicle_type: VehicleType, node: int) -> Iterator[Attempt]:
-    """Yield trips that might serve a customer, as long as there is hope."""
-    customer, drones = problem.customer_at(node), vehicle_type.drones
-    small = small_problem(problem, vehicle_type, [node])
+def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:
+    """Yield trips by a type that might serve a customer, as long as there is hope."""
+    customer, drones = problem.customer_at(node), problem.vehicle_types[kind].drones
+    small = small_problem(problem, kind, [node])
     if customer.served_by != "drone":
         for attempt in try_truck(small):
             yield attempt
-            if attempt.codes & {"SKILLS", "CAPACITY"}:
+            if attempt.codes & HOPELESS:
                 return
     if customer.served_by != "truck" and drones is not None:
         loop = _try_loop(small, drones)
         yield loop
-        if not loop.codes & {"SKILLS", "CAPACITY", "PAYLOAD"}:
-            for place in _launch_places(problem, vehicle_type, drones, node):
-                small = small_problem(problem, vehicle_type, [place, node])
+        if not loop.codes & {*HOPELESS, "PAYLOAD"}:
+            for place in _launch_places(problem, kind, drones, node):
+                small = small_problem(problem, kind, [place, node])
                 yield _try_loop_from_customer(small, drones)
 
 
@@ -132,10 +137,11 @@ def _try_loop_from_customer(problem: Problem, drones: DroneType) -> Attempt:
 
 
 def _launch_places(
-    problem: Problem, vehicle_type: VehicleType, drones: DroneType, node: int
+    problem: Problem, kind: int, drones: DroneType, node: int
 ) -> Iterator[int]:
     """Yield customers near enough to fly from, where a truck of this type may stop."""
     first, customer = problem.num_depots, problem.customer_at(node)
+    skills = problem.vehicle_types[kind].skills
     duration = problem.travel[drones.travel].duration
     loops = duration[first:, node] + duration[node, first:]
     service = drones.service_duration
@@ -147,7 +153,7 @@ def _launch_places(
         host = problem.customers[index]
         if index + first == node or host.served_by == "drone":
             continue
-        if host.skills <= vehicle_type.skills:
+        if host.skills <= skills and problem.allows(kind, index + first):
             yield index + first
             found += 1
             if found == MAX_LAUNCH_PLACES:

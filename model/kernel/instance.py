@@ -39,7 +39,7 @@ class Instance(NamedTuple):
     late_early: FloatArray  # (problem, node, 2) cost per hour of lateness and of waiting
     type: IntArray  # (problem, type, TYPE_COLUMNS)
     rate: FloatArray  # (problem, type, 5)
-    can_drive: BoolArray  # (problem, type, node) kind, skills and capacity allow a truck
+    can_drive: BoolArray  # (problem, type, node) table, kind, skills and capacity allow a truck
     can_fly: BoolArray  # (problem, type, node) likewise for its drones
     profile_time: IntArray  # (problem, type, change)
     profile_factor: IntArray  # (problem, type, change + 1)
@@ -166,6 +166,8 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
         for skills, customers_asking in asking.items():
             if not skills <= kind.skills:
                 fits[customers_asking] = False
+        if problem.may_serve is not None:
+            fits &= problem.may_serve[index]
         instance.can_drive[row, index, customers] = fits & by_truck
         if kind.drones is not None:
             payload = instance.type[row, index, TYPE_PAYLOAD:]

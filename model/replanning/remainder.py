@@ -12,12 +12,15 @@ import numpy as np
 
 from model.judge.past import Past, Vehicle
 from model.problem import (
-    MAX_QUANTITY, UNREACHABLE, Customer, IntArray, Problem, Travel, VehicleType,
+    MAX_QUANTITY, UNREACHABLE, BoolArray, Customer, IntArray, Problem, Travel, VehicleType,
 )
 from model.replanning.kept import Kept
 from model.replanning.workers import Anchor, Worker
 
 TRUCK, DRONE = "truck", "drone"
+
+NOBODY, ANYBODY = -1, -2
+"""Instead of the only type that may serve a customer."""
 
 
 @dataclass(frozen=True)
@@ -74,21 +77,21 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     anchors = {kind: first + index for index, kind in enumerate(places)}
     source = [*range(problem.num_depots), *nodes, *(anchor.node for anchor in places.values())]
     here = {node: index for index, node in enumerate(source[:first])}
-    marks = _Marks(problem, past, workers)
+    kinds = (*plain, *(own.vehicle.type for own in workers))
     travels = _Travels(problem, source)
-    types = [replace(travels.moved(kind), skills=kind.skills | marks.of_type(owners.get(index)))
-             for index, kind in enumerate([*plain.values(), *(own.kind for own in workers)])]
+    types = [travels.moved(kind) for kind in (*plain.values(), *(own.kind for own in workers))]
     for index, anchor in places.items():
         travels.begin(types[index], anchor, anchors[index],
                       [here[node] for node in owners[index].aboard])
-    customers = [marks.marked(node) for node in nodes]
-    customers += [_anchor_customer(types[kind], anchor, marks.of_type(owners[kind]))
-                  for kind, anchor in places.items()]
+    customers = [_back(problem.customer_at(node), past.returned.get(node, 0))
+                 for node in nodes]
+    customers += [_anchor_customer(types[kind], anchor) for kind, anchor in places.items()]
+    table = _table(problem, past, kinds, owners, nodes)
+    at_anchors = np.arange(len(kinds))[:, None] == np.array([*places], np.int64)
     left = Problem(problem.depots, tuple(customers), tuple(types), travels.built(),
                    problem.coordinates[source], problem.unassigned_cost,
-                   problem.amount_decimals)
-    return Remainder(left, tuple(source), (*plain, *(own.vehicle.type for own in workers)),
-                     owners, anchors)
+                   problem.amount_decimals, np.hstack([table, at_anchors]))
+    return Remainder(left, tuple(source), kinds, owners, anchors)
 
 
 def _plain_types(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
@@ -104,49 +107,35 @@ def _plain_types(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     return plain
 
 
-class _Marks:
-    """Skills that say who may serve whom: what is aboard, who is pinned, and all others."""
+def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[int, Worker],
+           nodes: Sequence[int]) -> BoolArray:
+    """Return (type, customer) who may serve whom of those who are left.
 
-    def __init__(self, problem: Problem, past: Past, workers: Sequence[Worker]) -> None:
-        self._problem = problem
-        self._past = past
-        self._aboard = {node: worker.vehicle for worker in workers for node in worker.aboard}
-        self._owners = {worker.vehicle for worker in workers}
-        self._sign = "*"
-        while any(skill.startswith(self._sign)
-                  for customer in problem.customers for skill in customer.skills):
-            self._sign += "*"
-
-    def of_type(self, worker: Worker | None) -> frozenset[str]:
-        """Return the marks of what a type may serve; None: it isn't one vehicle."""
-        if worker is not None and worker.is_under_way:
-            return frozenset({self._only(worker.vehicle, "aboard")})
-        at_depot = f"{self._sign}at the depot"
-        return frozenset({at_depot} if worker is None
-                         else {at_depot, self._only(worker.vehicle, "pinned")})
-
-    def marked(self, node: int) -> Customer:
-        """Return a customer whom only those may serve who can and are allowed to."""
-        customer = self._problem.customer_at(node)
-        marks = set(customer.skills)
-        if node in self._aboard:
-            marks.add(self._only(self._aboard[node], "aboard"))
-        else:
-            if self._aboard:
-                marks.add(f"{self._sign}at the depot")
-            if node in self._past.pinned:
-                marks.add(self._only(self._past.pinned[node], "pinned"))
-        release = max(customer.release_time, self._past.returned.get(node, 0))
-        return replace(customer, release_time=release, skills=frozenset(marks))
-
-    def _only(self, vehicle: Vehicle, relation: str) -> str:
-        return f"{self._sign}{relation} {vehicle.type} {vehicle.number}"
+    A vehicle on a trip serves those whose parcels are aboard and nobody else does; whoever is
+    pinned is served by one vehicle alone, and all others by any that begins at the depot.
+    """
+    under_way = {owner.vehicle: kind for kind, owner in owners.items() if owner.is_under_way}
+    later = {owner.vehicle: kind for kind, owner in owners.items() if not owner.is_under_way}
+    only = {node: later.get(vehicle, NOBODY) for node, vehicle in past.pinned.items()}
+    only |= {node: under_way[owner.vehicle] for owner in owners.values() for node in owner.aboard}
+    sole = np.array([only.get(node, ANYBODY) for node in nodes], np.int64)
+    numbers = np.arange(len(kinds))[:, None]
+    begins = ~np.isin(numbers, list(under_way.values()))
+    table: BoolArray = np.where(sole == ANYBODY, begins, numbers == sole)
+    if problem.may_serve is not None:
+        table &= problem.may_serve[np.array(kinds)[:, None], np.array(nodes) - problem.num_depots]
+    return table
 
 
-def _anchor_customer(kind: VehicleType, anchor: Anchor, marks: frozenset[str]) -> Customer:
+def _back(customer: Customer, returned: int) -> Customer:
+    """Return a customer whose parcel may have to come back to the depot first."""
+    return replace(customer, release_time=max(customer.release_time, returned))
+
+
+def _anchor_customer(kind: VehicleType, anchor: Anchor) -> Customer:
     """Return the customer who is served at an anchor, at once."""
     return Customer(f"{kind.id} at {anchor.time} ms", anchor.load, anchor.service, anchor.time,
-                    anchor.time, served_by="truck", skills=marks)
+                    anchor.time, served_by="truck")
 
 
 class _Travels:

@@ -181,8 +181,10 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
 
 
 def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
-    kinds = [(kind.travel, kind.depot, kind.earliest, kind.latest, kind.skills)
-             for kind in problem.vehicle_types]
+    table = problem.may_serve
+    kinds = [(kind.travel, kind.depot, kind.earliest, kind.latest, kind.skills,
+              None if table is None else table[index].tobytes())
+             for index, kind in enumerate(problem.vehicle_types)]
     alike = np.array([[one == other for other in kinds] for one in kinds])
     lean = mode & MODE_LEAN > 0
     swaps: BoolArray = alike & lean & lean[:, None] & ~np.eye(len(kinds), dtype=np.bool_)

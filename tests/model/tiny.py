@@ -103,6 +103,12 @@ def with_own_costs(rng: np.random.Generator, problem: Problem) -> Problem:
         if rng.random() < 0.6 else customer for customer in problem.customers))
 
 
+def with_table(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which not every type of vehicle may serve everyone."""
+    size = (len(problem.vehicle_types), problem.num_customers)
+    return replace(problem, may_serve=rng.random(size) < 0.6)
+
+
 def draw_late(rng: np.random.Generator) -> Problem:
     """Draw a problem with drones some of whose windows open long after all else is done."""
     problem = draw_tiny(rng, drone_share=1.0)

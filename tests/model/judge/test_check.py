@@ -63,6 +63,33 @@ def test_demands_of_a_customer_on_a_truck(code, kept, broken, tiny_problem, cust
     assert codes(tiny_problem(a, replace(b, **broken), truck=truck), solution) == [code]
 
 
+@pytest.mark.parametrize("trip", [A_THEN_B, C_BY_DRONE])
+def test_the_table_says_whom_a_type_may_serve(trip, tiny_problem, customers, truck, drones):
+    problem = tiny_problem(*customers[:3], truck=replace(truck, drones=drones),
+                           more_types=(truck,))
+    solution = plan(problem, trip)
+    served = len(trip.nodes) - 2 + len(trip.sorties)
+    table = np.array([[True] * 3, [False] * 3])
+    assert codes(replace(problem, may_serve=table), solution) == []
+    violations = check(replace(problem, may_serve=~table), solution).violations
+    assert [violation.code for violation in violations] == ["VEHICLE"] * served
+    assert violations[0].message == "truck may not serve customer a"
+    assert violations[0].path == "routes[0].trips[0].stops[1]"
+
+
+def test_a_table_has_a_row_a_type_and_a_column_a_customer(tiny_problem, customers, truck):
+    problem = tiny_problem(*customers, truck=truck)
+    for table in (np.ones((1, 3), np.bool_), np.ones((2, 4), np.bool_), np.ones((1, 4))):
+        with pytest.raises(ValueError, match="may_serve"):
+            replace(problem, may_serve=table)
+
+
+@pytest.mark.parametrize("cost", [-1.0, float("nan"), float("inf")])
+def test_leaving_a_customer_out_costs_no_less_than_nothing(cost, customers):
+    with pytest.raises(ValueError, match="customer a unassigned_cost"):
+        replace(customers[0], unassigned_cost=cost)
+
+
 def test_message_and_path_name_the_offender(tiny_problem, customers, truck):
     late = replace(customers[1], latest=8 * MINUTE)
     problem = tiny_problem(customers[0], late, truck=truck)

@@ -1,5 +1,6 @@
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from model.judge.explain import Reason, explain
@@ -100,6 +101,15 @@ def test_leaving_out_is_cheaper(tiny_problem, customers, truck):
                            unassigned_cost=20.0)
     reason = reason_for_d(problem, Solution(serve(problem, 1), (2, 3, 4)))
     assert (reason.code, reason.remedy) == ("COST", "served if unassigned_cost were above 20.50")
+
+
+def test_only_the_other_type_may_serve_it(tiny_problem, customers, truck, drones):
+    table = np.array([[True, True, True, False], [True] * 4])
+    problem = replace(tiny_problem(*customers, truck=replace(truck, drones=drones),
+                                   more_types=(replace(truck, id="van"),)), may_serve=table)
+    reason, other = explain(problem, Solution((), (4,)), 4)
+    assert reason == Reason(0, "VEHICLE", "truck may not serve it.", "fits if truck may serve it")
+    assert other.code == "SEARCH"
 
 
 def test_leaving_out_this_one_is_cheaper(tiny_problem, customers, truck):

@@ -79,6 +79,14 @@ def test_kind_skills_capacity_and_payload_decide_who_may_serve_whom(
     assert not any(compatible(tiny_problem(*customers, truck=truck))[1])
 
 
+def test_the_table_decides_who_may_serve_whom(tiny_problem, customers, truck, drones) -> None:
+    problem = tiny_problem(*customers, truck=replace(truck, drones=drones), more_types=(truck,))
+    table = np.array([[True, False, True, False], [False, True, True, False]])
+    instance = pack([replace(problem, may_serve=table)])
+    assert instance.can_drive[0, :, 1:].tolist() == table.tolist()
+    assert instance.can_fly[0, :, 1:].tolist() == [table[0].tolist(), [False] * 4]
+
+
 def test_compiled_legs_end_when_the_checker_says(tiny_problem, customers, truck) -> None:
     problem = tiny_problem(*customers, truck=replace(truck, speed_profile=RUSH_HOUR))
     setting = setting_of(pack([problem]), 0, 0)

@@ -12,7 +12,7 @@ from model.problem import Problem, Travel
 from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
-from tests.model.tiny import draw_late, draw_tiny
+from tests.model.tiny import draw_late, draw_tiny, with_table
 from training.instances import VARIANTS, generate
 
 OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=40)
@@ -30,7 +30,9 @@ def part_of(problem: Problem, customers: list[int]) -> Problem:
     return replace(problem, customers=tuple(map(problem.customer_at, customers)),
                    travel=tuple(Travel(kind.duration[grid], kind.distance[grid])
                                 for kind in problem.travel),
-                   coordinates=problem.coordinates[nodes])
+                   coordinates=problem.coordinates[nodes],
+                   may_serve=None if problem.may_serve is None else
+                   problem.may_serve[:, np.array(customers) - problem.num_depots])
 
 
 def renumbered(trip: Trip, nodes: dict[int, int]) -> Trip:
@@ -177,6 +179,12 @@ def test_tiny_plans_go_on(planner: Planner, seed: int) -> None:
 def test_tiny_plans_whose_launches_are_held_back_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 8))
     replan_and_check(planner, draw_late(rng), rng)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_tiny_plans_go_on_by_the_table(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 9))
+    replan_and_check(planner, with_table(rng, draw_tiny(rng)), rng)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)

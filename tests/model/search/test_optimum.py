@@ -135,6 +135,11 @@ def optional_customers(rng: np.random.Generator) -> Problem:
                           unassigned_cost=8.0)
 
 
+def two_types_by_table(rng: np.random.Generator) -> Problem:
+    problem = two_types(rng)
+    return replace(problem, may_serve=rng.random((2, problem.num_customers)) < 0.7)
+
+
 def unequal_customers(rng: np.random.Generator) -> Problem:
     """Leaving out some costs little, others much, and not all can be served."""
     cost = (None, 1.0, 4.0, 500.0, 2000.0)
@@ -147,7 +152,8 @@ def unequal_customers(rng: np.random.Generator) -> Problem:
 
 KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     plain, windows, timed_windows, soft_windows, costly_waiting, two_types, two_trips, one_drone,
-    two_drones, long_sorties, rush_hour, optional_customers, unequal_customers)
+    two_drones, long_sorties, rush_hour, optional_customers, unequal_customers,
+    two_types_by_table)
 
 
 def searched_cost(problem: Problem, turns: int = TURNS) -> float:

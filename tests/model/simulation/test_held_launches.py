@@ -146,7 +146,7 @@ def test_a_drone_held_at_the_depot_is_no_work_before_it_takes_off(late):
     truck, = late.vehicle_types
     late = replace(late, vehicle_types=(replace(truck, max_working_duration=16 * MINUTE),))
     late = replace(late, customers=(late.customers[3],),
-                   travel=small_problem(late, truck, [4]).travel, coordinates=np.zeros((2, 2)))
+                   travel=small_problem(late, 0, [4]).travel, coordinates=np.zeros((2, 2)))
     # 4 minutes out, 5 of service, 4 back, a minute to recover.
     solution = decoded(late, (OPEN, 0), (LAUNCH, 1), (RETURN, 0))
     assert check(late, solution).routes[0].working_duration == 14 * MINUTE
@@ -238,7 +238,7 @@ def test_a_trip_for_each_window(late):
 def lone_reasons(seed: int) -> Iterator[tuple[Problem, Reason]]:
     """Yield problems of one customer and one vehicle, and why nobody serves whom."""
     problem = draw_late(np.random.default_rng(seed))
-    for kind in problem.vehicle_types:
+    for kind in range(len(problem.vehicle_types)):
         for node in range(problem.num_depots, problem.num_nodes):
             lone = replace(small_problem(problem, kind, [node]), unassigned_cost=1e6)
             reason, = explain(lone, Solution((), (1,)), 1)

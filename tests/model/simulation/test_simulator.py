@@ -20,7 +20,7 @@ from model.simulation.simulator import (
 )
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
-from tests.model.tiny import draw_tiny, with_own_costs
+from tests.model.tiny import draw_tiny, with_own_costs, with_table
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -80,6 +80,18 @@ def test_random_rollouts_of_all_rules_at_once_pass_the_checker() -> None:
         evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
         assert evaluation.violations == (), f"seed {seed}"
         assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
+
+
+def test_an_action_is_legal_exactly_if_the_table_lets_the_vehicle_serve() -> None:
+    for seed in range(200):
+        rng = np.random.default_rng(seed)
+        problem = with_table(rng, draw_tiny(rng))
+        for codes, position in walk(problem, rng):
+            expected = legal_codes(problem, position.vehicle, position.served, position.used)
+            assert sorted(codes) == sorted(expected), f"seed {seed}"
+        evaluation = check(problem, extract(problem, pack([problem]),
+                                            roll([problem], seed).rollouts[0].actions))
+        assert evaluation.violations == (), f"seed {seed}"
 
 
 def test_rollouts_count_what_leaving_out_each_customer_costs() -> None:
