@@ -5,7 +5,7 @@ import numpy as np
 from model.problem import Customer, DroneType, Problem, VehicleType
 from tests.model.search.free_launches import can_serve_all
 from tests.model.search.test_optimum import street_problem
-from tests.model.test_held_launches import searched
+from tests.model.simulation.test_held_launches import searched
 
 MINUTE = 60_000
 
