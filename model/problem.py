@@ -56,7 +56,7 @@ def _require_rate(name: str, value: float) -> None:
 
 @dataclass(frozen=True)
 class Depot:
-    """Start and end of trips."""
+    """A place where trips may begin or end."""
 
     id: str
 
@@ -161,6 +161,8 @@ class VehicleType:
     reload_duration: int = 0  # at the depot between trips
     skills: frozenset[str] = frozenset()
     drones: DroneType | None = None
+    start: int | None = None  # where the first trip begins, a node; None: at the depot
+    end: int | None = None  # where the last trip ends
 
     def __post_init__(self) -> None:
         _require(self.count >= 1, f"vehicle type {self.id} count", self.count)
@@ -177,6 +179,19 @@ class VehicleType:
                 _require_quantity(f"vehicle type {self.id} {name}", limit)
         for name in ("fixed_cost", "cost_per_km", "cost_per_hour"):
             _require_rate(f"vehicle type {self.id} {name}", getattr(self, name))
+        # Trips between need a place in the middle of routes, where the search knows of none.
+        _require(self.max_trips == 1 or self.begins_at == self.ends_at == self.depot,
+                 f"vehicle type {self.id} start and end by several trips", (self.start, self.end))
+
+    @property
+    def begins_at(self) -> int:
+        """The node where a trip begins."""
+        return self.depot if self.start is None else self.start
+
+    @property
+    def ends_at(self) -> int:
+        """The node where a trip ends."""
+        return self.depot if self.end is None else self.end
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,7 +266,9 @@ class Problem:
         name = f"vehicle type {vehicle_type.id}"
         _require(len(vehicle_type.capacity) == self.num_dimensions, f"{name} capacity",
                  vehicle_type.capacity)
-        _require(0 <= vehicle_type.depot < self.num_depots, f"{name} depot", vehicle_type.depot)
+        for place in ("depot", "begins_at", "ends_at"):
+            node = getattr(vehicle_type, place)
+            _require(0 <= node < self.num_depots, f"{name} {place}", node)
         _require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
                  vehicle_type.travel)
         if vehicle_type.drones is not None:

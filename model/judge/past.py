@@ -170,7 +170,7 @@ def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> Known
     is_serving = last.node >= problem.num_depots and last.service_start is not None
     if len(stops) > 1 and last.departure is None and not (is_home or is_serving):
         stops = stops[:-1]
-    nodes = [stop.node for stop in stops] + ([] if is_home else [vehicle_type.depot])
+    nodes = [stop.node for stop in stops] + ([] if is_home else [vehicle_type.ends_at])
     landed = [_landed(problem, vehicle_type.drones, sortie, nodes, len(stops), now)
               for sortie in known.sorties]
     return KnownTrip(stops, tuple(sortie for sortie in landed if sortie is not None),

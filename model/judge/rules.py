@@ -55,8 +55,8 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     trip, metrics, path = timed.trip, timed.metrics, timed.path
     if len(trip.stops) == 2 and not any(sortie.visits for sortie in trip.sorties):
         yield Violation("EMPTY_TRIP", "a trip without customers", path)
-    for index in (0, -1):
-        if trip.stops[index].node != vehicle_type.depot:
+    for index, place in ((0, vehicle_type.begins_at), (-1, vehicle_type.ends_at)):
+        if trip.stops[index].node != place:
             message = f"depot {trip.stops[index].node} is not home of {vehicle_type.id}"
             yield Violation("DEPOT", message, f"{path}.stops[{index % len(trip.stops)}]")
     if _exceeds(metrics.load, vehicle_type.capacity):

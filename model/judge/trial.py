@@ -42,9 +42,13 @@ class Attempt(NamedTuple):
 
 
 def small_problem(problem: Problem, kind: int, nodes: list[int]) -> Problem:
-    """Return a problem of one type of vehicle, its home depot and the customers at `nodes`."""
+    """Return a problem of one type of vehicle, where it begins and ends, and some customers.
+
+    The first depot is where it begins, the last one where it ends.
+    """
     vehicle_type, table = problem.vehicle_types[kind], problem.may_serve
-    places = np.array([vehicle_type.depot, *nodes])
+    depots = list(dict.fromkeys((vehicle_type.begins_at, vehicle_type.ends_at)))
+    places = np.array([*depots, *nodes])
     grid = np.ix_(places, places)
     drones = vehicle_type.drones
     travels = [problem.travel[vehicle_type.travel]]
@@ -52,14 +56,15 @@ def small_problem(problem: Problem, kind: int, nodes: list[int]) -> Problem:
         travels.append(problem.travel[drones.travel])
         drones = replace(drones, travel=1)
     return Problem(
-        depots=(problem.depots[vehicle_type.depot],),
+        depots=tuple([problem.depots[depot] for depot in depots]),
         customers=tuple([problem.customer_at(node) for node in nodes]),
-        vehicle_types=(replace(vehicle_type, depot=0, travel=0, drones=drones),),
+        vehicle_types=(replace(vehicle_type, depot=0, start=0, end=len(depots) - 1, travel=0,
+                               drones=drones),),
         travel=tuple([Travel(each.duration[grid], each.distance[grid]) for each in travels]),
         coordinates=problem.coordinates[places],
         unassigned_cost=problem.unassigned_cost,
         amount_decimals=problem.amount_decimals,
-        may_serve=None if table is None else table[kind, places[None, 1:] - problem.num_depots],
+        may_serve=None if table is None else table[[kind]][:, np.array(nodes) - problem.num_depots],
     )
 
 
@@ -94,16 +99,17 @@ def try_truck(problem: Problem) -> Iterator[Attempt]:
     """
     vehicle_type, customer = problem.vehicle_types[0], problem.customers[0]
     profile, duration = vehicle_type.speed_profile, problem.travel[0].duration
-    outward, homeward = duration.item(0, 1), duration.item(1, 0)
+    node, end = problem.num_depots, vehicle_type.ends_at
+    outward, homeward = duration.item(0, node), duration.item(node, end)
     earliest = max(vehicle_type.earliest, customer.release_time)
     start = max(earliest, leg_start(customer.earliest, outward, profile))
-    first = _judge(problem, TripDecision((0, 1, 0), start=start))
+    first = _judge(problem, TripDecision((0, node, end), start=start))
     yield first
     if profile is None or first.codes != {"WORKING_DURATION"}:
         return
     for change in profile.times:
         yield from (
-            _judge(problem, TripDecision((0, 1, 0), start=start))
+            _judge(problem, TripDecision((0, node, end), start=start))
             for start in (
                 change,
                 leg_start(change, outward, profile),
@@ -117,23 +123,26 @@ def try_truck(problem: Problem) -> Iterator[Attempt]:
 
 def _try_loop(problem: Problem, drones: DroneType) -> Attempt:
     """Return a flight from the depot and back."""
-    customer = problem.customers[0]
-    flight = problem.travel[1].duration.item(0, 1)
+    customer, node, end = problem.customers[0], problem.num_depots, problem.vehicle_types[0].ends_at
+    flight = problem.travel[1].duration.item(0, node)
     start = max(problem.vehicle_types[0].earliest, customer.release_time,
                 customer.earliest - flight - drones.launch_duration)
-    return _judge(problem, TripDecision((0, 0), (SortieDecision((1,), 0, 0),), start=start))
+    return _judge(problem, TripDecision((0, end), (SortieDecision((node,), 0, 0),), start=start))
 
 
 def _try_loop_from_customer(problem: Problem, drones: DroneType) -> Attempt:
     """Return a trip to the first customer with a loop to the second from there."""
     vehicle_type, (host, customer) = problem.vehicle_types[0], problem.customers
-    approach = drones.launch_duration + problem.travel[1].duration.item(1, 2)
+    there, node = problem.num_depots, problem.num_depots + 1
+    approach = drones.launch_duration + problem.travel[1].duration.item(there, node)
     arrival = min(max(host.earliest, customer.earliest - approach), host.latest,
                   customer.latest - approach)
-    outward = problem.travel[0].duration.item(0, 1)
+    outward = problem.travel[0].duration.item(0, there)
     start = max(vehicle_type.earliest, host.release_time, customer.release_time,
                 leg_start(arrival, outward, vehicle_type.speed_profile))
-    return _judge(problem, TripDecision((0, 1, 0), (SortieDecision((2,), 1, 1),), start=start))
+    trip = TripDecision((0, there, vehicle_type.ends_at), (SortieDecision((node,), 1, 1),),
+                        start=start)
+    return _judge(problem, trip)
 
 
 def _launch_places(

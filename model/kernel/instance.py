@@ -19,10 +19,10 @@ MAX_NEIGHBOURS = 24
 NODE_EARLIEST, NODE_LATEST, NODE_HARD, NODE_SERVICE, NODE_RELEASE, NODE_DEMAND = range(6)
 NODE_COLUMNS = NODE_DEMAND + MAX_DIMENSIONS
 
-(TYPE_COUNT, TYPE_TRAVEL, TYPE_DEPOT, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_WORKING,
+(TYPE_COUNT, TYPE_TRAVEL, TYPE_START, TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_WORKING,
  TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_PROFILE, TYPE_DRONES, TYPE_DRONE_TRAVEL,
  TYPE_ENDURANCE, TYPE_WAITING_COUNTS, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_DRONE_SERVICE,
- TYPE_CAPACITY) = range(18)
+ TYPE_CAPACITY) = range(19)
 TYPE_PAYLOAD = TYPE_CAPACITY + MAX_DIMENSIONS
 TYPE_COLUMNS = TYPE_PAYLOAD + MAX_DIMENSIONS
 
@@ -134,7 +134,7 @@ def _customer_columns(customer: Customer) -> tuple[int, ...]:
 def _type_columns(kind: VehicleType) -> list[int]:
     drones = kind.drones
     columns = [
-        kind.count, kind.travel, kind.depot, kind.earliest, kind.latest,
+        kind.count, kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
         UNLIMITED if kind.max_working_duration is None else kind.max_working_duration,
         UNLIMITED if kind.max_trip_distance is None else kind.max_trip_distance,
         kind.max_trips, kind.reload_duration,

@@ -10,7 +10,7 @@ import numpy as np
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import (
     MAX_DIMENSIONS, NODE_DEMAND, NODE_LATEST, NODE_RELEASE, RATE_DRONE_HOUR, RATE_DRONE_KM,
-    RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_TRAVEL,
+    RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_END, TYPE_DRONE_TRAVEL,
     TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_TRAVEL, Instance,
 )
@@ -185,7 +185,7 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     clock = vehicle[V_NEXT_START]
     if not vehicle[V_IDLE]:
         clock = max(vehicle[V_SERVICE_END], vehicle[V_FREE])
-        home = instance.duration[b, columns[TYPE_TRAVEL], vehicle[V_NODE], columns[TYPE_DEPOT]]
+        home = instance.duration[b, columns[TYPE_TRAVEL], vehicle[V_NODE], columns[TYPE_END]]
         glob[3] = min(home / scale.time[b], 5.0)
         reserve += vehicle[V_LOAD]
     glob[2] = min(unserved / max(1.0, reserve), 2.0)
@@ -230,7 +230,7 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
     vehicle = state.vehicle[r]
     rate, late_early = instance.rate[b, k], instance.late_early[b]
     unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
-    home, here = setting.type[TYPE_DEPOT], vehicle[V_NODE]
+    home, here = setting.type[TYPE_END], vehicle[V_NODE]
     drive = setting.drive[here]
     distance = instance.distance[b, setting.type[TYPE_TRAVEL]]
     flown = instance.distance[b, setting.type[TYPE_DRONE_TRAVEL], here]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from model.kernel.instance import (
     NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE, NODE_SERVICE,
     RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT,
-    TYPE_DEPOT, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_EARLIEST, TYPE_ENDURANCE, TYPE_LATEST,
+    TYPE_START, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_EARLIEST, TYPE_ENDURANCE, TYPE_LATEST,
     TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PAYLOAD, TYPE_PROFILE, TYPE_RELOAD,
     TYPE_TRAVEL, Instance,
 )
@@ -54,7 +54,7 @@ def scales(instance: Instance) -> Scales:
             continue
         nodes = slice(depots, depots + customers)
         kinds = instance.type[b, :types]
-        legs = [instance.duration[b, kind[TYPE_TRAVEL], kind[TYPE_DEPOT], nodes] for kind in kinds]
+        legs = [instance.duration[b, kind[TYPE_TRAVEL], kind[TYPE_START], nodes] for kind in kinds]
         result.time[b] = max(1.0, float(np.mean(legs)))
         between = instance.duration[b, kinds[0, TYPE_TRAVEL], nodes, nodes].astype(np.float64)
         np.fill_diagonal(between, np.inf)
@@ -64,7 +64,7 @@ def scales(instance: Instance) -> Scales:
         limits = np.concatenate([instance.node[b, nodes, NODE_LATEST], kinds[:, TYPE_LATEST]])
         limits = limits[limits < UNLIMITED]
         result.horizon[b] = max(1, limits.max()) if len(limits) else 20 * result.time[b]
-        driven = [instance.distance[b, kind[TYPE_TRAVEL], kind[TYPE_DEPOT], nodes].mean()
+        driven = [instance.distance[b, kind[TYPE_TRAVEL], kind[TYPE_START], nodes].mean()
                   for kind in kinds]
         rate = instance.rate[b, :types]
         cost = float(np.mean(rate[:, RATE_KM] * driven) / MM_PER_KM

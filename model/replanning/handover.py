@@ -61,7 +61,7 @@ def _trips_left(problem: Problem, route: Route, kept: Kept | None) -> list[TripD
     for trip in trips:
         flown = tuple(sortie for sortie in trip.sorties if sortie.drone < number)
         decision = read_decision(Trip(trip.stops, flown), launch_duration)
-        nodes = (kind.depot, *decision.nodes[1:-1], kind.depot)
+        nodes = (kind.begins_at, *decision.nodes[1:-1], kind.ends_at)
         decisions.append(replace(decision, nodes=nodes))
     return decisions
 

@@ -89,7 +89,7 @@ def _settled(kind: VehicleType, trip: Trip, known: KnownTrip) -> Trip:
     if known.rest != "anything":
         sorties = tuple(_as_sortie(sortie, len(stops)) for sortie in known.sorties)
         if known.rest == "home":
-            stops.append(Stop(kind.depot, 0, 0, 0))
+            stops.append(Stop(kind.ends_at, 0, 0, 0))
         return Trip(tuple(stops), sorties)
     meeting, bound = meeting_stop(trip, known), len(known.stops) - 1
     stops = list(trip.stops[:meeting + 1])

@@ -174,7 +174,7 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
     dearest = 0.0
     for kind in problem.vehicle_types:
         distance = problem.travel[kind.travel].distance
-        longest = float(distance[kind.depot].max() + distance[:, kind.depot].max())
+        longest = float(distance[kind.begins_at].max() + distance[:, kind.ends_at].max())
         dearest = max(dearest, kind.fixed_cost + longest / MM_PER_KM * kind.cost_per_km)
     must_serve: BoolArray = instance.unassigned_cost[0] + instance.unassigned_more[0] > dearest
     return must_serve
@@ -182,7 +182,7 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
 
 def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
     table = problem.may_serve
-    kinds = [(kind.travel, kind.depot, kind.earliest, kind.latest, kind.skills,
+    kinds = [(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest, kind.skills,
               None if table is None else table[index].tobytes())
              for index, kind in enumerate(problem.vehicle_types)]
     alike = np.array([[one == other for other in kinds] for one in kinds])

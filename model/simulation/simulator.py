@@ -15,7 +15,7 @@ from model.kernel.copying import copy_rows
 from model.kernel.flight import unreachable
 from model.kernel.instance import (
     MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
-    NODE_SERVICE, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES, TYPE_LATEST, TYPE_LAUNCH,
+    NODE_SERVICE, TYPE_COUNT, TYPE_END, TYPE_DRONES, TYPE_LATEST, TYPE_LAUNCH,
     TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, TYPE_TRAVEL, Instance,
 )
 from model.problem import IntArray
@@ -89,7 +89,7 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
         return NO
     start = max(arrival, columns[NODE_EARLIEST])
     served = max(free, start + columns[NODE_SERVICE])
-    end = travel_arrival(setting, node, setting.type[TYPE_DEPOT], served)
+    end = travel_arrival(setting, node, setting.type[TYPE_END], served)
     outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
     departure = leave
     if earliest >= 0:
@@ -114,7 +114,7 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
         return NO
     free = vehicle[V_FREE]
     drone = board(setting, vehicle, drones, 0, node, takeoff)
-    _, home, end = leave_for(setting, vehicle, drones, setting.type[TYPE_DEPOT])
+    _, home, end = leave_for(setting, vehicle, drones, setting.type[TYPE_END])
     drones[drone, DRONE_SORTIE] = IN_FLIGHT
     vehicle[V_FLYING] -= 1
     vehicle[V_FREE] = free
@@ -172,7 +172,7 @@ def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind:
     elif not drive(setting, num_depots, log, vehicle, drones, node):
         return False
     here = log.count[COUNT_STOPS] - 1
-    if not drive(setting, num_depots, log, vehicle, drones, setting.type[TYPE_DEPOT]):
+    if not drive(setting, num_depots, log, vehicle, drones, setting.type[TYPE_END]):
         return False
     arrival, start = log.stop[here, STOP_ARRIVAL], log.stop[here, STOP_START]
     if kind == LAUNCH:
@@ -196,7 +196,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     if idle and trips >= setting.type[TYPE_MAX_TRIPS]:
         return 0
     legs = instance.distance[b, setting.type[TYPE_TRAVEL]]
-    home = setting.type[TYPE_DEPOT]
+    home = setting.type[TYPE_END]
     reach = setting.type[TYPE_MAX_DISTANCE] - vehicle[V_DISTANCE]
     began = 0 if idle else state.log.trip[r, trips - 1, TRIP_START]
     drones = state.drone[r, : setting.type[TYPE_DRONES]]
@@ -257,7 +257,7 @@ def legal_actions(instance: Instance, state: State, r: int, scratch: int, action
     if vehicle[V_TYPE] != NO_VEHICLE:
         found = _legal_services(instance, state, r, scratch, actions, outlooks)
         if not vehicle[V_IDLE]:
-            home = instance.type[state.problem[r], vehicle[V_TYPE], TYPE_DEPOT]
+            home = instance.type[state.problem[r], vehicle[V_TYPE], TYPE_END]
             actions[found] = home * NUM_KINDS + RETURN
             return found + 1
         if state.log.count[r, COUNT_TRIPS] == 0:

@@ -8,7 +8,7 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import unreachable
 from model.kernel.instance import (
     MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
-    NODE_SERVICE, TYPE_CAPACITY, TYPE_DEPOT, TYPE_DRONES, TYPE_EARLIEST, TYPE_LAUNCH,
+    NODE_SERVICE, TYPE_CAPACITY, TYPE_START, TYPE_DRONES, TYPE_EARLIEST, TYPE_LAUNCH,
     TYPE_MAX_WORKING, TYPE_RECOVERY, TYPE_RELOAD, Instance,
 )
 from model.problem import UNLIMITED, BoolArray, FloatArray, IntArray
@@ -322,7 +322,7 @@ def open_vehicle(instance: Instance, state: State, r: int, k: int) -> None:
     vehicle = state.vehicle[r]
     vehicle[:] = 0
     vehicle[V_TYPE], vehicle[V_INDEX] = k, state.used[r, k]
-    vehicle[V_NODE] = instance.type[b, k, TYPE_DEPOT]
+    vehicle[V_NODE] = instance.type[b, k, TYPE_START]
     vehicle[V_IDLE] = 1
     vehicle[V_NEXT_START] = instance.type[b, k, TYPE_EARLIEST]
     fill(vehicle, instance.type[b, k])

@@ -76,7 +76,7 @@ def _recovered(trip: OpenTrip, to: int, loops: list[int], order: list[int],
 
 def _timed(problem: Problem, vehicle: Vehicle, trip: OpenTrip) -> Trip:
     """Time the last trip, cut short by a way home, as soon as possible."""
-    home = problem.vehicle_types[vehicle.kind].depot
+    home = problem.vehicle_types[vehicle.kind].ends_at
     if trip.nodes[-1] >= problem.num_depots:
         trip = OpenTrip((*trip.nodes, home), trip.flights, (*trip.operations, ()))
     trips = tuple(done.decision() for done in (*vehicle.trips[:-1], trip))
@@ -170,11 +170,11 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
 
 def after(problem: Problem, vehicle: Vehicle, kind: int, node: int) -> Vehicle | None:
     """Return the vehicle after one more action, None if the action cannot be done at all."""
-    home = problem.vehicle_types[vehicle.kind].depot
+    start = problem.vehicle_types[vehicle.kind].begins_at
     if vehicle.is_idle:
         if kind == RETURN:
             return None
-        vehicle = replace(vehicle, trips=(*vehicle.trips, OpenTrip((home,))), is_idle=False)
+        vehicle = replace(vehicle, trips=(*vehicle.trips, OpenTrip((start,))), is_idle=False)
     if kind == LAUNCH:
         return _launched(problem, vehicle, node)
     moved = _settle(problem, vehicle, node)
@@ -226,7 +226,7 @@ def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) 
     if vehicle is None:
         return False
     if not vehicle.is_idle:
-        home = _settle(problem, vehicle, problem.vehicle_types[vehicle.kind].depot)
+        home = _settle(problem, vehicle, problem.vehicle_types[vehicle.kind].ends_at)
         if home is None:
             return False
         vehicle = replace(home, is_idle=True)
@@ -249,7 +249,7 @@ def legal_codes(problem: Problem, vehicle: Vehicle | None, served: set[int], use
     customers = [node for node in range(problem.num_depots, problem.num_nodes)
                  if node not in served]
     if vehicle is not None:
-        home = problem.vehicle_types[vehicle.kind].depot
+        home = problem.vehicle_types[vehicle.kind].ends_at
         actions = [(kind, node) for node in customers for kind in (DRIVE, LAUNCH)]
         for kind, node in [*actions, (RETURN, home)]:
             if can_end(problem, after(problem, vehicle, kind, node), any_start):

@@ -109,6 +109,19 @@ def with_table(rng: np.random.Generator, problem: Problem) -> Problem:
     return replace(problem, may_serve=rng.random(size) < 0.6)
 
 
+def with_places(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem whose vehicles make one trip and begin and end at any of three depots."""
+    first, end = problem.num_depots, problem.num_nodes
+    nodes = [*range(first), *rng.integers(first, end, 3 - first), *range(first, end)]
+    grid = np.ix_(nodes, nodes)
+    kinds = tuple(replace(kind, max_trips=1, start=int(rng.integers(3)), end=int(rng.integers(3)))
+                  for kind in problem.vehicle_types)
+    return replace(
+        problem, depots=tuple(Depot(str(index)) for index in range(3)), vehicle_types=kinds,
+        travel=tuple(Travel(each.duration[grid], each.distance[grid]) for each in problem.travel),
+        coordinates=problem.coordinates[nodes])
+
+
 def draw_late(rng: np.random.Generator) -> Problem:
     """Draw a problem with drones some of whose windows open long after all else is done."""
     problem = draw_tiny(rng, drone_share=1.0)

@@ -10,7 +10,7 @@ import numpy as np
 
 from model.kernel.compiled import compiled
 from model.kernel.instance import (
-    MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_DEPOT, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL,
+    MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_END, TYPE_LATEST, TYPE_START, TYPE_TRAVEL,
 )
 from model.problem import IntArray
 from model.search.route.layout import (
@@ -35,12 +35,12 @@ def savings_routes(world: World, k: int) -> list[list[int]]:
     """
     first, nodes = world.num_depots, np.arange(world.num_depots, world.num_nodes)
     distance = world.leg[world.type[k, TYPE_TRAVEL], :, :, 1]
-    depot = int(world.type[k, TYPE_DEPOT])
+    start, end = int(world.type[k, TYPE_START]), int(world.type[k, TYPE_END])
     other = world.near[first:, :NEIGHBOURS]
     known = other >= 0
     one = np.broadcast_to(nodes[:, None], other.shape)[known]
     other = other[known]
-    saving = distance[one, depot] + distance[depot, other] - distance[one, other]
+    saving = distance[one, end] + distance[start, other] - distance[one, other]
     order = np.argsort(-saving, kind="stable")
     order = order[saving[order] > 0]
     chain = np.zeros((world.num_nodes, CHAIN_COLUMNS), np.int64)
@@ -69,13 +69,13 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray,
     """
     columns = world.type[k]
     legs = world.leg[columns[TYPE_TRAVEL]]
-    depot = columns[TYPE_DEPOT]
+    start, end = columns[TYPE_START], columns[TYPE_END]
     for node in range(world.num_depots, world.num_nodes):
         place, link = world.place[node], chain[node]
         link[C_BEFORE], link[C_BEHIND], link[C_ROUTE], link[C_LAST] = NOWHERE, NOWHERE, node, node
-        arrival = max(columns[TYPE_EARLIEST], place[P_RELEASE]) + legs[depot, node, 0]
+        arrival = max(columns[TYPE_EARLIEST], place[P_RELEASE]) + legs[start, node, 0]
         link[C_LEAVE] = max(arrival, place[P_EARLIEST]) + place[P_SERVICE]
-        link[C_LATEST] = min(place[P_LIMIT], columns[TYPE_LATEST] - legs[node, depot, 0]
+        link[C_LATEST] = min(place[P_LIMIT], columns[TYPE_LATEST] - legs[node, end, 0]
                              - place[P_SERVICE])
     for index in range(len(one)):
         a, b = one[index], other[index]

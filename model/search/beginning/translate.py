@@ -5,8 +5,8 @@ import numpy as np
 from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DEPOT, TYPE_DRONE_SERVICE, TYPE_DRONES,
-    TYPE_MAX_TRIPS, TYPE_RECOVERY,
+    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONE_SERVICE, TYPE_DRONES, TYPE_END,
+    TYPE_MAX_TRIPS, TYPE_RECOVERY, TYPE_START,
 )
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.savings import savings_routes
@@ -83,10 +83,10 @@ def first_plan(problem: Problem, world: World) -> Solution:
     if world.num_types > 1 or world.type[0, TYPE_DRONES] > 0:
         return Solution((), everyone)
     kind, = problem.vehicle_types
-    depot = kind.depot
+    start, end = kind.begins_at, kind.ends_at
     routes = sorted(savings_routes(world, 0), key=len, reverse=True)[: kind.count]
     return Solution(tuple(
-        Route(0, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (depot, *customers, depot))),))
+        Route(0, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (start, *customers, end))),))
         for number, customers in enumerate(routes)), everyone)
 
 
@@ -120,7 +120,8 @@ def alone_costs(world: World, fleet: Fleet, acc: IntArray, alone: FloatArray) ->
             for node in range(world.num_depots, world.num_nodes):
                 if world.can[k, by_drone, node] and not rung(world.stop):
                     begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k,
-                                world.type[k, TYPE_DEPOT], node, by_drone == 1)
+                                world.type[k, TYPE_START], world.type[k, TYPE_END], node,
+                                by_drone == 1)
                     if refresh(world, fleet, slot, acc):
                         alone[k, by_drone, node] = fleet.cost[slot]
 

@@ -3,7 +3,7 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_DEPOT, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL,
+    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL,
 )
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block
@@ -170,7 +170,7 @@ def price_move(world: World, fleet: Fleet, move: IntArray, node: int, acc: IntAr
     slot, to = move[M_SLOT], len(fleet.route) - 1
     route = fleet.route[slot]
     k = route[R_TYPE]
-    depot = world.type[k, TYPE_DEPOT]
+    depot = world.type[k, TYPE_END]
     if world.mode[k] & MODE_PRICED:
         copy_part(fleet, slot, 0, route[R_LENGTH] - 1, to)
         apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0)

@@ -2,7 +2,7 @@
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
-    MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_DEPOT, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE,
+    MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE,
     TYPE_RELOAD, TYPE_TRAVEL,
 )
 from model.problem import IntArray
@@ -61,7 +61,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     """
     stops = fleet.stop[slot]
     columns, trip = world.type[fleet.route[slot, R_TYPE]], fleet.trip[slot, stops[p, S_TRIP]]
-    legs, depot = world.leg[columns[TYPE_TRAVEL]], columns[TYPE_DEPOT]
+    legs, depot = world.leg[columns[TYPE_TRAVEL]], columns[TYPE_END]
     first, last = trip[T_FIRST], trip[T_LAST]
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
@@ -104,7 +104,7 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     """Tell whether a customer can be served by a trip of its own behind stop `p`, or -1."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     columns = world.type[route[R_TYPE]]
-    legs, depot = world.leg[columns[TYPE_TRAVEL]], columns[TYPE_DEPOT]
+    legs, depot = world.leg[columns[TYPE_TRAVEL]], columns[TYPE_END]
     time = columns[TYPE_EARLIEST]
     if p >= 0:
         time = stops[p, S_LEAVE] + columns[TYPE_RELOAD]

@@ -4,7 +4,7 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
-    RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DEPOT, TYPE_DRONES, TYPE_DRONE_SERVICE,
+    RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_END, TYPE_DRONES, TYPE_DRONE_SERVICE,
     TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_RECOVERY, TYPE_TRAVEL,
     TYPE_WAITING_COUNTS,
 )
@@ -195,7 +195,7 @@ def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -
     """List trips that a drone flies alone to a customer. As `offer_stops`."""
     route, stops = searcher.now.route[slot], searcher.now.stop[slot]
     k = route[R_TYPE]
-    flights, depot = world.type[k, TYPE_DRONE_TRAVEL], world.type[k, TYPE_DEPOT]
+    flights, depot = world.type[k, TYPE_DRONE_TRAVEL], world.type[k, TYPE_END]
     out, home = world.back[flights, node, depot], world.leg[flights, node, depot]
     cost = (out[1] + home[1]) * world.rate[k, RATE_DRONE_KM] - searcher.now.early[slot]
     if (world.loops and max(out[0], home[0]) < UNREACHABLE
@@ -212,7 +212,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
     now = searcher.now
     route, stops, best = now.route[slot], now.stop[slot], searcher.bound[B_BEST]
     k = route[R_TYPE]
-    m, depot = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_DEPOT]
+    m, depot = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_END]
     rate = world.rate[k, RATE_KM]
     out, home = world.back[m, node, depot, 1], world.leg[m, node, depot, 1]
     for p in range(-1, route[R_LENGTH]):

@@ -5,7 +5,7 @@ import math
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_DEPOT, TYPE_MAX_TRIPS,
+    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_END, TYPE_MAX_TRIPS, TYPE_START,
     TYPE_TRAVEL,
 )
 from model.search.route.edit import put
@@ -77,9 +77,10 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
         if cost < best:
             chosen, place, best = b, q, cost
     if now.stop[a, p + 1, S_KIND] == CUSTOMER:
-        m, depot = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_DEPOT]
-        detour = (world.leg[m, node, depot, 1] - now.stop[a, p, S_LEG]
-                  + world.leg[m, depot, now.stop[a, p + 1, S_NODE], 1])
+        m, start = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_START]
+        end = world.type[k, TYPE_END]
+        detour = (world.leg[m, node, end, 1] - now.stop[a, p, S_LEG]
+                  + world.leg[m, start, now.stop[a, p + 1, S_NODE], 1])
         if world.rate[k, RATE_FIXED] + detour * world.rate[k, RATE_KM] < best:
             slot = free_slot(world, searcher, k)
             if slot >= 0:
@@ -117,10 +118,9 @@ def swap_tails(world: World, searcher: Searcher, a: int, p: int, b: int, q: int)
     one, two = len(now.route) - 2, len(now.route) - 1
     k = now.route[a, R_TYPE]
     if now.route[b, R_LENGTH] == 0:
-        depot = world.type[k, TYPE_DEPOT]
         now.route[b, R_TYPE], now.route[b, R_LENGTH], now.route[b, R_SORTIES] = k, 2, 0
-        put(now.stop[b], 0, depot, START)
-        put(now.stop[b], 1, depot, END)
+        put(now.stop[b], 0, world.type[k, TYPE_START], START)
+        put(now.stop[b], 1, world.type[k, TYPE_END], END)
         now.used[k] += 1
     keep_aside(now, a, one)
     keep_aside(now, b, two)

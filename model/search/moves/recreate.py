@@ -2,7 +2,7 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
-from model.kernel.instance import TYPE_DEPOT, TYPE_TRAVEL
+from model.kernel.instance import TYPE_END, TYPE_START, TYPE_TRAVEL
 from model.problem import UIntArray
 from model.search.insertion.evaluate import INFEASIBLE
 from model.search.insertion.places import find_beside, find_place, try_new_route
@@ -36,7 +36,7 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     if order == BY_DEMAND:
         return -float(place[P_DEMAND] + place[P_DEMAND + 1] + place[P_DEMAND + 2])
     if order in (BY_FAR, BY_CLOSE):
-        distance = float(world.leg[world.type[0, TYPE_TRAVEL], world.type[0, TYPE_DEPOT], node, 1])
+        distance = float(world.leg[world.type[0, TYPE_TRAVEL], world.type[0, TYPE_START], node, 1])
         return -distance if order == BY_FAR else distance
     if order == BY_WIDTH:
         return float(place[P_LATEST] - place[P_EARLIEST])
@@ -67,8 +67,8 @@ def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bo
     if slot < 0:
         return False
     touch(searcher, slot)
-    begin_route(now.route[slot], now.stop[slot], now.sortie[slot], k, world.type[k, TYPE_DEPOT],
-                node, by_drone)
+    begin_route(now.route[slot], now.stop[slot], now.sortie[slot], k, world.type[k, TYPE_START],
+                world.type[k, TYPE_END], node, by_drone)
     if not refresh(world, now, slot, searcher.acc):
         now.route[slot, R_LENGTH] = 0
         now.cost[slot] = 0.0
@@ -95,7 +95,7 @@ def insert(world: World, searcher: Searcher, node: int) -> bool:
         return True
     spare = len(now.route) - 2
     keep_aside(now, slot, spare)
-    depot = world.type[route[R_TYPE], TYPE_DEPOT]
+    depot = world.type[route[R_TYPE], TYPE_END]
     apply(depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0)
     done = refresh(world, now, slot, searcher.acc)
     if not done:

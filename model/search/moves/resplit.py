@@ -7,7 +7,9 @@ split in two, or two become one, with the drones' share of each chosen anew at o
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import MAX_DIMENSIONS, RATE_FIXED, TYPE_CAPACITY, TYPE_DRONES
+from model.kernel.instance import (
+    MAX_DIMENSIONS, RATE_FIXED, TYPE_CAPACITY, TYPE_DRONES, TYPE_END, TYPE_START,
+)
 from model.problem import IntArray
 from model.search.moves.exchange import append
 from model.search.moves.split import (
@@ -132,7 +134,9 @@ def partner(world: World, searcher: Searcher, slot: int, node: int) -> int:
     now = searcher.now
     route, k = now.route[slot], now.route[slot, R_TYPE]
     near = world.near[node, below(searcher.rng, min(NEIGHBOURS, world.near.shape[1]))]
-    if near < 0 or route[R_TRIPS] > 1 or ends_in_flight(now, slot):
+    # The end of the one route is the start of the other in a line.
+    if (near < 0 or route[R_TRIPS] > 1 or ends_in_flight(now, slot)
+            or world.type[k, TYPE_START] != world.type[k, TYPE_END]):
         return NOWHERE
     other = now.where[near, W_SLOT]
     if other == slot:

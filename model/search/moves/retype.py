@@ -4,8 +4,7 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined
 from model.kernel.instance import (
-    TYPE_COUNT, TYPE_DEPOT, TYPE_DRONES,
-    TYPE_MAX_TRIPS,
+    TYPE_COUNT, TYPE_DRONES, TYPE_END, TYPE_MAX_TRIPS, TYPE_START,
 )
 from model.search.route.layout import (
     CUSTOMER, F_COUNT, F_DRONE, F_NODE, MODE_LEAN, R_LENGTH, R_SORTIES, R_TRIPS,
@@ -55,10 +54,11 @@ def improve_types(world: World, searcher: Searcher) -> None:
 
 @inlined
 def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
-    """Tell whether type `k` has the depot, trips, drones and skills that a route needs."""
+    """Tell whether type `k` has the places, trips, drones and skills that a route needs."""
     route, stops, sorties = fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]
-    nothing = world.type[k, TYPE_DEPOT]
-    if (world.type[k, TYPE_DEPOT] != world.type[route[R_TYPE], TYPE_DEPOT]
+    nothing, former = world.type[k, TYPE_END], world.type[route[R_TYPE]]
+    if (world.type[k, TYPE_START] != former[TYPE_START]
+            or world.type[k, TYPE_END] != former[TYPE_END]
             or route[R_TRIPS] > world.type[k, TYPE_MAX_TRIPS]):
         return False
     for p in range(route[R_LENGTH]):

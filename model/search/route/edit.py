@@ -103,19 +103,19 @@ def apply(depot: int, route: IntArray, stops: IntArray, sorties: IntArray, move:
 
 
 @inlined
-def begin_route(route: IntArray, stops: IntArray, sorties: IntArray, k: int, depot: int, node: int,
-                by_drone: bool) -> None:
+def begin_route(route: IntArray, stops: IntArray, sorties: IntArray, k: int, start: int, end: int,
+                node: int, by_drone: bool) -> None:
     """Write a route that serves one customer. In place."""
     clear(route)
     route[R_TYPE] = k
-    put(stops, 0, depot, START)
+    put(stops, 0, start, START)
     if by_drone:
-        put(stops, 1, depot, END)
+        put(stops, 1, end, END)
         route[R_LENGTH] = 2
         add_sortie(route, sorties, 0, 0, 0, node)
     else:
         put(stops, 1, node, CUSTOMER)
-        put(stops, 2, depot, END)
+        put(stops, 2, end, END)
         route[R_LENGTH] = 3
 
 

@@ -152,7 +152,7 @@ def _trips(problem: Problem, kind: VehicleType, nodes: Nodes) -> Iterator[TripDe
                     or any(problem.customer_at(node).served_by == "drone" for node in driven)):
                 continue
             for order in permutations(driven):
-                stops = (kind.depot, *order, kind.depot)
+                stops = (kind.begins_at, *order, kind.ends_at)
                 for queue in permutations(flown):
                     for sorties in _sorties(kind.drones, queue, len(stops), 0):
                         yield TripDecision(stops, sorties)

@@ -19,7 +19,7 @@ from model.solution import Solution, Trip
 from tests.model.mask_oracle import legal_codes
 from tests.model.remedies import applied
 from tests.model.rollouts import legal, roll
-from tests.model.test_simulator import walk
+from tests.model.simulation.test_simulator import walk
 from tests.model.tiny import draw_late
 
 MINUTE = 60_000

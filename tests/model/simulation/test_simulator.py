@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -20,7 +20,7 @@ from model.simulation.simulator import (
 )
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
-from tests.model.tiny import draw_tiny, with_own_costs, with_table
+from tests.model.tiny import draw_tiny, with_own_costs, with_places, with_table
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -82,16 +82,19 @@ def test_random_rollouts_of_all_rules_at_once_pass_the_checker() -> None:
         assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
 
 
-def test_an_action_is_legal_exactly_if_the_table_lets_the_vehicle_serve() -> None:
+@pytest.mark.parametrize("change", [with_table, with_places])
+def test_the_table_and_places_of_vehicles_decide_what_is_legal(
+        change: Callable[[np.random.Generator, Problem], Problem]) -> None:
     for seed in range(200):
         rng = np.random.default_rng(seed)
-        problem = with_table(rng, draw_tiny(rng))
+        problem = change(rng, draw_tiny(rng))
         for codes, position in walk(problem, rng):
             expected = legal_codes(problem, position.vehicle, position.served, position.used)
             assert sorted(codes) == sorted(expected), f"seed {seed}"
-        evaluation = check(problem, extract(problem, pack([problem]),
-                                            roll([problem], seed).rollouts[0].actions))
+        rollout = roll([problem], seed).rollouts[0]
+        evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
         assert evaluation.violations == (), f"seed {seed}"
+        assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
 
 
 def test_rollouts_count_what_leaving_out_each_customer_costs() -> None:
