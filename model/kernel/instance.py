@@ -16,8 +16,14 @@ MAX_DIMENSIONS = 3
 MAX_NEIGHBOURS = 24
 """How many nearest customers of each node are kept."""
 
-NODE_EARLIEST, NODE_LATEST, NODE_HARD, NODE_SERVICE, NODE_RELEASE, NODE_DEMAND = range(6)
+FAR = 2**58
+"""An instant, or a sum of durations, later than any that occurs."""
+
+NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE, NODE_RELEASE, NODE_LATEST, NODE_DEMAND = range(6)
 NODE_COLUMNS = NODE_DEMAND + MAX_DIMENSIONS
+"""Columns of a node, as many as fit a line of the processor's cache: when its window opens; the
+last arrival that is allowed, `FAR` where lateness only costs; service duration; release; the last
+arrival that is not late; demand by dimension."""
 
 (TYPE_COUNT, TYPE_TRAVEL, TYPE_START, TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_WORKING,
  TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_PROFILE, TYPE_DRONES, TYPE_DRONE_TRAVEL,
@@ -83,6 +89,7 @@ def pack(problems: Sequence[Problem], neighbours: bool = True) -> Instance:
         unassigned_more=np.zeros((rows, nodes)),
         neighbour=np.full((rows, nodes, MAX_NEIGHBOURS), -1, np.int64),
     )
+    instance.node[:, :, NODE_LIMIT] = FAR
     for row, problem in enumerate(problems):
         _pack_row(instance, row, problem)
         if neighbours:
@@ -127,8 +134,9 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
 
 
 def _customer_columns(customer: Customer) -> tuple[int, ...]:
-    return (customer.earliest, customer.latest, int(customer.late_cost_per_hour is None),
-            customer.service_duration, customer.release_time, *customer.demand)
+    limit = customer.latest if customer.late_cost_per_hour is None else FAR
+    return (customer.earliest, limit, customer.service_duration, customer.release_time,
+            customer.latest, *customer.demand)
 
 
 def _type_columns(kind: VehicleType) -> list[int]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.kernel.instance import (
-    NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE, NODE_SERVICE,
+    FAR, NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE,
     RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT,
     TYPE_START, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_EARLIEST, TYPE_ENDURANCE, TYPE_LATEST,
     TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PAYLOAD, TYPE_PROFILE, TYPE_RELOAD,
@@ -130,7 +130,8 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     return np.stack([
         place[..., 0], place[..., 1], is_depot,
         np.minimum(earliest / horizon, 2), np.minimum(latest / horizon, 2),
-        np.minimum((latest - earliest) / horizon, 2), latest >= UNLIMITED, columns[:, :, NODE_HARD],
+        np.minimum((latest - earliest) / horizon, 2), latest >= UNLIMITED,
+        columns[:, :, NODE_LIMIT] < FAR,
         squash(np.maximum(unbounded(latest) - home, 0) / time),
         np.minimum((demand / capacity).max(axis=2), 2), demand[..., 0] / scale.amount[:, None],
         (demand / np.maximum(demand + payload, 1)).max(axis=2),

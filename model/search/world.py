@@ -8,16 +8,14 @@ from numpy.typing import NDArray
 
 from model.kernel.alarm import silent
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
-    NODE_SERVICE, RATE_HOUR, TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
-    TYPE_PROFILE, Instance,
+    FAR, NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE, NO_PROFILE, RATE_HOUR,
+    TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, Instance,
 )
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
 from model.search.route.layout import (
-    FAR, MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED,
-    P_DEMAND, P_LIMIT, World,
+    MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED, World,
 )
 
 NEAR_RUIN = 128
@@ -75,7 +73,7 @@ def lay_ground(problem: Problem, instance: Instance) -> Ground:
     if not _symmetric(instance.duration[0]) or not _symmetric(instance.distance[0]):
         back = np.ascontiguousarray(leg.transpose(0, 2, 1, 3))
     near = _near(problem)
-    return Ground(leg, back, near, _fit(problem, _places(instance), near))
+    return Ground(leg, back, near, _fit(problem, instance.node[0], near))
 
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
@@ -89,7 +87,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     if not (moves.loops or moves.crossings):
         columns, can_fly = columns.copy(), np.zeros_like(can_fly)
         columns[:, TYPE_DRONES] = 0
-    place = _places(instance)
+    place = instance.node[0]
     visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
                        for kind in problem.vehicle_types], np.int64)
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
@@ -139,22 +137,10 @@ def _symmetric(matrices: IntArray) -> bool:
                for rows in _blocks(matrices.shape[1]))
 
 
-def _places(instance: Instance) -> IntArray:
-    node = instance.node[0]
-    place = np.zeros((len(node), P_DEMAND + MAX_DIMENSIONS), np.int64)
-    hard = node[:, NODE_HARD] == 1
-    limit = np.where(hard, node[:, NODE_LATEST], FAR)
-    place[:, :P_DEMAND] = np.stack(
-        [node[:, NODE_EARLIEST], limit, node[:, NODE_SERVICE], node[:, NODE_RELEASE],
-         node[:, NODE_LATEST]], axis=1)
-    place[:, P_DEMAND:] = node[:, NODE_DEMAND:]
-    return place
-
-
 def _modes(instance: Instance, columns: IntArray, place: IntArray) -> IntArray:
     rates = instance.rate[0]
     late, early = (instance.late_early[0] > 0).any(axis=0)
-    soft = bool((place[:, P_LIMIT] == FAR).any()) and bool(late)
+    soft = bool((place[:, NODE_LIMIT] == FAR).any()) and bool(late)
     timed = (rates[:, RATE_HOUR] > 0) | (columns[:, TYPE_MAX_WORKING] < UNLIMITED)
     profile = columns[:, TYPE_PROFILE] != NO_PROFILE
     settled = np.logical_or(early, profile & timed)
@@ -232,8 +218,8 @@ def _fit(problem: Problem, place: IntArray, near: IntArray) -> IntArray:
     ranks = min(NEAR_INSERTION, near.shape[1])
     fit = near[:, :ranks].copy()
     first, number = problem.num_depots, problem.num_customers
-    earliest, limit, service = place[:, :3].astype(np.float64).T
-    latest = np.minimum(limit, place[:, 4])
+    columns = place[:, [NODE_EARLIEST, NODE_SERVICE, NODE_LATEST]].astype(np.float64)
+    earliest, service, latest = columns.T
     if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
         return fit
     duration = problem.travel[problem.vehicle_types[0].travel].duration

@@ -9,8 +9,7 @@ launches are timed anew once it is known where the truck drives to.
 from model.kernel.compiled import inlined
 from model.kernel.flight import unreachable, within_endurance
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_EARLIEST, NODE_HARD, NODE_LATEST, TYPE_ENDURANCE, TYPE_LAUNCH,
-    TYPE_RECOVERY,
+    MAX_DIMENSIONS, NODE_EARLIEST, NODE_LIMIT, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY,
 )
 from model.problem import IntArray
 from model.simulation.vehicle_log import (
@@ -156,9 +155,9 @@ def any_late(setting: Setting, here: int, drones: IntArray) -> bool:
     late = False
     for d in range(len(drones)):
         columns = setting.node[drones[d, DRONE_NODE]]
-        if drones[d, DRONE_PLACE] != ABOARD and columns[NODE_HARD]:
+        if drones[d, DRONE_PLACE] != ABOARD:
             arrival = drones[d, DRONE_TAKEOFF] + setting.fly[here, drones[d, DRONE_NODE]]
-            late = late or arrival > columns[NODE_LATEST]
+            late = late or arrival > columns[NODE_LIMIT]
     return late
 
 

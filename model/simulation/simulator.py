@@ -14,9 +14,9 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import copy_rows
 from model.kernel.flight import unreachable
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
-    NODE_SERVICE, TYPE_COUNT, TYPE_END, TYPE_DRONES, TYPE_LATEST, TYPE_LAUNCH,
-    TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, TYPE_TRAVEL, Instance,
+    MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_RELEASE,
+    NODE_SERVICE, TYPE_COUNT, TYPE_END, TYPE_DRONES, TYPE_LATEST, TYPE_LAUNCH, TYPE_MAX_DISTANCE,
+    TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, TYPE_TRAVEL, Instance, NODE_LIMIT,
 )
 from model.problem import IntArray
 from model.simulation.cost import COST_UNASSIGNED
@@ -85,7 +85,7 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
         _, arrival, free = leave_for(setting, vehicle, drones, node)
         if arrival < 0:
             return NO
-    if columns[NODE_HARD] and arrival > columns[NODE_LATEST]:
+    if arrival > columns[NODE_LIMIT]:
         return NO
     start = max(arrival, columns[NODE_EARLIEST])
     served = max(free, start + columns[NODE_SERVICE])
@@ -110,7 +110,7 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
     flight = setting.fly[vehicle[V_NODE], node]
     takeoff = vehicle[V_FREE] + setting.type[TYPE_LAUNCH]
     arrival = takeoff + flight
-    if unreachable(flight) or (columns[NODE_HARD] and arrival > columns[NODE_LATEST]):
+    if unreachable(flight) or arrival > columns[NODE_LIMIT]:
         return NO
     free = vehicle[V_FREE]
     drone = board(setting, vehicle, drones, 0, node, takeoff)

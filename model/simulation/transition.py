@@ -7,9 +7,9 @@ import numpy as np
 from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import unreachable
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_RELEASE,
-    NODE_SERVICE, TYPE_CAPACITY, TYPE_START, TYPE_DRONES, TYPE_EARLIEST, TYPE_LAUNCH,
-    TYPE_MAX_WORKING, TYPE_RECOVERY, TYPE_RELOAD, Instance,
+    MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_RELEASE, NODE_SERVICE,
+    TYPE_CAPACITY, TYPE_START, TYPE_DRONES, TYPE_EARLIEST, TYPE_LAUNCH, TYPE_MAX_WORKING,
+    TYPE_RECOVERY, TYPE_RELOAD, Instance, NODE_LIMIT,
 )
 from model.problem import UNLIMITED, BoolArray, FloatArray, IntArray
 from model.simulation.cost import add_cost
@@ -239,8 +239,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray
     takeoff = vehicle[V_FREE] + setting.type[TYPE_LAUNCH]
     flight = setting.fly[vehicle[V_NODE], node]
     arrival = takeoff + flight
-    if unreachable(flight) or (setting.node[node, NODE_HARD]
-                               and arrival > setting.node[node, NODE_LATEST]):
+    if unreachable(flight) or arrival > setting.node[node, NODE_LIMIT]:
         return False
     here = log.count[COUNT_STOPS] - 1
     index = log.count[COUNT_SORTIES]
@@ -274,8 +273,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
     elif is_customer and not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
     left, arrival, free = leave_for(setting, vehicle, drones, node)
-    if arrival < 0 or (is_customer and setting.node[node, NODE_HARD]
-                       and arrival > setting.node[node, NODE_LATEST]):
+    if arrival < 0 or (is_customer and arrival > setting.node[node, NODE_LIMIT]):
         return False
     if vehicle[V_FLYING] > 0:
         here = log.count[COUNT_STOPS] - 1

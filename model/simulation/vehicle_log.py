@@ -13,7 +13,7 @@ from model.kernel.clock import arrival_by_profile
 from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import within_endurance
 from model.kernel.instance import (
-    NO_PROFILE, NODE_EARLIEST, NODE_HARD, NODE_LATEST, NODE_SERVICE, TYPE_DRONE_SERVICE,
+    NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_SERVICE, NO_PROFILE, TYPE_DRONE_SERVICE,
     TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_PROFILE, TYPE_RECOVERY, TYPE_RELOAD,
     TYPE_TRAVEL, Instance,
 )
@@ -108,7 +108,7 @@ def held_until(setting: Setting, customer: int, to: int) -> int:
 def _arrival_allowed(columns: IntArray, arrival: int, before: int, write: bool) -> bool:
     """Check a window: when writing, that a hard one holds; else, that no lateness is added."""
     if write:
-        return not columns[NODE_HARD] or arrival <= columns[NODE_LATEST]
+        return arrival <= columns[NODE_LIMIT]
     return arrival <= max(before, columns[NODE_LATEST])
 
 

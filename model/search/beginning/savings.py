@@ -11,11 +11,10 @@ import numpy as np
 from model.kernel.compiled import compiled
 from model.kernel.instance import (
     MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_END, TYPE_LATEST, TYPE_START, TYPE_TRAVEL,
+    NODE_DEMAND, NODE_EARLIEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE,
 )
 from model.problem import IntArray
-from model.search.route.layout import (
-    NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, World,
-)
+from model.search.route.layout import NOWHERE, World
 
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
@@ -44,7 +43,7 @@ def savings_routes(world: World, k: int) -> list[list[int]]:
     order = np.argsort(-saving, kind="stable")
     order = order[saving[order] > 0]
     chain = np.zeros((world.num_nodes, CHAIN_COLUMNS), np.int64)
-    load = world.place[:, P_DEMAND:].copy()
+    load = world.place[:, NODE_DEMAND:].copy()
     join(world, k, one[order], other[order], chain, load)
     heads = [int(node) for node in nodes
              if world.can[k, 0, node] and chain[node, C_BEFORE] == NOWHERE]
@@ -73,10 +72,10 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray,
     for node in range(world.num_depots, world.num_nodes):
         place, link = world.place[node], chain[node]
         link[C_BEFORE], link[C_BEHIND], link[C_ROUTE], link[C_LAST] = NOWHERE, NOWHERE, node, node
-        arrival = max(columns[TYPE_EARLIEST], place[P_RELEASE]) + legs[start, node, 0]
-        link[C_LEAVE] = max(arrival, place[P_EARLIEST]) + place[P_SERVICE]
-        link[C_LATEST] = min(place[P_LIMIT], columns[TYPE_LATEST] - legs[node, end, 0]
-                             - place[P_SERVICE])
+        arrival = max(columns[TYPE_EARLIEST], place[NODE_RELEASE]) + legs[start, node, 0]
+        link[C_LEAVE] = max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE]
+        link[C_LATEST] = min(place[NODE_LIMIT], columns[TYPE_LATEST] - legs[node, end, 0]
+                             - place[NODE_SERVICE])
     for index in range(len(one)):
         a, b = one[index], other[index]
         if (chain[a, C_BEHIND] != NOWHERE or chain[b, C_BEFORE] != NOWHERE
@@ -103,7 +102,7 @@ def link_up(world: World, legs: IntArray, chain: IntArray, a: int, b: int, head:
     node, leave = b, chain[a, C_LEAVE] + legs[a, b, 0]
     while node != NOWHERE:
         place, behind = world.place[node], chain[node, C_BEHIND]
-        leave = max(leave, place[P_EARLIEST]) + place[P_SERVICE]
+        leave = max(leave, place[NODE_EARLIEST]) + place[NODE_SERVICE]
         chain[node, C_LEAVE] = leave
         if behind != NOWHERE:
             leave += legs[node, behind, 0]
@@ -111,7 +110,7 @@ def link_up(world: World, legs: IntArray, chain: IntArray, a: int, b: int, head:
     node, latest = a, chain[b, C_LATEST] - legs[a, b, 0]
     while node != NOWHERE:
         place, before = world.place[node], chain[node, C_BEFORE]
-        latest = min(place[P_LIMIT], latest - place[P_SERVICE])
+        latest = min(place[NODE_LIMIT], latest - place[NODE_SERVICE])
         chain[node, C_LATEST] = latest
         if before != NOWHERE:
             latest -= legs[before, node, 0]

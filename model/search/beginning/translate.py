@@ -6,7 +6,7 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.instance import (
     RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONE_SERVICE, TYPE_DRONES, TYPE_END,
-    TYPE_MAX_TRIPS, TYPE_RECOVERY, TYPE_START,
+    TYPE_MAX_TRIPS, TYPE_RECOVERY, TYPE_START, NODE_DEMAND, NODE_EARLIEST, NODE_SERVICE,
 )
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.savings import savings_routes
@@ -15,10 +15,10 @@ from model.search.insertion.offers import AT_ONE_STOP
 from model.search.moves.split import LINE_COLUMNS
 from model.search.route.edit import MOVE_COLUMNS, begin_route
 from model.search.route.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, K_MOVE,
-    KEPT_COLUMNS, NONE, NOWHERE, P_DEMAND, P_EARLIEST, P_SERVICE, R_LENGTH, R_SORTIES, R_STAMP,
-    R_TRIPS, R_TYPE, S_ARRIVAL, S_GAP, S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, START,
-    T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
+    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, KEPT_COLUMNS,
+    K_MOVE, NONE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, START, S_ARRIVAL, S_GAP,
+    S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, T_FIRST, T_LAST, W_SLOT, Fleet, World,
+    empty_fleet,
 )
 from model.search.route.refresh import clear_holds, locate, refresh, settle
 from model.search.route.routes import drive_forward, load_trips
@@ -93,7 +93,7 @@ def first_plan(problem: Problem, world: World) -> Solution:
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
     columns, number = world.type, problem.num_customers
-    demand = np.sort(world.place[problem.num_depots:, P_DEMAND:], axis=0).cumsum(axis=0)
+    demand = np.sort(world.place[problem.num_depots:, NODE_DEMAND:], axis=0).cumsum(axis=0)
     most, fewest = 0, number
     for kind in columns:
         trips = min(int(kind[TYPE_MAX_TRIPS]), number)
@@ -240,7 +240,7 @@ def _stop(world: World, row: list[int]) -> Stop:
     if row[S_KIND] == START:
         arrival = begin = max(arrival, row[S_RELEASE], row[S_HOLD])
     elif row[S_KIND] == CUSTOMER:
-        begin = max(arrival, int(world.place[row[S_NODE], P_EARLIEST]))
+        begin = max(arrival, int(world.place[row[S_NODE], NODE_EARLIEST]))
     return Stop(row[S_NODE], arrival, begin, row[S_LEAVE])
 
 
@@ -250,8 +250,8 @@ def _sortie(world: World, k: int, row: list[int], first: int, stops: list[list[i
     visits = []
     for index in range(row[F_COUNT]):
         node, arrival = row[F_NODE + index], row[F_NODE + world.max_visits + index]
-        begin = max(arrival, int(world.place[node, P_EARLIEST]))
-        service = own if own >= 0 else int(world.place[node, P_SERVICE])
+        begin = max(arrival, int(world.place[node, NODE_EARLIEST]))
+        service = own if own >= 0 else int(world.place[node, NODE_SERVICE])
         visits.append(Visit(node, arrival, begin, begin + service))
     return Sortie(row[F_DRONE], row[F_LAUNCH] - first, row[F_RECOVERY] - first, tuple(visits),
                   row[F_TAKEOFF], row[F_BEGIN], row[F_BEGIN] + int(kind[TYPE_RECOVERY]))

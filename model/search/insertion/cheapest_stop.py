@@ -2,15 +2,15 @@
 
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE, TYPE_TRAVEL,
+    FAR, MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE,
+    RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE, TYPE_TRAVEL,
 )
 from model.problem import FloatArray, IntArray, UIntArray
 from model.search.route.edit import AT_STOP, M_FIRST, M_KIND, M_SLOT, M_TYPE
 from model.search.route.layout import (
-    B_BEST, B_BLINK, CHANGING, FAR, K_DETOUR, K_STAMP, K_STOP, MODE_SIMPLE, NOWHERE, P_DEMAND,
-    P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_GAP, S_LATEST,
-    S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST, T_LOAD, W_POSITION, W_SLOT, Fleet,
-    World,
+    B_BEST, B_BLINK, CHANGING, K_DETOUR, K_STAMP, K_STOP, MODE_SIMPLE, NOWHERE, R_SORTIES, R_STAMP,
+    R_TRIPS, R_TYPE, S_GAP, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST,
+    T_LOAD, W_POSITION, W_SLOT, Fleet, World,
 )
 from model.search.route.randomness import uniform
 from model.search.route.vehicles import larger_type, route_cost
@@ -27,7 +27,7 @@ def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
 def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntArray) -> bool:
     """Tell whether a customer's demand fits on top of a trip's load."""
     for dimension in range(MAX_DIMENSIONS):
-        if (trips[index, T_LOAD + dimension] + place[node, P_DEMAND + dimension]
+        if (trips[index, T_LOAD + dimension] + place[node, NODE_DEMAND + dimension]
                 > columns[TYPE_CAPACITY + dimension]):
             return False
     return True
@@ -44,7 +44,7 @@ def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last:
     probability `blink`. Returns its cost and the stop, or `best` and -1 if none costs less.
     """
     chosen = -1
-    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    earliest, limit, service = place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE]
     for p in range(first, last + 1):
         here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
         detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
@@ -68,8 +68,8 @@ def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, s
                  blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
     chosen, place = -1, world.place[node]
-    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
-    leave = place[P_RELEASE]
+    earliest, limit, service = place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE]
+    leave = place[NODE_RELEASE]
     if leave > stops[start, S_LATEST]:
         return best, chosen
     for p in range(start, last + 1):
@@ -78,7 +78,7 @@ def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, s
             if arrival > stops[p, S_LATEST]:
                 break
             here = world.place[stops[p, S_NODE]]
-            leave = max(arrival, here[P_EARLIEST]) + here[P_SERVICE]
+            leave = max(arrival, here[NODE_EARLIEST]) + here[NODE_SERVICE]
         if leave > limit:
             break
         detour = back[stops[p, S_NODE], 1] + leg[stops[p + 1, S_NODE], 1] - stops[p, S_LEG]
@@ -100,7 +100,7 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
     m = world.type[k, TYPE_TRAVEL]
     back, leg, place = world.back[m, node], world.leg[m, node], world.place[node]
     spare = world.type[k, TYPE_MAX_DISTANCE] - trip[T_DISTANCE]
-    if place[P_RELEASE] > stops[trip[T_FIRST], S_LEAVE]:
+    if place[NODE_RELEASE] > stops[trip[T_FIRST], S_LEAVE]:
         return scan_delayed(world, back, leg, stops, trip[T_FIRST], first, last, node, spare, rate,
                             best, blink, rng)
     return scan_stops(back, leg, stops, first, last, -1, place, spare, rate, best, blink, rng)
@@ -132,7 +132,7 @@ def shortest_detour(back: IntArray, leg: IntArray, stops: IntArray, last: int, p
     Or `best` and -1 if there is none shorter.
     """
     chosen = -1
-    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    earliest, limit, service = place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE]
     for p in range(last):
         here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
         detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
@@ -255,7 +255,7 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
                      move: IntArray, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where all routes are lean. As `scan_lean`."""
     place = world.place[node]
-    earliest, limit, service = place[P_EARLIEST], place[P_LIMIT], place[P_SERVICE]
+    earliest, limit, service = place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE]
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
         slot, behind = fleet.where[other, W_SLOT], fleet.where[other, W_POSITION]

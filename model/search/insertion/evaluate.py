@@ -3,7 +3,8 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL,
+    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_EARLIEST,
+    NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE,
 )
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block
@@ -11,11 +12,11 @@ from model.search.route.edit import (
     BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, apply,
 )
 from model.search.route.layout import (
-    CUSTOMER, END, F_LAUNCH, F_RECOVERY, FAR, MODE_PRICED, MODE_PROFILE, MODE_SETTLED,
-    NONE, P_EARLIEST, P_LATEST, P_LIMIT, P_RELEASE, P_SERVICE, R_LENGTH, R_OFFSET, R_SORTIES,
-    R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY,
-    S_END, S_FLYING, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE,
-    S_RELEASE, S_REST, S_TRIP, SEQUENCE_COLUMNS, START, T_FIRST, T_RELEASE, Fleet, World,
+    CUSTOMER, END, F_LAUNCH, F_RECOVERY, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, NONE, R_LENGTH,
+    R_OFFSET, R_SORTIES, R_TYPE, R_WORKING, SEQUENCE_COLUMNS, START, S_ARRIVAL, S_BEFORE, S_BLOCK,
+    S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST,
+    S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, T_FIRST, T_RELEASE, Fleet,
+    World,
 )
 from model.search.route.refresh import refresh
 from model.search.route.routes import sortie_cost, window_cost
@@ -182,7 +183,7 @@ def price_move(world: World, fleet: Fleet, move: IntArray, node: int, acc: IntAr
     if kind == ON_SORTIE:
         trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move[M_SORTIE], F_LAUNCH],
                                            S_TRIP]]
-    release = world.place[node, P_RELEASE]
+    release = world.place[node, NODE_RELEASE]
     alone = kind in (NEW_TRIP, FLIGHT_TRIP)
     held = not alone and release > trip[T_RELEASE]
     first, last = part_of(fleet, slot, move, held)
@@ -205,7 +206,7 @@ def stands_alone(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bo
                                or fleet.route[slot, R_SORTIES] > 0):
         return False
     return (stop[S_FLYING] == 0
-            and world.place[node, P_RELEASE] <= fleet.trip[slot, stop[S_TRIP], T_RELEASE])
+            and world.place[node, NODE_RELEASE] <= fleet.trip[slot, stop[S_TRIP], T_RELEASE])
 
 
 @inlined
@@ -224,8 +225,9 @@ def follow(world: World, route: IntArray, stops: IntArray, p: int, time: int, cu
             node = stop[S_NODE]
             place = world.place[node]
             cost += window_cost(world, node, time) - window_cost(world, node, stop[S_ARRIVAL])
-            depart = min(depart, max(time, place[P_LATEST]) - cum)
-            leave, cum = max(time, place[P_EARLIEST]) + place[P_SERVICE], cum + place[P_SERVICE]
+            depart = min(depart, max(time, place[NODE_LATEST]) - cum)
+            leave = max(time, place[NODE_EARLIEST]) + place[NODE_SERVICE]
+            cum += place[NODE_SERVICE]
         elif stop[S_KIND] == START:
             leave = max(time, stop[S_RELEASE])
         time = leave
@@ -245,13 +247,13 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     m = world.type[k, TYPE_TRAVEL]
     out, on = world.back[m, node, here[S_NODE]], world.leg[m, node, behind[S_NODE]]
     time, cum = here[S_LEAVE] + out[0], here[S_CUM] + out[0]
-    if time > place[P_LIMIT]:
+    if time > place[NODE_LIMIT]:
         return INFEASIBLE
     cost = (out[1] + on[1] - here[S_LEG]) * world.rate[k, RATE_KM]
-    depart = min(here[S_DEPART], max(time, place[P_LATEST]) - cum)
+    depart = min(here[S_DEPART], max(time, place[NODE_LATEST]) - cum)
     late = window_cost(world, node, time)
-    time = max(time, place[P_EARLIEST]) + place[P_SERVICE] + on[0]
-    cum += place[P_SERVICE] + on[0]
+    time = max(time, place[NODE_EARLIEST]) + place[NODE_SERVICE] + on[0]
+    cum += place[NODE_SERVICE] + on[0]
     if time > behind[S_LATEST] or time < behind[S_EARLY]:
         return INFEASIBLE
     if world.mode[k] & MODE_PRICED:

@@ -3,14 +3,14 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
     MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE,
-    TYPE_RELOAD, TYPE_TRAVEL,
+    TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_DEMAND, NODE_EARLIEST, NODE_LIMIT, NODE_RELEASE,
+    NODE_SERVICE,
 )
 from model.problem import IntArray
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
 from model.search.route.layout import (
-    CUSTOMER, FAR, F_COUNT, F_LAUNCH, F_NODE, P_DEMAND, P_EARLIEST, P_LIMIT, P_RELEASE, P_SERVICE,
-    R_LENGTH, R_SORTIES, R_TYPE, S_ARRIVAL, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP,
-    T_FIRST, T_LAST, Fleet, World,
+    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, R_LENGTH, R_SORTIES, R_TYPE, S_ARRIVAL, S_GAP, S_KIND,
+    S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_FIRST, T_LAST, Fleet, World,
 )
 
 
@@ -21,14 +21,14 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
     trip = fleet.trip[slot, stops[p, S_TRIP]]
     first, last = (trip[T_FIRST], p) if front else (p + 1, trip[T_LAST])
     for dimension in range(MAX_DIMENSIONS):
-        load = world.place[node, P_DEMAND + dimension]
+        load = world.place[node, NODE_DEMAND + dimension]
         for q in range(first, last + 1):
             if stops[q, S_KIND] == CUSTOMER:
-                load += world.place[stops[q, S_NODE], P_DEMAND + dimension]
+                load += world.place[stops[q, S_NODE], NODE_DEMAND + dimension]
         for s in range(fleet.route[slot, R_SORTIES]):
             if first <= sorties[s, F_LAUNCH] <= last:
                 for visit in range(sorties[s, F_COUNT]):
-                    load += world.place[sorties[s, F_NODE + visit], P_DEMAND + dimension]
+                    load += world.place[sorties[s, F_NODE + visit], NODE_DEMAND + dimension]
         if load > world.type[fleet.route[slot, R_TYPE], TYPE_CAPACITY + dimension]:
             return False
     return True
@@ -38,9 +38,9 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
 def serve_at(world: World, node: int, arrival: int) -> int:
     """Return when a truck that arrives at a customer has served; FAR if it is too late."""
     place = world.place[node]
-    if arrival > place[P_LIMIT]:
+    if arrival > place[NODE_LIMIT]:
         return FAR
-    return max(arrival, place[P_EARLIEST]) + place[P_SERVICE]
+    return max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE]
 
 
 @spliced
@@ -65,7 +65,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     first, last = trip[T_FIRST], trip[T_LAST]
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
-        release = world.place[stops[q, S_NODE], P_RELEASE] if q > first else 0
+        release = world.place[stops[q, S_NODE], NODE_RELEASE] if q > first else 0
         if q <= p:
             front = max(front, release)
         else:
@@ -73,7 +73,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
             rear_length += stops[q, S_LEG]
         if q < p:
             front_length += stops[q, S_LEG]
-    release = world.place[node, P_RELEASE]
+    release = world.place[node, NODE_RELEASE]
     if until:
         front = max(front, release)
     else:
@@ -108,7 +108,7 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     time = columns[TYPE_EARLIEST]
     if p >= 0:
         time = stops[p, S_LEAVE] + columns[TYPE_RELOAD]
-    time = max(time, world.place[node, P_RELEASE])
+    time = max(time, world.place[node, NODE_RELEASE])
     time = serve_at(world, node, time + legs[depot, node, 0]) + legs[node, depot, 0]
     if p + 1 < route[R_LENGTH] and time + columns[TYPE_RELOAD] > stops[p + 1, S_LATEST]:
         return False

@@ -4,9 +4,9 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
-    RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_END, TYPE_DRONES, TYPE_DRONE_SERVICE,
-    TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_RECOVERY, TYPE_TRAVEL,
-    TYPE_WAITING_COUNTS,
+    RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_END, TYPE_DRONES, TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL,
+    TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+    NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE,
 )
 from model.problem import UNREACHABLE, FloatArray, IntArray
 from model.search.insertion.cheapest_stop import fits, is_simple
@@ -18,9 +18,8 @@ from model.search.route.edit import (
 )
 from model.search.route.layout import (
     B_BEST, B_BLINK, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, MODE_TIMED,
-    NOWHERE, P_EARLIEST, P_LIMIT, P_SERVICE, R_LENGTH, R_SORTIES, R_TYPE, S_ARRIVAL, S_FLYING,
-    S_GAP, S_IDLE, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, T_DISTANCE, T_LAST,
-    Fleet, World,
+    NOWHERE, R_LENGTH, R_SORTIES, R_TYPE, START, S_ARRIVAL, S_FLYING, S_GAP, S_IDLE, S_KIND,
+    S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_LAST, Fleet, World,
 )
 from model.search.route.randomness import uniform
 from model.search.route.refresh import idle_time
@@ -59,13 +58,13 @@ def stop_costs(world: World, k: int, back: IntArray, leg: IntArray, stops: IntAr
     mode = world.mode[k]
     if mode & MODE_TIMED:
         # While drones fly, the truck may have time before they are back.
-        longer = back[here, 0] + leg[there, 0] + place[P_SERVICE] - stops[p, S_GAP]
+        longer = back[here, 0] + leg[there, 0] + place[NODE_SERVICE] - stops[p, S_GAP]
         cost += max(0, longer - spare - stops[p, S_IDLE]) * world.rate[k, RATE_HOUR]
     if cost >= best:
         return best
     arrival = stops[p, S_LEAVE] + back[here, 0]
-    following = max(arrival, place[P_EARLIEST]) + place[P_SERVICE] + leg[there, 0]
-    if arrival > place[P_LIMIT] or following > stops[p + 1, S_LATEST]:
+    following = max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE] + leg[there, 0]
+    if arrival > place[NODE_LIMIT] or following > stops[p + 1, S_LATEST]:
         return best
     if mode & MODE_PRICED:
         cost += (lateness_cost(world, node, arrival) + lateness_cost(world, there, following)
@@ -132,7 +131,7 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     begun = stops[launch, S_ARRIVAL] + (columns[TYPE_LAUNCH] if launch > 0 else 0)
     service = columns[TYPE_DRONE_SERVICE]
     if service < 0:
-        service = world.place[node, P_SERVICE]
+        service = world.place[node, NODE_SERVICE]
     late = 0.0
     if world.mode[k] & MODE_PRICED:
         late = lateness_cost(world, node, begun + out[0])
@@ -147,7 +146,7 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         flight = out[0] + service + home[0]
         if columns[TYPE_WAITING_COUNTS] and away > columns[TYPE_ENDURANCE]:
             # Held back for the window, the truck leaves later and may wait less on its way.
-            held = world.place[node, P_EARLIEST] + service - stops[launch, S_LEAVE]
+            held = world.place[node, NODE_EARLIEST] + service - stops[launch, S_LEAVE]
             if held <= 0:
                 break
             if away > max(columns[TYPE_ENDURANCE], held + home[0]):
@@ -233,7 +232,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
             if cost < best and not part_fits(world, now, slot, p, node, kind == TRIP_UNTIL):
                 continue
         cost -= now.early[slot]
-        if cost < best and (p < 0 or stops[p, S_LEAVE] <= world.place[node, P_LIMIT]):
+        if cost < best and (p < 0 or stops[p, S_LEAVE] <= world.place[node, NODE_LIMIT]):
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 
 

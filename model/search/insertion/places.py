@@ -3,7 +3,7 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import pasted
 from model.kernel.copying import copy_row
-from model.kernel.instance import TYPE_COUNT, TYPE_ENDURANCE, TYPE_MAX_TRIPS
+from model.kernel.instance import NODE_EARLIEST, TYPE_COUNT, TYPE_ENDURANCE, TYPE_MAX_TRIPS
 from model.search.insertion.cheapest_stop import (
     fits, is_simple, scan_beside, scan_beside_lean, scan_lean, scan_simple,
 )
@@ -13,8 +13,8 @@ from model.search.insertion.offers import (
 )
 from model.search.route.edit import M_KIND, M_TYPE, NEW_ROUTE
 from model.search.route.layout import (
-    B_BEST, B_BLINK, CHANGING, K_MOVE, K_STAMP, NOWHERE, P_EARLIEST, R_STAMP, R_TRIPS, R_TYPE,
-    S_LEAVE, S_TRIP, T_FIRST, T_LAST, W_SLOT, World,
+    B_BEST, B_BLINK, CHANGING, K_MOVE, K_STAMP, NOWHERE, R_STAMP, R_TRIPS, R_TYPE, S_LEAVE, S_TRIP,
+    T_FIRST, T_LAST, W_SLOT, World,
 )
 from model.search.route.randomness import uniform
 from model.search.route.refresh import stop_beside
@@ -66,7 +66,7 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
             for p in range(first, last):
                 offer_sorties(world, searcher, slot, p, node)
             # Who would have to wait for a flight from the depot may fly when the trip is over.
-            soonest = world.place[node, P_EARLIEST] - world.type[k, TYPE_ENDURANCE]
+            soonest = world.place[node, NODE_EARLIEST] - world.type[k, TYPE_ENDURANCE]
             if now.stop[slot, first, S_LEAVE] < soonest:
                 offer_sorties(world, searcher, slot, last, node)
     if world.visits[k] > 1 and by_drone:

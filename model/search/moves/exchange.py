@@ -6,13 +6,12 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
     MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_END, TYPE_MAX_TRIPS, TYPE_START,
-    TYPE_TRAVEL,
+    NODE_DEMAND, TYPE_TRAVEL,
 )
 from model.search.route.edit import put
 from model.search.route.layout import (
-    CUSTOMER, END, F_LAUNCH, F_RECOVERY, NOWHERE, P_DEMAND, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE,
-    S_FLYING, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, START, W_POSITION, W_SLOT, Fleet,
-    World,
+    CUSTOMER, END, F_LAUNCH, F_RECOVERY, NOWHERE, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, START,
+    S_FLYING, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, W_POSITION, W_SLOT, Fleet, World,
 )
 from model.search.route.refresh import any_customer, locate, refresh
 from model.search.route.state import Searcher, free_slot, keep_aside, touch
@@ -152,11 +151,11 @@ def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> boo
         load = 0
         index = p
         while fleet.stop[a, index, S_KIND] == CUSTOMER:
-            load += world.place[fleet.stop[a, index, S_NODE], P_DEMAND + dimension]
+            load += world.place[fleet.stop[a, index, S_NODE], NODE_DEMAND + dimension]
             index -= 1
         index = q + 1
         while fleet.stop[b, index, S_KIND] == CUSTOMER:
-            load += world.place[fleet.stop[b, index, S_NODE], P_DEMAND + dimension]
+            load += world.place[fleet.stop[b, index, S_NODE], NODE_DEMAND + dimension]
             index += 1
         if load > columns[TYPE_CAPACITY + dimension]:
             return True

@@ -2,16 +2,16 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
-from model.kernel.instance import TYPE_END, TYPE_START, TYPE_TRAVEL
+from model.kernel.instance import (
+    NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, TYPE_END, TYPE_START, TYPE_TRAVEL,
+)
 from model.problem import UIntArray
 from model.search.insertion.evaluate import INFEASIBLE
 from model.search.insertion.places import find_beside, find_place, try_new_route
 from model.search.route.edit import (
     M_FIRST, M_KIND, M_SLOT, M_TYPE, NEW_FLIGHT, NEW_ROUTE, apply, begin_route,
 )
-from model.search.route.layout import (
-    MODE_LEAN, P_DEMAND, P_EARLIEST, P_LATEST, R_LENGTH, R_TYPE, World,
-)
+from model.search.route.layout import MODE_LEAN, R_LENGTH, R_TYPE, World
 from model.search.route.lean import insert_lean
 from model.search.route.randomness import uniform
 from model.search.route.refresh import locate, refresh
@@ -34,14 +34,14 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     """Return where a customer comes in an order; least first."""
     place = world.place[node]
     if order == BY_DEMAND:
-        return -float(place[P_DEMAND] + place[P_DEMAND + 1] + place[P_DEMAND + 2])
+        return -float(place[NODE_DEMAND] + place[NODE_DEMAND + 1] + place[NODE_DEMAND + 2])
     if order in (BY_FAR, BY_CLOSE):
         distance = float(world.leg[world.type[0, TYPE_TRAVEL], world.type[0, TYPE_START], node, 1])
         return -distance if order == BY_FAR else distance
     if order == BY_WIDTH:
-        return float(place[P_LATEST] - place[P_EARLIEST])
+        return float(place[NODE_LATEST] - place[NODE_EARLIEST])
     if order == BY_LATEST:
-        return float(place[P_LATEST])
+        return float(place[NODE_LATEST])
     return uniform(rng)
 
 

@@ -8,7 +8,7 @@ import math
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, TYPE_CAPACITY, TYPE_DRONES, TYPE_END, TYPE_START,
+    MAX_DIMENSIONS, RATE_FIXED, TYPE_CAPACITY, TYPE_DRONES, TYPE_END, TYPE_START, NODE_DEMAND,
 )
 from model.problem import IntArray
 from model.search.moves.exchange import append
@@ -17,8 +17,8 @@ from model.search.moves.split import (
 )
 from model.search.route.edit import add_sortie, put
 from model.search.route.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, P_DEMAND, R_LENGTH,
-    R_SORTIES, R_TRIPS, R_TYPE, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST, W_SLOT, Fleet, World,
+    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, R_LENGTH, R_SORTIES,
+    R_TRIPS, R_TYPE, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST, W_SLOT, Fleet, World,
 )
 from model.search.route.randomness import below, uniform
 from model.search.route.refresh import any_customer, idle_time, locate, refresh, stop_beside
@@ -179,7 +179,7 @@ def overloads(world: World, k: int, line: IntArray, begin: int, end: int) -> boo
     for dimension in range(MAX_DIMENSIONS):
         load = 0
         for place in range(begin + 1, end):
-            load += world.place[line[place, L_NODE], P_DEMAND + dimension]
+            load += world.place[line[place, L_NODE], NODE_DEMAND + dimension]
         if load > world.type[k, TYPE_CAPACITY + dimension]:
             return True
     return False

@@ -3,15 +3,16 @@
 from model.kernel.clock import arrival_by_profile
 from model.kernel.compiled import inlined
 from model.kernel.instance import (
-    NO_PROFILE, TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LATEST, TYPE_LAUNCH,
-    TYPE_PROFILE, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+    FAR, NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_SERVICE, NO_PROFILE, TYPE_DRONE_SERVICE,
+    TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LATEST, TYPE_LAUNCH, TYPE_PROFILE, TYPE_RECOVERY,
+    TYPE_TRAVEL, TYPE_WAITING_COUNTS,
 )
 from model.problem import UNREACHABLE, IntArray
 from model.search.route.layout import (
-    CUSTOMER, DONE, END, F_BEGIN, F_COUNT, F_DRONE, F_HELD, F_LAUNCH, F_NODE, F_READY_C, F_READY_D,
-    F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, FAR, FLYING, NONE, P_EARLIEST,
-    P_LATEST, P_LIMIT, P_SERVICE, S_ARRIVAL, S_BLOCK, S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP,
-    S_HI, S_HOLD, S_IDLE, S_KIND, S_LATEST, S_LEAVE, S_LO, S_NODE, S_RELEASE, START, WAITING, World,
+    CUSTOMER, DONE, END, FLYING, F_BEGIN, F_COUNT, F_DRONE, F_HELD, F_LAUNCH, F_NODE, F_READY_C,
+    F_READY_D, F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, NONE, START, S_ARRIVAL,
+    S_BLOCK, S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP, S_HI, S_HOLD, S_IDLE, S_KIND, S_LATEST,
+    S_LEAVE, S_LO, S_NODE, S_RELEASE, WAITING, World,
 )
 
 A_TIME, A_FREE_D, A_FREE_C, A_HI, A_LO, A_DEP, A_OLDEST, A_FLYING = range(8)
@@ -41,7 +42,7 @@ def serve(world: World, stop: IntArray, d: int, c: int) -> tuple[int, int]:
     kind = stop[S_KIND]
     if kind == CUSTOMER:
         place = world.place[stop[S_NODE]]
-        return d + place[P_SERVICE], max(c, place[P_EARLIEST]) + place[P_SERVICE]
+        return d + place[NODE_SERVICE], max(c, place[NODE_EARLIEST]) + place[NODE_SERVICE]
     if kind == START:
         return d, max(c, max(stop[S_RELEASE], stop[S_HOLD]))
     return d, c
@@ -55,7 +56,7 @@ def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
     stop[S_HI], stop[S_LO], stop[S_DEP] = FAR, NONE, FAR
     if stop[S_KIND] == CUSTOMER:
         place = world.place[stop[S_NODE]]
-        stop[S_HI], stop[S_DEP] = place[P_LIMIT], max(time, place[P_LATEST])
+        stop[S_HI], stop[S_DEP] = place[NODE_LIMIT], max(time, place[NODE_LATEST])
     elif stop[S_KIND] == END:
         stop[S_HI] = world.type[k, TYPE_LATEST]
 
@@ -75,8 +76,8 @@ def make_ready(world: World, k: int, stops: IntArray, sorties: IntArray, count: 
         for index in range(sortie[F_COUNT] - 1, -1, -1):
             customer = sortie[F_NODE + index]
             place = world.place[customer]
-            to_fly += legs[customer, node, 0] + (own if own >= 0 else place[P_SERVICE])
-            back = max(back, place[P_EARLIEST] + to_fly)
+            to_fly += legs[customer, node, 0] + (own if own >= 0 else place[NODE_SERVICE])
+            back = max(back, place[NODE_EARLIEST] + to_fly)
             node = customer
         sortie[F_STATE], sortie[F_HELD] = WAITING, back - columns[TYPE_ENDURANCE]
 
@@ -97,13 +98,13 @@ def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArra
         place = places[customer]
         d, c = d + flight, c + flight
         arrival = max(acc[A_TIME] + d, c)
-        if flight >= UNREACHABLE or c > place[P_LIMIT]:
+        if flight >= UNREACHABLE or c > place[NODE_LIMIT]:
             return False
         sortie[arrivals + index] = arrival
-        acc[A_HI] = min(acc[A_HI], place[P_LIMIT] - d)
-        acc[A_DEP] = min(acc[A_DEP], max(arrival, place[P_LATEST]) - d)
-        service = own if own >= 0 else place[P_SERVICE]
-        d, c = d + service, max(c, place[P_EARLIEST]) + service
+        acc[A_HI] = min(acc[A_HI], place[NODE_LIMIT] - d)
+        acc[A_DEP] = min(acc[A_DEP], max(arrival, place[NODE_LATEST]) - d)
+        service = own if own >= 0 else place[NODE_SERVICE]
+        d, c = d + service, max(c, place[NODE_EARLIEST]) + service
         node = customer
     sortie[F_READY_D], sortie[F_READY_C] = d, c
     sortie[F_STATE] = FLYING
@@ -224,7 +225,7 @@ def note_idle(places: IntArray, stops: IntArray, first: int, last: int) -> None:
     idle = stops[first, S_D]
     for p in range(first, last + 1):
         if stops[p, S_KIND] == CUSTOMER:
-            idle -= places[stops[p, S_NODE], P_SERVICE]
+            idle -= places[stops[p, S_NODE], NODE_SERVICE]
         if p < last:
             idle -= stops[p, S_GAP]
     for p in range(first, last):
@@ -250,10 +251,10 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
         stop[S_ARRIVAL], stop[S_BLOCK] = max(time + d, c), first
         if kind == CUSTOMER:
             place = world.place[node]
-            if c > place[P_LIMIT]:
+            if c > place[NODE_LIMIT]:
                 return -1
-            acc[A_HI] = min(acc[A_HI], place[P_LIMIT] - d)
-            acc[A_DEP] = min(acc[A_DEP], max(stop[S_ARRIVAL], place[P_LATEST]) - d)
+            acc[A_HI] = min(acc[A_HI], place[NODE_LIMIT] - d)
+            acc[A_DEP] = min(acc[A_DEP], max(stop[S_ARRIVAL], place[NODE_LATEST]) - d)
         elif kind == START:
             c = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
         acc[A_FREE_D], acc[A_FREE_C] = d, c

@@ -15,12 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.kernel.instance import FAR
 from model.problem import BoolArray, FloatArray, IntArray
 
-NONE = -(2**58)
-FAR = 2**58
-
-(P_EARLIEST, P_LIMIT, P_SERVICE, P_RELEASE, P_LATEST, P_DEMAND) = range(6)
+NONE = -FAR
 
 (S_NODE, S_KIND, S_RELEASE, S_LEAVE, S_LATEST, S_LEG, S_GAP, S_FLYING, S_TRIP, S_EARLY, S_REST,
  S_END, S_CUM, S_DEPART, S_ARRIVAL, S_BEFORE, S_BLOCK, S_LAST, S_D, S_C, S_HI, S_LO, S_DEP,
@@ -86,7 +84,7 @@ class World(NamedTuple):
     unassigned_cost: float  # of whoever it costs least to leave out
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
-    place: IntArray  # (node, 8) P_ columns, demand in three dimensions
+    place: IntArray  # (node, NODE_COLUMNS)
     price: FloatArray  # (node, 2) cost per ms of lateness and of waiting
     type: IntArray  # (type, TYPE_COLUMNS)
     rate: FloatArray  # (type, 5) fixed, per mm, per ms, per mm and ms of drones

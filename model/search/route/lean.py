@@ -3,13 +3,14 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import clear
 from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL,
+    MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE, RATE_FIXED, RATE_KM,
+    TYPE_CAPACITY, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL,
 )
 from model.problem import IntArray
 from model.search.route.layout import (
-    CUSTOMER, LEAN_COLUMNS, NOWHERE, P_DEMAND, P_EARLIEST, P_LIMIT, P_SERVICE, R_LENGTH, R_TRIPS,
-    R_TYPE, S_FLYING, S_GAP, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_LAST,
-    T_LOAD, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    CUSTOMER, LEAN_COLUMNS, NOWHERE, R_LENGTH, R_TRIPS, R_TYPE, S_FLYING, S_GAP, S_KIND, S_LATEST,
+    S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_LAST, T_LOAD, W_POSITION, W_SLOT, W_SORTIE, Fleet,
+    World,
 )
 
 
@@ -33,11 +34,11 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
         node = following
         if p < last:
             place = world.place[node]
-            if time > place[P_LIMIT]:
+            if time > place[NODE_LIMIT]:
                 return False
-            time = max(time, place[P_EARLIEST]) + place[P_SERVICE]
+            time = max(time, place[NODE_EARLIEST]) + place[NODE_SERVICE]
             for dimension in range(MAX_DIMENSIONS):
-                trip[T_LOAD + dimension] += place[P_DEMAND + dimension]
+                trip[T_LOAD + dimension] += place[NODE_DEMAND + dimension]
         stops[p, S_LEAVE], stops[p, S_FLYING], stops[p, S_TRIP] = time, 0, 0
     stops[last, S_LEG] = stops[last, S_GAP] = 0
     for dimension in range(MAX_DIMENSIONS):
@@ -47,7 +48,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     stops[last, S_LATEST] = latest
     for p in range(last - 1, 0, -1):
         place = world.place[stops[p, S_NODE]]
-        latest = min(place[P_LIMIT], latest - stops[p, S_GAP] - place[P_SERVICE])
+        latest = min(place[NODE_LIMIT], latest - stops[p, S_GAP] - place[NODE_SERVICE])
         stops[p, S_LATEST] = latest
     stops[0, S_LATEST] = latest - stops[0, S_GAP]
     fleet.cost[slot] = world.rate[k, RATE_FIXED] + trip[T_DISTANCE] * world.rate[k, RATE_KM]
@@ -85,7 +86,7 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     trip[T_DISTANCE] += detour
     fleet.cost[slot] += detour * world.rate[k, RATE_KM]
     for dimension in range(MAX_DIMENSIONS):
-        trip[T_LOAD + dimension] += world.place[node, P_DEMAND + dimension]
+        trip[T_LOAD + dimension] += world.place[node, NODE_DEMAND + dimension]
     spread(world, stops, trip[T_LAST], p + 1)
 
 
@@ -97,14 +98,14 @@ def spread(world: World, stops: IntArray, last: int, p: int) -> None:
         time += stops[q - 1, S_GAP]
         if q < last:
             place = world.place[stops[q, S_NODE]]
-            time = max(time, place[P_EARLIEST]) + place[P_SERVICE]
+            time = max(time, place[NODE_EARLIEST]) + place[NODE_SERVICE]
         if q > p and stops[q, S_LEAVE] == time:
             break
         stops[q, S_LEAVE] = time
     latest = stops[p + 1, S_LATEST]
     for q in range(p, 0, -1):
         place = world.place[stops[q, S_NODE]]
-        latest = min(place[P_LIMIT], latest - stops[q, S_GAP] - place[P_SERVICE])
+        latest = min(place[NODE_LIMIT], latest - stops[q, S_GAP] - place[NODE_SERVICE])
         if q < p and stops[q, S_LATEST] == latest:
             return
         stops[q, S_LATEST] = latest

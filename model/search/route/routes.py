@@ -3,19 +3,18 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import clear
 from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY,
-    TYPE_DRONE_TRAVEL, TYPE_EARLIEST, TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RECOVERY,
-    TYPE_RELOAD, TYPE_TRAVEL,
+    FAR, MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, NODE_RELEASE, RATE_DRONE_HOUR,
+    RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_DRONE_TRAVEL, TYPE_EARLIEST,
+    TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RECOVERY, TYPE_RELOAD, TYPE_TRAVEL,
 )
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block, travel
 from model.search.route.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, FAR,
-    MODE_PRICED, NONE, P_DEMAND, P_EARLIEST, P_LATEST, P_RELEASE, R_CUM, R_END, R_LENGTH, R_OFFSET,
-    R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, S_ARRIVAL, S_BEFORE, S_BLOCK, S_C, S_CUM, S_D, S_DEP,
-    S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_IDLE, S_KIND, S_LAST, S_LATEST, S_LEAVE,
-    S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, START, T_DISTANCE, T_FIRST, T_LAST, T_LOAD,
-    T_RELEASE, World,
+    CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, MODE_PRICED, NONE,
+    R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, START, S_ARRIVAL,
+    S_BEFORE, S_BLOCK, S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI,
+    S_IDLE, S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP,
+    T_DISTANCE, T_FIRST, T_LAST, T_LOAD, T_RELEASE, World,
 )
 
 
@@ -23,9 +22,9 @@ from model.search.route.layout import (
 def carry(world: World, trip: IntArray, node: int) -> None:
     """Put a customer's parcel on a trip. In place."""
     place = world.place[node]
-    trip[T_RELEASE] = max(trip[T_RELEASE], place[P_RELEASE])
+    trip[T_RELEASE] = max(trip[T_RELEASE], place[NODE_RELEASE])
     for dimension in range(MAX_DIMENSIONS):
-        trip[T_LOAD + dimension] += place[P_DEMAND + dimension]
+        trip[T_LOAD + dimension] += place[NODE_DEMAND + dimension]
 
 
 @inlined
@@ -143,13 +142,13 @@ def open_up(route: IntArray, stops: IntArray) -> None:
 @spliced
 def lateness_cost(world: World, node: int, arrival: int) -> float:
     """Return what being late at a customer costs; nothing at a depot."""
-    return max(0, arrival - world.place[node, P_LATEST]) * world.price[node, 0]
+    return max(0, arrival - world.place[node, NODE_LATEST]) * world.price[node, 0]
 
 
 @spliced
 def waiting_cost(world: World, node: int, arrival: int) -> float:
     """Return what being early at a customer costs."""
-    return max(0, world.place[node, P_EARLIEST] - arrival) * world.price[node, 1]
+    return max(0, world.place[node, NODE_EARLIEST] - arrival) * world.price[node, 1]
 
 
 @spliced

@@ -4,11 +4,11 @@ import math
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_PAYLOAD,
+    MAX_DIMENSIONS, NODE_DEMAND, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_PAYLOAD,
 )
 from model.problem import IntArray
 from model.search.route.layout import (
-    F_COUNT, F_NODE, NOWHERE, P_DEMAND, R_TYPE, T_DISTANCE, T_LOAD, Fleet, World,
+    F_COUNT, F_NODE, NOWHERE, R_TYPE, T_DISTANCE, T_LOAD, Fleet, World,
 )
 
 
@@ -42,7 +42,7 @@ def larger_type(world: World, fleet: Fleet, slot: int, node: int) -> int:
         cost = route_cost(world, other, trip[T_DISTANCE])
         fits = cost < best
         for dimension in range(MAX_DIMENSIONS):
-            load = trip[T_LOAD + dimension] + world.place[node, P_DEMAND + dimension]
+            load = trip[T_LOAD + dimension] + world.place[node, NODE_DEMAND + dimension]
             fits = fits and load <= world.type[other, TYPE_CAPACITY + dimension]
         if fits:
             chosen, best = other, cost
@@ -62,9 +62,9 @@ def change_type(world: World, fleet: Fleet, slot: int, k: int) -> None:
 def lifts(world: World, sortie: IntArray, k: int, node: int) -> bool:
     """Tell whether a type's drone lifts a customer's parcel on top of a sortie's."""
     for dimension in range(MAX_DIMENSIONS):
-        payload = world.place[node, P_DEMAND + dimension]
+        payload = world.place[node, NODE_DEMAND + dimension]
         for visit in range(sortie[F_COUNT]):
-            payload += world.place[sortie[F_NODE + visit], P_DEMAND + dimension]
+            payload += world.place[sortie[F_NODE + visit], NODE_DEMAND + dimension]
         if payload > world.type[k, TYPE_PAYLOAD + dimension]:
             return False
     return True

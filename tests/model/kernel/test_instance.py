@@ -8,7 +8,7 @@ import pytest
 from model.judge.timing import leg_end
 from model.kernel.clock import arrival_by_profile
 from model.kernel.instance import (
-    NO_PROFILE, NODE_DEMAND, NODE_HARD, NODE_LATEST, TYPE_CAPACITY, TYPE_DRONES,
+    FAR, NODE_DEMAND, NODE_LATEST, NODE_LIMIT, NO_PROFILE, TYPE_CAPACITY, TYPE_DRONES,
     TYPE_MAX_WORKING, TYPE_PROFILE, pack,
 )
 from model.problem import UNLIMITED, Problem
@@ -40,7 +40,7 @@ def test_columns_state_limits_windows_and_demands(tiny_problem, customers, truck
     instance = pack([problem])
     assert instance.size.tolist() == [[1, 2, 2, 1]]
     assert instance.node[0, 1:, NODE_LATEST].tolist() == [5, UNLIMITED]
-    assert instance.node[0, 1:, NODE_HARD].tolist() == [0, 1]
+    assert instance.node[0, 1:, NODE_LIMIT].tolist() == [FAR, UNLIMITED]
     assert instance.node[0, 1:, NODE_DEMAND].tolist() == [1000, 1000]
     assert instance.late_early[0, 1].tolist() == [2.0, 0.0]
     assert instance.type[0, :, TYPE_MAX_WORKING].tolist() == [UNLIMITED, 7]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from model.kernel.compiled import compiled_on_arrays
-from model.kernel.instance import TYPE_TRAVEL, pack
+from model.kernel.instance import NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE, TYPE_TRAVEL, pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
@@ -15,8 +15,8 @@ from model.search.insertion.places import try_route
 from model.search.moves.anneal import ANY, anneal
 from model.search.route.edit import M_KIND
 from model.search.route.layout import (
-    B_BEST, B_BLINK, CHANGING, K_DETOUR, K_MOVE, K_STAMP, K_STOP, P_EARLIEST, P_LIMIT, P_SERVICE,
-    R_LENGTH, R_STAMP, R_TYPE, S_LATEST, S_LEAVE, S_LEG, S_NODE, W_SLOT, World,
+    B_BEST, B_BLINK, CHANGING, K_DETOUR, K_MOVE, K_STAMP, K_STOP, R_LENGTH, R_STAMP, R_TYPE,
+    S_LATEST, S_LEAVE, S_LEG, S_NODE, W_SLOT, World,
 )
 from model.search.route.state import I_ACTIVE, V_COST, V_TEMPERATURE, Searcher
 from model.search.world import make_world
@@ -62,8 +62,8 @@ def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int
     for p in range(searcher.now.route[slot, R_LENGTH] - 1):
         here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
         arrival = stops[p, S_LEAVE] + legs[here, node, 0]
-        leave = max(arrival, place[P_EARLIEST]) + place[P_SERVICE]
-        if arrival <= place[P_LIMIT] and leave + legs[node, there, 0] <= stops[p + 1, S_LATEST]:
+        leave = max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE]
+        if arrival <= place[NODE_LIMIT] and leave + legs[node, there, 0] <= stops[p + 1, S_LATEST]:
             detours[p] = legs[here, node, 1] + legs[node, there, 1] - stops[p, S_LEG]
     return detours
 
