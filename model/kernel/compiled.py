@@ -21,7 +21,8 @@ from numba.core.compiler import Compiler
 
 SOURCES = (
     "problem",
-    *(f"kernel/{part}" for part in ("compiled", "alarm", "copying", "instance", "clock", "flight")),
+    *(f"kernel/{part}" for part in (
+        "compiled", "alarm", "copying", "instance", "stop", "flight", "clock")),
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (
         "vehicle_log", "cost", "meeting", "transition", "simulator")),

@@ -1,19 +1,125 @@
-"""What a flight may last. Compiled."""
+"""What a flight may last, and all instants of one but those on the way. Compiled.
+
+`columns` are those of the vehicle type, `place` is the customer's row, as for `stop`.
+"""
 
 from model.kernel.compiled import inlined
-from model.kernel.instance import TYPE_ENDURANCE, TYPE_WAITING_COUNTS
+from model.kernel.instance import (
+    FAR, NONE, TYPE_DRONE_SERVICE, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_WAITING_COUNTS,
+)
+from model.kernel.stop import Place, opening, service_duration, start_of_service
 from model.problem import UNREACHABLE, IntArray
-
-
-@inlined
-def within_endurance(columns: IntArray, takeoff: int, back: int, recovery_start: int) -> bool:
-    """Tell whether a sortie, back at `back` and recovered from then on, is short enough."""
-    if columns[TYPE_WAITING_COUNTS]:
-        return recovery_start - takeoff <= columns[TYPE_ENDURANCE]
-    return back - takeoff <= columns[TYPE_ENDURANCE]
 
 
 @inlined
 def unreachable(duration: int) -> bool:
     """Tell whether a flight duration marks a flight that can't be flown."""
     return duration >= UNREACHABLE
+
+
+@inlined
+def drone_service(columns: IntArray, place: Place) -> int:
+    """Return how long a drone serves a customer: as its type says, else as the customer."""
+    own = columns[TYPE_DRONE_SERVICE]
+    return own if own >= 0 else service_duration(place)
+
+
+@inlined
+def ready(columns: IntArray, place: Place, arrival: int) -> int:
+    """Return when a drone has served."""
+    return start_of_service(place, arrival) + drone_service(columns, place)
+
+
+@inlined
+def take_off(columns: IntArray, begin: int) -> int:
+    """Return when a drone is in the air whose launch begins at `begin`."""
+    return begin + columns[TYPE_LAUNCH]
+
+
+@inlined
+def launch_begin(columns: IntArray, takeoff: int) -> int:
+    """Return when the launch begins of a drone that takes off at `takeoff`."""
+    return takeoff - columns[TYPE_LAUNCH]
+
+
+@inlined
+def recovery_end(columns: IntArray, begin: int) -> int:
+    """Return when a drone is aboard whose recovery begins at `begin`."""
+    return begin + columns[TYPE_RECOVERY]
+
+
+@inlined
+def launch_duration(columns: IntArray) -> int:
+    """Return how long a launch takes."""
+    return columns[TYPE_LAUNCH]
+
+
+@inlined
+def handling_duration(columns: IntArray) -> int:
+    """Return how long launch and recovery take together."""
+    return columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
+
+
+@inlined
+def recoveries_take_time(columns: IntArray) -> bool:
+    """Tell whether a recovery can hold up another."""
+    return columns[TYPE_RECOVERY] > 0
+
+
+@inlined
+def earliest_back(columns: IntArray, place: Place, home: int) -> int:
+    """Return when a drone that is at a customer as the window opens is where `home` leads to."""
+    return opening(place, NONE) + drone_service(columns, place) + home
+
+
+@inlined
+def held_until(columns: IntArray, back: int) -> int:
+    """Return the earliest take-off after which a drone can be back within its endurance.
+
+    `back` is the earliest that windows allow; the flight itself may be too long.
+    """
+    return back - columns[TYPE_ENDURANCE]
+
+
+@inlined
+def held_takeoff(columns: IntArray, place: Place, takeoff: int, home: int) -> int:
+    """Return when a drone takes off to one customer that can at `takeoff`: then, or held back."""
+    return max(takeoff, held_until(columns, earliest_back(columns, place, home)))
+
+
+@inlined
+def can_last(columns: IntArray, duration: int) -> bool:
+    """Tell whether a flight, out, service and home, is within the endurance if nothing waits.
+
+    None is that leads where nobody can fly.
+    """
+    return duration <= columns[TYPE_ENDURANCE]
+
+
+@inlined
+def counted_until(columns: IntArray, back: int, recovery_start: int) -> int:
+    """Return until when the endurance counts: as a drone is back, or as its recovery begins."""
+    return recovery_start if columns[TYPE_WAITING_COUNTS] else back
+
+
+@inlined
+def within_endurance(columns: IntArray, takeoff: int, back: int, recovery_start: int) -> bool:
+    """Tell whether a sortie, back at `back` and recovered from then on, is short enough."""
+    return can_last(columns, counted_until(columns, back, recovery_start) - takeoff)
+
+
+@inlined
+def enduring_within(columns: IntArray, takeoff_d: int, takeoff_c: int, d: int,
+                    c: int) -> tuple[int, int]:
+    """Return for which arrivals at a block's beginning (d, c) is within the endurance.
+
+    The first and the last; FAR and NONE if there is none. Pairs are as for `stop`; (d, c) is what
+    `counted_until` says, and the take-off a pair too. With `time`, both are sums with d as soon as
+    that is past `takeoff_c - takeoff_d`, so that a flight too long by d must begin before.
+    """
+    endurance = columns[TYPE_ENDURANCE]
+    if d - takeoff_d <= endurance:
+        return (c - endurance - takeoff_d if c - takeoff_c > endurance else NONE), FAR
+    if c - takeoff_c > endurance:
+        return FAR, NONE
+    return NONE, endurance + takeoff_c - d

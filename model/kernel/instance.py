@@ -17,7 +17,8 @@ MAX_NEIGHBOURS = 24
 """How many nearest customers of each node are kept."""
 
 FAR = 2**58
-"""An instant, or a sum of durations, later than any that occurs."""
+NONE = -FAR
+"""Instants later, and earlier, than any that occurs."""
 
 NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE, NODE_RELEASE, NODE_LATEST, NODE_DEMAND = range(6)
 NODE_COLUMNS = NODE_DEMAND + MAX_DIMENSIONS

@@ -9,11 +9,12 @@ import numpy as np
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_DEMAND, NODE_LATEST, NODE_RELEASE, RATE_DRONE_HOUR, RATE_DRONE_KM,
+    MAX_DIMENSIONS, NODE_DEMAND, NODE_RELEASE, RATE_DRONE_HOUR, RATE_DRONE_KM,
     RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_END, TYPE_DRONE_TRAVEL,
     TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_TRAVEL, Instance,
 )
+from model.kernel.stop import closing, lateness
 from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
 from model.policy.tokens import NUM_TYPE_FEATURES, Float32Array, Scales
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
@@ -82,9 +83,9 @@ def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, veh
     columns = setting.node[node]
     arrival, end = outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_END]
     waiting = outlook[OUTLOOK_START] - arrival
-    late = max(0, arrival - columns[NODE_LATEST])
+    late = lateness(columns, arrival)
     feature[7] = ratio(waiting, unit.time)
-    feature[8] = slack(columns[NODE_LATEST], arrival, unit.time)
+    feature[8] = slack(closing(columns), arrival, unit.time)
     window_cost = late * late_early[node, 0] + waiting * late_early[node, 1]
     feature[9] = ratio(window_cost / MS_PER_HOUR, unit.cost)
     for dimension in range(MAX_DIMENSIONS):

@@ -7,12 +7,15 @@ one customer further: what comes next, what can no longer come, what would bette
 from typing import NamedTuple
 
 from model.kernel.compiled import inlined
-from model.kernel.flight import unreachable
-from model.kernel.instance import NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, NODE_SERVICE
+from model.kernel.flight import drone_service, unreachable
+from model.kernel.instance import NODE_DEMAND, NONE
+from model.kernel.stop import (
+    closing, end_of_service, lateness, service_duration, start_of_service, waiting,
+)
 from model.policy.tokens import Float32Array
 from model.problem import UNLIMITED, BoolArray, IntArray
 from model.simulation.simulator import OUTLOOK_ARRIVAL, OUTLOOK_START
-from model.simulation.vehicle_log import Setting, drone_service
+from model.simulation.vehicle_log import Setting
 
 NUM_COMPANY = 3
 """How many unserved neighbours of a candidate are looked at for how near they are."""
@@ -77,11 +80,10 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
 
     By fixed speeds, the first dimension of the `load` left, and without drones: a guess.
     """
-    columns, drive = setting.node, setting.drive
+    columns, drive, place = setting.node, setting.drive, setting.node[node]
     arrival, way = outlook[OUTLOOK_ARRIVAL], setting.drive[here, node]
-    leave = outlook[OUTLOOK_START] + columns[node, NODE_SERVICE]
-    left = load - columns[node, NODE_DEMAND]
-    opens, closes = columns[node, NODE_EARLIEST], columns[node, NODE_LATEST]
+    leave = outlook[OUTLOOK_START] + service_duration(place)
+    left = load - place[NODE_DEMAND]
     soonest = tightest = detour = later = UNLIMITED
     seen = lost = 0
     for rank in range(neighbours.shape[1]):
@@ -91,21 +93,19 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
         if served[other]:
             continue
         seen += 1
-        earliest, latest = columns[other, NODE_EARLIEST], columns[other, NODE_LATEST]
+        there, latest = columns[other], closing(columns[other])
         then, directly = leave + drive[node, other], arrival - way + drive[here, other]
-        between = columns[other, NODE_SERVICE] + drive[other, node]
-        if earliest + between <= closes:
-            later = min(later, drive[other, node] + max(0, opens - latest - between))
-        if then <= latest and columns[other, NODE_DEMAND] <= left:
-            soonest = min(soonest, max(then, earliest) - leave)
+        back = drive[other, node]
+        if lateness(place, end_of_service(there, NONE) + back) == 0:
+            later = min(later, back + waiting(place, latest + service_duration(there) + back))
+        if then <= latest and there[NODE_DEMAND] <= left:
+            soonest = min(soonest, start_of_service(there, then) - leave)
             if latest < UNLIMITED:
                 tightest = min(tightest, latest - then)
         elif directly <= latest:
             lost += 1
-        if directly <= latest:
-            back = max(directly, earliest) + between
-            if back <= closes:
-                detour = min(detour, drive[here, other] + drive[other, node] - way)
+        if directly <= latest and lateness(place, end_of_service(there, directly) + back) == 0:
+            detour = min(detour, drive[here, other] + back - way)
     feature[NEXT_DURATION] = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
     feature[NEXT_SLACK] = slack(tightest, 0, unit.time)
     feature[LOST] = lost / max(1, seen)
@@ -123,7 +123,7 @@ def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, 
     """
     drive, fly = setting.drive, setting.fly
     takeoff = outlook[OUTLOOK_ARRIVAL] - fly[here, node]
-    ready = outlook[OUTLOOK_START] + drone_service(setting, node)
+    served = outlook[OUTLOOK_START] + drone_service(setting.type, setting.node[node])
     soonest = wait = detour = UNLIMITED
     seen = 0
     for rank in range(neighbours.shape[1]):
@@ -133,7 +133,7 @@ def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, 
         if served[other] or unreachable(fly[node, other]):
             continue
         seen += 1
-        drone, truck = ready + fly[node, other] - takeoff, drive[here, other]
+        drone, truck = served + fly[node, other] - takeoff, drive[here, other]
         soonest = min(soonest, max(drone, truck))
         wait = min(wait, max(0, drone - truck))
         detour = min(detour, drive[here, node] + drive[node, other] - truck)

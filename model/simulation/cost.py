@@ -2,9 +2,10 @@
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import (
-    NODE_LATEST, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM,
-    TYPE_DRONE_TRAVEL, TYPE_TRAVEL, Instance,
+    RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL, TYPE_TRAVEL,
+    Instance,
 )
+from model.kernel.stop import lateness
 from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray
 from model.simulation.vehicle_log import (
     COUNT_SORTIES, COUNT_STOPS, SORTIE_ARRIVAL, SORTIE_LAUNCH_STOP, SORTIE_NODE,
@@ -19,7 +20,7 @@ COST_FIXED, COST_DISTANCE, COST_TIME, COST_LATENESS, COST_EARLINESS, COST_UNASSI
 def add_window_cost(instance: Instance, b: int, node: int, arrival: int, start: int,
                     cost: FloatArray) -> None:
     """Add what lateness and earliness at a customer cost. In place."""
-    late = max(0, arrival - instance.node[b, node, NODE_LATEST])
+    late = lateness(instance.node[b, node], arrival)
     cost[COST_LATENESS] += late / MS_PER_HOUR * instance.late_early[b, node, 0]
     cost[COST_EARLINESS] += (start - arrival) / MS_PER_HOUR * instance.late_early[b, node, 1]
 

@@ -7,14 +7,14 @@ launches are timed anew once it is known where the truck drives to.
 """
 
 from model.kernel.compiled import inlined
-from model.kernel.flight import unreachable, within_endurance
-from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_EARLIEST, NODE_LIMIT, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY,
+from model.kernel.flight import (
+    can_last, drone_service, held_takeoff, launch_begin, ready, recovery_end, take_off, unreachable,
+    within_endurance,
 )
+from model.kernel.instance import MAX_DIMENSIONS
+from model.kernel.stop import too_late
 from model.problem import IntArray
-from model.simulation.vehicle_log import (
-    IN_FLIGHT, Setting, drone_service, held_until, travel_arrival,
-)
+from model.simulation.vehicle_log import IN_FLIGHT, Setting, travel_arrival
 
 (V_TYPE, V_INDEX, V_NODE, V_IDLE, V_SERVICE_END, V_CREW, V_FREE, V_DISTANCE, V_START_BEST,
  V_DEPARTURE_BEST, V_NEXT_START, V_FLYING, V_LOAD) = range(13)
@@ -44,8 +44,9 @@ def mark_place(setting: Setting, drone: IntArray, here: int, to: int) -> None:
     drone[DRONE_PLACE] = ABOARD
     if drone[DRONE_SORTIE] != IN_FLIGHT:
         node = drone[DRONE_NODE]
-        flight = setting.fly[here, node] + drone_service(setting, node) + setting.fly[node, to]
-        drone[DRONE_PLACE] = MEET if flight <= setting.type[TYPE_ENDURANCE] else LOOP
+        service = drone_service(setting.type, setting.node[node])
+        flight = setting.fly[here, node] + service + setting.fly[node, to]
+        drone[DRONE_PLACE] = MEET if can_last(setting.type, flight) else LOOP
 
 
 @inlined
@@ -56,8 +57,9 @@ def next_launch(setting: Setting, drones: IntArray, here: int, to: int,
     for d in range(len(drones)):
         if drones[d, DRONE_PLACE] != ABOARD and drones[d, DRONE_TAKEOFF] == NOT_YET:
             end = to if drones[d, DRONE_PLACE] == MEET else here
-            soonest = max(free + setting.type[TYPE_LAUNCH],
-                          held_until(setting, drones[d, DRONE_NODE], end))
+            node = drones[d, DRONE_NODE]
+            soonest = held_takeoff(setting.type, setting.node[node], take_off(setting.type, free),
+                                   setting.fly[node, end])
             if chosen < 0 or soonest < takeoff:
                 chosen, takeoff = d, soonest
     return chosen, takeoff
@@ -70,8 +72,7 @@ def fly(setting: Setting, drone: IntArray, here: int, to: int, takeoff: int) -> 
     arrival = takeoff + setting.fly[here, node]
     end = to if drone[DRONE_PLACE] == MEET else here
     drone[DRONE_TAKEOFF] = takeoff
-    drone[DRONE_READY] = (max(arrival, setting.node[node, NODE_EARLIEST])
-                          + drone_service(setting, node))
+    drone[DRONE_READY] = ready(setting.type, setting.node[node], arrival)
     drone[DRONE_BACK] = drone[DRONE_READY] + setting.fly[node, end]
 
 
@@ -98,7 +99,7 @@ def bring_aboard(setting: Setting, drone: IntArray, free: int) -> int:
             setting.type, drone[DRONE_TAKEOFF], drone[DRONE_BACK], begin):
         return -1
     drone[DRONE_RECOVERY] = begin
-    return begin + setting.type[TYPE_RECOVERY]
+    return recovery_end(setting.type, begin)
 
 
 @inlined
@@ -114,7 +115,7 @@ def operate(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) -> i
         drones[d, DRONE_TAKEOFF] = drones[d, DRONE_RECOVERY] = NOT_YET
     while waiting + looping > 0:
         launched, takeoff = next_launch(setting, drones, here, to, free)
-        begin = takeoff - setting.type[TYPE_LAUNCH]
+        begin = launch_begin(setting.type, takeoff)
         landed = next_back(drones, LOOP) if looping > 0 else -1
         if landed >= 0 and (launched < 0 or (
                 begin > free and max(free, drones[landed, DRONE_BACK]) <= begin)):
@@ -154,10 +155,10 @@ def any_late(setting: Setting, here: int, drones: IntArray) -> bool:
     """Tell whether a drone in flight reaches its customer too late for a hard window."""
     late = False
     for d in range(len(drones)):
-        columns = setting.node[drones[d, DRONE_NODE]]
         if drones[d, DRONE_PLACE] != ABOARD:
-            arrival = drones[d, DRONE_TAKEOFF] + setting.fly[here, drones[d, DRONE_NODE]]
-            late = late or arrival > columns[NODE_LIMIT]
+            node = drones[d, DRONE_NODE]
+            arrival = drones[d, DRONE_TAKEOFF] + setting.fly[here, node]
+            late = late or too_late(setting.node[node], arrival)
     return late
 
 

@@ -12,12 +12,13 @@ import numpy as np
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import copy_rows
-from model.kernel.flight import unreachable
+from model.kernel.flight import take_off, unreachable
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_EARLIEST, NODE_RELEASE,
-    NODE_SERVICE, TYPE_COUNT, TYPE_END, TYPE_DRONES, TYPE_LATEST, TYPE_LAUNCH, TYPE_MAX_DISTANCE,
-    TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, TYPE_TRAVEL, Instance, NODE_LIMIT,
+    MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_RELEASE, TYPE_COUNT,
+    TYPE_END, TYPE_DRONES, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS,
+    TYPE_MAX_WORKING, TYPE_PROFILE, TYPE_TRAVEL, Instance,
 )
+from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
 from model.simulation.cost import COST_UNASSIGNED
 from model.simulation.meeting import (
@@ -74,10 +75,10 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
 
     `earliest` is the vehicle's earliest departure, -1 if it has none yet.
     """
-    columns = setting.node[node]
+    place = setting.node[node]
     idle = vehicle[V_IDLE] == 1
     if idle:
-        leave = max(vehicle[V_NEXT_START], columns[NODE_RELEASE])
+        leave = max(vehicle[V_NEXT_START], place[NODE_RELEASE])
         arrival = travel_arrival(setting, vehicle[V_NODE], node, leave)
         free = arrival
     else:
@@ -85,10 +86,10 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
         _, arrival, free = leave_for(setting, vehicle, drones, node)
         if arrival < 0:
             return NO
-    if arrival > columns[NODE_LIMIT]:
+    if too_late(place, arrival):
         return NO
-    start = max(arrival, columns[NODE_EARLIEST])
-    served = max(free, start + columns[NODE_SERVICE])
+    start = start_of_service(place, arrival)
+    served = max(free, end_of_service(place, arrival))
     end = travel_arrival(setting, node, setting.type[TYPE_END], served)
     outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
     departure = leave
@@ -106,11 +107,11 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
 
     `departure` is the vehicle's earliest.
     """
-    columns = setting.node[node]
+    place = setting.node[node]
     flight = setting.fly[vehicle[V_NODE], node]
-    takeoff = vehicle[V_FREE] + setting.type[TYPE_LAUNCH]
+    takeoff = take_off(setting.type, vehicle[V_FREE])
     arrival = takeoff + flight
-    if unreachable(flight) or arrival > columns[NODE_LIMIT]:
+    if unreachable(flight) or too_late(place, arrival):
         return NO
     free = vehicle[V_FREE]
     drone = board(setting, vehicle, drones, 0, node, takeoff)
@@ -122,7 +123,7 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
         return NO
     arrival = drones[drone, DRONE_TAKEOFF] + flight
     outlook[OUTLOOK_ARRIVAL] = arrival
-    outlook[OUTLOOK_START], outlook[OUTLOOK_END] = max(arrival, columns[NODE_EARLIEST]), end
+    outlook[OUTLOOK_START], outlook[OUTLOOK_END] = start_of_service(place, arrival), end
     return _judge_end(setting, end, departure, False)
 
 

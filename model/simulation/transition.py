@@ -5,12 +5,12 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.compiled import compiled, inlined
-from model.kernel.flight import unreachable
+from model.kernel.flight import launch_begin, ready, recovery_end, take_off, unreachable
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_RELEASE, NODE_SERVICE,
-    TYPE_CAPACITY, TYPE_START, TYPE_DRONES, TYPE_EARLIEST, TYPE_LAUNCH, TYPE_MAX_WORKING,
-    TYPE_RECOVERY, TYPE_RELOAD, Instance, NODE_LIMIT,
+    MAX_DIMENSIONS, NODE_DEMAND, NODE_RELEASE, TYPE_CAPACITY,
+    TYPE_START, TYPE_DRONES, TYPE_EARLIEST, TYPE_MAX_WORKING, TYPE_RELOAD, Instance,
 )
+from model.kernel.stop import end_of_service, service_duration, start_of_service, too_late
 from model.problem import UNLIMITED, BoolArray, FloatArray, IntArray
 from model.simulation.cost import add_cost
 from model.simulation.meeting import (
@@ -22,10 +22,10 @@ from model.simulation.meeting import (
 from model.simulation.vehicle_log import (
     COUNT_OPS, COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, IN_FLIGHT, OP_IS_RECOVERY, OP_SORTIE,
     OP_STOP, SORTIE_ARRIVAL, SORTIE_DRONE, SORTIE_LAUNCH_STOP, SORTIE_NODE, SORTIE_READY,
-    SORTIE_RECOVERY_END, SORTIE_RECOVERY_START, SORTIE_RECOVERY_STOP, SORTIE_START,
-    SORTIE_TAKEOFF, STOP_ARRIVAL, STOP_LEAVE, STOP_NODE, STOP_START, TRIP_FIRST_OP,
-    TRIP_FIRST_STOP, TRIP_RELEASE, TRIP_START, Setting, VehicleLog, drone_service, empty_logs,
-    first_departure, latest_start, log_of, replay, setting_of,
+    SORTIE_RECOVERY_END, SORTIE_RECOVERY_START, SORTIE_RECOVERY_STOP, SORTIE_START, SORTIE_TAKEOFF,
+    STOP_ARRIVAL, STOP_LEAVE, STOP_NODE, STOP_START, TRIP_FIRST_OP, TRIP_FIRST_STOP, TRIP_RELEASE,
+    TRIP_START, Setting, VehicleLog, empty_logs, first_departure, latest_start, log_of, replay,
+    setting_of,
 )
 
 class State(NamedTuple):
@@ -103,7 +103,7 @@ def log_recoveries(setting: Setting, log: VehicleLog, drones: IntArray, place: i
         sortie = log.sortie[drone[DRONE_SORTIE]]
         sortie[SORTIE_RECOVERY_STOP] = stop
         sortie[SORTIE_RECOVERY_START] = drone[DRONE_RECOVERY]
-        sortie[SORTIE_RECOVERY_END] = drone[DRONE_RECOVERY] + setting.type[TYPE_RECOVERY]
+        sortie[SORTIE_RECOVERY_END] = recovery_end(setting.type, drone[DRONE_RECOVERY])
         log_op(log, stop, drone[DRONE_SORTIE], True)
         drone[DRONE_PLACE] = ABOARD
         drone[DRONE_SORTIE] = IN_FLIGHT
@@ -115,7 +115,7 @@ def op_times(setting: Setting, log: VehicleLog, row: int) -> tuple[int, int]:
     sortie = log.sortie[log.op[row, OP_SORTIE]]
     if log.op[row, OP_IS_RECOVERY]:
         return sortie[SORTIE_RECOVERY_START], sortie[SORTIE_RECOVERY_END]
-    return sortie[SORTIE_TAKEOFF] - setting.type[TYPE_LAUNCH], sortie[SORTIE_TAKEOFF]
+    return launch_begin(setting.type, sortie[SORTIE_TAKEOFF]), sortie[SORTIE_TAKEOFF]
 
 
 @inlined
@@ -140,7 +140,7 @@ def log_sorties(setting: Setting, log: VehicleLog, vehicle: IntArray, drones: In
             sortie = log.sortie[drones[d, DRONE_SORTIE]]
             arrival = takeoff + setting.fly[vehicle[V_NODE], node]
             sortie[SORTIE_TAKEOFF], sortie[SORTIE_ARRIVAL] = takeoff, arrival
-            sortie[SORTIE_START] = max(arrival, setting.node[node, NODE_EARLIEST])
+            sortie[SORTIE_START] = start_of_service(setting.node[node], arrival)
             sortie[SORTIE_READY] = drones[d, DRONE_READY]
     log_recoveries(setting, log, drones, LOOP, here)
     sort_ops(setting, log, first)
@@ -177,7 +177,7 @@ def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntAr
     stop = log.stop[here]
     vehicle[V_SERVICE_END] = stop[STOP_START]
     if stop[STOP_NODE] >= num_depots:
-        vehicle[V_SERVICE_END] += setting.node[stop[STOP_NODE], NODE_SERVICE]
+        vehicle[V_SERVICE_END] += service_duration(setting.node[stop[STOP_NODE]])
     vehicle[V_FREE] = vehicle[V_CREW] = stop[STOP_ARRIVAL]
     last = log.count[COUNT_OPS] - 1
     while last >= 0 and log.op[last, OP_STOP] == here:
@@ -217,8 +217,7 @@ def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, no
     arrival = takeoff + setting.fly[vehicle[V_NODE], node]
     drones[drone, DRONE_SORTIE], drones[drone, DRONE_NODE] = sortie, node
     drones[drone, DRONE_TAKEOFF] = takeoff
-    drones[drone, DRONE_READY] = (max(arrival, setting.node[node, NODE_EARLIEST])
-                                  + drone_service(setting, node))
+    drones[drone, DRONE_READY] = ready(setting.type, setting.node[node], arrival)
     vehicle[V_FLYING] += 1
     vehicle[V_FREE] = takeoff
     return drone
@@ -236,10 +235,10 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray
         begin_trip(log, vehicle, release)
     elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
-    takeoff = vehicle[V_FREE] + setting.type[TYPE_LAUNCH]
+    takeoff = take_off(setting.type, vehicle[V_FREE])
     flight = setting.fly[vehicle[V_NODE], node]
     arrival = takeoff + flight
-    if unreachable(flight) or arrival > setting.node[node, NODE_LIMIT]:
+    if unreachable(flight) or too_late(setting.node[node], arrival):
         return False
     here = log.count[COUNT_STOPS] - 1
     index = log.count[COUNT_SORTIES]
@@ -248,7 +247,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray
     sortie[SORTIE_DRONE], sortie[SORTIE_NODE], sortie[SORTIE_LAUNCH_STOP] = drone, node, here
     sortie[SORTIE_RECOVERY_STOP] = IN_FLIGHT
     sortie[SORTIE_TAKEOFF], sortie[SORTIE_ARRIVAL] = takeoff, arrival
-    sortie[SORTIE_START] = max(arrival, setting.node[node, NODE_EARLIEST])
+    sortie[SORTIE_START] = start_of_service(setting.node[node], arrival)
     sortie[SORTIE_READY] = drones[drone, DRONE_READY]
     log.count[COUNT_SORTIES] += 1
     log_op(log, here, index, False)
@@ -273,7 +272,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
     elif is_customer and not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
     left, arrival, free = leave_for(setting, vehicle, drones, node)
-    if arrival < 0 or (is_customer and arrival > setting.node[node, NODE_LIMIT]):
+    if arrival < 0 or (is_customer and too_late(setting.node[node], arrival)):
         return False
     if vehicle[V_FLYING] > 0:
         here = log.count[COUNT_STOPS] - 1
@@ -285,8 +284,8 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
     start = arrival
     service_end = arrival
     if is_customer:
-        start = max(arrival, setting.node[node, NODE_EARLIEST])
-        service_end = start + setting.node[node, NODE_SERVICE]
+        start = start_of_service(setting.node[node], arrival)
+        service_end = end_of_service(setting.node[node], arrival)
         take_load(setting, vehicle, node)
     log_stop(log, node, arrival, start, max(service_end, free))
     vehicle[V_NODE] = node

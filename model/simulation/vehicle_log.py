@@ -11,12 +11,14 @@ import numpy as np
 
 from model.kernel.clock import arrival_by_profile
 from model.kernel.compiled import compiled, inlined
-from model.kernel.flight import within_endurance
-from model.kernel.instance import (
-    NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_SERVICE, NO_PROFILE, TYPE_DRONE_SERVICE,
-    TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_PROFILE, TYPE_RECOVERY, TYPE_RELOAD,
-    TYPE_TRAVEL, Instance,
+from model.kernel.flight import (
+    held_takeoff, launch_begin, ready, recoveries_take_time, recovery_end, take_off,
+    within_endurance,
 )
+from model.kernel.instance import (
+    NO_PROFILE, TYPE_DRONE_TRAVEL, TYPE_PROFILE, TYPE_RELOAD, TYPE_TRAVEL, Instance,
+)
+from model.kernel.stop import as_late, end_of_service, start_of_service, too_late
 from model.problem import IntArray
 
 STOP_NODE, STOP_ARRIVAL, STOP_START, STOP_LEAVE = range(4)
@@ -88,40 +90,24 @@ def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
 
 
 @inlined
-def drone_service(setting: Setting, node: int) -> int:
-    """Return how long a drone serves a customer."""
-    own = setting.type[TYPE_DRONE_SERVICE]
-    return own if own >= 0 else setting.node[node, NODE_SERVICE]
-
-
-@inlined
-def held_until(setting: Setting, customer: int, to: int) -> int:
-    """Return the earliest take-off after which a drone can be at `to` within its endurance.
-
-    That is as far as the customer's window goes; the flight itself may be too long.
-    """
-    return (setting.node[customer, NODE_EARLIEST] + drone_service(setting, customer)
-            + setting.fly[customer, to] - setting.type[TYPE_ENDURANCE])
-
-
-@inlined
-def _arrival_allowed(columns: IntArray, arrival: int, before: int, write: bool) -> bool:
+def _arrival_allowed(place: IntArray, arrival: int, before: int, write: bool) -> bool:
     """Check a window: when writing, that a hard one holds; else, that no lateness is added."""
     if write:
-        return arrival <= columns[NODE_LIMIT]
-    return arrival <= max(before, columns[NODE_LATEST])
+        return not too_late(place, arrival)
+    return arrival <= as_late(place, before)
 
 
 @inlined
-def take_off(setting: Setting, log: VehicleLog, sortie: IntArray, free: int) -> int:
+def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: IntArray, free: int) -> int:
     """Return when a sortie takes off whose launch may begin at `free`.
 
     It is held back for the customer's window once it is known where it is recovered.
     """
-    takeoff = free + setting.type[TYPE_LAUNCH]
+    takeoff = take_off(setting.type, free)
     if sortie[SORTIE_RECOVERY_STOP] != IN_FLIGHT:
-        to = log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE]
-        takeoff = max(takeoff, held_until(setting, sortie[SORTIE_NODE], to))
+        customer, to = sortie[SORTIE_NODE], log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE]
+        takeoff = held_takeoff(setting.type, setting.node[customer], takeoff,
+                               setting.fly[customer, to])
     return takeoff
 
 
@@ -130,17 +116,17 @@ def _replay_launch(setting: Setting, log: VehicleLog, sortie: IntArray, node: in
                    write: bool) -> int:
     """Time one launch begun at `free`; return the take-off, -1 if it is not allowed."""
     customer = sortie[SORTIE_NODE]
-    takeoff = take_off(setting, log, sortie, free)
+    place = setting.node[customer]
+    takeoff = sortie_takeoff(setting, log, sortie, free)
     arrival = takeoff + setting.fly[node, customer]
-    if not _arrival_allowed(setting.node[customer], arrival, sortie[SORTIE_ARRIVAL], write):
+    if not _arrival_allowed(place, arrival, sortie[SORTIE_ARRIVAL], write):
         return -1
-    start = max(arrival, setting.node[customer, NODE_EARLIEST])
-    ready = start + drone_service(setting, customer)
-    sortie[TRIAL_TAKEOFF], sortie[TRIAL_READY] = takeoff, ready
+    served = ready(setting.type, place, arrival)
+    sortie[TRIAL_TAKEOFF], sortie[TRIAL_READY] = takeoff, served
     if write:
         sortie[SORTIE_TAKEOFF], sortie[SORTIE_ARRIVAL] = takeoff, arrival
-        sortie[SORTIE_START], sortie[SORTIE_READY] = start, ready
-    elif sortie[SORTIE_RECOVERY_STOP] == IN_FLIGHT and ready > sortie[SORTIE_READY]:
+        sortie[SORTIE_START], sortie[SORTIE_READY] = start_of_service(place, arrival), served
+    elif sortie[SORTIE_RECOVERY_STOP] == IN_FLIGHT and served > sortie[SORTIE_READY]:
         return -1
     return takeoff
 
@@ -151,7 +137,7 @@ def _replay_recovery(setting: Setting, sortie: IntArray, node: int, free: int, w
     takeoff = sortie[TRIAL_TAKEOFF]
     back = sortie[TRIAL_READY] + setting.fly[sortie[SORTIE_NODE], node]
     begin = max(free, back)
-    end = begin + setting.type[TYPE_RECOVERY]
+    end = recovery_end(setting.type, begin)
     if write:
         if not within_endurance(setting.type, takeoff, back, begin):
             return -1
@@ -189,16 +175,16 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                 arrival = travel_arrival(setting, log.stop[index - 1, STOP_NODE], node, leave)
             service_start = leave = free = launched = arrival
             if node >= num_depots:
-                columns = setting.node[node]
-                if not _arrival_allowed(columns, arrival, log.stop[index, STOP_ARRIVAL], write):
+                place = setting.node[node]
+                if not _arrival_allowed(place, arrival, log.stop[index, STOP_ARRIVAL], write):
                     return False
-                service_start = max(arrival, columns[NODE_EARLIEST])
-                leave = service_start + columns[NODE_SERVICE]
+                service_start = start_of_service(place, arrival)
+                leave = end_of_service(place, arrival)
             while op < log.count[COUNT_OPS] and log.op[op, OP_STOP] == index:
                 sortie = log.sortie[log.op[op, OP_SORTIE]]
                 if log.op[op, OP_IS_RECOVERY]:
                     # Recoveries that take no time never hold up one another.
-                    begin = free if setting.type[TYPE_RECOVERY] > 0 else launched
+                    begin = free if recoveries_take_time(setting.type) else launched
                     end = _replay_recovery(setting, sortie, node, begin, write)
                 else:
                     end = launched = _replay_launch(setting, log, sortie, node, free, write)
@@ -233,7 +219,7 @@ def latest_start(setting: Setting, num_depots: int, log: VehicleLog, trip: int, 
 def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
     """Return when truck or drone first leaves the depot if the first trip begins at `start`."""
     if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
-        return take_off(setting, log, log.sortie[log.op[0, OP_SORTIE]], start)
+        return sortie_takeoff(setting, log, log.sortie[log.op[0, OP_SORTIE]], start)
     return start
 
 
@@ -241,5 +227,5 @@ def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
 def start_to_depart(setting: Setting, log: VehicleLog, departure: int) -> int:
     """Return the start of the first trip by which none leaves the depot before `departure`."""
     if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
-        return departure - setting.type[TYPE_LAUNCH]
+        return launch_begin(setting.type, departure)
     return departure

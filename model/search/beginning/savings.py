@@ -11,8 +11,9 @@ import numpy as np
 from model.kernel.compiled import compiled
 from model.kernel.instance import (
     MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_END, TYPE_LATEST, TYPE_START, TYPE_TRAVEL,
-    NODE_DEMAND, NODE_EARLIEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE,
+    NODE_DEMAND, NODE_RELEASE,
 )
+from model.kernel.stop import end_of_service, latest_arrival
 from model.problem import IntArray
 from model.search.route.layout import NOWHERE, World
 
@@ -73,9 +74,8 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray,
         place, link = world.place[node], chain[node]
         link[C_BEFORE], link[C_BEHIND], link[C_ROUTE], link[C_LAST] = NOWHERE, NOWHERE, node, node
         arrival = max(columns[TYPE_EARLIEST], place[NODE_RELEASE]) + legs[start, node, 0]
-        link[C_LEAVE] = max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE]
-        link[C_LATEST] = min(place[NODE_LIMIT], columns[TYPE_LATEST] - legs[node, end, 0]
-                             - place[NODE_SERVICE])
+        link[C_LEAVE] = end_of_service(place, arrival)
+        link[C_LATEST] = latest_arrival(place, columns[TYPE_LATEST] - legs[node, end, 0])
     for index in range(len(one)):
         a, b = one[index], other[index]
         if (chain[a, C_BEHIND] != NOWHERE or chain[b, C_BEFORE] != NOWHERE
@@ -101,16 +101,16 @@ def link_up(world: World, legs: IntArray, chain: IntArray, a: int, b: int, head:
     chain[head, C_LAST], chain[tail, C_ROUTE] = tail, head
     node, leave = b, chain[a, C_LEAVE] + legs[a, b, 0]
     while node != NOWHERE:
-        place, behind = world.place[node], chain[node, C_BEHIND]
-        leave = max(leave, place[NODE_EARLIEST]) + place[NODE_SERVICE]
+        behind = chain[node, C_BEHIND]
+        leave = end_of_service(world.place[node], leave)
         chain[node, C_LEAVE] = leave
         if behind != NOWHERE:
             leave += legs[node, behind, 0]
         node = behind
     node, latest = a, chain[b, C_LATEST] - legs[a, b, 0]
     while node != NOWHERE:
-        place, before = world.place[node], chain[node, C_BEFORE]
-        latest = min(place[NODE_LIMIT], latest - place[NODE_SERVICE])
+        before = chain[node, C_BEFORE]
+        latest = latest_arrival(world.place[node], latest)
         chain[node, C_LATEST] = latest
         if before != NOWHERE:
             latest -= legs[before, node, 0]

@@ -4,10 +4,12 @@ import numpy as np
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
+from model.kernel.flight import ready
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONE_SERVICE, TYPE_DRONES, TYPE_END,
-    TYPE_MAX_TRIPS, TYPE_RECOVERY, TYPE_START, NODE_DEMAND, NODE_EARLIEST, NODE_SERVICE,
+    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_END,
+    TYPE_MAX_TRIPS, TYPE_RECOVERY, TYPE_START, NODE_DEMAND, NONE,
 )
+from model.kernel.stop import start_of_service
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.savings import savings_routes
 from model.search.insertion.evaluate import INFEASIBLE
@@ -16,9 +18,8 @@ from model.search.moves.split import LINE_COLUMNS
 from model.search.route.edit import MOVE_COLUMNS, begin_route
 from model.search.route.layout import (
     CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, KEPT_COLUMNS,
-    K_MOVE, NONE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, START, S_ARRIVAL, S_GAP,
-    S_HOLD, S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, T_FIRST, T_LAST, W_SLOT, Fleet, World,
-    empty_fleet,
+    K_MOVE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, START, S_ARRIVAL, S_GAP, S_HOLD,
+    S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
 )
 from model.search.route.refresh import clear_holds, locate, refresh, settle
 from model.search.route.routes import drive_forward, load_trips
@@ -221,37 +222,51 @@ def finish_route(world: World, fleet: Fleet, slot: int, acc: IntArray) -> None:
     settle(world, route, stops, trips, sorties, acc)
 
 
+@compiled
+def visit_times(place: IntArray, columns: IntArray, nodes: IntArray,
+                arrivals: IntArray) -> tuple[IntArray, IntArray]:
+    """Return when service begins at customers, and when it ends if a drone serves them."""
+    starts, ends = np.empty_like(nodes), np.empty_like(nodes)
+    for index in range(len(nodes)):
+        row, arrival = place[nodes[index]], arrivals[index]
+        starts[index], ends[index] = start_of_service(row, arrival), ready(columns, row, arrival)
+    return starts, ends
+
+
 def _trips(world: World, fleet: Fleet, slot: int) -> tuple[Trip, ...]:
     """Return the trips of a timed route."""
     columns = fleet.route[slot]
-    stops = fleet.stop[slot, : columns[R_LENGTH]].tolist()
-    sorties = fleet.sortie[slot, : columns[R_SORTIES]].tolist()
+    kind = world.type[columns[R_TYPE]]
+    rows = fleet.stop[slot, : columns[R_LENGTH]]
+    starts, _ = visit_times(world.place, kind, rows[:, S_NODE].copy(), rows[:, S_ARRIVAL].copy())
+    stops = rows.tolist()
+    halts = [_stop(row, start) for row, start in zip(stops, starts.tolist(), strict=True)]
+    sorties = fleet.sortie[slot, : columns[R_SORTIES]]
     trips = []
     for first, last in fleet.trip[slot, : columns[R_TRIPS], [T_FIRST, T_LAST]].T.tolist():
-        halts = tuple(_stop(world, row) for row in stops[first:last + 1])
-        flown = tuple(_sortie(world, int(columns[R_TYPE]), row, first, stops) for row in sorties
+        flown = tuple(_sortie(world, kind, row, first) for row in sorties
                       if first <= row[F_LAUNCH] <= last)
-        trips.append(Trip(halts, flown))
+        trips.append(Trip(tuple(halts[first:last + 1]), flown))
     return tuple(trips)
 
 
-def _stop(world: World, row: list[int]) -> Stop:
+def _stop(row: list[int], start: int) -> Stop:
+    """Return a timed stop; `start` is when service begins if it is a customer's."""
     arrival = begin = row[S_ARRIVAL]
     if row[S_KIND] == START:
         arrival = begin = max(arrival, row[S_RELEASE], row[S_HOLD])
     elif row[S_KIND] == CUSTOMER:
-        begin = max(arrival, int(world.place[row[S_NODE], NODE_EARLIEST]))
+        begin = start
     return Stop(row[S_NODE], arrival, begin, row[S_LEAVE])
 
 
-def _sortie(world: World, k: int, row: list[int], first: int, stops: list[list[int]]) -> Sortie:
-    kind = world.type[k]
-    own = int(kind[TYPE_DRONE_SERVICE])
-    visits = []
-    for index in range(row[F_COUNT]):
-        node, arrival = row[F_NODE + index], row[F_NODE + world.max_visits + index]
-        begin = max(arrival, int(world.place[node, NODE_EARLIEST]))
-        service = own if own >= 0 else int(world.place[node, NODE_SERVICE])
-        visits.append(Visit(node, arrival, begin, begin + service))
-    return Sortie(row[F_DRONE], row[F_LAUNCH] - first, row[F_RECOVERY] - first, tuple(visits),
-                  row[F_TAKEOFF], row[F_BEGIN], row[F_BEGIN] + int(kind[TYPE_RECOVERY]))
+def _sortie(world: World, kind: IntArray, row: IntArray, first: int) -> Sortie:
+    count, times = row[F_COUNT], F_NODE + world.max_visits
+    nodes, arrivals = row[F_NODE:F_NODE + count], row[times:times + count]
+    starts, ends = visit_times(world.place, kind, nodes, arrivals)
+    visits = tuple(Visit(*times) for times in zip(
+        nodes.tolist(), arrivals.tolist(), starts.tolist(), ends.tolist(), strict=True))
+    launch, recovery, drone, takeoff, begin = row[
+        [F_LAUNCH, F_RECOVERY, F_DRONE, F_TAKEOFF, F_BEGIN]].tolist()
+    return Sortie(drone, launch - first, recovery - first, visits, takeoff, begin,
+                  begin + int(kind[TYPE_RECOVERY]))

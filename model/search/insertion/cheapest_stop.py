@@ -2,9 +2,10 @@
 
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import (
-    FAR, MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE,
-    RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE, TYPE_TRAVEL,
+    FAR, MAX_DIMENSIONS, NODE_DEMAND, NODE_RELEASE, RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE,
+    TYPE_TRAVEL,
 )
+from model.kernel.stop import end_of_service, hours, too_late
 from model.problem import FloatArray, IntArray, UIntArray
 from model.search.route.edit import AT_STOP, M_FIRST, M_KIND, M_SLOT, M_TYPE
 from model.search.route.layout import (
@@ -44,7 +45,7 @@ def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last:
     probability `blink`. Returns its cost and the stop, or `best` and -1 if none costs less.
     """
     chosen = -1
-    earliest, limit, service = place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE]
+    own = hours(place)
     for p in range(first, last + 1):
         here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
         detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
@@ -52,11 +53,11 @@ def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last:
         if cost >= best or detour > spare or p == skipped:
             continue
         arrival = stops[p, S_LEAVE] + back[here, 0]
-        if arrival > limit:
-            if stops[p, S_LEAVE] > limit:
+        if too_late(own, arrival):
+            if too_late(own, stops[p, S_LEAVE]):
                 break
             continue
-        arrival = max(arrival, earliest) + service + leg[there, 0]
+        arrival = end_of_service(own, arrival) + leg[there, 0]
         if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
@@ -67,9 +68,8 @@ def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, s
                  first: int, last: int, node: int, spare: int, rate: float, best: float,
                  blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
-    chosen, place = -1, world.place[node]
-    earliest, limit, service = place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE]
-    leave = place[NODE_RELEASE]
+    chosen, own = -1, hours(world.place[node])
+    leave = world.place[node, NODE_RELEASE]
     if leave > stops[start, S_LATEST]:
         return best, chosen
     for p in range(start, last + 1):
@@ -77,16 +77,15 @@ def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, s
             arrival = leave + stops[p - 1, S_GAP]
             if arrival > stops[p, S_LATEST]:
                 break
-            here = world.place[stops[p, S_NODE]]
-            leave = max(arrival, here[NODE_EARLIEST]) + here[NODE_SERVICE]
-        if leave > limit:
+            leave = end_of_service(world.place[stops[p, S_NODE]], arrival)
+        if too_late(own, leave):
             break
         detour = back[stops[p, S_NODE], 1] + leg[stops[p + 1, S_NODE], 1] - stops[p, S_LEG]
         cost = detour * rate
         arrival = leave + back[stops[p, S_NODE], 0]
-        if p < first or cost >= best or detour > spare or arrival > limit:
+        if p < first or cost >= best or detour > spare or too_late(own, arrival):
             continue
-        arrival = max(arrival, earliest) + service + leg[stops[p + 1, S_NODE], 0]
+        arrival = end_of_service(own, arrival) + leg[stops[p + 1, S_NODE], 0]
         if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
@@ -131,19 +130,18 @@ def shortest_detour(back: IntArray, leg: IntArray, stops: IntArray, last: int, p
 
     Or `best` and -1 if there is none shorter.
     """
-    chosen = -1
-    earliest, limit, service = place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE]
+    chosen, own = -1, hours(place)
     for p in range(last):
         here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
         detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
         if detour >= best:
             continue
         arrival = stops[p, S_LEAVE] + back[here, 0]
-        if arrival > limit:
-            if stops[p, S_LEAVE] > limit:
+        if too_late(own, arrival):
+            if too_late(own, stops[p, S_LEAVE]):
                 break
             continue
-        arrival = max(arrival, earliest) + service + leg[there, 0]
+        arrival = end_of_service(own, arrival) + leg[there, 0]
         if arrival <= stops[p + 1, S_LATEST]:
             chosen, best = p, detour
     return best, chosen
@@ -254,8 +252,7 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
 def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
                      move: IntArray, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where all routes are lean. As `scan_lean`."""
-    place = world.place[node]
-    earliest, limit, service = place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE]
+    own = hours(world.place[node])
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
         slot, behind = fleet.where[other, W_SLOT], fleet.where[other, W_POSITION]
@@ -273,8 +270,8 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
             here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
             cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate + base
             arrival = stops[p, S_LEAVE] + back[here, 0]
-            leave = max(arrival, earliest) + service
-            if (cost < best and arrival <= limit and leave + leg[there, 0] <= stops[p + 1, S_LATEST]
+            following = end_of_service(own, arrival) + leg[there, 0]
+            if (cost < best and not too_late(own, arrival) and following <= stops[p + 1, S_LATEST]
                     and uniform(rng) >= world.blink):
                 best = cost
                 move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by

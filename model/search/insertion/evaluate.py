@@ -3,16 +3,16 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_EARLIEST,
-    NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE,
+    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE, NONE,
 )
+from model.kernel.stop import as_late, end_of_service, service_duration, too_late
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block
 from model.search.route.edit import (
     BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, apply,
 )
 from model.search.route.layout import (
-    CUSTOMER, END, F_LAUNCH, F_RECOVERY, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, NONE, R_LENGTH,
+    CUSTOMER, END, F_LAUNCH, F_RECOVERY, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, R_LENGTH,
     R_OFFSET, R_SORTIES, R_TYPE, R_WORKING, SEQUENCE_COLUMNS, START, S_ARRIVAL, S_BEFORE, S_BLOCK,
     S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST,
     S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, T_FIRST, T_RELEASE, Fleet,
@@ -225,9 +225,8 @@ def follow(world: World, route: IntArray, stops: IntArray, p: int, time: int, cu
             node = stop[S_NODE]
             place = world.place[node]
             cost += window_cost(world, node, time) - window_cost(world, node, stop[S_ARRIVAL])
-            depart = min(depart, max(time, place[NODE_LATEST]) - cum)
-            leave = max(time, place[NODE_EARLIEST]) + place[NODE_SERVICE]
-            cum += place[NODE_SERVICE]
+            depart = min(depart, as_late(place, time) - cum)
+            leave, cum = end_of_service(place, time), cum + service_duration(place)
         elif stop[S_KIND] == START:
             leave = max(time, stop[S_RELEASE])
         time = leave
@@ -247,13 +246,13 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     m = world.type[k, TYPE_TRAVEL]
     out, on = world.back[m, node, here[S_NODE]], world.leg[m, node, behind[S_NODE]]
     time, cum = here[S_LEAVE] + out[0], here[S_CUM] + out[0]
-    if time > place[NODE_LIMIT]:
+    if too_late(place, time):
         return INFEASIBLE
     cost = (out[1] + on[1] - here[S_LEG]) * world.rate[k, RATE_KM]
-    depart = min(here[S_DEPART], max(time, place[NODE_LATEST]) - cum)
+    depart = min(here[S_DEPART], as_late(place, time) - cum)
     late = window_cost(world, node, time)
-    time = max(time, place[NODE_EARLIEST]) + place[NODE_SERVICE] + on[0]
-    cum += place[NODE_SERVICE] + on[0]
+    time = end_of_service(place, time) + on[0]
+    cum += service_duration(place) + on[0]
     if time > behind[S_LATEST] or time < behind[S_EARLY]:
         return INFEASIBLE
     if world.mode[k] & MODE_PRICED:

@@ -3,9 +3,9 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
     MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE,
-    TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_DEMAND, NODE_EARLIEST, NODE_LIMIT, NODE_RELEASE,
-    NODE_SERVICE,
+    TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_DEMAND, NODE_RELEASE,
 )
+from model.kernel.stop import end_of_service, too_late
 from model.problem import IntArray
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
 from model.search.route.layout import (
@@ -38,9 +38,7 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
 def serve_at(world: World, node: int, arrival: int) -> int:
     """Return when a truck that arrives at a customer has served; FAR if it is too late."""
     place = world.place[node]
-    if arrival > place[NODE_LIMIT]:
-        return FAR
-    return max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE]
+    return FAR if too_late(place, arrival) else end_of_service(place, arrival)
 
 
 @spliced

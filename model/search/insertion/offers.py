@@ -3,12 +3,15 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.copying import copy_row
-from model.kernel.instance import (
-    RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_END, TYPE_DRONES, TYPE_DRONE_SERVICE, TYPE_DRONE_TRAVEL,
-    TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
-    NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE,
+from model.kernel.flight import (
+    can_last, drone_service, earliest_back, recovery_end, take_off, unreachable, within_endurance,
 )
-from model.problem import UNREACHABLE, FloatArray, IntArray
+from model.kernel.instance import (
+    RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_END, TYPE_DRONES, TYPE_DRONE_TRAVEL,
+    TYPE_MAX_DISTANCE, TYPE_TRAVEL,
+)
+from model.kernel.stop import end_of_service, service_duration, too_late
+from model.problem import FloatArray, IntArray
 from model.search.insertion.cheapest_stop import fits, is_simple
 from model.search.insertion.evaluate import INFEASIBLE, price_move, price_stop, stands_alone
 from model.search.insertion.new_trips import more_trips_fit, part_fits
@@ -58,13 +61,13 @@ def stop_costs(world: World, k: int, back: IntArray, leg: IntArray, stops: IntAr
     mode = world.mode[k]
     if mode & MODE_TIMED:
         # While drones fly, the truck may have time before they are back.
-        longer = back[here, 0] + leg[there, 0] + place[NODE_SERVICE] - stops[p, S_GAP]
+        longer = back[here, 0] + leg[there, 0] + service_duration(place) - stops[p, S_GAP]
         cost += max(0, longer - spare - stops[p, S_IDLE]) * world.rate[k, RATE_HOUR]
     if cost >= best:
         return best
     arrival = stops[p, S_LEAVE] + back[here, 0]
-    following = max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE] + leg[there, 0]
-    if arrival > place[NODE_LIMIT] or following > stops[p + 1, S_LATEST]:
+    following = end_of_service(place, arrival) + leg[there, 0]
+    if too_late(place, arrival) or following > stops[p + 1, S_LATEST]:
         return best
     if mode & MODE_PRICED:
         cost += (lateness_cost(world, node, arrival) + lateness_cost(world, there, following)
@@ -128,35 +131,34 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     columns = world.type[k]
     flights = columns[TYPE_DRONE_TRAVEL]
     out = world.back[flights, node, stops[launch, S_NODE]]
-    begun = stops[launch, S_ARRIVAL] + (columns[TYPE_LAUNCH] if launch > 0 else 0)
-    service = columns[TYPE_DRONE_SERVICE]
-    if service < 0:
-        service = world.place[node, NODE_SERVICE]
+    place, left = world.place[node], stops[launch, S_LEAVE]
+    begun = stops[launch, S_ARRIVAL]
+    if launch > 0:
+        begun = take_off(columns, begun)
+    service = drone_service(columns, place)
     late = 0.0
     if world.mode[k] & MODE_PRICED:
         late = lateness_cost(world, node, begun + out[0])
-    begun += columns[TYPE_RECOVERY] - idle_time(now.route[slot])
+    begun = recovery_end(columns, begun) - idle_time(now.route[slot])
     first = launch if world.loops else launch + 1
     last = launch
     if world.crossings:
         last = min(launch + MAX_SPAN, now.trip[slot, stops[launch, S_TRIP], T_LAST])
     for recovery in range(first, last + 1):
         home = world.leg[flights, node, stops[recovery, S_NODE]]
-        away = stops[recovery, S_ARRIVAL] - stops[launch, S_LEAVE]
+        met = stops[recovery, S_ARRIVAL]
         flight = out[0] + service + home[0]
-        if columns[TYPE_WAITING_COUNTS] and away > columns[TYPE_ENDURANCE]:
+        if not within_endurance(columns, left, left, met):
             # Held back for the window, the truck leaves later and may wait less on its way.
-            held = world.place[node, NODE_EARLIEST] + service - stops[launch, S_LEAVE]
-            if held <= 0:
+            if earliest_back(columns, place, 0) <= left:
                 break
-            if away > max(columns[TYPE_ENDURANCE], held + home[0]):
+            if met > earliest_back(columns, place, home[0]):
                 continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         longer = max(0, begun + flight - stops[recovery, S_LEAVE])
         cost = ((out[1] + home[1]) * world.rate[k, RATE_DRONE_KM]
                 + longer * world.rate[k, RATE_HOUR] + late - now.early[slot])
-        if (cost < best and flight <= columns[TYPE_ENDURANCE] and out[0] < UNREACHABLE
-                and home[0] < UNREACHABLE):
+        if cost < best and can_last(columns, flight):
             index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
                               slot, launch)
             searcher.offer[index, M_LAST] = recovery
@@ -197,7 +199,7 @@ def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -
     flights, depot = world.type[k, TYPE_DRONE_TRAVEL], world.type[k, TYPE_END]
     out, home = world.back[flights, node, depot], world.leg[flights, node, depot]
     cost = (out[1] + home[1]) * world.rate[k, RATE_DRONE_KM] - searcher.now.early[slot]
-    if (world.loops and max(out[0], home[0]) < UNREACHABLE
+    if (world.loops and not unreachable(max(out[0], home[0]))
             and cost < searcher.bound[B_BEST]):
         for p in range(-1, route[R_LENGTH]):
             if p < 0 or stops[p, S_KIND] == END:
@@ -232,7 +234,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
             if cost < best and not part_fits(world, now, slot, p, node, kind == TRIP_UNTIL):
                 continue
         cost -= now.early[slot]
-        if cost < best and (p < 0 or stops[p, S_LEAVE] <= world.place[node, NODE_LIMIT]):
+        if cost < best and (p < 0 or not too_late(world.place[node], stops[p, S_LEAVE])):
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 
 

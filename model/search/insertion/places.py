@@ -3,7 +3,9 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import pasted
 from model.kernel.copying import copy_row
-from model.kernel.instance import NODE_EARLIEST, TYPE_COUNT, TYPE_ENDURANCE, TYPE_MAX_TRIPS
+from model.kernel.flight import held_until
+from model.kernel.instance import NONE, TYPE_COUNT, TYPE_MAX_TRIPS
+from model.kernel.stop import opening
 from model.search.insertion.cheapest_stop import (
     fits, is_simple, scan_beside, scan_beside_lean, scan_lean, scan_simple,
 )
@@ -66,7 +68,7 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
             for p in range(first, last):
                 offer_sorties(world, searcher, slot, p, node)
             # Who would have to wait for a flight from the depot may fly when the trip is over.
-            soonest = world.place[node, NODE_EARLIEST] - world.type[k, TYPE_ENDURANCE]
+            soonest = held_until(world.type[k], opening(world.place[node], NONE))
             if now.stop[slot, first, S_LEAVE] < soonest:
                 offer_sorties(world, searcher, slot, last, node)
     if world.visits[k] > 1 and by_drone:

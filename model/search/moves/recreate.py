@@ -3,8 +3,9 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import (
-    NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, TYPE_END, TYPE_START, TYPE_TRAVEL,
+    NODE_DEMAND, TYPE_END, TYPE_START, TYPE_TRAVEL,
 )
+from model.kernel.stop import closing, width
 from model.problem import UIntArray
 from model.search.insertion.evaluate import INFEASIBLE
 from model.search.insertion.places import find_beside, find_place, try_new_route
@@ -39,9 +40,9 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
         distance = float(world.leg[world.type[0, TYPE_TRAVEL], world.type[0, TYPE_START], node, 1])
         return -distance if order == BY_FAR else distance
     if order == BY_WIDTH:
-        return float(place[NODE_LATEST] - place[NODE_EARLIEST])
+        return float(width(place))
     if order == BY_LATEST:
-        return float(place[NODE_LATEST])
+        return float(closing(place))
     return uniform(rng)
 
 

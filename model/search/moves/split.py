@@ -12,10 +12,13 @@ drone, Transportation Science 52:965-981.
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import (
-    NODE_SERVICE, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_SERVICE,
-    TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+from model.kernel.flight import (
+    can_last, drone_service, handling_duration, launch_duration, within_endurance,
 )
+from model.kernel.instance import (
+    RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL, TYPE_TRAVEL,
+)
+from model.kernel.stop import service_duration
 from model.problem import FloatArray, IntArray, UIntArray
 from model.search.route.layout import World
 from model.search.route.randomness import below, uniform
@@ -89,7 +92,8 @@ def measure(world: World, k: int, line: IntArray, length: int) -> None:
     for j in range(1, length):
         before, node = line[j - 1, L_NODE], line[j, L_NODE]
         leg = legs[before, node]
-        line[j, L_DRIVE] = line[j - 1, L_DRIVE] + world.place[before, NODE_SERVICE] + leg[0]
+        served = line[j - 1, L_DRIVE] + service_duration(world.place[before])
+        line[j, L_DRIVE] = served + leg[0]
         line[j, L_DISTANCE] = line[j - 1, L_DISTANCE] + leg[1]
         line[j, L_GROUNDED] = line[j - 1, L_GROUNDED]
         if j < length - 1 and not world.can[k, 0, node]:
@@ -97,7 +101,7 @@ def measure(world: World, k: int, line: IntArray, length: int) -> None:
     for j in range(1, length - 1):
         direct = legs[line[j - 1, L_NODE], line[j + 1, L_NODE]]
         line[j, L_SPARED_DRIVE] = line[j + 1, L_DRIVE] - line[j - 1, L_DRIVE] - direct[0]
-        line[j, L_SPARED_DRIVE] -= world.place[line[j - 1, L_NODE], NODE_SERVICE]
+        line[j, L_SPARED_DRIVE] -= service_duration(world.place[line[j - 1, L_NODE]])
         line[j, L_SPARED_DISTANCE] = line[j + 1, L_DISTANCE] - line[j - 1, L_DISTANCE] - direct[1]
 
 
@@ -112,18 +116,15 @@ def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: 
     node, customer, to = line[i, L_NODE], line[flown, L_NODE], line[j, L_NODE]
     drive = line[j, L_DRIVE] - line[i, L_DRIVE] - line[flown, L_SPARED_DRIVE]
     distance = line[j, L_DISTANCE] - line[i, L_DISTANCE] - line[flown, L_SPARED_DISTANCE]
-    here, handled = world.place[node, NODE_SERVICE], columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
-    driven = drive - here + max(0, here - columns[TYPE_LAUNCH])
+    here, handled = service_duration(world.place[node]), handling_duration(columns)
+    driven = drive - here + max(0, here - launch_duration(columns))
     if (handled + driven) * rate[RATE_HOUR] + distance * rate[RATE_KM] >= most:
         return math.inf
     flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
-    service = columns[TYPE_DRONE_SERVICE]
-    if service < 0:
-        service = world.place[customer, NODE_SERVICE]
+    service = drone_service(columns, world.place[customer])
     flight = flights[node, customer, 0] + service + flights[customer, to, 0]
     airborne = max(flight, driven)
-    counted = airborne if columns[TYPE_WAITING_COUNTS] else flight
-    if counted > columns[TYPE_ENDURANCE]:
+    if not within_endurance(columns, 0, flight, airborne):
         return math.inf
     return ((handled + airborne) * rate[RATE_HOUR] + distance * rate[RATE_KM]
             + airborne * rate[RATE_DRONE_HOUR]
@@ -135,13 +136,11 @@ def loop_cost(world: World, k: int, node: int, customer: int) -> float:
     """Return what a flight costs for which the truck waits at a stop."""
     columns, rate = world.type[k], world.rate[k]
     flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
-    service = columns[TYPE_DRONE_SERVICE]
-    if service < 0:
-        service = world.place[customer, NODE_SERVICE]
+    service = drone_service(columns, world.place[customer])
     airborne = flights[node, customer, 0] + service + flights[customer, node, 0]
-    if airborne > columns[TYPE_ENDURANCE] or not world.loops:
+    if not can_last(columns, airborne) or not world.loops:
         return math.inf
-    handled = columns[TYPE_LAUNCH] + columns[TYPE_RECOVERY]
+    handled = handling_duration(columns)
     return ((airborne + handled) * rate[RATE_HOUR] + airborne * rate[RATE_DRONE_HOUR]
             + (flights[node, customer, 1] + flights[customer, node, 1]) * rate[RATE_DRONE_KM])
 
@@ -152,7 +151,7 @@ def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, 
     rate = world.rate[k]
     legs = world.leg[world.type[k, TYPE_TRAVEL]]
     here, loops = line[i, L_NODE], 0.0
-    service = world.place[here, NODE_SERVICE]
+    service = service_duration(world.place[here])
     for j in range(i + 1, min(length, i + LONGEST_OPERATION + 1)):
         to = line[j, L_NODE]
         lands = j == length - 1 or world.can[k, 0, to]
@@ -202,7 +201,7 @@ def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
             cost += operation_cost(world, k, line, i, j, flown, math.inf)
         else:
             here = line[i, L_NODE]
-            leg, service = legs[here, line[j, L_NODE]], world.place[here, NODE_SERVICE]
+            leg, service = legs[here, line[j, L_NODE]], service_duration(world.place[here])
             cost += (leg[0] + service) * rate[RATE_HOUR] + leg[1] * rate[RATE_KM]
             for place in range(i + 1, j):
                 cost += loop_cost(world, k, here, line[place, L_NODE])

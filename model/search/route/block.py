@@ -2,17 +2,20 @@
 
 from model.kernel.clock import arrival_by_profile
 from model.kernel.compiled import inlined
-from model.kernel.instance import (
-    FAR, NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_SERVICE, NO_PROFILE, TYPE_DRONE_SERVICE,
-    TYPE_DRONE_TRAVEL, TYPE_ENDURANCE, TYPE_LATEST, TYPE_LAUNCH, TYPE_PROFILE, TYPE_RECOVERY,
-    TYPE_TRAVEL, TYPE_WAITING_COUNTS,
+from model.kernel.flight import (
+    counted_until, drone_service, earliest_back, enduring_within, held_until, launch_begin,
+    recovery_end, take_off, unreachable,
 )
-from model.problem import UNREACHABLE, IntArray
+from model.kernel.instance import (
+    FAR, NONE, NO_PROFILE, TYPE_DRONE_TRAVEL, TYPE_LATEST, TYPE_PROFILE, TYPE_TRAVEL,
+)
+from model.kernel.stop import allowed_within, as_late, service_duration, start_within, too_late
+from model.problem import IntArray
 from model.search.route.layout import (
     CUSTOMER, DONE, END, FLYING, F_BEGIN, F_COUNT, F_DRONE, F_HELD, F_LAUNCH, F_NODE, F_READY_C,
-    F_READY_D, F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, NONE, START, S_ARRIVAL,
-    S_BLOCK, S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP, S_HI, S_HOLD, S_IDLE, S_KIND, S_LATEST,
-    S_LEAVE, S_LO, S_NODE, S_RELEASE, WAITING, World,
+    F_READY_D, F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, START, S_ARRIVAL, S_BLOCK,
+    S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP, S_HI, S_HOLD, S_IDLE, S_KIND, S_LATEST, S_LEAVE,
+    S_LO, S_NODE, S_RELEASE, WAITING, World,
 )
 
 A_TIME, A_FREE_D, A_FREE_C, A_HI, A_LO, A_DEP, A_OLDEST, A_FLYING = range(8)
@@ -37,12 +40,13 @@ def travel(world: World, k: int, duration: int, d: int, c: int) -> tuple[int, in
 
 
 @inlined
-def serve(world: World, stop: IntArray, d: int, c: int) -> tuple[int, int]:
+def serve(world: World, stop: IntArray, time: int, d: int, c: int) -> tuple[int, int]:
     """Return the pair at the end of what a truck does at a stop by itself, reached at (d, c)."""
     kind = stop[S_KIND]
     if kind == CUSTOMER:
         place = world.place[stop[S_NODE]]
-        return d + place[NODE_SERVICE], max(c, place[NODE_EARLIEST]) + place[NODE_SERVICE]
+        start_d, start_c = start_within(place, time, d, c)
+        return start_d + service_duration(place), start_c + service_duration(place)
     if kind == START:
         return d, max(c, max(stop[S_RELEASE], stop[S_HOLD]))
     return d, c
@@ -52,11 +56,12 @@ def serve(world: World, stop: IntArray, d: int, c: int) -> tuple[int, int]:
 def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
     """Write the block of a stop without launches, reached at `time`. In place."""
     d, c = origin(world, k, time)
-    stop[S_D], stop[S_C] = serve(world, stop, d, c)
-    stop[S_HI], stop[S_LO], stop[S_DEP] = FAR, NONE, FAR
+    stop[S_D], stop[S_C] = serve(world, stop, time, d, c)
+    stop[S_LO], stop[S_HI], stop[S_DEP] = NONE, FAR, FAR
     if stop[S_KIND] == CUSTOMER:
         place = world.place[stop[S_NODE]]
-        stop[S_HI], stop[S_DEP] = place[NODE_LIMIT], max(time, place[NODE_LATEST])
+        stop[S_LO], stop[S_HI] = allowed_within(place, time, 0, NONE)
+        stop[S_DEP] = as_late(place, time)
     elif stop[S_KIND] == END:
         stop[S_HI] = world.type[k, TYPE_LATEST]
 
@@ -68,27 +73,28 @@ def make_ready(world: World, k: int, stops: IntArray, sorties: IntArray, count: 
     And write how long each is held back: until windows let it be back within the endurance.
     """
     columns = world.type[k]
-    legs, own = world.leg[columns[TYPE_DRONE_TRAVEL]], columns[TYPE_DRONE_SERVICE]
+    legs = world.leg[columns[TYPE_DRONE_TRAVEL]]
     for s in range(count):
         sortie = sorties[s]
         node = stops[sortie[F_RECOVERY], S_NODE]
-        back = to_fly = 0
+        back = home = 0
         for index in range(sortie[F_COUNT] - 1, -1, -1):
             customer = sortie[F_NODE + index]
             place = world.place[customer]
-            to_fly += legs[customer, node, 0] + (own if own >= 0 else place[NODE_SERVICE])
-            back = max(back, place[NODE_EARLIEST] + to_fly)
+            home += legs[customer, node, 0]
+            back = max(back, earliest_back(columns, place, home))
+            home += drone_service(columns, place)
             node = customer
-        sortie[F_STATE], sortie[F_HELD] = WAITING, back - columns[TYPE_ENDURANCE]
+        sortie[F_STATE], sortie[F_HELD] = WAITING, held_until(columns, back)
 
 
 @inlined
 def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArray, node: int,
             acc: IntArray) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
-    own, arrivals = columns[TYPE_DRONE_SERVICE], (F_NODE + len(sortie)) // 2
-    d = acc[A_FREE_D] + columns[TYPE_LAUNCH]
-    c = max(acc[A_FREE_C] + columns[TYPE_LAUNCH], sortie[F_HELD])
+    arrivals = (F_NODE + len(sortie)) // 2
+    d = take_off(columns, acc[A_FREE_D])
+    c = max(take_off(columns, acc[A_FREE_C]), sortie[F_HELD])
     acc[A_FREE_D], acc[A_FREE_C] = d, c
     sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C] = d, c
     sortie[F_TAKEOFF] = max(acc[A_TIME] + d, c)
@@ -98,13 +104,15 @@ def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArra
         place = places[customer]
         d, c = d + flight, c + flight
         arrival = max(acc[A_TIME] + d, c)
-        if flight >= UNREACHABLE or c > place[NODE_LIMIT]:
+        if unreachable(flight) or too_late(place, c):
             return False
         sortie[arrivals + index] = arrival
-        acc[A_HI] = min(acc[A_HI], place[NODE_LIMIT] - d)
-        acc[A_DEP] = min(acc[A_DEP], max(arrival, place[NODE_LATEST]) - d)
-        service = own if own >= 0 else place[NODE_SERVICE]
-        d, c = d + service, max(c, place[NODE_EARLIEST]) + service
+        first, last = allowed_within(place, acc[A_TIME], d, c)
+        bound_arrival(acc, first, last)
+        acc[A_DEP] = min(acc[A_DEP], as_late(place, arrival) - d)
+        d, c = start_within(place, acc[A_TIME], d, c)
+        service = drone_service(columns, place)
+        d, c = d + service, c + service
         node = customer
     sortie[F_READY_D], sortie[F_READY_C] = d, c
     sortie[F_STATE] = FLYING
@@ -113,20 +121,9 @@ def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArra
 
 
 @inlined
-def bound_arrival(sortie: IntArray, d: int, c: int, endurance: int, acc: IntArray) -> bool:
-    """Bound the truck's arrival so that (d, c) comes within the endurance after take-off.
-
-    In place; False if no arrival will do.
-    """
-    takeoff_d, takeoff_c = sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C]
-    if d - takeoff_d <= endurance:
-        if c - takeoff_c > endurance:
-            acc[A_LO] = max(acc[A_LO], c - endurance - takeoff_d)
-    else:
-        if c - takeoff_c > endurance:
-            return False
-        acc[A_HI] = min(acc[A_HI], endurance + takeoff_c - d)
-    return acc[A_LO] <= acc[A_HI]
+def bound_arrival(acc: IntArray, first: int, last: int) -> None:
+    """Let the truck arrive at the block from `first` to `last`. In place."""
+    acc[A_LO], acc[A_HI] = max(acc[A_LO], first), min(acc[A_HI], last)
 
 
 @inlined
@@ -137,23 +134,22 @@ def bring_home(legs: IntArray, columns: IntArray, sortie: IntArray, node: int,
     flight = legs[last, node, 0]
     back_d, back_c = sortie[F_READY_D] + flight, sortie[F_READY_C] + flight
     begin_d, begin_c = max(acc[A_FREE_D], back_d), max(acc[A_FREE_C], back_c)
-    if flight >= UNREACHABLE:
+    if unreachable(flight):
         return False
-    within = True
-    if columns[TYPE_WAITING_COUNTS]:
-        within = bound_arrival(sortie, begin_d, begin_c, columns[TYPE_ENDURANCE], acc)
-    else:
-        within = bound_arrival(sortie, back_d, back_c, columns[TYPE_ENDURANCE], acc)
+    first, last = enduring_within(columns, sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C],
+                                  counted_until(columns, back_d, begin_d),
+                                  counted_until(columns, back_c, begin_c))
+    bound_arrival(acc, first, last)
     begin = max(acc[A_TIME] + begin_d, begin_c)
     sortie[F_BEGIN] = begin
     slack = begin - begin_d
     if sortie[F_TAKEOFF] - sortie[F_TAKEOFF_D] > slack:
         acc[A_DEP] = min(acc[A_DEP], slack)
-    acc[A_FREE_D] = begin_d + columns[TYPE_RECOVERY]
-    acc[A_FREE_C] = begin_c + columns[TYPE_RECOVERY]
+    acc[A_FREE_D] = recovery_end(columns, begin_d)
+    acc[A_FREE_C] = recovery_end(columns, begin_c)
     sortie[F_STATE] = DONE
     acc[A_FLYING] -= 1
-    return within
+    return acc[A_LO] <= acc[A_HI]
 
 
 @inlined
@@ -186,7 +182,7 @@ def next_operation(legs: IntArray, columns: IntArray, sorties: IntArray, count: 
                                                sorties[index, F_READY_C]) + flight))
         elif (sorties[index, F_STATE] == WAITING and sorties[index, F_LAUNCH] == p
               and is_aboard(sorties, index, acc[A_OLDEST])):
-            begin = 2 * max(free, sorties[index, F_HELD] - columns[TYPE_LAUNCH]) + 1
+            begin = 2 * max(free, launch_begin(columns, sorties[index, F_HELD])) + 1
         if begin < earliest:
             chosen, earliest = index, begin
     return chosen
@@ -225,7 +221,7 @@ def note_idle(places: IntArray, stops: IntArray, first: int, last: int) -> None:
     idle = stops[first, S_D]
     for p in range(first, last + 1):
         if stops[p, S_KIND] == CUSTOMER:
-            idle -= places[stops[p, S_NODE], NODE_SERVICE]
+            idle -= service_duration(places[stops[p, S_NODE]])
         if p < last:
             idle -= stops[p, S_GAP]
     for p in range(first, last):
@@ -251,14 +247,15 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
         stop[S_ARRIVAL], stop[S_BLOCK] = max(time + d, c), first
         if kind == CUSTOMER:
             place = world.place[node]
-            if c > place[NODE_LIMIT]:
+            if too_late(place, c):
                 return -1
-            acc[A_HI] = min(acc[A_HI], place[NODE_LIMIT] - d)
-            acc[A_DEP] = min(acc[A_DEP], max(stop[S_ARRIVAL], place[NODE_LATEST]) - d)
+            lo, hi = allowed_within(place, time, d, c)
+            bound_arrival(acc, lo, hi)
+            acc[A_DEP] = min(acc[A_DEP], as_late(place, stop[S_ARRIVAL]) - d)
         elif kind == START:
             c = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
         acc[A_FREE_D], acc[A_FREE_C] = d, c
-        d, c = serve(world, stop, d, c)
+        d, c = serve(world, stop, time, d, c)
         if not operate(world.place, flights, columns, sorties, count, p, node, acc):
             return -1
         d, c = max(d, acc[A_FREE_D]), max(c, acc[A_FREE_C])

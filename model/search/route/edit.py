@@ -2,10 +2,11 @@
 
 from model.kernel.compiled import inlined
 from model.kernel.copying import clear, copy_row
+from model.kernel.instance import NONE
 from model.problem import BoolArray, IntArray
 from model.search.route.layout import (
-    CUSTOMER, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, NONE, R_LENGTH, R_SORTIES,
-    R_TYPE, S_HOLD, S_KIND, S_NODE, S_RELEASE, SEQUENCE_COLUMNS, START,
+    CUSTOMER, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, R_LENGTH, R_SORTIES, R_TYPE,
+    SEQUENCE_COLUMNS, START, S_HOLD, S_KIND, S_NODE, S_RELEASE,
 )
 
 (M_KIND, M_SLOT, M_FIRST, M_LAST, M_DRONE, M_SORTIE, M_TYPE) = range(7)

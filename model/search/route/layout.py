@@ -15,10 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.kernel.instance import FAR
 from model.problem import BoolArray, FloatArray, IntArray
-
-NONE = -FAR
 
 (S_NODE, S_KIND, S_RELEASE, S_LEAVE, S_LATEST, S_LEG, S_GAP, S_FLYING, S_TRIP, S_EARLY, S_REST,
  S_END, S_CUM, S_DEPART, S_ARRIVAL, S_BEFORE, S_BLOCK, S_LAST, S_D, S_C, S_HI, S_LO, S_DEP,

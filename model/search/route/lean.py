@@ -3,9 +3,10 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import clear
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE, RATE_FIXED, RATE_KM,
-    TYPE_CAPACITY, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL,
+    MAX_DIMENSIONS, NODE_DEMAND, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_LATEST,
+    TYPE_TRAVEL,
 )
+from model.kernel.stop import end_of_service, latest_arrival, too_late
 from model.problem import IntArray
 from model.search.route.layout import (
     CUSTOMER, LEAN_COLUMNS, NOWHERE, R_LENGTH, R_TRIPS, R_TYPE, S_FLYING, S_GAP, S_KIND, S_LATEST,
@@ -34,9 +35,9 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
         node = following
         if p < last:
             place = world.place[node]
-            if time > place[NODE_LIMIT]:
+            if too_late(place, time):
                 return False
-            time = max(time, place[NODE_EARLIEST]) + place[NODE_SERVICE]
+            time = end_of_service(place, time)
             for dimension in range(MAX_DIMENSIONS):
                 trip[T_LOAD + dimension] += place[NODE_DEMAND + dimension]
         stops[p, S_LEAVE], stops[p, S_FLYING], stops[p, S_TRIP] = time, 0, 0
@@ -47,8 +48,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     latest = columns[TYPE_LATEST]
     stops[last, S_LATEST] = latest
     for p in range(last - 1, 0, -1):
-        place = world.place[stops[p, S_NODE]]
-        latest = min(place[NODE_LIMIT], latest - stops[p, S_GAP] - place[NODE_SERVICE])
+        latest = latest_arrival(world.place[stops[p, S_NODE]], latest - stops[p, S_GAP])
         stops[p, S_LATEST] = latest
     stops[0, S_LATEST] = latest - stops[0, S_GAP]
     fleet.cost[slot] = world.rate[k, RATE_FIXED] + trip[T_DISTANCE] * world.rate[k, RATE_KM]
@@ -97,15 +97,13 @@ def spread(world: World, stops: IntArray, last: int, p: int) -> None:
     for q in range(p, last + 1):
         time += stops[q - 1, S_GAP]
         if q < last:
-            place = world.place[stops[q, S_NODE]]
-            time = max(time, place[NODE_EARLIEST]) + place[NODE_SERVICE]
+            time = end_of_service(world.place[stops[q, S_NODE]], time)
         if q > p and stops[q, S_LEAVE] == time:
             break
         stops[q, S_LEAVE] = time
     latest = stops[p + 1, S_LATEST]
     for q in range(p, 0, -1):
-        place = world.place[stops[q, S_NODE]]
-        latest = min(place[NODE_LIMIT], latest - stops[q, S_GAP] - place[NODE_SERVICE])
+        latest = latest_arrival(world.place[stops[q, S_NODE]], latest - stops[q, S_GAP])
         if q < p and stops[q, S_LATEST] == latest:
             return
         stops[q, S_LATEST] = latest

@@ -2,13 +2,14 @@
 
 from model.kernel.clock import changes_until
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import FAR, NODE_LATEST, NODE_SERVICE, TYPE_MAX_WORKING, TYPE_PROFILE
+from model.kernel.instance import FAR, NONE, TYPE_MAX_WORKING, TYPE_PROFILE
+from model.kernel.stop import latest_free_arrival
 from model.problem import FULL_SPEED, IntArray, UIntArray
 from model.search.route.layout import (
     CUSTOMER, ELSEWHERE, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, MODE_LEAN, MODE_PROFILE,
-    MODE_SETTLED, NONE, NOWHERE, R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE,
-    R_WORKING, START, S_ARRIVAL, S_BEFORE, S_DEP, S_GAP, S_HOLD, S_KIND, S_LAST, S_LEAVE, S_NODE,
-    S_RELEASE, T_FIRST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
+    MODE_SETTLED, NOWHERE, R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING,
+    START, S_ARRIVAL, S_BEFORE, S_DEP, S_GAP, S_HOLD, S_KIND, S_LAST, S_LEAVE, S_NODE, S_RELEASE,
+    T_FIRST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
 )
 from model.search.route.lean import refresh_lean
 from model.search.route.randomness import below
@@ -80,7 +81,7 @@ def latest_by_profile(world: World, route: IntArray, stops: IntArray, sorties: I
             leave = stop[S_LEAVE]
         if plain and stop[S_KIND] == CUSTOMER:
             place = world.place[stop[S_NODE]]
-            arrival = min(max(stop[S_ARRIVAL], place[NODE_LATEST]), leave - place[NODE_SERVICE])
+            arrival = latest_free_arrival(place, stop[S_ARRIVAL], leave)
         elif plain:
             arrival = leave
         leave = arrival

@@ -2,19 +2,21 @@
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import clear
+from model.kernel.flight import launch_duration, recovery_end
 from model.kernel.instance import (
-    FAR, MAX_DIMENSIONS, NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, NODE_RELEASE, RATE_DRONE_HOUR,
-    RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_DRONE_TRAVEL, TYPE_EARLIEST,
-    TYPE_LAUNCH, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RECOVERY, TYPE_RELOAD, TYPE_TRAVEL,
+    FAR, MAX_DIMENSIONS, NODE_DEMAND, NODE_RELEASE, NONE, RATE_DRONE_HOUR, RATE_DRONE_KM,
+    RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_DRONE_TRAVEL, TYPE_EARLIEST,
+    TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_TRAVEL,
 )
+from model.kernel.stop import lateness, waiting
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block, travel
 from model.search.route.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, MODE_PRICED, NONE,
-    R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, START, S_ARRIVAL,
-    S_BEFORE, S_BLOCK, S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI,
-    S_IDLE, S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP,
-    T_DISTANCE, T_FIRST, T_LAST, T_LOAD, T_RELEASE, World,
+    CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, MODE_PRICED, R_CUM,
+    R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, START, S_ARRIVAL, S_BEFORE,
+    S_BLOCK, S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_IDLE,
+    S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, T_DISTANCE,
+    T_FIRST, T_LAST, T_LOAD, T_RELEASE, World,
 )
 
 
@@ -142,13 +144,13 @@ def open_up(route: IntArray, stops: IntArray) -> None:
 @spliced
 def lateness_cost(world: World, node: int, arrival: int) -> float:
     """Return what being late at a customer costs; nothing at a depot."""
-    return max(0, arrival - world.place[node, NODE_LATEST]) * world.price[node, 0]
+    return lateness(world.place[node], arrival) * world.price[node, 0]
 
 
 @spliced
 def waiting_cost(world: World, node: int, arrival: int) -> float:
     """Return what being early at a customer costs."""
-    return max(0, world.place[node, NODE_EARLIEST] - arrival) * world.price[node, 1]
+    return waiting(world.place[node], arrival) * world.price[node, 1]
 
 
 @spliced
@@ -185,7 +187,7 @@ def sortie_cost(world: World, k: int, stops: IntArray, sortie: IntArray) -> floa
         flown += world.leg[flights, node, following, 1]
         node = following
     flown += world.leg[flights, node, stops[sortie[F_RECOVERY], S_NODE], 1]
-    airborne = sortie[F_BEGIN] + world.type[k, TYPE_RECOVERY] - sortie[F_TAKEOFF]
+    airborne = recovery_end(world.type[k], sortie[F_BEGIN]) - sortie[F_TAKEOFF]
     return flown * world.rate[k, RATE_DRONE_KM] + airborne * world.rate[k, RATE_DRONE_HOUR]
 
 
@@ -195,7 +197,7 @@ def first_departure(world: World, route: IntArray, stops: IntArray, sorties: Int
     depart = min(stops[route[R_LENGTH] - 1, S_DEPART], route[R_END] - route[R_CUM])
     offset = 0
     if route[R_SORTIES] > 0 and sorties[0, F_LAUNCH] == 0:
-        offset = world.type[route[R_TYPE], TYPE_LAUNCH]
+        offset = launch_duration(world.type[route[R_TYPE]])
     route[R_OFFSET] = offset
     return depart + offset
 
