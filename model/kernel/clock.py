@@ -1,7 +1,18 @@
-"""When a leg is done by a speed that changes with the time of day. Compiled."""
+"""When a leg is done, and when it has to begin, by speeds that change by time of day. Compiled.
+
+`columns` are those of the vehicle type, `times` and `factors` its profile, of which as many
+changes count as the columns say.
+"""
 
 from model.kernel.compiled import compiled, inlined
+from model.kernel.instance import NO_PROFILE, TYPE_PROFILE
 from model.problem import FULL_SPEED, IntArray
+
+
+@inlined
+def is_steady(columns: IntArray) -> bool:
+    """Tell whether the speed is the same all day, so that legs last as long as tables say."""
+    return columns[TYPE_PROFILE] == NO_PROFILE
 
 
 @inlined
@@ -32,3 +43,38 @@ def arrival_by_profile(times: IntArray, factors: IntArray, changes: int, duratio
         time = times[piece]
         piece += 1
     return time + (work + factors[piece] - 1) // factors[piece]
+
+
+@inlined
+def leave_by_profile(times: IntArray, factors: IntArray, changes: int, duration: int,
+                     arrival: int) -> int:
+    """Return the latest departure whose leg of `duration` at full speed ends by `arrival`."""
+    piece = changes_until(times, changes, arrival - 1)
+    work = duration * FULL_SPEED
+    time = arrival
+    while piece > 0:
+        done = (time - times[piece - 1]) * factors[piece]
+        if work <= done:
+            break
+        work -= done
+        time = times[piece - 1]
+        piece -= 1
+    return time - (work + factors[piece] - 1) // factors[piece]
+
+
+@inlined
+def leg_end(columns: IntArray, times: IntArray, factors: IntArray, duration: int,
+            leave: int) -> int:
+    """Return when a leg of `duration` at full speed, begun at `leave`, is done."""
+    if is_steady(columns):
+        return leave + duration
+    return arrival_by_profile(times, factors, columns[TYPE_PROFILE], duration, leave)
+
+
+@inlined
+def leg_start(columns: IntArray, times: IntArray, factors: IntArray, duration: int,
+              arrival: int) -> int:
+    """Return the latest departure whose leg of `duration` at full speed ends by `arrival`."""
+    if is_steady(columns):
+        return arrival - duration
+    return leave_by_profile(times, factors, columns[TYPE_PROFILE], duration, arrival)

@@ -14,6 +14,8 @@ from model.kernel.instance import (
     TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_TRAVEL, Instance,
 )
+from model.kernel.leg import lookup
+from model.kernel.load import demand_of
 from model.kernel.stop import closing, lateness
 from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
 from model.policy.tokens import NUM_TYPE_FEATURES, Float32Array, Scales
@@ -113,20 +115,20 @@ def _describe_leg(unit: Unit, duration: int, distance: int, km: float, hour: flo
 def _describe_flight(setting: Setting, unit: Unit, here: int, node: int, distance: int,
                      rate: FloatArray, feature: Float32Array) -> None:
     """Describe the flight to a customer, as if the drone came back here. In place."""
-    there = setting.fly[here, node]
-    back = min(setting.fly[node, here], 10 * there)
+    there = lookup(setting.fly, here, node)
+    back = min(lookup(setting.fly, node, here), 10 * there)
     _describe_leg(unit, there, 2 * distance, rate[RATE_DRONE_KM], 2 * rate[RATE_DRONE_HOUR],
                   feature)
     feature[18] = _share(there + back, setting.type[TYPE_ENDURANCE])
 
 
 @inlined
-def _nearest_drive(durations: IntArray, actions: IntArray) -> int:
-    """Return the shortest drive among the actions."""
+def _nearest_drive(drive: IntArray, here: int, actions: IntArray) -> int:
+    """Return the shortest drive from here among the actions."""
     nearest = UNLIMITED
     for action in actions:
         if action % NUM_KINDS == DRIVE:
-            nearest = min(nearest, durations[action // NUM_KINDS])
+            nearest = min(nearest, lookup(drive, here, action // NUM_KINDS))
     return nearest
 
 
@@ -157,7 +159,7 @@ def _unserved_demand(instance: Instance, state: State, r: int) -> float:
     total = 0.0
     for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
         if not served[node]:
-            total += nodes[node, NODE_DEMAND]
+            total += demand_of(nodes[node])[0]
     return total
 
 
@@ -186,7 +188,8 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     clock = vehicle[V_NEXT_START]
     if not vehicle[V_IDLE]:
         clock = max(vehicle[V_SERVICE_END], vehicle[V_FREE])
-        home = instance.duration[b, columns[TYPE_TRAVEL], vehicle[V_NODE], columns[TYPE_END]]
+        home = lookup(instance.duration[b, columns[TYPE_TRAVEL]], vehicle[V_NODE],
+                      columns[TYPE_END])
         glob[3] = min(home / scale.time[b], 5.0)
         reserve += vehicle[V_LOAD]
     glob[2] = min(unserved / max(1.0, reserve), 2.0)
@@ -232,12 +235,11 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
     rate, late_early = instance.rate[b, k], instance.late_early[b]
     unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
     home, here = setting.type[TYPE_END], vehicle[V_NODE]
-    drive = setting.drive[here]
     distance = instance.distance[b, setting.type[TYPE_TRAVEL]]
-    flown = instance.distance[b, setting.type[TYPE_DRONE_TRAVEL], here]
+    flown = instance.distance[b, setting.type[TYPE_DRONE_TRAVEL]]
     trips = state.log.count[r, COUNT_TRIPS]
     actions, features = seen.action[r, : seen.count[r]], seen.feature[r]
-    nearest = _nearest_drive(drive, actions)
+    nearest = _nearest_drive(setting.drive, here, actions)
     for index in range(len(actions)):
         kind, node = actions[index] % NUM_KINDS, actions[index] // NUM_KINDS
         if kind == OPEN:
@@ -247,21 +249,21 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
         feature[kind] = 1.0
         seen.token[r, index] = node
         if kind == LAUNCH:
-            _describe_flight(setting, unit, here, node, flown[node], rate, feature)
+            _describe_flight(setting, unit, here, node, lookup(flown, here, node), rate, feature)
         else:
-            _describe_leg(unit, drive[node], distance[here, node], rate[RATE_KM], rate[RATE_HOUR],
-                          feature)
+            _describe_leg(unit, lookup(setting.drive, here, node), lookup(distance, here, node),
+                          rate[RATE_KM], rate[RATE_HOUR], feature)
         if kind == RETURN:
             _describe_return(setting, vehicle, trips, feature)
             continue
-        way_home = setting.drive[node, home]
+        way, way_home = lookup(setting.drive, here, node), lookup(setting.drive, node, home)
         feature[13] = min(way_home / unit.time, 5.0)
         if kind == DRIVE:
-            used = vehicle[V_DISTANCE] + distance[here, node] + distance[node, home]
-            feature[14] = slack(setting.type[TYPE_MAX_DISTANCE], used, distance[home, node])
-            detour = (drive[node] + way_home - drive[home]) / unit.time
+            used = vehicle[V_DISTANCE] + lookup(distance, here, node) + lookup(distance, node, home)
+            feature[14] = slack(setting.type[TYPE_MAX_DISTANCE], used, lookup(distance, home, node))
+            detour = (way + way_home - lookup(setting.drive, here, home)) / unit.time
             feature[16] = max(min(detour, 5.0), -5.0)
-            feature[17] = ratio(drive[node] - nearest, unit.near)
+            feature[17] = ratio(way - nearest, unit.near)
         _describe_customer(setting, unit, late_early, vehicle, trips > 0, node,
                            seen.outlook[r, index], feature)
         describe_neighbours(setting, instance.neighbour[b], state.served[r], vehicle[V_LOAD], here,

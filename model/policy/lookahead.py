@@ -8,7 +8,9 @@ from typing import NamedTuple
 
 from model.kernel.compiled import inlined
 from model.kernel.flight import drone_service, unreachable
-from model.kernel.instance import NODE_DEMAND, NONE
+from model.kernel.instance import NONE
+from model.kernel.leg import lookup
+from model.kernel.load import demand_of
 from model.kernel.stop import (
     closing, end_of_service, lateness, service_duration, start_of_service, waiting,
 )
@@ -65,11 +67,11 @@ def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, 
         if served[other]:
             continue
         found += 1
-        way = drive[node, other]
+        way = lookup(drive, node, other)
         feature[THIRD_WAY] = ratio(way, unit.near)
         if found == 1:
             feature[NEXT_WAY] = feature[THIRD_WAY]
-            feature[NEXT_EXCESS] = excess(way - drive[here, node], unit.near)
+            feature[NEXT_EXCESS] = excess(way - lookup(drive, here, node), unit.near)
 
 
 @inlined
@@ -81,9 +83,9 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
     By fixed speeds, the first dimension of the `load` left, and without drones: a guess.
     """
     columns, drive, place = setting.node, setting.drive, setting.node[node]
-    arrival, way = outlook[OUTLOOK_ARRIVAL], setting.drive[here, node]
+    arrival, way = outlook[OUTLOOK_ARRIVAL], lookup(setting.drive, here, node)
     leave = outlook[OUTLOOK_START] + service_duration(place)
-    left = load - place[NODE_DEMAND]
+    left = load - demand_of(place)[0]
     soonest = tightest = detour = later = UNLIMITED
     seen = lost = 0
     for rank in range(neighbours.shape[1]):
@@ -94,18 +96,18 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
             continue
         seen += 1
         there, latest = columns[other], closing(columns[other])
-        then, directly = leave + drive[node, other], arrival - way + drive[here, other]
-        back = drive[other, node]
+        past, back = lookup(drive, here, other), lookup(drive, other, node)
+        then, directly = leave + lookup(drive, node, other), arrival - way + past
         if lateness(place, end_of_service(there, NONE) + back) == 0:
             later = min(later, back + waiting(place, latest + service_duration(there) + back))
-        if then <= latest and there[NODE_DEMAND] <= left:
+        if then <= latest and demand_of(there)[0] <= left:
             soonest = min(soonest, start_of_service(there, then) - leave)
             if latest < UNLIMITED:
                 tightest = min(tightest, latest - then)
         elif directly <= latest:
             lost += 1
         if directly <= latest and lateness(place, end_of_service(there, directly) + back) == 0:
-            detour = min(detour, drive[here, other] + back - way)
+            detour = min(detour, past + back - way)
     feature[NEXT_DURATION] = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
     feature[NEXT_SLACK] = slack(tightest, 0, unit.time)
     feature[LOST] = lost / max(1, seen)
@@ -122,21 +124,21 @@ def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, 
     itself on its way to one.
     """
     drive, fly = setting.drive, setting.fly
-    takeoff = outlook[OUTLOOK_ARRIVAL] - fly[here, node]
-    served = outlook[OUTLOOK_START] + drone_service(setting.type, setting.node[node])
+    takeoff = outlook[OUTLOOK_ARRIVAL] - lookup(fly, here, node)
+    ready = outlook[OUTLOOK_START] + drone_service(setting.type, setting.node[node])
     soonest = wait = detour = UNLIMITED
     seen = 0
     for rank in range(neighbours.shape[1]):
         other = neighbours[node, rank]
         if other < 0 or seen == NUM_PROSPECTS:
             break
-        if served[other] or unreachable(fly[node, other]):
+        if served[other] or unreachable(lookup(fly, node, other)):
             continue
         seen += 1
-        drone, truck = served + fly[node, other] - takeoff, drive[here, other]
+        drone, truck = ready + lookup(fly, node, other) - takeoff, lookup(drive, here, other)
         soonest = min(soonest, max(drone, truck))
         wait = min(wait, max(0, drone - truck))
-        detour = min(detour, drive[here, node] + drive[node, other] - truck)
+        detour = min(detour, lookup(drive, here, node) + lookup(drive, node, other) - truck)
     feature[NEXT_DURATION] = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
     feature[NEXT_SLACK] = 1.0 if wait >= UNLIMITED else ratio(float(wait), unit.near)
     feature[DETOUR_BEFORE] = excess(detour, unit.near)

@@ -5,6 +5,7 @@ from model.kernel.instance import (
     RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL, TYPE_TRAVEL,
     Instance,
 )
+from model.kernel.leg import lookup
 from model.kernel.stop import lateness
 from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray
 from model.simulation.vehicle_log import (
@@ -35,15 +36,15 @@ def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: i
     flights = instance.distance[b, setting.type[TYPE_DRONE_TRAVEL]]
     for index in range(1, log.count[COUNT_STOPS]):
         node = log.stop[index, STOP_NODE]
-        driven += legs[log.stop[index - 1, STOP_NODE], node]
+        driven += lookup(legs, log.stop[index - 1, STOP_NODE], node)
         if node >= instance.size[b, 0]:
             add_window_cost(instance, b, node, log.stop[index, STOP_ARRIVAL],
                             log.stop[index, STOP_START], cost)
     for index in range(log.count[COUNT_SORTIES]):
         sortie = log.sortie[index]
         node = sortie[SORTIE_NODE]
-        flown += flights[log.stop[sortie[SORTIE_LAUNCH_STOP], STOP_NODE], node]
-        flown += flights[node, log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE]]
+        flown += lookup(flights, log.stop[sortie[SORTIE_LAUNCH_STOP], STOP_NODE], node)
+        flown += lookup(flights, node, log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE])
         airborne += sortie[SORTIE_RECOVERY_END] - sortie[SORTIE_TAKEOFF]
         add_window_cost(instance, b, node, sortie[SORTIE_ARRIVAL], sortie[SORTIE_START], cost)
     end = log.stop[log.count[COUNT_STOPS] - 1, STOP_LEAVE]

@@ -12,6 +12,7 @@ from model.kernel.flight import (
     within_endurance,
 )
 from model.kernel.instance import MAX_DIMENSIONS
+from model.kernel.leg import lookup
 from model.kernel.stop import too_late
 from model.problem import IntArray
 from model.simulation.vehicle_log import IN_FLIGHT, Setting, travel_arrival
@@ -45,7 +46,7 @@ def mark_place(setting: Setting, drone: IntArray, here: int, to: int) -> None:
     if drone[DRONE_SORTIE] != IN_FLIGHT:
         node = drone[DRONE_NODE]
         service = drone_service(setting.type, setting.node[node])
-        flight = setting.fly[here, node] + service + setting.fly[node, to]
+        flight = lookup(setting.fly, here, node) + service + lookup(setting.fly, node, to)
         drone[DRONE_PLACE] = MEET if can_last(setting.type, flight) else LOOP
 
 
@@ -59,7 +60,7 @@ def next_launch(setting: Setting, drones: IntArray, here: int, to: int,
             end = to if drones[d, DRONE_PLACE] == MEET else here
             node = drones[d, DRONE_NODE]
             soonest = held_takeoff(setting.type, setting.node[node], take_off(setting.type, free),
-                                   setting.fly[node, end])
+                                   lookup(setting.fly, node, end))
             if chosen < 0 or soonest < takeoff:
                 chosen, takeoff = d, soonest
     return chosen, takeoff
@@ -69,11 +70,11 @@ def next_launch(setting: Setting, drones: IntArray, here: int, to: int,
 def fly(setting: Setting, drone: IntArray, here: int, to: int, takeoff: int) -> None:
     """Time the flight of a drone that takes off at `here`. In place."""
     node = drone[DRONE_NODE]
-    arrival = takeoff + setting.fly[here, node]
+    arrival = takeoff + lookup(setting.fly, here, node)
     end = to if drone[DRONE_PLACE] == MEET else here
     drone[DRONE_TAKEOFF] = takeoff
     drone[DRONE_READY] = ready(setting.type, setting.node[node], arrival)
-    drone[DRONE_BACK] = drone[DRONE_READY] + setting.fly[node, end]
+    drone[DRONE_BACK] = drone[DRONE_READY] + lookup(setting.fly, node, end)
 
 
 @inlined
@@ -157,7 +158,7 @@ def any_late(setting: Setting, here: int, drones: IntArray) -> bool:
     for d in range(len(drones)):
         if drones[d, DRONE_PLACE] != ABOARD:
             node = drones[d, DRONE_NODE]
-            arrival = drones[d, DRONE_TAKEOFF] + setting.fly[here, node]
+            arrival = drones[d, DRONE_TAKEOFF] + lookup(setting.fly, here, node)
             late = late or too_late(setting.node[node], arrival)
     return late
 

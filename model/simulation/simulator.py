@@ -10,23 +10,27 @@ is not kept by being late. So no legal action leads into an illegal plan.
 
 import numpy as np
 
+from model.kernel.clock import is_steady
 from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import copy_rows
 from model.kernel.flight import take_off, unreachable
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NO_PROFILE, NODE_DEMAND, NODE_RELEASE, TYPE_COUNT,
-    TYPE_END, TYPE_DRONES, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS,
-    TYPE_MAX_WORKING, TYPE_PROFILE, TYPE_TRAVEL, Instance,
+    NODE_RELEASE, TYPE_COUNT, TYPE_END, TYPE_DRONES,
+    TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_TRAVEL,
+    Instance,
 )
+from model.kernel.leg import lookup
+from model.kernel.load import demand_of, within
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
 from model.simulation.cost import COST_UNASSIGNED
 from model.simulation.meeting import (
     DRONE_SORTIE, DRONE_TAKEOFF, NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE,
-    V_LOAD, V_NEXT_START, V_NODE, V_START_BEST, V_TYPE, leave_for,
+    V_NEXT_START, V_NODE, V_START_BEST, V_TYPE, leave_for,
 )
 from model.simulation.transition import (
-    State, board, close_vehicle, drive, empty_state, improve_departure, launch, open_vehicle,
+    State, board, close_vehicle, drive, empty_state, improve_departure, launch, load_left,
+    open_vehicle,
 )
 from model.simulation.vehicle_log import (
     COUNT_OPS, COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, IN_FLIGHT, SORTIE_ARRIVAL, SORTIE_START,
@@ -44,15 +48,6 @@ OUTLOOK_ARRIVAL, OUTLOOK_START, OUTLOOK_END = range(3)
 def encode_action(kind: int, target: int) -> int:
     """Return the code of an action; `target` is a customer's node, a depot's node or a type."""
     return target * NUM_KINDS + kind
-
-
-@inlined
-def _fits(columns: IntArray, vehicle: IntArray) -> bool:
-    """Tell whether a customer's demand fits the load left."""
-    for dimension in range(MAX_DIMENSIONS):
-        if columns[NODE_DEMAND + dimension] > vehicle[V_LOAD + dimension]:
-            return False
-    return True
 
 
 @inlined
@@ -96,7 +91,7 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
     if earliest >= 0:
         departure = vehicle[V_DEPARTURE_BEST] if vehicle[V_FLYING] == 0 else earliest
     rigid = (start == arrival and vehicle[V_FLYING] == 0 and leave == vehicle[V_NEXT_START]
-             and setting.type[TYPE_PROFILE] == NO_PROFILE)
+             and is_steady(setting.type))
     return _judge_end(setting, end, departure, rigid)
 
 
@@ -108,7 +103,7 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
     `departure` is the vehicle's earliest.
     """
     place = setting.node[node]
-    flight = setting.fly[vehicle[V_NODE], node]
+    flight = lookup(setting.fly, vehicle[V_NODE], node)
     takeoff = take_off(setting.type, vehicle[V_FREE])
     arrival = takeoff + flight
     if unreachable(flight) or too_late(place, arrival):
@@ -208,10 +203,11 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
         earliest = first_departure(setting, log_of(state.log, r), state.log.trip[r, 0, TRIP_START])
     found = 0
     for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
-        if served[node] or not _fits(setting.node[node], vehicle):
+        if served[node] or not within(demand_of(setting.node[node]), load_left(vehicle)):
             continue
         held = not idle and began < setting.node[node, NODE_RELEASE]
-        if can_drive[node] and legs[vehicle[V_NODE], node] + legs[node, home] <= reach:
+        away = lookup(legs, vehicle[V_NODE], node) + lookup(legs, node, home)
+        if can_drive[node] and away <= reach:
             verdict = UNSURE
             if not held:
                 verdict = _judge_drive(setting, vehicle, drones, earliest, node,
@@ -287,7 +283,7 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
         launch(setting, instance.size[b, 0], log, vehicle, drones, target)
     else:
         legs = instance.distance[b, setting.type[TYPE_TRAVEL]]
-        vehicle[V_DISTANCE] += legs[vehicle[V_NODE], target]
+        vehicle[V_DISTANCE] += lookup(legs, vehicle[V_NODE], target)
         drive(setting, instance.size[b, 0], log, vehicle, drones, target)
     improve_departure(setting, instance.size[b, 0], log, vehicle)
     if kind != RETURN:

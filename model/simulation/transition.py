@@ -7,9 +7,11 @@ import numpy as np
 from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import launch_begin, ready, recovery_end, take_off, unreachable
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_DEMAND, NODE_RELEASE, TYPE_CAPACITY,
-    TYPE_START, TYPE_DRONES, TYPE_EARLIEST, TYPE_MAX_WORKING, TYPE_RELOAD, Instance,
+    NODE_RELEASE, TYPE_START, TYPE_DRONES,
+    TYPE_EARLIEST, TYPE_MAX_WORKING, TYPE_RELOAD, Instance,
 )
+from model.kernel.leg import lookup
+from model.kernel.load import Amount, capacity_of, demand_of, minus
 from model.kernel.stop import end_of_service, service_duration, start_of_service, too_late
 from model.problem import UNLIMITED, BoolArray, FloatArray, IntArray
 from model.simulation.cost import add_cost
@@ -138,7 +140,7 @@ def log_sorties(setting: Setting, log: VehicleLog, vehicle: IntArray, drones: In
         if drones[d, DRONE_PLACE] != ABOARD:
             node, takeoff = drones[d, DRONE_NODE], drones[d, DRONE_TAKEOFF]
             sortie = log.sortie[drones[d, DRONE_SORTIE]]
-            arrival = takeoff + setting.fly[vehicle[V_NODE], node]
+            arrival = takeoff + lookup(setting.fly, vehicle[V_NODE], node)
             sortie[SORTIE_TAKEOFF], sortie[SORTIE_ARRIVAL] = takeoff, arrival
             sortie[SORTIE_START] = start_of_service(setting.node[node], arrival)
             sortie[SORTIE_READY] = drones[d, DRONE_READY]
@@ -214,7 +216,7 @@ def board(setting: Setting, vehicle: IntArray, drones: IntArray, sortie: int, no
     drone = 0
     while drones[drone, DRONE_SORTIE] != IN_FLIGHT:
         drone += 1
-    arrival = takeoff + setting.fly[vehicle[V_NODE], node]
+    arrival = takeoff + lookup(setting.fly, vehicle[V_NODE], node)
     drones[drone, DRONE_SORTIE], drones[drone, DRONE_NODE] = sortie, node
     drones[drone, DRONE_TAKEOFF] = takeoff
     drones[drone, DRONE_READY] = ready(setting.type, setting.node[node], arrival)
@@ -236,7 +238,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray
     elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
     takeoff = take_off(setting.type, vehicle[V_FREE])
-    flight = setting.fly[vehicle[V_NODE], node]
+    flight = lookup(setting.fly, vehicle[V_NODE], node)
     arrival = takeoff + flight
     if unreachable(flight) or too_late(setting.node[node], arrival):
         return False
@@ -294,22 +296,26 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
         vehicle[V_IDLE] = 1
         vehicle[V_DISTANCE] = 0
         vehicle[V_NEXT_START] = free + setting.type[TYPE_RELOAD]
-        fill(vehicle, setting.type)
+        leave_load(vehicle, capacity_of(setting.type))
     return True
 
 
 @inlined
-def fill(vehicle: IntArray, columns: IntArray) -> None:
-    """Give the vehicle all of its type's capacity again. In place."""
-    for dimension in range(MAX_DIMENSIONS):
-        vehicle[V_LOAD + dimension] = columns[TYPE_CAPACITY + dimension]
+def load_left(vehicle: IntArray) -> Amount:
+    """Return what the vehicle could still be asked to carry on this trip."""
+    return vehicle[V_LOAD], vehicle[V_LOAD + 1], vehicle[V_LOAD + 2]
+
+
+@inlined
+def leave_load(vehicle: IntArray, amount: Amount) -> None:
+    """Let an amount be left. In place."""
+    vehicle[V_LOAD], vehicle[V_LOAD + 1], vehicle[V_LOAD + 2] = amount
 
 
 @inlined
 def take_load(setting: Setting, vehicle: IntArray, node: int) -> None:
     """Take a customer's demand from the load left. In place."""
-    for dimension in range(MAX_DIMENSIONS):
-        vehicle[V_LOAD + dimension] -= setting.node[node, NODE_DEMAND + dimension]
+    leave_load(vehicle, minus(load_left(vehicle), demand_of(setting.node[node])))
 
 
 @compiled
@@ -322,7 +328,7 @@ def open_vehicle(instance: Instance, state: State, r: int, k: int) -> None:
     vehicle[V_NODE] = instance.type[b, k, TYPE_START]
     vehicle[V_IDLE] = 1
     vehicle[V_NEXT_START] = instance.type[b, k, TYPE_EARLIEST]
-    fill(vehicle, instance.type[b, k])
+    leave_load(vehicle, capacity_of(instance.type[b, k]))
     state.drone[r, :, DRONE_SORTIE] = IN_FLIGHT
     state.log.count[r] = 0
     state.used[r, k] += 1

@@ -9,15 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.kernel.clock import arrival_by_profile
+from model.kernel.clock import leg_end
 from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import (
     held_takeoff, launch_begin, ready, recoveries_take_time, recovery_end, take_off,
     within_endurance,
 )
-from model.kernel.instance import (
-    NO_PROFILE, TYPE_DRONE_TRAVEL, TYPE_PROFILE, TYPE_RELOAD, TYPE_TRAVEL, Instance,
-)
+from model.kernel.instance import TYPE_DRONE_TRAVEL, TYPE_RELOAD, TYPE_TRAVEL, Instance
+from model.kernel.leg import lookup
 from model.kernel.stop import as_late, end_of_service, start_of_service, too_late
 from model.problem import IntArray
 
@@ -82,11 +81,8 @@ def setting_of(instance: Instance, b: int, k: int) -> Setting:
 @inlined
 def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
     """Return when a truck that leaves at `leave` arrives, by its speed at the time of day."""
-    duration = setting.drive[origin, to]
-    if setting.type[TYPE_PROFILE] == NO_PROFILE:
-        return leave + duration
-    return arrival_by_profile(setting.profile_time, setting.profile_factor,
-                              setting.type[TYPE_PROFILE], duration, leave)
+    return leg_end(setting.type, setting.profile_time, setting.profile_factor,
+                   lookup(setting.drive, origin, to), leave)
 
 
 @inlined
@@ -107,7 +103,7 @@ def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: IntArray, free: in
     if sortie[SORTIE_RECOVERY_STOP] != IN_FLIGHT:
         customer, to = sortie[SORTIE_NODE], log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE]
         takeoff = held_takeoff(setting.type, setting.node[customer], takeoff,
-                               setting.fly[customer, to])
+                               lookup(setting.fly, customer, to))
     return takeoff
 
 
@@ -118,7 +114,7 @@ def _replay_launch(setting: Setting, log: VehicleLog, sortie: IntArray, node: in
     customer = sortie[SORTIE_NODE]
     place = setting.node[customer]
     takeoff = sortie_takeoff(setting, log, sortie, free)
-    arrival = takeoff + setting.fly[node, customer]
+    arrival = takeoff + lookup(setting.fly, node, customer)
     if not _arrival_allowed(place, arrival, sortie[SORTIE_ARRIVAL], write):
         return -1
     served = ready(setting.type, place, arrival)
@@ -135,7 +131,7 @@ def _replay_launch(setting: Setting, log: VehicleLog, sortie: IntArray, node: in
 def _replay_recovery(setting: Setting, sortie: IntArray, node: int, free: int, write: bool) -> int:
     """Time one recovery begun at `free` or later; return its end, -1 if it is not allowed."""
     takeoff = sortie[TRIAL_TAKEOFF]
-    back = sortie[TRIAL_READY] + setting.fly[sortie[SORTIE_NODE], node]
+    back = sortie[TRIAL_READY] + lookup(setting.fly, sortie[SORTIE_NODE], node)
     begin = max(free, back)
     end = recovery_end(setting.type, begin)
     if write:

@@ -8,11 +8,13 @@ points, Operations Research 12:568-581.
 
 import numpy as np
 
-from model.kernel.compiled import compiled
+from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import (
-    MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_END, TYPE_LATEST, TYPE_START, TYPE_TRAVEL,
-    NODE_DEMAND, NODE_RELEASE,
+    MAX_DIMENSIONS, TYPE_EARLIEST, TYPE_END, TYPE_LATEST, TYPE_START, TYPE_TRAVEL,
+    NODE_RELEASE,
 )
+from model.kernel.leg import leg, legs_of
+from model.kernel.load import Amount, demand_of, holds, plus
 from model.kernel.stop import end_of_service, latest_arrival
 from model.problem import IntArray
 from model.search.route.layout import NOWHERE, World
@@ -20,8 +22,10 @@ from model.search.route.layout import NOWHERE, World
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
 
-C_BEFORE, C_BEHIND, C_ROUTE, C_LEAVE, C_LATEST, C_LAST = range(6)
-CHAIN_COLUMNS = 6
+C_BEFORE, C_BEHIND, C_ROUTE, C_LEAVE, C_LATEST, C_LAST, C_LOAD = range(7)
+CHAIN_COLUMNS = C_LOAD + MAX_DIMENSIONS
+"""Columns of a customer in a chain: who comes before and behind; of its last, who comes first; the
+departure and the latest arrival; of its first, who comes last, and the load."""
 
 
 def savings_routes(world: World, k: int) -> list[list[int]]:
@@ -44,8 +48,7 @@ def savings_routes(world: World, k: int) -> list[list[int]]:
     order = np.argsort(-saving, kind="stable")
     order = order[saving[order] > 0]
     chain = np.zeros((world.num_nodes, CHAIN_COLUMNS), np.int64)
-    load = world.place[:, NODE_DEMAND:].copy()
-    join(world, k, one[order], other[order], chain, load)
+    join(world, k, one[order], other[order], chain)
     heads = [int(node) for node in nodes
              if world.can[k, 0, node] and chain[node, C_BEFORE] == NOWHERE]
     return [_customers(chain, head) for head in heads]
@@ -59,38 +62,46 @@ def _customers(chain: IntArray, node: int) -> list[int]:
     return customers
 
 
+@inlined
+def chain_load(link: IntArray) -> Amount:
+    """Return what the chain that begins here carries."""
+    return link[C_LOAD], link[C_LOAD + 1], link[C_LOAD + 2]
+
+
+@inlined
+def set_chain_load(link: IntArray, amount: Amount) -> None:
+    """Let the chain that begins here carry an amount. In place."""
+    link[C_LOAD], link[C_LOAD + 1], link[C_LOAD + 2] = amount
+
+
 @compiled
-def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray,
-         load: IntArray) -> None:
+def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray) -> None:
     """Join the route that ends at `one` and that which begins at `other`, pair after pair.
 
-    In place: `chain` (node, CHAIN_COLUMNS) is set up here; `load` (node, dimension) is that of the
-    route which begins at the node.
+    In place: `chain` (node, CHAIN_COLUMNS) is set up here.
     """
     columns = world.type[k]
-    legs = world.leg[columns[TYPE_TRAVEL]]
+    legs = legs_of(world.leg, columns[TYPE_TRAVEL])
     start, end = columns[TYPE_START], columns[TYPE_END]
     for node in range(world.num_depots, world.num_nodes):
         place, link = world.place[node], chain[node]
         link[C_BEFORE], link[C_BEHIND], link[C_ROUTE], link[C_LAST] = NOWHERE, NOWHERE, node, node
-        arrival = max(columns[TYPE_EARLIEST], place[NODE_RELEASE]) + legs[start, node, 0]
-        link[C_LEAVE] = end_of_service(place, arrival)
-        link[C_LATEST] = latest_arrival(place, columns[TYPE_LATEST] - legs[node, end, 0])
+        set_chain_load(link, demand_of(place))
+        ready = max(columns[TYPE_EARLIEST], place[NODE_RELEASE])
+        link[C_LEAVE] = end_of_service(place, ready + leg(legs, start, node).duration)
+        leave = columns[TYPE_LATEST] - leg(legs, node, end).duration
+        link[C_LATEST] = latest_arrival(place, leave)
     for index in range(len(one)):
         a, b = one[index], other[index]
         if (chain[a, C_BEHIND] != NOWHERE or chain[b, C_BEFORE] != NOWHERE
                 or not (world.can[k, 0, a] and world.can[k, 0, b])
-                or chain[a, C_LEAVE] + legs[a, b, 0] > chain[b, C_LATEST]):
+                or chain[a, C_LEAVE] + leg(legs, a, b).duration > chain[b, C_LATEST]):
             continue
         head, tail = chain[a, C_ROUTE], chain[b, C_LAST]
-        fits = head != b
-        for dimension in range(MAX_DIMENSIONS):
-            fits = fits and (load[head, dimension] + load[b, dimension]
-                             <= columns[TYPE_CAPACITY + dimension])
-        if fits:
+        load = plus(chain_load(chain[head]), chain_load(chain[b]))
+        if head != b and holds(columns, load):
             link_up(world, legs, chain, a, b, head, tail)
-            for dimension in range(MAX_DIMENSIONS):
-                load[head, dimension] += load[b, dimension]
+            set_chain_load(chain[head], load)
 
 
 @compiled
@@ -99,19 +110,19 @@ def link_up(world: World, legs: IntArray, chain: IntArray, a: int, b: int, head:
     """Put the route from `b` to `tail` behind that from `head` to `a`. In place."""
     chain[a, C_BEHIND], chain[b, C_BEFORE] = b, a
     chain[head, C_LAST], chain[tail, C_ROUTE] = tail, head
-    node, leave = b, chain[a, C_LEAVE] + legs[a, b, 0]
+    node, leave = b, chain[a, C_LEAVE] + leg(legs, a, b).duration
     while node != NOWHERE:
         behind = chain[node, C_BEHIND]
         leave = end_of_service(world.place[node], leave)
         chain[node, C_LEAVE] = leave
         if behind != NOWHERE:
-            leave += legs[node, behind, 0]
+            leave += leg(legs, node, behind).duration
         node = behind
-    node, latest = a, chain[b, C_LATEST] - legs[a, b, 0]
+    node, latest = a, chain[b, C_LATEST] - leg(legs, a, b).duration
     while node != NOWHERE:
         before = chain[node, C_BEFORE]
         latest = latest_arrival(world.place[node], latest)
         chain[node, C_LATEST] = latest
         if before != NOWHERE:
-            latest -= legs[before, node, 0]
+            latest -= leg(legs, before, node).duration
         node = before

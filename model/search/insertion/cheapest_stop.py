@@ -1,20 +1,19 @@
 """The cheapest stop for a customer where only the distance of the detour counts."""
 
 from model.kernel.compiled import inlined, pasted, spliced
-from model.kernel.instance import (
-    FAR, MAX_DIMENSIONS, NODE_DEMAND, NODE_RELEASE, RATE_KM, TYPE_CAPACITY, TYPE_MAX_DISTANCE,
-    TYPE_TRAVEL,
-)
+from model.kernel.instance import FAR, NODE_RELEASE, RATE_KM, TYPE_MAX_DISTANCE, TYPE_TRAVEL
+from model.kernel.leg import leg_at, legs_from, legs_to
+from model.kernel.load import fits
 from model.kernel.stop import end_of_service, hours, too_late
 from model.problem import FloatArray, IntArray, UIntArray
 from model.search.route.edit import AT_STOP, M_FIRST, M_KIND, M_SLOT, M_TYPE
 from model.search.route.layout import (
     B_BEST, B_BLINK, CHANGING, K_DETOUR, K_STAMP, K_STOP, MODE_SIMPLE, NOWHERE, R_SORTIES, R_STAMP,
     R_TRIPS, R_TYPE, S_GAP, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST,
-    T_LOAD, W_POSITION, W_SLOT, Fleet, World,
+    W_POSITION, W_SLOT, Fleet, World,
 )
 from model.search.route.randomness import uniform
-from model.search.route.vehicles import larger_type, route_cost
+from model.search.route.vehicles import larger_type, load_of, route_cost
 
 
 @spliced
@@ -25,46 +24,36 @@ def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
 
 
 @spliced
-def fits(place: IntArray, node: int, trips: IntArray, index: int, columns: IntArray) -> bool:
-    """Tell whether a customer's demand fits on top of a trip's load."""
-    for dimension in range(MAX_DIMENSIONS):
-        if (trips[index, T_LOAD + dimension] + place[node, NODE_DEMAND + dimension]
-                > columns[TYPE_CAPACITY + dimension]):
-            return False
-    return True
-
-
-@spliced
-def scan_stops(back: IntArray, leg: IntArray, stops: IntArray, first: int, last: int,
+def scan_stops(inward: IntArray, onward: IntArray, stops: IntArray, first: int, last: int,
                skipped: int, place: IntArray, spare: int, rate: float, best: float, blink: float,
                rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
 
-    But for stop `skipped`, where cost is that of the detour, which is at most `spare`. `back` and
-    `leg` are the legs to and from the customer, (node, 2); a better place is overlooked with
+    But for stop `skipped`, where cost is that of the detour, which is at most `spare`. `inward` and
+    `onward` are the legs to and from the customer, (node, 2); a better place is overlooked with
     probability `blink`. Returns its cost and the stop, or `best` and -1 if none costs less.
     """
     chosen = -1
     own = hours(place)
     for p in range(first, last + 1):
-        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
-        detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
+        out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
+        detour = out.distance + on.distance - stops[p, S_LEG]
         cost = detour * rate
         if cost >= best or detour > spare or p == skipped:
             continue
-        arrival = stops[p, S_LEAVE] + back[here, 0]
+        arrival = stops[p, S_LEAVE] + out.duration
         if too_late(own, arrival):
             if too_late(own, stops[p, S_LEAVE]):
                 break
             continue
-        arrival = end_of_service(own, arrival) + leg[there, 0]
+        arrival = end_of_service(own, arrival) + on.duration
         if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
 
 
 @inlined
-def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, start: int,
+def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: IntArray, start: int,
                  first: int, last: int, node: int, spare: int, rate: float, best: float,
                  blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
@@ -80,12 +69,13 @@ def scan_delayed(world: World, back: IntArray, leg: IntArray, stops: IntArray, s
             leave = end_of_service(world.place[stops[p, S_NODE]], arrival)
         if too_late(own, leave):
             break
-        detour = back[stops[p, S_NODE], 1] + leg[stops[p + 1, S_NODE], 1] - stops[p, S_LEG]
+        out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
+        detour = out.distance + on.distance - stops[p, S_LEG]
         cost = detour * rate
-        arrival = leave + back[stops[p, S_NODE], 0]
+        arrival = leave + out.duration
         if p < first or cost >= best or detour > spare or too_late(own, arrival):
             continue
-        arrival = end_of_service(own, arrival) + leg[stops[p + 1, S_NODE], 0]
+        arrival = end_of_service(own, arrival) + on.duration
         if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
@@ -97,12 +87,13 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
     """Find the cheapest place for a customer on a trip. As `scan_stops`."""
     k, trip, stops = fleet.route[slot, R_TYPE], fleet.trip[slot, index], fleet.stop[slot]
     m = world.type[k, TYPE_TRAVEL]
-    back, leg, place = world.back[m, node], world.leg[m, node], world.place[node]
+    inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
+    place = world.place[node]
     spare = world.type[k, TYPE_MAX_DISTANCE] - trip[T_DISTANCE]
     if place[NODE_RELEASE] > stops[trip[T_FIRST], S_LEAVE]:
-        return scan_delayed(world, back, leg, stops, trip[T_FIRST], first, last, node, spare, rate,
-                            best, blink, rng)
-    return scan_stops(back, leg, stops, first, last, -1, place, spare, rate, best, blink, rng)
+        return scan_delayed(world, inward, onward, stops, trip[T_FIRST], first, last, node, spare,
+                            rate, best, blink, rng)
+    return scan_stops(inward, onward, stops, first, last, -1, place, spare, rate, best, blink, rng)
 
 
 @spliced
@@ -113,7 +104,7 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
     A larger one if `enlarge`; or `NOWHERE`.
     """
     k = fleet.route[slot, R_TYPE]
-    if fits(world.place, node, fleet.trip[slot], index, world.type[k]):
+    if fits(world.type[k], load_of(fleet.trip[slot, index]), world.place[node]):
         return k, 0.0
     if not enlarge:
         return NOWHERE, 0.0
@@ -124,7 +115,7 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
 
 
 @spliced
-def shortest_detour(back: IntArray, leg: IntArray, stops: IntArray, last: int, place: IntArray,
+def shortest_detour(inward: IntArray, onward: IntArray, stops: IntArray, last: int, place: IntArray,
                     best: int) -> tuple[int, int]:
     """Return the shortest detour for a customer on a lean route, and the stop before it.
 
@@ -132,16 +123,16 @@ def shortest_detour(back: IntArray, leg: IntArray, stops: IntArray, last: int, p
     """
     chosen, own = -1, hours(place)
     for p in range(last):
-        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
-        detour = back[here, 1] + leg[there, 1] - stops[p, S_LEG]
+        out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
+        detour = out.distance + on.distance - stops[p, S_LEG]
         if detour >= best:
             continue
-        arrival = stops[p, S_LEAVE] + back[here, 0]
+        arrival = stops[p, S_LEAVE] + out.duration
         if too_late(own, arrival):
             if too_late(own, stops[p, S_LEAVE]):
                 break
             continue
-        arrival = end_of_service(own, arrival) + leg[there, 0]
+        arrival = end_of_service(own, arrival) + on.duration
         if arrival <= stops[p + 1, S_LATEST]:
             chosen, best = p, detour
     return best, chosen
@@ -163,8 +154,8 @@ def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, bes
             most = int(best / rate) + 1
         kept[K_STAMP] = stamp
         kept[K_DETOUR], kept[K_STOP] = shortest_detour(
-            world.back[m, node], world.leg[m, node], fleet.stop[slot], fleet.trip[slot, 0, T_LAST],
-            world.place[node], most)
+            legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot],
+            fleet.trip[slot, 0, T_LAST], world.place[node], most)
     cost = kept[K_DETOUR] * rate
     if cost >= best:
         return best, -1
@@ -196,7 +187,7 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
         if changing:
             m = world.type[k, TYPE_TRAVEL]
             cost, p = scan_stops(
-                world.back[m, node], world.leg[m, node], fleet.stop[slot], 0,
+                legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot], 0,
                 fleet.trip[slot, 0, T_LAST] - 1, skipped, world.place[node], FAR, rate, best - base,
                 world.blink, rng)
         if p >= 0:
@@ -265,12 +256,13 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
         if by < 0 or (by != k and base >= best):
             continue
         m, rate = world.type[k, TYPE_TRAVEL], world.rate[by, RATE_KM]
-        back, leg, stops = world.back[m, node], world.leg[m, node], fleet.stop[slot]
+        inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
+        stops = fleet.stop[slot]
         for p in (behind - 1, behind):
-            here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
-            cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * rate + base
-            arrival = stops[p, S_LEAVE] + back[here, 0]
-            following = end_of_service(own, arrival) + leg[there, 0]
+            out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
+            cost = (out.distance + on.distance - stops[p, S_LEG]) * rate + base
+            arrival = stops[p, S_LEAVE] + out.duration
+            following = end_of_service(own, arrival) + on.duration
             if (cost < best and not too_late(own, arrival) and following <= stops[p + 1, S_LATEST]
                     and uniform(rng) >= world.blink):
                 best = cost

@@ -5,6 +5,7 @@ from model.kernel.copying import copy_row
 from model.kernel.instance import (
     RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE, NONE,
 )
+from model.kernel.leg import leg, leg_at, legs_of, legs_to
 from model.kernel.stop import as_late, end_of_service, service_duration, too_late
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block
@@ -80,7 +81,7 @@ def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: I
     route, stops, sorties = fleet.route[to], fleet.stop[to], fleet.sortie[to]
     old = fleet.stop[slot]
     k, length, count = route[R_TYPE], route[R_LENGTH], route[R_SORTIES]
-    legs = world.leg[world.type[k, TYPE_TRAVEL]]
+    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
     time, cum = old[first, S_ARRIVAL], old[first, S_BEFORE]
     depart = old[first - 1, S_DEPART] if first > 0 else FAR
     make_ready(world, k, stops, sorties, count)
@@ -95,7 +96,7 @@ def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: I
             while s < count and sorties[s, F_LAUNCH] <= last:
                 s += 1
             for q in range(p, last):
-                driven += legs[stops[q, S_NODE], stops[q + 1, S_NODE], 1]
+                driven += leg(legs, stops[q, S_NODE], stops[q + 1, S_NODE]).distance
         else:
             plain_block(world, k, stop, time)
         if time > stop[S_HI] or time < stop[S_LO]:
@@ -108,9 +109,9 @@ def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: I
             if stops[last, S_KIND] == END:
                 gap = world.type[k, TYPE_RELOAD]
             else:
-                leg = legs[stops[last, S_NODE], stops[p, S_NODE]]
-                gap = leg[0]
-                driven += leg[1]
+                way = leg(legs, stops[last, S_NODE], stops[p, S_NODE])
+                gap = way.duration
+                driven += way.distance
             cum, time = cum + gap, time + gap
     acc[0], acc[1], acc[2], acc[3] = time, cum, depart, driven
     return True
@@ -244,15 +245,16 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     route, stops, place = fleet.route[slot], fleet.stop[slot], world.place[node]
     k, here, behind = route[R_TYPE], stops[p], stops[p + 1]
     m = world.type[k, TYPE_TRAVEL]
-    out, on = world.back[m, node, here[S_NODE]], world.leg[m, node, behind[S_NODE]]
-    time, cum = here[S_LEAVE] + out[0], here[S_CUM] + out[0]
+    out = leg_at(legs_to(world.back, m, node), here[S_NODE])
+    on = leg(legs_of(world.leg, m), node, behind[S_NODE])
+    time, cum = here[S_LEAVE] + out.duration, here[S_CUM] + out.duration
     if too_late(place, time):
         return INFEASIBLE
-    cost = (out[1] + on[1] - here[S_LEG]) * world.rate[k, RATE_KM]
+    cost = (out.distance + on.distance - here[S_LEG]) * world.rate[k, RATE_KM]
     depart = min(here[S_DEPART], as_late(place, time) - cum)
     late = window_cost(world, node, time)
-    time = end_of_service(place, time) + on[0]
-    cum += service_duration(place) + on[0]
+    time = end_of_service(place, time) + on.duration
+    cum += service_duration(place) + on.duration
     if time > behind[S_LATEST] or time < behind[S_EARLY]:
         return INFEASIBLE
     if world.mode[k] & MODE_PRICED:

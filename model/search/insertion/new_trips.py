@@ -2,16 +2,19 @@
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
-    MAX_DIMENSIONS, TYPE_CAPACITY, TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE,
-    TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_DEMAND, NODE_RELEASE,
+    TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE,
+    TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE,
 )
+from model.kernel.leg import leg, legs_of
+from model.kernel.load import demand_of, holds, plus
 from model.kernel.stop import end_of_service, too_late
 from model.problem import IntArray
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
 from model.search.route.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, R_LENGTH, R_SORTIES, R_TYPE, S_ARRIVAL, S_GAP, S_KIND,
-    S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_FIRST, T_LAST, Fleet, World,
+    CUSTOMER, F_LAUNCH, R_LENGTH, R_SORTIES, R_TYPE, S_ARRIVAL, S_GAP, S_KIND, S_LATEST, S_LEAVE,
+    S_LEG, S_NODE, S_TRIP, T_FIRST, T_LAST, Fleet, World,
 )
+from model.search.route.vehicles import payload
 
 
 @spliced
@@ -20,18 +23,14 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
     stops, sorties = fleet.stop[slot], fleet.sortie[slot]
     trip = fleet.trip[slot, stops[p, S_TRIP]]
     first, last = (trip[T_FIRST], p) if front else (p + 1, trip[T_LAST])
-    for dimension in range(MAX_DIMENSIONS):
-        load = world.place[node, NODE_DEMAND + dimension]
-        for q in range(first, last + 1):
-            if stops[q, S_KIND] == CUSTOMER:
-                load += world.place[stops[q, S_NODE], NODE_DEMAND + dimension]
-        for s in range(fleet.route[slot, R_SORTIES]):
-            if first <= sorties[s, F_LAUNCH] <= last:
-                for visit in range(sorties[s, F_COUNT]):
-                    load += world.place[sorties[s, F_NODE + visit], NODE_DEMAND + dimension]
-        if load > world.type[fleet.route[slot, R_TYPE], TYPE_CAPACITY + dimension]:
-            return False
-    return True
+    load = demand_of(world.place[node])
+    for q in range(first, last + 1):
+        if stops[q, S_KIND] == CUSTOMER:
+            load = plus(load, demand_of(world.place[stops[q, S_NODE]]))
+    for s in range(fleet.route[slot, R_SORTIES]):
+        if first <= sorties[s, F_LAUNCH] <= last:
+            load = plus(load, payload(world, sorties[s]))
+    return holds(world.type[fleet.route[slot, R_TYPE]], load)
 
 
 @spliced
@@ -59,7 +58,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     """
     stops = fleet.stop[slot]
     columns, trip = world.type[fleet.route[slot, R_TYPE]], fleet.trip[slot, stops[p, S_TRIP]]
-    legs, depot = world.leg[columns[TYPE_TRAVEL]], columns[TYPE_END]
+    legs, depot = legs_of(world.leg, columns[TYPE_TRAVEL]), columns[TYPE_END]
     first, last = trip[T_FIRST], trip[T_LAST]
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
@@ -79,21 +78,21 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
     time = drive_to(world, stops, first, p, max(stops[first, S_ARRIVAL], front))
     if until:
-        time = serve_at(world, node, time + legs[here, node, 0])
-        front_length += legs[here, node, 1]
+        time = serve_at(world, node, time + leg(legs, here, node).duration)
+        front_length += leg(legs, here, node).distance
         here = node
-    time += legs[here, depot, 0]
-    front_length += legs[here, depot, 1]
+    time += leg(legs, here, depot).duration
+    front_length += leg(legs, here, depot).distance
     if time > columns[TYPE_LATEST]:
         return False
     time = max(time + columns[TYPE_RELOAD], rear)
     here = depot
     if not until:
-        time = serve_at(world, node, time + legs[depot, node, 0])
-        rear_length += legs[depot, node, 1]
+        time = serve_at(world, node, time + leg(legs, depot, node).duration)
+        rear_length += leg(legs, depot, node).distance
         here = node
-    rear_length += legs[here, there, 1]
-    return (time + legs[here, there, 0] <= stops[p + 1, S_LATEST]
+    rear_length += leg(legs, here, there).distance
+    return (time + leg(legs, here, there).duration <= stops[p + 1, S_LATEST]
             and max(front_length, rear_length) <= columns[TYPE_MAX_DISTANCE])
 
 
@@ -102,16 +101,17 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     """Tell whether a customer can be served by a trip of its own behind stop `p`, or -1."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     columns = world.type[route[R_TYPE]]
-    legs, depot = world.leg[columns[TYPE_TRAVEL]], columns[TYPE_END]
+    legs, depot = legs_of(world.leg, columns[TYPE_TRAVEL]), columns[TYPE_END]
     time = columns[TYPE_EARLIEST]
     if p >= 0:
         time = stops[p, S_LEAVE] + columns[TYPE_RELOAD]
     time = max(time, world.place[node, NODE_RELEASE])
-    time = serve_at(world, node, time + legs[depot, node, 0]) + legs[node, depot, 0]
+    out, home = leg(legs, depot, node), leg(legs, node, depot)
+    time = serve_at(world, node, time + out.duration) + home.duration
     if p + 1 < route[R_LENGTH] and time + columns[TYPE_RELOAD] > stops[p + 1, S_LATEST]:
         return False
     return (time <= columns[TYPE_LATEST]
-            and legs[depot, node, 1] + legs[node, depot, 1] <= columns[TYPE_MAX_DISTANCE])
+            and out.distance + home.distance <= columns[TYPE_MAX_DISTANCE])
 
 
 @spliced

@@ -10,9 +10,11 @@ from model.kernel.instance import (
     RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_END, TYPE_DRONES, TYPE_DRONE_TRAVEL,
     TYPE_MAX_DISTANCE, TYPE_TRAVEL,
 )
+from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
+from model.kernel.load import demand_of, fits, lifts, plus
 from model.kernel.stop import end_of_service, service_duration, too_late
 from model.problem import FloatArray, IntArray
-from model.search.insertion.cheapest_stop import fits, is_simple
+from model.search.insertion.cheapest_stop import is_simple
 from model.search.insertion.evaluate import INFEASIBLE, price_move, price_stop, stands_alone
 from model.search.insertion.new_trips import more_trips_fit, part_fits
 from model.search.route.edit import (
@@ -28,7 +30,7 @@ from model.search.route.randomness import uniform
 from model.search.route.refresh import idle_time
 from model.search.route.routes import lateness_cost
 from model.search.route.state import I_OFFERS, Searcher
-from model.search.route.vehicles import lifts
+from model.search.route.vehicles import load_of, payload
 
 MAX_SPAN = 8
 """How many stops after its launch a sortie is recovered at most."""
@@ -49,7 +51,7 @@ def add_offer(offer: IntArray, least: FloatArray, count: IntArray, cost: float, 
 
 
 @spliced
-def stop_costs(world: World, k: int, back: IntArray, leg: IntArray, stops: IntArray, p: int,
+def stop_costs(world: World, k: int, inward: IntArray, onward: IntArray, stops: IntArray, p: int,
                node: int, spare: int, early: float, best: float) -> float:
     """Return what a customer behind stop `p` costs at least, or `best` if that is no less.
 
@@ -57,16 +59,17 @@ def stop_costs(world: World, k: int, back: IntArray, leg: IntArray, stops: IntAr
     its waiting costs, which may become less.
     """
     place, here, there = world.place[node], stops[p, S_NODE], stops[p + 1, S_NODE]
-    cost = (back[here, 1] + leg[there, 1] - stops[p, S_LEG]) * world.rate[k, RATE_KM] - early
+    out, on = leg_at(inward, here), leg_at(onward, there)
+    cost = (out.distance + on.distance - stops[p, S_LEG]) * world.rate[k, RATE_KM] - early
     mode = world.mode[k]
     if mode & MODE_TIMED:
         # While drones fly, the truck may have time before they are back.
-        longer = back[here, 0] + leg[there, 0] + service_duration(place) - stops[p, S_GAP]
+        longer = out.duration + on.duration + service_duration(place) - stops[p, S_GAP]
         cost += max(0, longer - spare - stops[p, S_IDLE]) * world.rate[k, RATE_HOUR]
     if cost >= best:
         return best
-    arrival = stops[p, S_LEAVE] + back[here, 0]
-    following = end_of_service(place, arrival) + leg[there, 0]
+    arrival = stops[p, S_LEAVE] + out.duration
+    following = end_of_service(place, arrival) + on.duration
     if too_late(place, arrival) or following > stops[p + 1, S_LATEST]:
         return best
     if mode & MODE_PRICED:
@@ -85,13 +88,13 @@ def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: i
     now, best = searcher.now, searcher.bound[B_BEST]
     k, stops = now.route[slot, R_TYPE], now.stop[slot]
     m = world.type[k, TYPE_TRAVEL]
-    back, leg = world.back[m, node], world.leg[m, node]
+    inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     spare, early = idle_time(now.route[slot]), now.early[slot]
     room = world.type[k, TYPE_MAX_DISTANCE] - now.trip[slot, stops[first, S_TRIP], T_DISTANCE]
     for p in range(first, last + 1):
-        cost = stop_costs(world, k, back, leg, stops, p, node, spare, early, best)
-        if cost < best and (back[stops[p, S_NODE], 1] + leg[stops[p + 1, S_NODE], 1]
-                            - stops[p, S_LEG]) <= room:
+        cost = stop_costs(world, k, inward, onward, stops, p, node, spare, early, best)
+        out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
+        if cost < best and out.distance + on.distance - stops[p, S_LEG] <= room:
             add_offer(searcher.offer, searcher.least, searcher.count, cost, AT_STOP, slot, p)
 
 
@@ -129,8 +132,9 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     now, best = searcher.now, searcher.bound[B_BEST]
     k, stops = now.route[slot, R_TYPE], now.stop[slot]
     columns = world.type[k]
-    flights = columns[TYPE_DRONE_TRAVEL]
-    out = world.back[flights, node, stops[launch, S_NODE]]
+    m = columns[TYPE_DRONE_TRAVEL]
+    inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
+    out = leg_at(inward, stops[launch, S_NODE])
     place, left = world.place[node], stops[launch, S_LEAVE]
     begun = stops[launch, S_ARRIVAL]
     if launch > 0:
@@ -138,25 +142,25 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     service = drone_service(columns, place)
     late = 0.0
     if world.mode[k] & MODE_PRICED:
-        late = lateness_cost(world, node, begun + out[0])
+        late = lateness_cost(world, node, begun + out.duration)
     begun = recovery_end(columns, begun) - idle_time(now.route[slot])
     first = launch if world.loops else launch + 1
     last = launch
     if world.crossings:
         last = min(launch + MAX_SPAN, now.trip[slot, stops[launch, S_TRIP], T_LAST])
     for recovery in range(first, last + 1):
-        home = world.leg[flights, node, stops[recovery, S_NODE]]
+        home = leg_at(onward, stops[recovery, S_NODE])
         met = stops[recovery, S_ARRIVAL]
-        flight = out[0] + service + home[0]
+        flight = out.duration + service + home.duration
         if not within_endurance(columns, left, left, met):
             # Held back for the window, the truck leaves later and may wait less on its way.
             if earliest_back(columns, place, 0) <= left:
                 break
-            if met > earliest_back(columns, place, home[0]):
+            if met > earliest_back(columns, place, home.duration):
                 continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         longer = max(0, begun + flight - stops[recovery, S_LEAVE])
-        cost = ((out[1] + home[1]) * world.rate[k, RATE_DRONE_KM]
+        cost = ((out.distance + home.distance) * world.rate[k, RATE_DRONE_KM]
                 + longer * world.rate[k, RATE_HOUR] + late - now.early[slot])
         if cost < best and can_last(columns, flight):
             index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
@@ -169,21 +173,24 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
     """List a customer on each sortie of a route. As `offer_stops`."""
     now = searcher.now
     k, stops, sorties = now.route[slot, R_TYPE], now.stop[slot], now.sortie[slot]
-    flights = world.leg[world.type[k, TYPE_DRONE_TRAVEL]]
+    flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
     for s in range(now.route[slot, R_SORTIES]):
         sortie = sorties[s]
         trip = stops[sortie[F_LAUNCH], S_TRIP]
         if (sortie[F_COUNT] >= world.visits[k]
-                or not fits(world.place, node, now.trip[slot], trip, world.type[k])
-                or not lifts(world, sortie, k, node)):
+                or not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node])
+                or not lifts(world.type[k], plus(payload(world, sortie),
+                                                 demand_of(world.place[node])))):
             continue
         here = stops[sortie[F_LAUNCH], S_NODE]
         for place in range(sortie[F_COUNT] + 1):
             there = stops[sortie[F_RECOVERY], S_NODE]
             if place < sortie[F_COUNT]:
                 there = sortie[F_NODE + place]
-            cost = (flights[here, node, 1] + flights[node, there, 1]
-                    - flights[here, there, 1]) * world.rate[k, RATE_DRONE_KM] - now.early[slot]
+            out, on, direct = (leg(flights, here, node), leg(flights, node, there),
+                               leg(flights, here, there))
+            cost = ((out.distance + on.distance - direct.distance) * world.rate[k, RATE_DRONE_KM]
+                    - now.early[slot])
             here = there
             if cost < searcher.bound[B_BEST]:
                 index = add_offer(searcher.offer, searcher.least, searcher.count, cost,
@@ -196,10 +203,11 @@ def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -
     """List trips that a drone flies alone to a customer. As `offer_stops`."""
     route, stops = searcher.now.route[slot], searcher.now.stop[slot]
     k = route[R_TYPE]
-    flights, depot = world.type[k, TYPE_DRONE_TRAVEL], world.type[k, TYPE_END]
-    out, home = world.back[flights, node, depot], world.leg[flights, node, depot]
-    cost = (out[1] + home[1]) * world.rate[k, RATE_DRONE_KM] - searcher.now.early[slot]
-    if (world.loops and not unreachable(max(out[0], home[0]))
+    flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
+    depot = world.type[k, TYPE_END]
+    out, home = leg(flights, depot, node), leg(flights, node, depot)
+    cost = (out.distance + home.distance) * world.rate[k, RATE_DRONE_KM] - searcher.now.early[slot]
+    if (world.loops and not unreachable(max(out.duration, home.duration))
             and cost < searcher.bound[B_BEST]):
         for p in range(-1, route[R_LENGTH]):
             if p < 0 or stops[p, S_KIND] == END:
@@ -213,9 +221,9 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
     now = searcher.now
     route, stops, best = now.route[slot], now.stop[slot], searcher.bound[B_BEST]
     k = route[R_TYPE]
-    m, depot = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_END]
-    rate = world.rate[k, RATE_KM]
-    out, home = world.back[m, node, depot, 1], world.leg[m, node, depot, 1]
+    m, depot, rate = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_END], world.rate[k, RATE_KM]
+    legs, inward = legs_of(world.leg, m), legs_to(world.back, m, node)
+    out, home = leg_at(inward, depot).distance, leg(legs, node, depot).distance
     for p in range(-1, route[R_LENGTH]):
         kind = NEW_TRIP
         cost = (out + home) * rate
@@ -224,10 +232,10 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
                 continue
             here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
             base = -stops[p, S_LEG]
-            until = (base + world.back[m, node, here, 1] + home
-                     + world.leg[m, depot, there, 1]) * rate
-            cost = (base + world.leg[m, here, depot, 1] + out
-                    + world.leg[m, node, there, 1]) * rate
+            until = (base + leg_at(inward, here).distance + home
+                     + leg(legs, depot, there).distance) * rate
+            cost = (base + leg(legs, here, depot).distance + out
+                    + leg(legs, node, there).distance) * rate
             kind = TRIP_FROM
             if until < cost:
                 kind, cost = TRIP_UNTIL, until

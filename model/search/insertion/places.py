@@ -5,9 +5,10 @@ from model.kernel.compiled import pasted
 from model.kernel.copying import copy_row
 from model.kernel.flight import held_until
 from model.kernel.instance import NONE, TYPE_COUNT, TYPE_MAX_TRIPS
+from model.kernel.load import fits
 from model.kernel.stop import opening
 from model.search.insertion.cheapest_stop import (
-    fits, is_simple, scan_beside, scan_beside_lean, scan_lean, scan_simple,
+    is_simple, scan_beside, scan_beside_lean, scan_lean, scan_simple,
 )
 from model.search.insertion.evaluate import INFEASIBLE
 from model.search.insertion.offers import (
@@ -21,6 +22,7 @@ from model.search.route.layout import (
 from model.search.route.randomness import uniform
 from model.search.route.refresh import stop_beside
 from model.search.route.state import I_ACTIVE, Searcher
+from model.search.route.vehicles import load_of
 
 MORE_TRIPS = 0.2
 """How often a customer who can go on a trip as it is may begin or split one."""
@@ -59,7 +61,7 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
     if simple and not by_drone:
         return
     for trip in range(now.route[slot, R_TRIPS]):
-        if not fits(world.place, node, now.trip[slot], trip, world.type[k]):
+        if not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node]):
             continue
         first, last = now.trip[slot, trip, T_FIRST], now.trip[slot, trip, T_LAST]
         if by_truck and not simple:
@@ -185,7 +187,7 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
         p = stop_beside(now, other)
         trip = now.stop[slot, p, S_TRIP]
         if (not (by_truck or world.can[k, 1, node])
-                or not fits(world.place, node, now.trip[slot], trip, world.type[k])):
+                or not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node])):
             continue
         first = max(p - 1, now.trip[slot, trip, T_FIRST])
         if by_truck:

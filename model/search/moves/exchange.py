@@ -5,9 +5,11 @@ import math
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_END, TYPE_MAX_TRIPS, TYPE_START,
-    NODE_DEMAND, TYPE_TRAVEL,
+    RATE_FIXED, RATE_KM, TYPE_END,
+    TYPE_MAX_TRIPS, TYPE_START, TYPE_TRAVEL,
 )
+from model.kernel.leg import leg, legs_of
+from model.kernel.load import NOTHING, demand_of, holds, plus
 from model.search.route.edit import put
 from model.search.route.layout import (
     CUSTOMER, END, F_LAUNCH, F_RECOVERY, NOWHERE, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, START,
@@ -36,16 +38,17 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
     By distance alone; infinite where a tail would be reached too late.
     """
     k, by = fleet.route[a, R_TYPE], fleet.route[b, R_TYPE]
-    m = world.type[k, TYPE_TRAVEL]
+    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
     one, other = fleet.stop[a], fleet.stop[b]
     here, there = one[p, S_NODE], other[q, S_NODE]
     after_here, after_there = one[p + 1, S_NODE], other[q + 1, S_NODE]
-    to_other, to_one = world.leg[m, here, after_there], world.leg[m, there, after_here]
-    if (one[p, S_LEAVE] + to_other[0] > other[q + 1, S_LATEST]
-            or other[q, S_LEAVE] + to_one[0] > one[p + 1, S_LATEST]):
+    to_other, to_one = leg(legs, here, after_there), leg(legs, there, after_here)
+    if (one[p, S_LEAVE] + to_other.duration > other[q + 1, S_LATEST]
+            or other[q, S_LEAVE] + to_one.duration > one[p + 1, S_LATEST]):
         return math.inf
     rate, rate_by = world.rate[k, RATE_KM], world.rate[by, RATE_KM]
-    cost = (to_other[1] - one[p, S_LEG]) * rate + (to_one[1] - other[q, S_LEG]) * rate_by
+    cost = ((to_other.distance - one[p, S_LEG]) * rate
+            + (to_one.distance - other[q, S_LEG]) * rate_by)
     if rate != rate_by:
         longer = rest_distance(fleet, b, q + 1) - rest_distance(fleet, a, p + 1)
         cost += longer * (rate - rate_by)
@@ -76,10 +79,10 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
         if cost < best:
             chosen, place, best = b, q, cost
     if now.stop[a, p + 1, S_KIND] == CUSTOMER:
-        m, start = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_START]
-        end = world.type[k, TYPE_END]
-        detour = (world.leg[m, node, end, 1] - now.stop[a, p, S_LEG]
-                  + world.leg[m, start, now.stop[a, p + 1, S_NODE], 1])
+        legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
+        start, end = world.type[k, TYPE_START], world.type[k, TYPE_END]
+        detour = (leg(legs, node, end).distance - now.stop[a, p, S_LEG]
+                  + leg(legs, start, now.stop[a, p + 1, S_NODE]).distance)
         if world.rate[k, RATE_FIXED] + detour * world.rate[k, RATE_KM] < best:
             slot = free_slot(world, searcher, k)
             if slot >= 0:
@@ -146,20 +149,15 @@ def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> boo
 
     Stops of the truck alone are counted.
     """
-    columns = world.type[fleet.route[a, R_TYPE]]
-    for dimension in range(MAX_DIMENSIONS):
-        load = 0
-        index = p
-        while fleet.stop[a, index, S_KIND] == CUSTOMER:
-            load += world.place[fleet.stop[a, index, S_NODE], NODE_DEMAND + dimension]
-            index -= 1
-        index = q + 1
-        while fleet.stop[b, index, S_KIND] == CUSTOMER:
-            load += world.place[fleet.stop[b, index, S_NODE], NODE_DEMAND + dimension]
-            index += 1
-        if load > columns[TYPE_CAPACITY + dimension]:
-            return True
-    return False
+    load, index = NOTHING, p
+    while fleet.stop[a, index, S_KIND] == CUSTOMER:
+        load = plus(load, demand_of(world.place[fleet.stop[a, index, S_NODE]]))
+        index -= 1
+    index = q + 1
+    while fleet.stop[b, index, S_KIND] == CUSTOMER:
+        load = plus(load, demand_of(world.place[fleet.stop[b, index, S_NODE]]))
+        index += 1
+    return not holds(world.type[fleet.route[a, R_TYPE]], load)
 
 
 @inlined

@@ -2,9 +2,9 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
-from model.kernel.instance import (
-    NODE_DEMAND, TYPE_END, TYPE_START, TYPE_TRAVEL,
-)
+from model.kernel.instance import TYPE_END, TYPE_START, TYPE_TRAVEL
+from model.kernel.leg import leg, legs_of
+from model.kernel.load import demand_of, total
 from model.kernel.stop import closing, width
 from model.problem import UIntArray
 from model.search.insertion.evaluate import INFEASIBLE
@@ -35,9 +35,10 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     """Return where a customer comes in an order; least first."""
     place = world.place[node]
     if order == BY_DEMAND:
-        return -float(place[NODE_DEMAND] + place[NODE_DEMAND + 1] + place[NODE_DEMAND + 2])
+        return -float(total(demand_of(place)))
     if order in (BY_FAR, BY_CLOSE):
-        distance = float(world.leg[world.type[0, TYPE_TRAVEL], world.type[0, TYPE_START], node, 1])
+        legs = legs_of(world.leg, world.type[0, TYPE_TRAVEL])
+        distance = float(leg(legs, world.type[0, TYPE_START], node).distance)
         return -distance if order == BY_FAR else distance
     if order == BY_WIDTH:
         return float(width(place))

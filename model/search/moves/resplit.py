@@ -8,8 +8,9 @@ import math
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_FIXED, TYPE_CAPACITY, TYPE_DRONES, TYPE_END, TYPE_START, NODE_DEMAND,
+    RATE_FIXED, TYPE_DRONES, TYPE_END, TYPE_START,
 )
+from model.kernel.load import NOTHING, demand_of, holds, plus
 from model.problem import IntArray
 from model.search.moves.exchange import append
 from model.search.moves.split import (
@@ -176,13 +177,10 @@ def overloads(world: World, k: int, line: IntArray, begin: int, end: int) -> boo
 
     There may be no room for so many stops and sorties then, so that it has to be known before.
     """
-    for dimension in range(MAX_DIMENSIONS):
-        load = 0
-        for place in range(begin + 1, end):
-            load += world.place[line[place, L_NODE], NODE_DEMAND + dimension]
-        if load > world.type[k, TYPE_CAPACITY + dimension]:
-            return True
-    return False
+    load = NOTHING
+    for place in range(begin + 1, end):
+        load = plus(load, demand_of(world.place[line[place, L_NODE]]))
+    return not holds(world.type[k], load)
 
 
 @spliced

@@ -6,6 +6,7 @@ from model.kernel.compiled import inlined
 from model.kernel.instance import (
     TYPE_COUNT, TYPE_DRONES, TYPE_END, TYPE_MAX_TRIPS, TYPE_START,
 )
+from model.kernel.load import holds, lifts
 from model.search.route.layout import (
     CUSTOMER, F_COUNT, F_DRONE, F_NODE, MODE_LEAN, R_LENGTH, R_SORTIES, R_TRIPS,
     R_TYPE, S_KIND, S_NODE, T_DISTANCE, Fleet, World,
@@ -13,7 +14,7 @@ from model.search.route.layout import (
 from model.search.route.randomness import below
 from model.search.route.refresh import refresh
 from model.search.route.state import I_ACTIVE, I_TOUCHED, Searcher, keep_aside, touch
-from model.search.route.vehicles import change_type, holds, lifts, route_cost
+from model.search.route.vehicles import change_type, load_of, payload, route_cost
 
 
 @inlined
@@ -27,8 +28,9 @@ def trade(world: World, searcher: Searcher, slot: int) -> None:
             continue
         cost = (route_cost(world, by, now.trip[slot, 0, T_DISTANCE])
                 + route_cost(world, k, now.trip[other, 0, T_DISTANCE]))
-        if (cost < now.cost[slot] + now.cost[other] - 1e-9 and holds(world, by, now.trip[slot, 0])
-                and holds(world, k, now.trip[other, 0])):
+        if (cost < now.cost[slot] + now.cost[other] - 1e-9
+                and holds(world.type[by], load_of(now.trip[slot, 0]))
+                and holds(world.type[k], load_of(now.trip[other, 0]))):
             touch(searcher, other)
             change_type(world, now, slot, by)
             change_type(world, now, other, k)
@@ -47,7 +49,7 @@ def improve_types(world: World, searcher: Searcher) -> None:
             if (world.swap[now.route[slot, R_TYPE], k]
                     and now.used[k] < world.type[k, TYPE_COUNT]
                     and route_cost(world, k, trip[T_DISTANCE]) < now.cost[slot] - 1e-9
-                    and holds(world, k, trip)):
+                    and holds(world.type[k], load_of(trip))):
                 change_type(world, now, slot, k)
         trade(world, searcher, slot)
 
@@ -56,7 +58,7 @@ def improve_types(world: World, searcher: Searcher) -> None:
 def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
     """Tell whether type `k` has the places, trips, drones and skills that a route needs."""
     route, stops, sorties = fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]
-    nothing, former = world.type[k, TYPE_END], world.type[route[R_TYPE]]
+    former = world.type[route[R_TYPE]]
     if (world.type[k, TYPE_START] != former[TYPE_START]
             or world.type[k, TYPE_END] != former[TYPE_END]
             or route[R_TRIPS] > world.type[k, TYPE_MAX_TRIPS]):
@@ -67,7 +69,7 @@ def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
     for s in range(route[R_SORTIES]):
         sortie = sorties[s]
         if (sortie[F_DRONE] >= world.type[k, TYPE_DRONES] or sortie[F_COUNT] > world.visits[k]
-                or not lifts(world, sortie, k, nothing)):
+                or not lifts(world.type[k], payload(world, sortie))):
             return False
         for visit in range(sortie[F_COUNT]):
             if not world.can[k, 1, sortie[F_NODE + visit]]:

@@ -18,6 +18,7 @@ from model.kernel.flight import (
 from model.kernel.instance import (
     RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL, TYPE_TRAVEL,
 )
+from model.kernel.leg import leg, legs_of
 from model.kernel.stop import service_duration
 from model.problem import FloatArray, IntArray, UIntArray
 from model.search.route.layout import World
@@ -87,22 +88,23 @@ def shuffle(world: World, line: IntArray, length: int, rng: UIntArray) -> None:
 @spliced
 def measure(world: World, k: int, line: IntArray, length: int) -> None:
     """Write what a truck that served the whole line would drive. In place."""
-    legs = world.leg[world.type[k, TYPE_TRAVEL]]
+    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
     line[0, L_DRIVE] = line[0, L_DISTANCE] = line[0, L_GROUNDED] = 0
     for j in range(1, length):
         before, node = line[j - 1, L_NODE], line[j, L_NODE]
-        leg = legs[before, node]
+        way = leg(legs, before, node)
         served = line[j - 1, L_DRIVE] + service_duration(world.place[before])
-        line[j, L_DRIVE] = served + leg[0]
-        line[j, L_DISTANCE] = line[j - 1, L_DISTANCE] + leg[1]
+        line[j, L_DRIVE] = served + way.duration
+        line[j, L_DISTANCE] = line[j - 1, L_DISTANCE] + way.distance
         line[j, L_GROUNDED] = line[j - 1, L_GROUNDED]
         if j < length - 1 and not world.can[k, 0, node]:
             line[j, L_GROUNDED] += 1
     for j in range(1, length - 1):
-        direct = legs[line[j - 1, L_NODE], line[j + 1, L_NODE]]
-        line[j, L_SPARED_DRIVE] = line[j + 1, L_DRIVE] - line[j - 1, L_DRIVE] - direct[0]
+        direct = leg(legs, line[j - 1, L_NODE], line[j + 1, L_NODE])
+        line[j, L_SPARED_DRIVE] = line[j + 1, L_DRIVE] - line[j - 1, L_DRIVE] - direct.duration
         line[j, L_SPARED_DRIVE] -= service_duration(world.place[line[j - 1, L_NODE]])
-        line[j, L_SPARED_DISTANCE] = line[j + 1, L_DISTANCE] - line[j - 1, L_DISTANCE] - direct[1]
+        line[j, L_SPARED_DISTANCE] = line[j + 1, L_DISTANCE] - line[j - 1, L_DISTANCE]
+        line[j, L_SPARED_DISTANCE] -= direct.distance
 
 
 @spliced
@@ -120,36 +122,38 @@ def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: 
     driven = drive - here + max(0, here - launch_duration(columns))
     if (handled + driven) * rate[RATE_HOUR] + distance * rate[RATE_KM] >= most:
         return math.inf
-    flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
+    flights = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
     service = drone_service(columns, world.place[customer])
-    flight = flights[node, customer, 0] + service + flights[customer, to, 0]
+    out, home = leg(flights, node, customer), leg(flights, customer, to)
+    flight = out.duration + service + home.duration
     airborne = max(flight, driven)
     if not within_endurance(columns, 0, flight, airborne):
         return math.inf
     return ((handled + airborne) * rate[RATE_HOUR] + distance * rate[RATE_KM]
             + airborne * rate[RATE_DRONE_HOUR]
-            + (flights[node, customer, 1] + flights[customer, to, 1]) * rate[RATE_DRONE_KM])
+            + (out.distance + home.distance) * rate[RATE_DRONE_KM])
 
 
 @inlined
 def loop_cost(world: World, k: int, node: int, customer: int) -> float:
     """Return what a flight costs for which the truck waits at a stop."""
     columns, rate = world.type[k], world.rate[k]
-    flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
+    flights = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
     service = drone_service(columns, world.place[customer])
-    airborne = flights[node, customer, 0] + service + flights[customer, node, 0]
+    out, home = leg(flights, node, customer), leg(flights, customer, node)
+    airborne = out.duration + service + home.duration
     if not can_last(columns, airborne) or not world.loops:
         return math.inf
     handled = handling_duration(columns)
     return ((airborne + handled) * rate[RATE_HOUR] + airborne * rate[RATE_DRONE_HOUR]
-            + (flights[node, customer, 1] + flights[customer, node, 1]) * rate[RATE_DRONE_KM])
+            + (out.distance + home.distance) * rate[RATE_DRONE_KM])
 
 
 @spliced
 def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, i: int) -> None:
     """Try all operations that begin at place `i`. In place."""
     rate = world.rate[k]
-    legs = world.leg[world.type[k, TYPE_TRAVEL]]
+    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
     here, loops = line[i, L_NODE], 0.0
     service = service_duration(world.place[here])
     for j in range(i + 1, min(length, i + LONGEST_OPERATION + 1)):
@@ -157,9 +161,9 @@ def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, 
         lands = j == length - 1 or world.can[k, 0, to]
         grounded = line[j - 1, L_GROUNDED] - line[i, L_GROUNDED]
         if lands:
-            leg = legs[here, to]
-            total = (cost[i] + loops + (leg[0] + service) * rate[RATE_HOUR]
-                     + leg[1] * rate[RATE_KM])
+            way = leg(legs, here, to)
+            total = (cost[i] + loops + (way.duration + service) * rate[RATE_HOUR]
+                     + way.distance * rate[RATE_KM])
             if total < cost[j]:
                 cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, NO_FLIGHT
         if lands and grounded <= 1 and world.crossings:
@@ -193,7 +197,7 @@ def split(world: World, k: int, line: IntArray, cost: FloatArray, length: int) -
 @spliced
 def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
     """Return what the operations that are noted in the line cost."""
-    rate, legs = world.rate[k], world.leg[world.type[k, TYPE_TRAVEL]]
+    rate, legs = world.rate[k], legs_of(world.leg, world.type[k, TYPE_TRAVEL])
     cost, j = 0.0, length - 1
     while j > 0:
         i, flown = line[j, L_BEFORE], line[j, L_FLIGHT]
@@ -201,8 +205,8 @@ def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
             cost += operation_cost(world, k, line, i, j, flown, math.inf)
         else:
             here = line[i, L_NODE]
-            leg, service = legs[here, line[j, L_NODE]], service_duration(world.place[here])
-            cost += (leg[0] + service) * rate[RATE_HOUR] + leg[1] * rate[RATE_KM]
+            way, service = leg(legs, here, line[j, L_NODE]), service_duration(world.place[here])
+            cost += (way.duration + service) * rate[RATE_HOUR] + way.distance * rate[RATE_KM]
             for place in range(i + 1, j):
                 cost += loop_cost(world, k, here, line[place, L_NODE])
         j = i

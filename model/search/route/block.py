@@ -1,14 +1,13 @@
 """Timing of a block: the stops of a truck from one where all drones are aboard to the next."""
 
-from model.kernel.clock import arrival_by_profile
+from model.kernel.clock import is_steady, leg_end
 from model.kernel.compiled import inlined
 from model.kernel.flight import (
     counted_until, drone_service, earliest_back, enduring_within, held_until, launch_begin,
     recovery_end, take_off, unreachable,
 )
-from model.kernel.instance import (
-    FAR, NONE, NO_PROFILE, TYPE_DRONE_TRAVEL, TYPE_LATEST, TYPE_PROFILE, TYPE_TRAVEL,
-)
+from model.kernel.instance import FAR, NONE, TYPE_DRONE_TRAVEL, TYPE_LATEST, TYPE_TRAVEL
+from model.kernel.leg import leg, legs_of
 from model.kernel.stop import allowed_within, as_late, service_duration, start_within, too_late
 from model.problem import IntArray
 from model.search.route.layout import (
@@ -24,7 +23,7 @@ A_TIME, A_FREE_D, A_FREE_C, A_HI, A_LO, A_DEP, A_OLDEST, A_FLYING = range(8)
 @inlined
 def origin(world: World, k: int, time: int) -> tuple[int, int]:
     """Return the pair of an arrival at `time`, at the beginning of a block."""
-    if world.type[k, TYPE_PROFILE] == NO_PROFILE:
+    if is_steady(world.type[k]):
         return 0, NONE
     return NONE, time
 
@@ -32,11 +31,9 @@ def origin(world: World, k: int, time: int) -> tuple[int, int]:
 @inlined
 def travel(world: World, k: int, duration: int, d: int, c: int) -> tuple[int, int]:
     """Return the pair at the end of a leg of `duration` at full speed."""
-    changes = world.type[k, TYPE_PROFILE]
-    if changes == NO_PROFILE:
+    if is_steady(world.type[k]):
         return d + duration, c + duration
-    return NONE, arrival_by_profile(world.profile_time[k], world.profile_factor[k], changes,
-                                    duration, c)
+    return NONE, leg_end(world.type[k], world.profile_time[k], world.profile_factor[k], duration, c)
 
 
 @inlined
@@ -73,7 +70,7 @@ def make_ready(world: World, k: int, stops: IntArray, sorties: IntArray, count: 
     And write how long each is held back: until windows let it be back within the endurance.
     """
     columns = world.type[k]
-    legs = world.leg[columns[TYPE_DRONE_TRAVEL]]
+    legs = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
     for s in range(count):
         sortie = sorties[s]
         node = stops[sortie[F_RECOVERY], S_NODE]
@@ -81,11 +78,31 @@ def make_ready(world: World, k: int, stops: IntArray, sorties: IntArray, count: 
         for index in range(sortie[F_COUNT] - 1, -1, -1):
             customer = sortie[F_NODE + index]
             place = world.place[customer]
-            home += legs[customer, node, 0]
+            home += leg(legs, customer, node).duration
             back = max(back, earliest_back(columns, place, home))
             home += drone_service(columns, place)
             node = customer
         sortie[F_STATE], sortie[F_HELD] = WAITING, held_until(columns, back)
+
+
+@inlined
+def bound_arrival(acc: IntArray, first: int, last: int) -> None:
+    """Let the truck arrive at the block from `first` to `last`. In place."""
+    acc[A_LO], acc[A_HI] = max(acc[A_LO], first), min(acc[A_HI], last)
+
+
+@inlined
+def reach(place: IntArray, arrival: int, d: int, c: int, acc: IntArray) -> bool:
+    """Bound the truck's arrival by the window of a customer reached at (d, c), at `arrival`.
+
+    In place; False if that is too late however soon the truck arrives.
+    """
+    if too_late(place, c):
+        return False
+    first, last = allowed_within(place, acc[A_TIME], d, c)
+    bound_arrival(acc, first, last)
+    acc[A_DEP] = min(acc[A_DEP], as_late(place, arrival) - d)
+    return True
 
 
 @inlined
@@ -100,16 +117,13 @@ def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArra
     sortie[F_TAKEOFF] = max(acc[A_TIME] + d, c)
     for index in range(sortie[F_COUNT]):
         customer = sortie[F_NODE + index]
-        flight = legs[node, customer, 0]
+        flight = leg(legs, node, customer).duration
         place = places[customer]
         d, c = d + flight, c + flight
         arrival = max(acc[A_TIME] + d, c)
-        if unreachable(flight) or too_late(place, c):
+        if unreachable(flight) or not reach(place, arrival, d, c, acc):
             return False
         sortie[arrivals + index] = arrival
-        first, last = allowed_within(place, acc[A_TIME], d, c)
-        bound_arrival(acc, first, last)
-        acc[A_DEP] = min(acc[A_DEP], as_late(place, arrival) - d)
         d, c = start_within(place, acc[A_TIME], d, c)
         service = drone_service(columns, place)
         d, c = d + service, c + service
@@ -121,17 +135,11 @@ def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArra
 
 
 @inlined
-def bound_arrival(acc: IntArray, first: int, last: int) -> None:
-    """Let the truck arrive at the block from `first` to `last`. In place."""
-    acc[A_LO], acc[A_HI] = max(acc[A_LO], first), min(acc[A_HI], last)
-
-
-@inlined
 def bring_home(legs: IntArray, columns: IntArray, sortie: IntArray, node: int,
                acc: IntArray) -> bool:
     """Recover a sortie at `node`. In place; False if endurance forbids it."""
     last = sortie[F_NODE + sortie[F_COUNT] - 1]
-    flight = legs[last, node, 0]
+    flight = leg(legs, last, node).duration
     back_d, back_c = sortie[F_READY_D] + flight, sortie[F_READY_C] + flight
     begin_d, begin_c = max(acc[A_FREE_D], back_d), max(acc[A_FREE_C], back_c)
     if unreachable(flight):
@@ -177,7 +185,7 @@ def next_operation(legs: IntArray, columns: IntArray, sorties: IntArray, count: 
         if sorties[index, F_STATE] == FLYING:
             if sorties[index, F_RECOVERY] == p:
                 last = sorties[index, F_NODE + sorties[index, F_COUNT] - 1]
-                flight = legs[last, node, 0]
+                flight = leg(legs, last, node).duration
                 begin = max(2 * free, 2 * (max(acc[A_TIME] + sorties[index, F_READY_D],
                                                sorties[index, F_READY_C]) + flight))
         elif (sorties[index, F_STATE] == WAITING and sorties[index, F_LAUNCH] == p
@@ -237,7 +245,7 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
     `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
     """
     columns = world.type[k]
-    flights = world.leg[columns[TYPE_DRONE_TRAVEL]]
+    flights = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
     d, c = origin(world, k, time)
     acc[A_TIME], acc[A_HI], acc[A_LO], acc[A_DEP] = time, FAR, NONE, FAR
     acc[A_OLDEST], acc[A_FLYING], p = oldest, 0, first
@@ -246,12 +254,8 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
         kind, node = stop[S_KIND], stop[S_NODE]
         stop[S_ARRIVAL], stop[S_BLOCK] = max(time + d, c), first
         if kind == CUSTOMER:
-            place = world.place[node]
-            if too_late(place, c):
+            if not reach(world.place[node], stop[S_ARRIVAL], d, c, acc):
                 return -1
-            lo, hi = allowed_within(place, time, d, c)
-            bound_arrival(acc, lo, hi)
-            acc[A_DEP] = min(acc[A_DEP], as_late(place, stop[S_ARRIVAL]) - d)
         elif kind == START:
             c = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
         acc[A_FREE_D], acc[A_FREE_C] = d, c
@@ -269,7 +273,8 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
             break
         if kind == END or p + 1 >= length:
             return -1
-        stop[S_GAP] = world.leg[columns[TYPE_TRAVEL], node, stops[p + 1, S_NODE], 0]
+        legs = legs_of(world.leg, columns[TYPE_TRAVEL])
+        stop[S_GAP] = leg(legs, node, stops[p + 1, S_NODE]).duration
         d, c = travel(world, k, stop[S_GAP], d, c)
         p += 1
     stops[first, S_D], stops[first, S_C], stops[first, S_HI] = d, c, acc[A_HI]

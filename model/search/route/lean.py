@@ -2,17 +2,16 @@
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import clear
-from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_DEMAND, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_EARLIEST, TYPE_LATEST,
-    TYPE_TRAVEL,
-)
+from model.kernel.instance import RATE_FIXED, RATE_KM, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL
+from model.kernel.leg import leg, legs_of
+from model.kernel.load import demand_of, holds
 from model.kernel.stop import end_of_service, latest_arrival, too_late
 from model.problem import IntArray
 from model.search.route.layout import (
     CUSTOMER, LEAN_COLUMNS, NOWHERE, R_LENGTH, R_TRIPS, R_TYPE, S_FLYING, S_GAP, S_KIND, S_LATEST,
-    S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_LAST, T_LOAD, W_POSITION, W_SLOT, W_SORTIE, Fleet,
-    World,
+    S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_LAST, W_POSITION, W_SLOT, W_SORTIE, Fleet, World,
 )
+from model.search.route.vehicles import add_load, load_of
 
 
 @inlined
@@ -21,30 +20,28 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     route, stops, trip = fleet.route[slot], fleet.stop[slot], fleet.trip[slot, 0]
     k, last = route[R_TYPE], route[R_LENGTH] - 1
     columns = world.type[k]
-    legs = world.leg[columns[TYPE_TRAVEL]]
+    legs = legs_of(world.leg, columns[TYPE_TRAVEL])
     clear(trip)
     route[R_TRIPS], trip[T_LAST] = 1, last
     time, node = columns[TYPE_EARLIEST], stops[0, S_NODE]
     stops[0, S_LEAVE], stops[0, S_FLYING], stops[0, S_TRIP] = time, 0, 0
     for p in range(1, last + 1):
         following = stops[p, S_NODE]
-        duration, distance = legs[node, following, 0], legs[node, following, 1]
-        stops[p - 1, S_GAP], stops[p - 1, S_LEG] = duration, distance
-        trip[T_DISTANCE] += distance
-        time += duration
+        way = leg(legs, node, following)
+        stops[p - 1, S_GAP], stops[p - 1, S_LEG] = way.duration, way.distance
+        trip[T_DISTANCE] += way.distance
+        time += way.duration
         node = following
         if p < last:
             place = world.place[node]
             if too_late(place, time):
                 return False
             time = end_of_service(place, time)
-            for dimension in range(MAX_DIMENSIONS):
-                trip[T_LOAD + dimension] += place[NODE_DEMAND + dimension]
+            add_load(trip, demand_of(place))
         stops[p, S_LEAVE], stops[p, S_FLYING], stops[p, S_TRIP] = time, 0, 0
     stops[last, S_LEG] = stops[last, S_GAP] = 0
-    for dimension in range(MAX_DIMENSIONS):
-        if trip[T_LOAD + dimension] > columns[TYPE_CAPACITY + dimension]:
-            return False
+    if not holds(columns, load_of(trip)):
+        return False
     latest = columns[TYPE_LATEST]
     stops[last, S_LATEST] = latest
     for p in range(last - 1, 0, -1):
@@ -73,20 +70,19 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     shift_lean(fleet, slot, p + 1)
     stops, trip = fleet.stop[slot], fleet.trip[slot, 0]
     k = fleet.route[slot, R_TYPE]
-    legs = world.leg[world.type[k, TYPE_TRAVEL]]
+    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
     new = stops[p + 1]
     new[S_NODE], new[S_KIND], new[S_FLYING], new[S_TRIP] = node, CUSTOMER, 0, 0
     where = fleet.where[node]
     where[W_SLOT], where[W_POSITION], where[W_SORTIE] = slot, p + 1, NOWHERE
-    here, there = stops[p, S_NODE], stops[p + 2, S_NODE]
-    detour = legs[here, node, 1] + legs[node, there, 1] - stops[p, S_LEG]
-    stops[p, S_GAP], stops[p, S_LEG] = legs[here, node, 0], legs[here, node, 1]
-    new[S_GAP], new[S_LEG] = legs[node, there, 0], legs[node, there, 1]
+    out, on = leg(legs, stops[p, S_NODE], node), leg(legs, node, stops[p + 2, S_NODE])
+    detour = out.distance + on.distance - stops[p, S_LEG]
+    stops[p, S_GAP], stops[p, S_LEG] = out.duration, out.distance
+    new[S_GAP], new[S_LEG] = on.duration, on.distance
     trip[T_LAST] += 1
     trip[T_DISTANCE] += detour
     fleet.cost[slot] += detour * world.rate[k, RATE_KM]
-    for dimension in range(MAX_DIMENSIONS):
-        trip[T_LOAD + dimension] += world.place[node, NODE_DEMAND + dimension]
+    add_load(trip, demand_of(world.place[node]))
     spread(world, stops, trip[T_LAST], p + 1)
 
 

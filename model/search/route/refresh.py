@@ -1,10 +1,10 @@
 """Bringing a route up to date after its sequence has changed."""
 
-from model.kernel.clock import changes_until
+from model.kernel.clock import leg_start
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import FAR, NONE, TYPE_MAX_WORKING, TYPE_PROFILE
+from model.kernel.instance import FAR, NONE, TYPE_MAX_WORKING
 from model.kernel.stop import latest_free_arrival
-from model.problem import FULL_SPEED, IntArray, UIntArray
+from model.problem import IntArray, UIntArray
 from model.search.route.layout import (
     CUSTOMER, ELSEWHERE, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, MODE_LEAN, MODE_PROFILE,
     MODE_SETTLED, NOWHERE, R_CUM, R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING,
@@ -19,23 +19,6 @@ from model.search.route.routes import (
 
 MOST_DRAWS = 64
 """Draws after which a search for one of few customers ends."""
-
-
-@inlined
-def leave_by_profile(times: IntArray, factors: IntArray, changes: int, duration: int,
-                     arrival: int) -> int:
-    """Return the latest departure whose leg of `duration` at full speed ends by `arrival`."""
-    piece = changes_until(times, changes, arrival - 1)
-    work = duration * FULL_SPEED
-    time = arrival
-    while piece > 0:
-        done = (time - times[piece - 1]) * factors[piece]
-        if work <= done:
-            break
-        work -= done
-        time = times[piece - 1]
-        piece -= 1
-    return time - (work + factors[piece] - 1) // factors[piece]
 
 
 @inlined
@@ -90,8 +73,8 @@ def latest_by_profile(world: World, route: IntArray, stops: IntArray, sorties: I
             if stop[S_KIND] == START:
                 leave = arrival - gap
             else:
-                leave = leave_by_profile(world.profile_time[k], world.profile_factor[k],
-                                         world.type[k, TYPE_PROFILE], gap, arrival)
+                leave = leg_start(world.type[k], world.profile_time[k], world.profile_factor[k],
+                                  gap, arrival)
         p -= 1
     return leave
 

@@ -4,10 +4,11 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import clear
 from model.kernel.flight import launch_duration, recovery_end
 from model.kernel.instance import (
-    FAR, MAX_DIMENSIONS, NODE_DEMAND, NODE_RELEASE, NONE, RATE_DRONE_HOUR, RATE_DRONE_KM,
-    RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_DRONE_TRAVEL, TYPE_EARLIEST,
-    TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_TRAVEL,
+    FAR, NODE_RELEASE, NONE, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM,
+    TYPE_DRONE_TRAVEL, TYPE_EARLIEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_TRAVEL,
 )
+from model.kernel.leg import leg, legs_of
+from model.kernel.load import demand_of, holds
 from model.kernel.stop import lateness, waiting
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block, travel
@@ -16,8 +17,9 @@ from model.search.route.layout import (
     R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, START, S_ARRIVAL, S_BEFORE,
     S_BLOCK, S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_IDLE,
     S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, T_DISTANCE,
-    T_FIRST, T_LAST, T_LOAD, T_RELEASE, World,
+    T_FIRST, T_LAST, T_RELEASE, World,
 )
+from model.search.route.vehicles import add_load, load_of
 
 
 @inlined
@@ -25,8 +27,7 @@ def carry(world: World, trip: IntArray, node: int) -> None:
     """Put a customer's parcel on a trip. In place."""
     place = world.place[node]
     trip[T_RELEASE] = max(trip[T_RELEASE], place[NODE_RELEASE])
-    for dimension in range(MAX_DIMENSIONS):
-        trip[T_LOAD + dimension] += place[NODE_DEMAND + dimension]
+    add_load(trip, demand_of(place))
 
 
 @inlined
@@ -35,6 +36,7 @@ def load_trips(world: World, route: IntArray, stops: IntArray, trips: IntArray,
     """Write loads, releases and distances of the trips. In place; False if one is too much."""
     k = route[R_TYPE]
     columns = world.type[k]
+    legs = legs_of(world.leg, columns[TYPE_TRAVEL])
     index, s = -1, 0
     most_trips, most_distance = len(trips), columns[TYPE_MAX_DISTANCE]
     for p in range(route[R_LENGTH]):
@@ -57,16 +59,13 @@ def load_trips(world: World, route: IntArray, stops: IntArray, trips: IntArray,
         if kind == END:
             trip[T_LAST] = p
             stops[trip[T_FIRST], S_RELEASE] = trip[T_RELEASE]
-            if trip[T_DISTANCE] > most_distance:
+            if trip[T_DISTANCE] > most_distance or not holds(columns, load_of(trip)):
                 return False
-            for dimension in range(MAX_DIMENSIONS):
-                if trip[T_LOAD + dimension] > columns[TYPE_CAPACITY + dimension]:
-                    return False
             stop[S_LEG], stop[S_GAP] = 0, columns[TYPE_RELOAD]
         else:
-            leg = world.leg[columns[TYPE_TRAVEL], stop[S_NODE], stops[p + 1, S_NODE]]
-            stop[S_GAP], stop[S_LEG] = leg[0], leg[1]
-            trip[T_DISTANCE] += leg[1]
+            way = leg(legs, stop[S_NODE], stops[p + 1, S_NODE])
+            stop[S_GAP], stop[S_LEG] = way.duration, way.distance
+            trip[T_DISTANCE] += way.distance
     route[R_TRIPS] = index + 1
     return True
 
@@ -180,13 +179,13 @@ def price_windows(world: World, route: IntArray, stops: IntArray,
 @inlined
 def sortie_cost(world: World, k: int, stops: IntArray, sortie: IntArray) -> float:
     """Return what the flight of a sortie costs."""
-    flights = world.type[k, TYPE_DRONE_TRAVEL]
+    flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
     node, flown = stops[sortie[F_LAUNCH], S_NODE], 0
     for visit in range(sortie[F_COUNT]):
         following = sortie[F_NODE + visit]
-        flown += world.leg[flights, node, following, 1]
+        flown += leg(flights, node, following).distance
         node = following
-    flown += world.leg[flights, node, stops[sortie[F_RECOVERY], S_NODE], 1]
+    flown += leg(flights, node, stops[sortie[F_RECOVERY], S_NODE]).distance
     airborne = recovery_end(world.type[k], sortie[F_BEGIN]) - sortie[F_TAKEOFF]
     return flown * world.rate[k, RATE_DRONE_KM] + airborne * world.rate[k, RATE_DRONE_HOUR]
 

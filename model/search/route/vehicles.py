@@ -1,11 +1,10 @@
-"""What vehicles of each type hold and lift, and what a lean route costs by each."""
+"""What trips and sorties carry, and what a lean route costs by vehicles of each type."""
 
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_DEMAND, RATE_FIXED, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_PAYLOAD,
-)
+from model.kernel.instance import RATE_FIXED, RATE_KM, TYPE_COUNT
+from model.kernel.load import NOTHING, Amount, demand_of, fits, plus
 from model.problem import IntArray
 from model.search.route.layout import (
     F_COUNT, F_NODE, NOWHERE, R_TYPE, T_DISTANCE, T_LOAD, Fleet, World,
@@ -19,12 +18,24 @@ def route_cost(world: World, k: int, distance: int) -> float:
 
 
 @inlined
-def holds(world: World, k: int, trip: IntArray) -> bool:
-    """Tell whether a vehicle of type `k` holds the load of a trip."""
-    for dimension in range(MAX_DIMENSIONS):
-        if trip[T_LOAD + dimension] > world.type[k, TYPE_CAPACITY + dimension]:
-            return False
-    return True
+def load_of(trip: IntArray) -> Amount:
+    """Return what a trip carries from the depot."""
+    return trip[T_LOAD], trip[T_LOAD + 1], trip[T_LOAD + 2]
+
+
+@inlined
+def add_load(trip: IntArray, amount: Amount) -> None:
+    """Let a trip carry more. In place."""
+    trip[T_LOAD], trip[T_LOAD + 1], trip[T_LOAD + 2] = plus(load_of(trip), amount)
+
+
+@spliced
+def payload(world: World, sortie: IntArray) -> Amount:
+    """Return what a sortie carries."""
+    carried = NOTHING
+    for visit in range(sortie[F_COUNT]):
+        carried = plus(carried, demand_of(world.place[sortie[F_NODE + visit]]))
+    return carried
 
 
 @inlined
@@ -40,11 +51,7 @@ def larger_type(world: World, fleet: Fleet, slot: int, node: int) -> int:
                 or fleet.used[other] >= world.type[other, TYPE_COUNT]):
             continue
         cost = route_cost(world, other, trip[T_DISTANCE])
-        fits = cost < best
-        for dimension in range(MAX_DIMENSIONS):
-            load = trip[T_LOAD + dimension] + world.place[node, NODE_DEMAND + dimension]
-            fits = fits and load <= world.type[other, TYPE_CAPACITY + dimension]
-        if fits:
+        if cost < best and fits(world.type[other], load_of(trip), world.place[node]):
             chosen, best = other, cost
     return chosen
 
@@ -56,15 +63,3 @@ def change_type(world: World, fleet: Fleet, slot: int, k: int) -> None:
     fleet.used[k] += 1
     fleet.route[slot, R_TYPE] = k
     fleet.cost[slot] = route_cost(world, k, fleet.trip[slot, 0, T_DISTANCE])
-
-
-@spliced
-def lifts(world: World, sortie: IntArray, k: int, node: int) -> bool:
-    """Tell whether a type's drone lifts a customer's parcel on top of a sortie's."""
-    for dimension in range(MAX_DIMENSIONS):
-        payload = world.place[node, NODE_DEMAND + dimension]
-        for visit in range(sortie[F_COUNT]):
-            payload += world.place[sortie[F_NODE + visit], NODE_DEMAND + dimension]
-        if payload > world.type[k, TYPE_PAYLOAD + dimension]:
-            return False
-    return True

@@ -1,0 +1,70 @@
+"""What vehicles and drones hold: amounts, in all dimensions at once. Compiled."""
+
+from model.kernel.compiled import inlined
+from model.kernel.instance import NODE_DEMAND, TYPE_CAPACITY, TYPE_PAYLOAD
+from model.problem import IntArray
+
+Amount = tuple[int, int, int]
+"""By dimension, of which there are `MAX_DIMENSIONS`."""
+
+NOTHING = (0, 0, 0)
+
+
+@inlined
+def demand_of(place: IntArray) -> Amount:
+    """Return what a customer's parcel takes."""
+    return place[NODE_DEMAND], place[NODE_DEMAND + 1], place[NODE_DEMAND + 2]
+
+
+@inlined
+def capacity_of(columns: IntArray) -> Amount:
+    """Return what a vehicle of a type holds."""
+    return columns[TYPE_CAPACITY], columns[TYPE_CAPACITY + 1], columns[TYPE_CAPACITY + 2]
+
+
+@inlined
+def payload_of(columns: IntArray) -> Amount:
+    """Return what a type's drone lifts."""
+    return columns[TYPE_PAYLOAD], columns[TYPE_PAYLOAD + 1], columns[TYPE_PAYLOAD + 2]
+
+
+@inlined
+def plus(one: Amount, other: Amount) -> Amount:
+    """Return the sum of two amounts."""
+    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
+
+
+@inlined
+def minus(one: Amount, other: Amount) -> Amount:
+    """Return what is left of an amount."""
+    return one[0] - other[0], one[1] - other[1], one[2] - other[2]
+
+
+@inlined
+def total(amount: Amount) -> int:
+    """Return the sum over dimensions, for comparisons."""
+    return amount[0] + amount[1] + amount[2]
+
+
+@inlined
+def within(one: Amount, limit: Amount) -> bool:
+    """Tell whether an amount is no more than another in any dimension."""
+    return one[0] <= limit[0] and one[1] <= limit[1] and one[2] <= limit[2]
+
+
+@inlined
+def holds(columns: IntArray, load: Amount) -> bool:
+    """Tell whether a vehicle of a type holds a load."""
+    return within(load, capacity_of(columns))
+
+
+@inlined
+def fits(columns: IntArray, load: Amount, place: IntArray) -> bool:
+    """Tell whether a vehicle of a type holds a customer's parcel on top of a load."""
+    return holds(columns, plus(load, demand_of(place)))
+
+
+@inlined
+def lifts(columns: IntArray, payload: Amount) -> bool:
+    """Tell whether a type's drone lifts what a sortie carries."""
+    return within(payload, payload_of(columns))
