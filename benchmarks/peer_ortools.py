@@ -7,9 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.peers import (
-    PeerAnswer, PeerRoute, better, needs_trips_or_releases, useful_counts,
-)
+from benchmarks.peers import PeerAnswer, PeerRoute, better, needs_trips_or_releases, useful_counts
 from benchmarks.published import Published
 
 STRATEGIES = ("PATH_CHEAPEST_ARC", "PARALLEL_CHEAPEST_INSERTION")

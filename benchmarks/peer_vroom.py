@@ -6,9 +6,7 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import Any
 
-from benchmarks.peers import (
-    PeerAnswer, PeerRoute, better, needs_trips_or_releases, useful_counts,
-)
+from benchmarks.peers import PeerAnswer, PeerRoute, better, needs_trips_or_releases, useful_counts
 from benchmarks.published import Published
 
 SECONDS_PER_HOUR = 3600

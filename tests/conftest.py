@@ -9,15 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 import pytest
 
-from model.problem import (
-    MM_PER_KM,
-    Customer,
-    Depot,
-    DroneType,
-    Problem,
-    Travel,
-    VehicleType,
-)
+from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 
 MINUTE = 60_000
 

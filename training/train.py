@@ -26,9 +26,7 @@ from training.dataset import join
 from training.export import WEIGHTS
 from training.heuristics import nearest_neighbour
 from training.instances import generate, sample_variant, validation_set
-from training.learn import (
-    BASELINES, critic_step, draw_weights, policy_gradient, training_costs,
-)
+from training.learn import BASELINES, critic_step, draw_weights, policy_gradient, training_costs
 from training.policies import POLICIES
 from training.rollout import Batch, greedy, make_batch, roll_out, sampler
 

@@ -6,13 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from pydantic_core import to_json
 
-from app.files.instance import (
-    FileVehicles,
-    InstanceFile,
-    InstanceFileError,
-    Rounding,
-    distances,
-)
+from app.files.instance import FileVehicles, InstanceFile, InstanceFileError, Rounding, distances
 from app.files.solomon import is_solomon, read_solomon
 from app.files.vrplib import read_vrplib
 from app.requests.reading import read_request

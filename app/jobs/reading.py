@@ -5,9 +5,7 @@ from collections.abc import Callable, Sequence
 from app.conversion.preparing import Preparing
 from app.jobs.errors import TooManyScenariosError
 from app.jobs.rows import JobRow
-from app.jobs.scenarios import (
-    Scenarios, Sweep, apply, check_replan, read_study, validate,
-)
+from app.jobs.scenarios import Scenarios, Sweep, apply, check_replan, read_study, validate
 from app.jobs.schemas import Kind
 from app.jobs.store import JobStore
 from app.requests.bounds import Bounds

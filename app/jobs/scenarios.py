@@ -11,9 +11,7 @@ from pydantic_core import from_json, to_json
 
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.travels import Ground
-from app.errors import (
-    MAX_LISTED_ERRORS, InputError, InvalidRequestError, json_path, schema_error,
-)
+from app.errors import MAX_LISTED_ERRORS, InputError, InvalidRequestError, json_path, schema_error
 from app.jobs.grid import GridPath, Place, places, put, read_path
 from app.jobs.schemas import CompareRequest, Kind, SweepRequest
 from app.plans.task import task_of

@@ -10,9 +10,7 @@ from matplotlib.patches import Patch, PathPatch, Polygon
 from matplotlib.path import Path
 
 from app.pictures.colours import BLACK, GREY, INK, VERMILLION, trip_colour, vehicle_marker
-from app.pictures.scene import (
-    Layout, Place, Point, Scene, all_trips, counted, flown_places, label,
-)
+from app.pictures.scene import Layout, Place, Point, Scene, all_trips, counted, flown_places, label
 
 MAX_LABELLED = 150
 """With more customers than this their ids would cover each other."""

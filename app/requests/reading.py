@@ -6,13 +6,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, from_json, to_json
 
-from app.errors import (
-    InputError,
-    InvalidRequestError,
-    NotJsonError,
-    RequestError,
-    schema_error,
-)
+from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_error
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import Draft, semantic_errors

@@ -9,9 +9,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.plan import PlanInput
-from app.settings import (
-    DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT,
-)
+from app.settings import DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT
 from model.problem import MAX_MONEY, MAX_QUANTITY
 
 MAX_AMOUNT = MAX_QUANTITY // 1000

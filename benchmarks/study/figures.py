@@ -14,9 +14,7 @@ from app.pictures.colours import BLACK, GREY, INK, VEHICLES, VERMILLION
 from benchmarks.study.cases import HOUR, example
 from benchmarks.study.printed import Group
 from benchmarks.study.tables import REFERENCE, over_seeds, surface_of, way_of
-from benchmarks.study.tasks import (
-    DRONES, FLEETS, MIXED, SINGLE, SPEEDS, WINDOWS, Planned, TripRow,
-)
+from benchmarks.study.tasks import DRONES, FLEETS, MIXED, SINGLE, SPEEDS, WINDOWS, Planned, TripRow
 
 KINDS = {"drone": (VEHICLES[1], "^", "DC: drone only"), "either": (VEHICLES[0], "o", "FC: either"),
          "truck": (VEHICLES[2], "s", "TC: truck only")}

@@ -4,9 +4,7 @@ import statistics
 from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations, pairwise
 
-from benchmarks.study.tables import (
-    differences, markdown, over_seeds, percent, rises, surface_of,
-)
+from benchmarks.study.tables import differences, markdown, over_seeds, percent, rises, surface_of
 from benchmarks.study.tasks import (
     FLEETS, GREEDY, MIXED, NOBODY, POLICIES, SAMPLED, SINGLE, Planned, TripRow,
 )

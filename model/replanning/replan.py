@@ -11,9 +11,7 @@ from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
 from model.judge.rules import Violation
 from model.kernel.instance import pack
-from model.planner import (
-    ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
-)
+from model.planner import ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 from model.replanning.handover import hand_over, settled, take_back, with_anchors
 from model.replanning.kept import Kept, kept_routes

@@ -3,7 +3,8 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE, NONE,
+    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE,
+    NONE,
 )
 from model.kernel.leg import leg, leg_at, legs_of, legs_to
 from model.kernel.stop import as_late, end_of_service, service_duration, too_late

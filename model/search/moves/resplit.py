@@ -7,9 +7,7 @@ split in two, or two become one, with the drones' share of each chosen anew at o
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import (
-    RATE_FIXED, TYPE_DRONES, TYPE_END, TYPE_START,
-)
+from model.kernel.instance import RATE_FIXED, TYPE_DRONES, TYPE_END, TYPE_START
 from model.kernel.load import NOTHING, demand_of, holds, plus
 from model.problem import IntArray
 from model.search.moves.exchange import append

@@ -3,9 +3,7 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined
-from model.kernel.instance import (
-    TYPE_COUNT, TYPE_DRONES, TYPE_END, TYPE_MAX_TRIPS, TYPE_START,
-)
+from model.kernel.instance import TYPE_COUNT, TYPE_DRONES, TYPE_END, TYPE_MAX_TRIPS, TYPE_START
 from model.kernel.load import holds, lifts
 from model.search.route.layout import (
     CUSTOMER, F_COUNT, F_DRONE, F_NODE, MODE_LEAN, R_LENGTH, R_SORTIES, R_TRIPS,

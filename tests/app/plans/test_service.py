@@ -15,9 +15,7 @@ from app.plans.service import PlanService, answer, plan_options
 from app.schemas.request import OptionsInput
 from app.settings import DEFAULT_POLICY, Settings
 from model.kernel.warming import Tell, Warmth
-from model.planner import (
-    ALONE, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
-)
+from model.planner import ALONE, Listener, PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 from model.solution import Solution
 from tests.app.conftest import FirstFitPlanner
