@@ -49,6 +49,33 @@ INTERPRETED = {"solution"}
 ASKING = {"kernel/warming", "planner"}
 """Compile nothing themselves, but ask what is compiled."""
 
+COMPILED_FOLDERS = ("kernel", "simulation", "policy", "search")
+
+HOMES = {
+    "kernel/stop": {"NODE_EARLIEST", "NODE_LATEST", "NODE_LIMIT", "NODE_SERVICE"},
+    "kernel/flight": {"TYPE_DRONE_SERVICE", "TYPE_ENDURANCE", "TYPE_LAUNCH", "TYPE_RECOVERY",
+                      "TYPE_WAITING_COUNTS", "UNREACHABLE"},
+    "kernel/load": {"NODE_DEMAND", "TYPE_CAPACITY", "TYPE_PAYLOAD"},
+    "kernel/clock": {"FULL_SPEED", "TYPE_PROFILE", "arrival_by_profile", "leave_by_profile"},
+    "kernel/leg": {"LEG_DISTANCE", "LEG_DURATION"},
+}
+"""Where each rule stands in compiled code, and what nobody can apply it without."""
+DESCRIBING = {
+    "kernel/instance": set.union(*HOMES.values()),
+    "policy/tokens": set.union(*HOMES.values()),
+    "policy/features": {"NODE_DEMAND", "TYPE_CAPACITY", "TYPE_ENDURANCE"},
+    "search/world": set.union(*HOMES.values()),
+    "search/beginning/translate": {"NODE_DEMAND", "TYPE_CAPACITY"},
+}
+"""What states a limit but applies none: packs it, shows it to a network, ranks or makes room by it.
+"""
+LEG_TABLES = {"leg", "back", "legs", "flights", "inward", "onward", "drive", "fly", "duration",
+              "distance"}
+"""Names of tables of legs and of rows of one, whose elements `kernel/leg` reads alone."""
+LEGS_AT_ONCE = {"kernel/instance", "policy/resampling", "policy/tokens", "search/world",
+                "search/beginning/savings"}
+"""What fills a table, or reads a whole one in plain Python."""
+
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 40
 
@@ -169,6 +196,53 @@ def test_compiled_code_is_filed_under_all_its_sources() -> None:
     users = {name for name, files in imports.items() if "kernel/compiled" in files} - ASKING
     needed = users.union({"kernel/compiled"}, *(imports[name] for name in users)) - INTERPRETED
     assert set(SOURCES) == needed
+
+
+def files_of_compiled_folders() -> dict[str, Path]:
+    """Return the files of folders with compiled code, by path within `model` without suffix."""
+    return {path.relative_to(ROOT / "model").with_suffix("").as_posix(): path
+            for part in COMPILED_FOLDERS for path in sources(f"model/{part}")}
+
+
+def names_in(tree: ast.AST) -> set[str]:
+    """Return the names that a file uses, imports or defines."""
+    found = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    found |= {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    return found | {alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)
+                    for alias in node.names}
+
+
+def tables_read(tree: ast.AST) -> set[str]:
+    """Return the names of the tables of legs of which a file takes elements or parts."""
+    read = [node.value for node in ast.walk(tree) if isinstance(node, ast.Subscript)]
+    return LEG_TABLES & ({table.id for table in read if isinstance(table, ast.Name)}
+                         | {table.attr for table in read if isinstance(table, ast.Attribute)})
+
+
+@pytest.mark.parametrize("home", HOMES)
+def test_compiled_rule_has_one_home(home: str) -> None:
+    elsewhere = {name: applied for name, path in files_of_compiled_folders().items()
+                 if name != home and (applied := (
+                     names_in(ast.parse(path.read_text())) & HOMES[home]
+                     - DESCRIBING.get(name, set())))}
+    assert elsewhere == {}
+
+
+def test_legs_are_read_in_one_file() -> None:
+    elsewhere = {name: read for name, path in files_of_compiled_folders().items()
+                 if name not in {"kernel/leg", *LEGS_AT_ONCE}
+                 and (read := tables_read(ast.parse(path.read_text())))}
+    assert elsewhere == {}
+
+
+@pytest.mark.parametrize("applied", [
+    "start = max(arrival, place[NODE_EARLIEST])", "flight <= columns[TYPE_ENDURANCE]",
+    "load <= columns[TYPE_CAPACITY + dimension]", "from model.kernel.clock import leave_by_profile",
+    "world.leg[m, here, there, 0]", "onward[there, 1]", "setting.drive[here, there]",
+])
+def test_a_rule_applied_outside_its_home_is_found(applied: str) -> None:
+    tree = ast.parse(applied)
+    assert names_in(tree) & set.union(*HOMES.values()) or tables_read(tree)
 
 
 def test_only_one_file_imports_the_compiler() -> None:

@@ -5,7 +5,7 @@ All are read here, so that what is looked up may be computed instead.
 
 from typing import NamedTuple
 
-from model.kernel.compiled import inlined
+from model.kernel.compiled import inlined, pasted
 from model.problem import IntArray
 
 LEG_DURATION, LEG_DISTANCE = range(2)
@@ -19,19 +19,19 @@ class Leg(NamedTuple):
     distance: int
 
 
-@inlined
+@pasted
 def legs_of(tables: IntArray, m: int) -> IntArray:
     """Return the legs of travel `m`, (origin, to, 2)."""
     return tables[m]
 
 
-@inlined
+@pasted
 def legs_from(tables: IntArray, m: int, node: int) -> IntArray:
     """Return the legs of travel `m` from a node, (to, 2), for a loop over where they lead."""
     return tables[m, node]
 
 
-@inlined
+@pasted
 def legs_to(tables: IntArray, m: int, node: int) -> IntArray:
     """Return the legs of travel `m` to a node, (origin, 2); `tables` (travel, to, origin, 2)."""
     return tables[m, node]
@@ -49,7 +49,13 @@ def leg_at(row: IntArray, node: int) -> Leg:
     return Leg(row[node, LEG_DURATION], row[node, LEG_DISTANCE])
 
 
+@pasted
+def matrix_of(matrices: IntArray, b: int, m: int) -> IntArray:
+    """Return the durations, or distances, of travel `m` in problem `b`, (origin, to)."""
+    return matrices[b, m]
+
+
 @inlined
 def lookup(matrix: IntArray, origin: int, to: int) -> int:
-    """Return the duration of a leg, or the distance, from a matrix of that alone."""
+    """Return the duration of a leg, or the distance, from a matrix of either."""
     return matrix[origin, to]

@@ -14,7 +14,7 @@ from model.kernel.instance import (
     TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
     TYPE_TRAVEL, Instance,
 )
-from model.kernel.leg import lookup
+from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of
 from model.kernel.stop import closing, lateness
 from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
@@ -188,7 +188,7 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     clock = vehicle[V_NEXT_START]
     if not vehicle[V_IDLE]:
         clock = max(vehicle[V_SERVICE_END], vehicle[V_FREE])
-        home = lookup(instance.duration[b, columns[TYPE_TRAVEL]], vehicle[V_NODE],
+        home = lookup(matrix_of(instance.duration, b, columns[TYPE_TRAVEL]), vehicle[V_NODE],
                       columns[TYPE_END])
         glob[3] = min(home / scale.time[b], 5.0)
         reserve += vehicle[V_LOAD]
@@ -235,8 +235,8 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
     rate, late_early = instance.rate[b, k], instance.late_early[b]
     unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
     home, here = setting.type[TYPE_END], vehicle[V_NODE]
-    distance = instance.distance[b, setting.type[TYPE_TRAVEL]]
-    flown = instance.distance[b, setting.type[TYPE_DRONE_TRAVEL]]
+    distance = matrix_of(instance.distance, b, setting.type[TYPE_TRAVEL])
+    flown = matrix_of(instance.distance, b, setting.type[TYPE_DRONE_TRAVEL])
     trips = state.log.count[r, COUNT_TRIPS]
     actions, features = seen.action[r, : seen.count[r]], seen.feature[r]
     nearest = _nearest_drive(setting.drive, here, actions)

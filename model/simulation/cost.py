@@ -5,7 +5,7 @@ from model.kernel.instance import (
     RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL, TYPE_TRAVEL,
     Instance,
 )
-from model.kernel.leg import lookup
+from model.kernel.leg import lookup, matrix_of
 from model.kernel.stop import lateness
 from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray
 from model.simulation.vehicle_log import (
@@ -32,8 +32,8 @@ def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: i
     """Add the cost of the vehicle in the log. In place."""
     rate = instance.rate[b, k]
     driven, flown, airborne = 0, 0, 0
-    legs = instance.distance[b, setting.type[TYPE_TRAVEL]]
-    flights = instance.distance[b, setting.type[TYPE_DRONE_TRAVEL]]
+    legs = matrix_of(instance.distance, b, setting.type[TYPE_TRAVEL])
+    flights = matrix_of(instance.distance, b, setting.type[TYPE_DRONE_TRAVEL])
     for index in range(1, log.count[COUNT_STOPS]):
         node = log.stop[index, STOP_NODE]
         driven += lookup(legs, log.stop[index - 1, STOP_NODE], node)

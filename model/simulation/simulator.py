@@ -19,7 +19,7 @@ from model.kernel.instance import (
     TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_TRAVEL,
     Instance,
 )
-from model.kernel.leg import lookup
+from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, within
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
@@ -191,8 +191,8 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     idle = vehicle[V_IDLE] == 1
     if idle and trips >= setting.type[TYPE_MAX_TRIPS]:
         return 0
-    legs = instance.distance[b, setting.type[TYPE_TRAVEL]]
-    home = setting.type[TYPE_END]
+    legs = matrix_of(instance.distance, b, setting.type[TYPE_TRAVEL])
+    here, home = vehicle[V_NODE], setting.type[TYPE_END]
     reach = setting.type[TYPE_MAX_DISTANCE] - vehicle[V_DISTANCE]
     began = 0 if idle else state.log.trip[r, trips - 1, TRIP_START]
     drones = state.drone[r, : setting.type[TYPE_DRONES]]
@@ -206,8 +206,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
         if served[node] or not within(demand_of(setting.node[node]), load_left(vehicle)):
             continue
         held = not idle and began < setting.node[node, NODE_RELEASE]
-        away = lookup(legs, vehicle[V_NODE], node) + lookup(legs, node, home)
-        if can_drive[node] and away <= reach:
+        if can_drive[node] and lookup(legs, here, node) + lookup(legs, node, home) <= reach:
             verdict = UNSURE
             if not held:
                 verdict = _judge_drive(setting, vehicle, drones, earliest, node,
@@ -282,7 +281,7 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
     if kind == LAUNCH:
         launch(setting, instance.size[b, 0], log, vehicle, drones, target)
     else:
-        legs = instance.distance[b, setting.type[TYPE_TRAVEL]]
+        legs = matrix_of(instance.distance, b, setting.type[TYPE_TRAVEL])
         vehicle[V_DISTANCE] += lookup(legs, vehicle[V_NODE], target)
         drive(setting, instance.size[b, 0], log, vehicle, drones, target)
     improve_departure(setting, instance.size[b, 0], log, vehicle)

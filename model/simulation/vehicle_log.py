@@ -16,7 +16,7 @@ from model.kernel.flight import (
     within_endurance,
 )
 from model.kernel.instance import TYPE_DRONE_TRAVEL, TYPE_RELOAD, TYPE_TRAVEL, Instance
-from model.kernel.leg import lookup
+from model.kernel.leg import lookup, matrix_of
 from model.kernel.stop import as_late, end_of_service, start_of_service, too_late
 from model.problem import IntArray
 
@@ -73,8 +73,8 @@ def log_of(logs: VehicleLog, r: int) -> VehicleLog:
 def setting_of(instance: Instance, b: int, k: int) -> Setting:
     """Return what vehicle type `k` meets in problem `b`, as views."""
     columns = instance.type[b, k]
-    return Setting(instance.node[b], columns, instance.duration[b, columns[TYPE_TRAVEL]],
-                   instance.duration[b, columns[TYPE_DRONE_TRAVEL]],
+    return Setting(instance.node[b], columns, matrix_of(instance.duration, b, columns[TYPE_TRAVEL]),
+                   matrix_of(instance.duration, b, columns[TYPE_DRONE_TRAVEL]),
                    instance.profile_time[b, k], instance.profile_factor[b, k])
 
 

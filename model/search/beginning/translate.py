@@ -4,10 +4,10 @@ import numpy as np
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
-from model.kernel.flight import ready
+from model.kernel.flight import ready, recovery_end
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_END,
-    TYPE_MAX_TRIPS, TYPE_RECOVERY, TYPE_START, NODE_DEMAND, NONE,
+    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_END, TYPE_MAX_TRIPS,
+    TYPE_START, NODE_DEMAND, NONE,
 )
 from model.kernel.stop import start_of_service
 from model.problem import FloatArray, IntArray, Problem
@@ -223,14 +223,23 @@ def finish_route(world: World, fleet: Fleet, slot: int, acc: IntArray) -> None:
 
 
 @compiled
-def visit_times(place: IntArray, columns: IntArray, nodes: IntArray,
-                arrivals: IntArray) -> tuple[IntArray, IntArray]:
-    """Return when service begins at customers, and when it ends if a drone serves them."""
-    starts, ends = np.empty_like(nodes), np.empty_like(nodes)
+def service_starts(place: IntArray, nodes: IntArray, arrivals: IntArray) -> IntArray:
+    """Return when service begins at customers."""
+    starts = np.empty_like(nodes)
     for index in range(len(nodes)):
-        row, arrival = place[nodes[index]], arrivals[index]
-        starts[index], ends[index] = start_of_service(row, arrival), ready(columns, row, arrival)
-    return starts, ends
+        starts[index] = start_of_service(place[nodes[index]], arrivals[index])
+    return starts
+
+
+@compiled
+def sortie_ends(place: IntArray, columns: IntArray, nodes: IntArray, arrivals: IntArray,
+                begin: int) -> tuple[IntArray, int]:
+    """Return when a drone has served its customers, and when it is aboard, recovered from `begin`.
+    """
+    ends = np.empty_like(nodes)
+    for index in range(len(nodes)):
+        ends[index] = ready(columns, place[nodes[index]], arrivals[index])
+    return ends, recovery_end(columns, begin)
 
 
 def _trips(world: World, fleet: Fleet, slot: int) -> tuple[Trip, ...]:
@@ -238,7 +247,7 @@ def _trips(world: World, fleet: Fleet, slot: int) -> tuple[Trip, ...]:
     columns = fleet.route[slot]
     kind = world.type[columns[R_TYPE]]
     rows = fleet.stop[slot, : columns[R_LENGTH]]
-    starts, _ = visit_times(world.place, kind, rows[:, S_NODE].copy(), rows[:, S_ARRIVAL].copy())
+    starts = service_starts(world.place, rows[:, S_NODE].copy(), rows[:, S_ARRIVAL].copy())
     stops = rows.tolist()
     halts = [_stop(row, start) for row, start in zip(stops, starts.tolist(), strict=True)]
     sorties = fleet.sortie[slot, : columns[R_SORTIES]]
@@ -263,10 +272,10 @@ def _stop(row: list[int], start: int) -> Stop:
 def _sortie(world: World, kind: IntArray, row: IntArray, first: int) -> Sortie:
     count, times = row[F_COUNT], F_NODE + world.max_visits
     nodes, arrivals = row[F_NODE:F_NODE + count], row[times:times + count]
-    starts, ends = visit_times(world.place, kind, nodes, arrivals)
-    visits = tuple(Visit(*times) for times in zip(
-        nodes.tolist(), arrivals.tolist(), starts.tolist(), ends.tolist(), strict=True))
     launch, recovery, drone, takeoff, begin = row[
         [F_LAUNCH, F_RECOVERY, F_DRONE, F_TAKEOFF, F_BEGIN]].tolist()
-    return Sortie(drone, launch - first, recovery - first, visits, takeoff, begin,
-                  begin + int(kind[TYPE_RECOVERY]))
+    starts = service_starts(world.place, nodes, arrivals)
+    ends, aboard = sortie_ends(world.place, kind, nodes, arrivals, begin)
+    visits = tuple(Visit(*visit) for visit in zip(
+        nodes.tolist(), arrivals.tolist(), starts.tolist(), ends.tolist(), strict=True))
+    return Sortie(drone, launch - first, recovery - first, visits, takeoff, begin, int(aboard))

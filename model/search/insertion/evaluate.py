@@ -38,13 +38,13 @@ def copy_part(fleet: Fleet, slot: int, first: int, last: int, to: int) -> int:
             target[p - first, column] = source[p, column]
         target[p - first, S_HOLD] = NONE
     skipped, count = 0, 0
-    flights, copies = fleet.sortie[slot], fleet.sortie[to]
+    sorties, copies = fleet.sortie[slot], fleet.sortie[to]
     for s in range(fleet.route[slot, R_SORTIES]):
-        launch = flights[s, F_LAUNCH]
+        launch = sorties[s, F_LAUNCH]
         if launch < first:
             skipped += 1
         elif launch <= last:
-            copy_row(flights[s], copies[count])
+            copy_row(sorties[s], copies[count])
             copies[count, F_LAUNCH] -= first
             copies[count, F_RECOVERY] -= first
             count += 1

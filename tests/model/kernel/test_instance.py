@@ -5,16 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge.timing import leg_end
-from model.kernel.clock import arrival_by_profile
 from model.kernel.instance import (
     FAR, NODE_DEMAND, NODE_LATEST, NODE_LIMIT, NO_PROFILE, TYPE_CAPACITY, TYPE_DRONES,
     TYPE_MAX_WORKING, TYPE_PROFILE, pack,
 )
 from model.problem import UNLIMITED, Problem
-from model.simulation.vehicle_log import setting_of
 from tests.model.rollouts import random_problems
-from tests.model.tiny import RUSH_HOUR
 
 
 def test_packing_nothing_is_an_error() -> None:
@@ -85,20 +81,6 @@ def test_the_table_decides_who_may_serve_whom(tiny_problem, customers, truck, dr
     instance = pack([replace(problem, may_serve=table)])
     assert instance.can_drive[0, :, 1:].tolist() == table.tolist()
     assert instance.can_fly[0, :, 1:].tolist() == [table[0].tolist(), [False] * 4]
-
-
-def test_compiled_legs_end_when_the_checker_says(tiny_problem, customers, truck) -> None:
-    problem = tiny_problem(*customers, truck=replace(truck, speed_profile=RUSH_HOUR))
-    setting = setting_of(pack([problem]), 0, 0)
-    rng = np.random.default_rng(3)
-    times = [0, *RUSH_HOUR.times, *rng.integers(0, 2_000_000, 500).tolist()]
-    for leave in times:
-        duration = int(rng.integers(0, 1_500_000))
-        arrival = arrival_by_profile(setting.profile_time, setting.profile_factor,
-                                     len(RUSH_HOUR.times), duration, leave)
-        assert arrival == leg_end(leave, duration, RUSH_HOUR)
-
-
 def test_neighbours_are_the_nearest_other_customers_in_order(tiny_problem, customers,
                                                              truck) -> None:
     problem = tiny_problem(*customers, truck=truck, places=(0.0, 1.0, 2.5, 4.0, 8.0))

@@ -1,0 +1,39 @@
+"""Tests of compiled legs by speeds that change with the time of day against the judge's."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numba import njit
+
+from model.judge import timing
+from model.kernel.clock import is_steady, leg_end, leg_start
+from model.kernel.instance import pack
+from model.problem import FULL_SPEED, IntArray, SpeedProfile
+from tests.model.tiny import MINUTE, RUSH_HOUR
+
+PROFILES = (None, RUSH_HOUR, SpeedProfile((), (FULL_SPEED // 7,)),
+            SpeedProfile((MINUTE, 2 * MINUTE, 9 * MINUTE), (999_983, 1, 123_457, FULL_SPEED)))
+
+
+@njit
+def both(columns: IntArray, times: IntArray, factors: IntArray, duration: int,
+         time: int) -> tuple[int, int, bool]:
+    return (leg_end(columns, times, factors, duration, time),
+            leg_start(columns, times, factors, duration, time), is_steady(columns))
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_legs_end_and_begin_when_the_judge_says(tiny_problem, customers, truck, profile) -> None:
+    instance = pack([tiny_problem(*customers, truck=replace(truck, speed_profile=profile))])
+    columns = instance.type[0, 0]
+    times, factors = instance.profile_time[0, 0], instance.profile_factor[0, 0]
+    rng = np.random.default_rng(3)
+    changes = () if profile is None else profile.times
+    for time in [0, *changes, *rng.integers(0, 20 * MINUTE, 300).tolist()]:
+        duration = int(rng.integers(0, 15 * MINUTE))
+        end, start, steady = both(columns, times, factors, duration, time)
+        assert end == timing.leg_end(time, duration, profile)
+        assert start == timing.leg_start(time, duration, profile)
+        assert steady == (profile is None)
+        assert timing.leg_end(start, duration, profile) <= time

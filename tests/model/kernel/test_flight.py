@@ -1,0 +1,131 @@
+"""Tests of the compiled meaning of flights against the judge's."""
+
+import numpy as np
+from numba import njit
+
+from model.judge.check import check
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, held_until, schedule
+from model.kernel.flight import (
+    can_last, counted_until, drone_service, enduring_within, handling_duration, held_takeoff,
+    launch_begin, launch_duration, ready, recovery_end, take_off, unreachable, within_endurance,
+)
+from model.kernel.instance import pack
+from model.problem import UNREACHABLE, DroneType, IntArray, Problem
+from model.solution import Solution
+from tests.model.tiny import MINUTE, draw_late, draw_tiny
+
+
+@njit
+def flown(columns: IntArray, place: IntArray, begin: int, out: int,
+          home: int) -> tuple[int, int, int, int]:
+    takeoff = held_takeoff(columns, place, take_off(columns, begin), home)
+    arrival = takeoff + out
+    back = ready(columns, place, arrival) + home
+    return takeoff, arrival, back, recovery_end(columns, back)
+
+
+@njit
+def is_short_enough(columns: IntArray, takeoff: int, back: int, begin: int) -> bool:
+    return within_endurance(columns, takeoff, back, begin)
+
+
+@njit
+def lasts(columns: IntArray, place: IntArray, out: int, home: int) -> tuple[bool, bool]:
+    flight = out + drone_service(columns, place) + home
+    return can_last(columns, flight), unreachable(out) or unreachable(home)
+
+
+@njit
+def enduring(columns: IntArray, takeoff_d: int, takeoff_c: int, d: int,
+             c: int) -> tuple[int, int]:
+    return enduring_within(columns, takeoff_d, takeoff_c, d, c)
+
+
+@njit
+def handled(columns: IntArray, time: int) -> tuple[int, int, int, int]:
+    return (launch_begin(columns, take_off(columns, time)), launch_duration(columns),
+            handling_duration(columns), counted_until(columns, time, time + 1))
+
+
+def drawn(seed: int, count: int = 200) -> list[tuple[Problem, DroneType, int, int]]:
+    """Return problems whose first type has drones, a customer's node in each, and a start."""
+    rng = np.random.default_rng(seed)
+    found = []
+    while len(found) < count:
+        problem = (draw_tiny, draw_late)[len(found) % 2](rng)
+        drones = problem.vehicle_types[0].drones
+        if drones is not None:
+            node = int(rng.integers(problem.num_depots, problem.num_nodes))
+            found.append((problem, drones, node, int(rng.integers(0, 60)) * MINUTE))
+    return found
+
+
+def test_a_sortie_is_timed_and_allowed_as_the_judge_says() -> None:
+    too_long = fine = held = 0
+    for problem, drones, node, start in drawn(seed=11):
+        depot, legs = problem.vehicle_types[0].depot, problem.travel[drones.travel].duration
+        out, home = legs.item(depot, node), legs.item(node, depot)
+        if UNREACHABLE in (out, home):
+            continue
+        decision = TripDecision((depot, depot), (SortieDecision((node,), 0, 0, 0),), start=start)
+        route = schedule(problem, RouteDecision(0, 0, (decision,)))
+        sortie, = route.trips[0].sorties
+        instance = pack([problem])
+        columns, place = instance.type[0, 0], instance.node[0, node]
+        if held_until(problem, drones, decision, decision.sorties[0]) == 0 and (
+                not lasts(columns, place, out, home)[0]):
+            too_long += 1
+            continue
+        takeoff, arrival, back, end = flown(columns, place, start, out, home)
+        assert (takeoff, arrival, end) == (sortie.launch_time, sortie.visits[0].arrival,
+                                           sortie.recovery_time)
+        assert back == sortie.visits[0].departure + home == sortie.recovery_start
+        others = tuple(other for other in range(problem.num_depots, problem.num_nodes)
+                       if other != node)
+        codes = {v.code for v in check(problem, Solution((route,), others)).violations}
+        assert is_short_enough(columns, takeoff, back, back) == ("ENDURANCE" not in codes)
+        fine, held = fine + ("ENDURANCE" not in codes), held + (
+            takeoff > start + drones.launch_duration)
+    assert min(too_long, fine, held) > 5
+
+
+def test_waiting_for_the_recovery_counts_where_it_is_said_to() -> None:
+    for problem, drones, _, takeoff in drawn(seed=12):
+        columns = pack([problem]).type[0, 0]
+        back = takeoff + drones.endurance
+        assert is_short_enough(columns, takeoff, back, back)
+        assert not is_short_enough(columns, takeoff, back + 1, back + 1)
+        assert (is_short_enough(columns, takeoff, back, back + 1)
+                != drones.endurance_includes_waiting)
+
+
+def test_a_flight_that_nobody_can_fly_never_lasts() -> None:
+    for problem, _, node, _ in drawn(seed=13, count=40):
+        instance = pack([problem])
+        columns, place = instance.type[0, 0], instance.node[0, node]
+        for out, home in ((UNREACHABLE, 0), (0, UNREACHABLE)):
+            assert lasts(columns, place, out, home) == (False, True)
+
+
+def test_launch_and_recovery_take_what_the_drone_says() -> None:
+    for problem, drones, _, time in drawn(seed=14, count=40):
+        begin, launch, both, counted = handled(pack([problem]).type[0, 0], time)
+        assert (begin, launch) == (time, drones.launch_duration)
+        assert both == drones.launch_duration + drones.recovery_duration
+        assert counted == time + drones.endurance_includes_waiting
+
+
+def test_endurance_allows_an_interval_of_arrivals_at_the_beginning_of_a_block() -> None:
+    rng = np.random.default_rng(15)
+    empty = bounded = 0
+    for problem, drones, _, _ in drawn(seed=15):
+        columns = pack([problem]).type[0, 0]
+        takeoff_d, takeoff_c = (int(value) * MINUTE for value in rng.integers(0, 30, 2))
+        d, c = (value + int(more) * MINUTE for value, more in zip(
+            (takeoff_d, takeoff_c), rng.integers(0, 30, 2), strict=True))
+        first, last = enduring(columns, takeoff_d, takeoff_c, d, c)
+        for time in range(0, 60 * MINUTE, MINUTE):
+            airborne = max(time + d, c) - max(time + takeoff_d, takeoff_c)
+            assert (first <= time <= last) == (airborne <= drones.endurance)
+        empty, bounded = empty + (first > last), bounded + (0 < first <= last)
+    assert min(empty, bounded) > 5

@@ -1,0 +1,134 @@
+"""Tests of the compiled meaning of windows against the judge's, and of its inverses."""
+
+import numpy as np
+import pytest
+from numba import njit
+
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.kernel.instance import pack
+from model.kernel.stop import (
+    allowed_within, as_late, closing, end_of_service, hours, lateness, latest_arrival,
+    latest_free_arrival, start_of_service, start_within, too_late, waiting, width,
+)
+from model.problem import MS_PER_HOUR, UNLIMITED, IntArray, Problem
+from model.solution import Route, Solution
+from tests.model.tiny import MINUTE, draw_tiny
+
+
+@njit
+def times(place: IntArray, arrival: int) -> tuple[int, int, int, int, bool]:
+    return (start_of_service(place, arrival), end_of_service(place, arrival),
+            waiting(place, arrival), lateness(place, arrival), too_late(place, arrival))
+
+
+@njit
+def times_of_hours(place: IntArray, arrival: int) -> tuple[int, int, int, int, bool]:
+    own = hours(place)
+    return (start_of_service(own, arrival), end_of_service(own, arrival), waiting(own, arrival),
+            lateness(own, arrival), too_late(own, arrival))
+
+
+@njit
+def last_arrivals(place: IntArray, arrival: int, leave: int) -> tuple[int, int, int]:
+    return (as_late(place, arrival), latest_arrival(place, leave),
+            latest_free_arrival(place, arrival, leave))
+
+
+@njit
+def within_block(place: IntArray, time: int, d: int, c: int) -> tuple[int, int, int, int]:
+    start_d, start_c = start_within(place, time, d, c)
+    first, last = allowed_within(place, time, d, c)
+    return start_d, start_c, first, last
+
+
+@njit
+def extent(place: IntArray) -> tuple[int, int]:
+    return closing(place), width(place)
+
+
+def drawn(seed: int, count: int = 150) -> list[tuple[Problem, int, IntArray, int]]:
+    """Return problems, one customer's node and row in each, and an instant."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for _ in range(count):
+        problem = draw_tiny(rng)
+        node = int(rng.integers(problem.num_depots, problem.num_nodes))
+        found.append((problem, node, pack([problem]).node[0, node],
+                      int(rng.integers(0, 70)) * MINUTE))
+    return found
+
+
+def visit(problem: Problem, node: int, start: int) -> Route:
+    """Return a truck's trip to one customer, as the judge times it."""
+    depot = problem.vehicle_types[0].depot
+    decision = TripDecision((depot, node, depot), start=start)
+    return schedule(problem, RouteDecision(0, 0, (decision,)))
+
+
+def leaves_by(place: IntArray, arrival: int, leave: int) -> bool:
+    """Tell whether an arrival is allowed and lets a truck leave by an instant."""
+    _, end, _, _, forbidden = times(place, arrival)
+    return end <= leave and not forbidden
+
+
+def test_service_begins_and_ends_when_the_judge_says() -> None:
+    for problem, node, place, start in drawn(seed=1):
+        stop = visit(problem, node, start).trips[0].stops[1]
+        begin, end, wait, _, _ = times(place, stop.arrival)
+        assert (begin, end) == (stop.service_start, stop.departure)
+        assert wait == stop.service_start - stop.arrival
+
+
+def test_an_arrival_is_late_or_too_late_when_the_judge_says() -> None:
+    hard = soft = 0
+    for problem, node, place, start in drawn(seed=2):
+        route = visit(problem, node, start)
+        others = tuple(other for other in range(problem.num_depots, problem.num_nodes)
+                       if other != node)
+        judged = check(problem, Solution((route,), others))
+        _, _, _, late, forbidden = times(place, route.trips[0].stops[1].arrival)
+        rate = problem.customer_at(node).late_cost_per_hour
+        assert forbidden == any(v.code == "TIME_WINDOW" for v in judged.violations)
+        assert forbidden == (late > 0 and rate is None)
+        assert judged.cost.lateness == pytest.approx(late / MS_PER_HOUR * (rate or 0.0))
+        hard, soft = hard + forbidden, soft + (judged.cost.lateness > 0)
+    assert hard > 10 < soft
+
+
+def test_what_a_loop_takes_along_says_the_same_as_the_row() -> None:
+    for _, _, place, arrival in drawn(seed=3):
+        assert times(place, arrival) == times_of_hours(place, arrival)
+
+
+def test_last_arrivals_are_the_last_ones_that_will_do() -> None:
+    for _, _, place, arrival in drawn(seed=4):
+        leave = arrival + 5 * MINUTE
+        late, latest, free = last_arrivals(place, arrival, leave)
+        allowed = times(place, arrival)[3]
+        assert times(place, late)[3] <= allowed < times(place, late + 1)[3]
+        if times(place, 0)[1] <= leave:
+            assert leaves_by(place, latest, leave)
+            assert not leaves_by(place, latest + 1, leave)
+        assert free == min(late, leave - (times(place, 0)[1] - times(place, 0)[0]))
+
+
+def test_a_pair_stands_for_all_arrivals_at_the_beginning_of_a_block() -> None:
+    rng = np.random.default_rng(5)
+    for _, _, place, time in drawn(seed=5):
+        d, c = (int(value) * MINUTE for value in rng.integers(0, 40, 2))
+        if times(place, c)[4]:
+            continue
+        start_d, start_c, first, last = within_block(place, time, d, c)
+        for other in range(0, 80 * MINUTE, 5 * MINUTE):
+            arrival = max(other + d, c)
+            begin, _, _, _, forbidden = times(place, arrival)
+            assert max(other + start_d, start_c) == begin
+            assert (first <= other <= last) == (not forbidden)
+
+
+def test_a_window_is_as_wide_as_it_is_stated() -> None:
+    for problem, node, place, _ in drawn(seed=6):
+        customer = problem.customer_at(node)
+        assert extent(place) == (customer.latest, customer.latest - customer.earliest)
+    assert UNLIMITED in {extent(place)[0] for _, _, place, _ in drawn(seed=6)}
