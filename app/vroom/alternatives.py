@@ -120,8 +120,9 @@ def _dearest_trip(problem: Problem) -> float:
     dearest = 1.0
     for kind in problem.vehicle_types:
         travel, first = problem.travel[kind.travel], problem.num_depots
-        away = travel.distance[kind.depot, first:] + travel.distance[first:, kind.depot]
-        time = travel.duration[kind.depot, first:] + travel.duration[first:, kind.depot]
+        start, end = kind.begins_at, kind.ends_at
+        away = travel.distance[start, first:] + travel.distance[first:, end]
+        time = travel.duration[start, first:] + travel.duration[first:, end]
         cost = (away / MM_PER_KM * kind.cost_per_km
                 + time / MS_PER_HOUR * kind.cost_per_hour + kind.fixed_cost)
         dearest = max(dearest, float(cost.max()))

@@ -14,7 +14,7 @@ from app.vroom.errors import INPUT, TOO_LARGE, VroomError
 from app.vroom.kinds import Loads, find_kinds, find_loads
 from app.vroom.models import Model
 from app.vroom.nodes import LONGEST, PARTS, Nodes, Slots
-from app.vroom.places import NOWHERE, Places, on_globe
+from app.vroom.places import Places, on_globe
 from app.vroom.reply import has_windows
 from app.vroom.schemas import VroomRequest, Window
 from app.vroom.timing import TIME_SCALE
@@ -68,7 +68,7 @@ class Converter:
             If the work on it is to end.
         """
         nodes = Nodes.of(self._places, self.kinds, slots)
-        number = len(nodes.origins)
+        number = len(nodes.sites)
         if number**2 > self._max_legs:
             raise VroomError(TOO_LARGE, "Too many starts and ends of vehicles and windows of jobs "
                                         f"({number}), maximum is {isqrt(self._max_legs)} "
@@ -109,9 +109,9 @@ class Converter:
         """Return the problem by given drives."""
         loads = find_loads(self._request, self.kinds, drives.relaxed)
         driven = [drives.drive(kind) for kind in self.kinds]
-        depots = {depot: node for node, depot in enumerate(nodes.depots)}
+        depots = {site: node for node, site in enumerate(nodes.depots)}
         vehicle_types = tuple(
-            self._vehicle_type(number, depots[kind.start, kind.end], drive, loads)
+            self._vehicle_type(number, depots[kind.start], depots[kind.end], drive, loads)
             for number, (kind, drive) in enumerate(zip(self.kinds, driven, strict=True)))
         services = drives.actions.common if self._is_timed else np.zeros(len(nodes.jobs), np.int64)
         customers = tuple(
@@ -153,12 +153,14 @@ class Converter:
         """Return the end of a window on the planner's clock."""
         return min(UNLIMITED, (seconds - self._origin) * PARTS)
 
-    def _vehicle_type(self, number: int, depot: int, drive: Drive, loads: Loads) -> VehicleType:
+    def _vehicle_type(self, number: int, start: int, end: int, drive: Drive,
+                      loads: Loads) -> VehicleType:
         kind = self.kinds[number]
         window = kind.stated.time_window
         return VehicleType(
             id=str(kind.stated.id), count=len(kind.vehicles),
-            capacity=tuple(loads.capacity[number].tolist()), travel=drive.travel, depot=depot,
+            capacity=tuple(loads.capacity[number].tolist()), travel=drive.travel, depot=start,
+            end=end,
             fixed_cost=float(kind.stated.costs.fixed), cost_per_km=drive.cost_per_km,
             cost_per_hour=drive.cost_per_hour,
             earliest=0 if window is None else self._instant(window[0]),
@@ -196,8 +198,8 @@ class Converter:
         if len(known) < len(points) or not on_globe(known):
             return _by_landmarks(travels[0].duration)
         placed = local_coordinates(np.array(known, np.float64))
-        # A depot without a start is seen where its vehicles end.
-        return placed[np.where(nodes.origins == NOWHERE, nodes.targets, nodes.origins)]
+        # Vehicles that start or end anywhere are seen to do so amid all places.
+        return np.vstack([placed, placed.mean(axis=0)])[nodes.sites]
 
 
 def _by_landmarks(duration: IntArray) -> FloatArray:

@@ -311,7 +311,7 @@ class Actions:
 
     def beside_travel(self, kind: Kind) -> IntArray:
         """Return (node, node) what a leg takes in addition: setup before, what is left after."""
-        depots, number = len(self._nodes.depots), len(self._nodes.origins)
+        depots, number = len(self._nodes.depots), len(self._nodes.sites)
         beside = np.zeros((number, number), np.int64)
         beside[depots:] += (self._always(kind.type) - self.common)[:, None]
         on_the_way = np.where(self._on_the_way, self._setup[kind.type], 0)
@@ -320,7 +320,7 @@ class Actions:
 
     def spent(self, kind: Kind) -> IntArray:
         """Return (node, node) the time for setup and service that a leg leads to."""
-        depots, number = len(self._nodes.depots), len(self._nodes.origins)
+        depots, number = len(self._nodes.depots), len(self._nodes.sites)
         spent = np.zeros((number, number), np.int64)
         spent[:, depots:] = (self._service[kind.type]
                              + self._setup[kind.type] * self._nodes.changes_place())

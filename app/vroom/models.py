@@ -136,8 +136,8 @@ class _Writer:
             return
         number = self._used.get(kind, 0)
         self._used[kind] = number + 1
-        depot = self._problem.vehicle_types[kind].depot
-        trip = TripDecision((depot, *nodes, depot))
+        vehicle_type = self._problem.vehicle_types[kind]
+        trip = TripDecision((vehicle_type.begins_at, *nodes, vehicle_type.ends_at))
         self._routes.append(schedule(self._problem, RouteDecision(kind, number, (trip,))))
         self._missing.difference_update(nodes)
 

@@ -22,24 +22,21 @@ Slots = Mapping[int, Sequence[Window | None]]
 
 @dataclass(frozen=True, eq=False)
 class Nodes:
-    """Depots, each a start and an end; then jobs, each in every one of its windows."""
+    """Starts and ends of vehicles, the planner's depots; then jobs, each in all its windows."""
 
-    depots: tuple[tuple[int, int], ...]  # sites of start and end
+    depots: tuple[int, ...]  # sites, perhaps NOWHERE
     jobs: tuple[int, ...]  # index into the request's jobs
     windows: tuple[Window | None, ...]  # of each of these
-    origins: IntArray  # (node,) site that is left
-    targets: IntArray  # (node,) site that is reached
+    sites: IntArray  # (node,) site or NOWHERE
 
     @classmethod
     def of(cls, places: Places, kinds: Sequence[Kind], slots: Slots) -> "Nodes":
         """Return the nodes for vehicles and jobs."""
-        depots = tuple(dict.fromkeys((kind.start, kind.end) for kind in kinds))
+        depots = tuple(dict.fromkeys(site for kind in kinds for site in (kind.start, kind.end)))
         chosen = [(job, window) for job, windows in slots.items() for window in windows]
         jobs = tuple(job for job, _ in chosen)
-        sites = places.jobs[list(jobs)]
-        starts, ends = np.array(depots, np.int64).T
-        return cls(depots, jobs, tuple(window for _, window in chosen),
-                   np.concatenate([starts, sites]), np.concatenate([ends, sites]))
+        sites = np.concatenate([np.array(depots, np.int64), places.jobs[list(jobs)]])
+        return cls(depots, jobs, tuple(window for _, window in chosen), sites)
 
     def of_job(self) -> dict[int, list[int]]:
         """Return the nodes of each job, one for each of its windows."""
@@ -54,14 +51,14 @@ class Nodes:
 
     def spread(self, matrix: IntArray) -> IntArray:
         """Return a matrix of sites with a row and a column for each node, 0 from and to nowhere."""
-        spread = at_most_longest(matrix)[np.ix_(self.origins, self.targets)]
-        spread[self.origins == NOWHERE] = 0
-        spread[:, self.targets == NOWHERE] = 0
+        spread = at_most_longest(matrix)[np.ix_(self.sites, self.sites)]
+        spread[self.sites == NOWHERE] = 0
+        spread[:, self.sites == NOWHERE] = 0
         return spread
 
     def changes_place(self) -> BoolArray:
         """Return (node, job) whether a job is at another place than the node before it."""
-        differs: BoolArray = self.origins[:, None] != self.targets[len(self.depots):]
+        differs: BoolArray = self.sites[:, None] != self.sites[len(self.depots):]
         return differs
 
 
