@@ -161,8 +161,11 @@ class VehicleType:
     reload_duration: int = 0  # at the depot between trips
     skills: frozenset[str] = frozenset()
     drones: DroneType | None = None
-    start: int | None = None  # where the first trip begins, a node; None: at the depot
-    end: int | None = None  # where the last trip ends
+    start: int | None = None  # where its trip begins, a node; None: at the depot
+    end: int | None = None  # where its trip ends
+    initial_load: tuple[int, ...] = ()  # what its trip carries beside its customers'; (): nothing
+    busy_until: int = 0  # its trip may begin sooner, and drones take off, but no truck leave
+    works_since: int | None = None  # its work counts from then; None: from its departure
 
     def __post_init__(self) -> None:
         _require(self.count >= 1, f"vehicle type {self.id} count", self.count)
@@ -179,9 +182,21 @@ class VehicleType:
                 _require_quantity(f"vehicle type {self.id} {name}", limit)
         for name in ("fixed_cost", "cost_per_km", "cost_per_hour"):
             _require_rate(f"vehicle type {self.id} {name}", getattr(self, name))
-        # Trips between need a place in the middle of routes, where the search knows of none.
-        _require(self.max_trips == 1 or self.begins_at == self.ends_at == self.depot,
-                 f"vehicle type {self.id} start and end by several trips", (self.start, self.end))
+        self._require_beginning()
+
+    def _require_beginning(self) -> None:
+        """Raise `ValueError` unless what is said of a vehicle's only trip makes sense."""
+        for load, most in zip(self.initial_load, self.capacity, strict=bool(self.initial_load)):
+            _require_quantity(f"vehicle type {self.id} initial_load", load, most)
+        _require_quantity(f"vehicle type {self.id} busy_until", self.busy_until)
+        if self.works_since is not None:
+            _require_quantity(f"vehicle type {self.id} works_since", self.works_since,
+                              self.earliest)
+        # One trip's end would be another's start, which the search takes for the same place.
+        apart = (self.begins_at != self.depot or self.ends_at != self.depot
+                 or any(self.initial_load) or self.busy_until > 0)
+        _require(self.max_trips == 1 or not apart, f"vehicle type {self.id} max_trips",
+                 self.max_trips)
 
     @property
     def begins_at(self) -> int:
@@ -269,6 +284,8 @@ class Problem:
         for place in ("depot", "begins_at", "ends_at"):
             node = getattr(vehicle_type, place)
             _require(0 <= node < self.num_depots, f"{name} {place}", node)
+        _require(len(vehicle_type.initial_load) in (0, self.num_dimensions), f"{name} initial_load",
+                 vehicle_type.initial_load)
         _require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
                  vehicle_type.travel)
         if vehicle_type.drones is not None:

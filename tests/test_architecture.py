@@ -52,6 +52,7 @@ ASKING = {"kernel/warming", "planner"}
 COMPILED_FOLDERS = ("kernel", "simulation", "policy", "search")
 
 HOMES = {
+    "kernel/start": {"TYPE_BEGUN", "TYPE_BUSY"},
     "kernel/stop": {"NODE_EARLIEST", "NODE_LATEST", "NODE_LIMIT", "NODE_SERVICE"},
     "kernel/flight": {"TYPE_DRONE_SERVICE", "TYPE_ENDURANCE", "TYPE_LAUNCH", "TYPE_RECOVERY",
                       "TYPE_WAITING_COUNTS", "UNREACHABLE"},

@@ -71,14 +71,15 @@ def _measure_sorties(
     )
 
 
-def _stop_loads(problem: Problem, trip: Trip) -> list[tuple[int, ...]]:
+def _stop_loads(problem: Problem, vehicle_type: VehicleType,
+                trip: Trip) -> list[tuple[int, ...]]:
     """Return what is on the truck when it leaves each stop, last stop first."""
     customers, first = problem.customers, len(problem.depots)
     unloaded = [[customers[stop.node - first].demand] for stop in trip.stops[1:-1]]
     unloaded = [[], *unloaded, []]
     for sortie in trip.sorties:
         unloaded[sortie.launch_stop] += [customers[v.node - first].demand for v in sortie.visits]
-    load = (0,) * problem.num_dimensions
+    load = vehicle_type.initial_load or (0,) * problem.num_dimensions
     loads = []
     for demands in reversed(unloaded):
         loads.append(load)
@@ -90,7 +91,7 @@ def _stop_loads(problem: Problem, trip: Trip) -> list[tuple[int, ...]]:
 def measure_trip(problem: Problem, vehicle_type: VehicleType, trip: Trip) -> TripMetrics:
     """Return a trip's metrics."""
     distance = problem.travel[vehicle_type.travel].distance
-    loads = _stop_loads(problem, trip)
+    loads = _stop_loads(problem, vehicle_type, trip)
     load = loads.pop()
     nodes = [stop.node for stop in trip.stops]
     return TripMetrics(
@@ -136,7 +137,10 @@ def measure_route(
 ) -> tuple[RouteMetrics, Cost]:
     """Return a route's metrics, made from those of its trips, and what it costs."""
     vehicle_type = problem.vehicle_types[route.vehicle_type]
-    working = route.trips[-1].stops[-1].departure - first_departure(route.trips[0])
+    begin = vehicle_type.works_since
+    if begin is None:
+        begin = first_departure(route.trips[0])
+    working = route.trips[-1].stops[-1].departure - begin
     distance = sum([trip.distance for trip in trips]) * vehicle_type.cost_per_km
     time = working * vehicle_type.cost_per_hour
     drones = vehicle_type.drones

@@ -296,6 +296,8 @@ def schedule_trip(
             arrival = leg_end(departure, duration.item(node, following), profile)
         node = following
         service_start = departure = arrival
+        if index == 0:
+            departure = max(arrival, vehicle_type.busy_until)
         if 0 < index < last:
             customer = customers[node - first]
             service_start = max(arrival, customer.earliest)

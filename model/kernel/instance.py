@@ -9,7 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.problem import UNLIMITED, BoolArray, Customer, FloatArray, IntArray, Problem, VehicleType
+from model.problem import (
+    MS_PER_HOUR, UNLIMITED, BoolArray, Customer, FloatArray, IntArray, Problem, VehicleType,
+)
 
 MAX_DIMENSIONS = 3
 
@@ -26,10 +28,11 @@ NODE_COLUMNS = NODE_DEMAND + MAX_DIMENSIONS
 last arrival that is allowed, `FAR` where lateness only costs; service duration; release; the last
 arrival that is not late; demand by dimension."""
 
-(TYPE_COUNT, TYPE_TRAVEL, TYPE_START, TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_WORKING,
+(TYPE_COUNT, TYPE_TRAVEL, TYPE_START, TYPE_END, TYPE_EARLIEST, TYPE_BUSY, TYPE_BEGUN, TYPE_LATEST,
+ TYPE_MAX_WORKING,
  TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_PROFILE, TYPE_DRONES, TYPE_DRONE_TRAVEL,
  TYPE_ENDURANCE, TYPE_WAITING_COUNTS, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_DRONE_SERVICE,
- TYPE_CAPACITY) = range(19)
+ TYPE_CAPACITY) = range(21)
 TYPE_PAYLOAD = TYPE_CAPACITY + MAX_DIMENSIONS
 TYPE_COLUMNS = TYPE_PAYLOAD + MAX_DIMENSIONS
 
@@ -39,7 +42,12 @@ RATE_FIXED, RATE_KM, RATE_HOUR, RATE_DRONE_KM, RATE_DRONE_HOUR = range(5)
 
 
 class Instance(NamedTuple):
-    """Packed problems. `TYPE_PROFILE` holds the number of speed changes or `NO_PROFILE`."""
+    """Packed problems.
+
+    `TYPE_PROFILE` holds the number of speed changes or `NO_PROFILE`. What a vehicle carries beside
+    its customers' is taken from its capacity; what it has worked when it may begin (`TYPE_BEGUN`)
+    is taken from its working duration, and costs as if it were fixed.
+    """
 
     size: IntArray  # (problem, 4) depots, customers, vehicle types, dimensions
     node: IntArray  # (problem, node, NODE_COLUMNS)
@@ -124,8 +132,9 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
     for index, kind in enumerate(problem.vehicle_types):
         instance.type[row, index] = _type_columns(kind)
         drones = kind.drones
+        worked = _worked(kind) / MS_PER_HOUR * kind.cost_per_hour
         instance.rate[row, index] = (
-            kind.fixed_cost, kind.cost_per_km, kind.cost_per_hour,
+            kind.fixed_cost + worked, kind.cost_per_km, kind.cost_per_hour,
             drones.cost_per_km if drones else 0.0, drones.cost_per_hour if drones else 0.0)
         if kind.speed_profile is not None:
             changes = len(kind.speed_profile.times)
@@ -141,10 +150,11 @@ def _customer_columns(customer: Customer) -> tuple[int, ...]:
 
 
 def _type_columns(kind: VehicleType) -> list[int]:
-    drones = kind.drones
+    drones, worked = kind.drones, _worked(kind)
     columns = [
-        kind.count, kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
-        UNLIMITED if kind.max_working_duration is None else kind.max_working_duration,
+        kind.count, kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.busy_until,
+        int(kind.works_since is not None), kind.latest,
+        UNLIMITED if kind.max_working_duration is None else kind.max_working_duration - worked,
         UNLIMITED if kind.max_trip_distance is None else kind.max_trip_distance,
         kind.max_trips, kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times)]
@@ -155,9 +165,16 @@ def _type_columns(kind: VehicleType) -> list[int]:
         columns += [drones.count, drones.travel, drones.endurance,
                     int(drones.endurance_includes_waiting), drones.launch_duration,
                     drones.recovery_duration, service]
+    load = kind.initial_load or (0,) * len(kind.capacity)
+    free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
     padding = [0] * (MAX_DIMENSIONS - len(kind.capacity))
     payload = (0,) * MAX_DIMENSIONS if drones is None else (*drones.capacity, *padding)
-    return [*columns, *kind.capacity, *padding, *payload]
+    return [*columns, *free, *padding, *payload]
+
+
+def _worked(kind: VehicleType) -> int:
+    """Return how long a vehicle has worked when it may begin."""
+    return 0 if kind.works_since is None else kind.earliest - kind.works_since
 
 
 def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:

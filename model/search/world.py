@@ -168,8 +168,8 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
 
 def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
     table = problem.may_serve
-    kinds = [(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest, kind.skills,
-              None if table is None else table[index].tobytes())
+    kinds = [(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.busy_until,
+              kind.latest, kind.skills, None if table is None else table[index].tobytes())
              for index, kind in enumerate(problem.vehicle_types)]
     alike = np.array([[one == other for other in kinds] for one in kinds])
     lean = mode & MODE_LEAN > 0

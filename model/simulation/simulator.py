@@ -21,6 +21,7 @@ from model.kernel.instance import (
 )
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, within
+from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
 from model.simulation.cost import COST_UNASSIGNED
@@ -56,6 +57,8 @@ def _judge_end(setting: Setting, end: int, departure: int, rigid: bool) -> int:
 
     `rigid` tells that the vehicle could not leave later than `departure` without ending later.
     """
+    departure = counted_from(setting.type, departure)
+    rigid = rigid or has_begun(setting.type)
     if end > setting.type[TYPE_LATEST]:
         return NO
     if end - departure <= setting.type[TYPE_MAX_WORKING]:
@@ -74,7 +77,8 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
     idle = vehicle[V_IDLE] == 1
     if idle:
         leave = max(vehicle[V_NEXT_START], place[NODE_RELEASE])
-        arrival = travel_arrival(setting, vehicle[V_NODE], node, leave)
+        out = leaves_first(setting.type, leave)
+        arrival = travel_arrival(setting, vehicle[V_NODE], node, out)
         free = arrival
     else:
         leave = vehicle[V_NEXT_START]
@@ -87,7 +91,7 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
     served = max(free, end_of_service(place, arrival))
     end = travel_arrival(setting, node, setting.type[TYPE_END], served)
     outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
-    departure = leave
+    departure = leaves_first(setting.type, leave)
     if earliest >= 0:
         departure = vehicle[V_DEPARTURE_BEST] if vehicle[V_FLYING] == 0 else earliest
     rigid = (start == arrival and vehicle[V_FLYING] == 0 and leave == vehicle[V_NEXT_START]
@@ -146,6 +150,8 @@ def _works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: I
     needed = vehicle[V_FREE] - setting.type[TYPE_MAX_WORKING]
     if first_departure(setting, log, vehicle[V_START_BEST]) >= needed:
         return True
+    if has_begun(setting.type):
+        return False
     return replay(setting, num_depots, log, 0, start_to_depart(setting, log, needed), False)
 
 

@@ -12,6 +12,7 @@ from model.kernel.instance import (
 )
 from model.kernel.leg import lookup
 from model.kernel.load import Amount, capacity_of, demand_of, minus
+from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, service_duration, start_of_service, too_late
 from model.problem import UNLIMITED, BoolArray, FloatArray, IntArray
 from model.simulation.cost import add_cost
@@ -150,19 +151,21 @@ def log_sorties(setting: Setting, log: VehicleLog, vehicle: IntArray, drones: In
 
 
 @inlined
-def begin_trip(log: VehicleLog, vehicle: IntArray, release: int) -> None:
+def begin_trip(setting: Setting, log: VehicleLog, vehicle: IntArray, release: int) -> None:
     """Begin a trip of the idle vehicle as soon as the parcel is released. In place."""
     start = max(vehicle[V_NEXT_START], release)
     trip = log.trip[log.count[COUNT_TRIPS]]
     trip[TRIP_FIRST_STOP], trip[TRIP_FIRST_OP] = log.count[COUNT_STOPS], log.count[COUNT_OPS]
     trip[TRIP_RELEASE], trip[TRIP_START] = release, start
     log.count[COUNT_TRIPS] += 1
-    log_stop(log, vehicle[V_NODE], start, start, start)
+    leave = leaves_first(setting.type, start)
+    log_stop(log, vehicle[V_NODE], start, start, leave)
     if log.count[COUNT_TRIPS] == 1:
         vehicle[V_START_BEST] = start
-        vehicle[V_DEPARTURE_BEST] = start
+        vehicle[V_DEPARTURE_BEST] = first_departure(setting, log, start)
     vehicle[V_IDLE] = 0
-    vehicle[V_SERVICE_END] = vehicle[V_FREE] = vehicle[V_CREW] = start
+    vehicle[V_SERVICE_END] = leave
+    vehicle[V_FREE] = vehicle[V_CREW] = start
 
 
 @inlined
@@ -180,6 +183,8 @@ def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntAr
     vehicle[V_SERVICE_END] = stop[STOP_START]
     if stop[STOP_NODE] >= num_depots:
         vehicle[V_SERVICE_END] += service_duration(setting.node[stop[STOP_NODE]])
+    else:
+        vehicle[V_SERVICE_END] = leaves_first(setting.type, vehicle[V_SERVICE_END])
     vehicle[V_FREE] = vehicle[V_CREW] = stop[STOP_ARRIVAL]
     last = log.count[COUNT_OPS] - 1
     while last >= 0 and log.op[last, OP_STOP] == here:
@@ -234,7 +239,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray
     """
     release = setting.node[node, NODE_RELEASE]
     if vehicle[V_IDLE]:
-        begin_trip(log, vehicle, release)
+        begin_trip(setting, log, vehicle, release)
     elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
     takeoff = take_off(setting.type, vehicle[V_FREE])
@@ -270,7 +275,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
     is_customer = node >= num_depots
     release = setting.node[node, NODE_RELEASE]
     if vehicle[V_IDLE]:
-        begin_trip(log, vehicle, release)
+        begin_trip(setting, log, vehicle, release)
     elif is_customer and not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
     left, arrival, free = leave_for(setting, vehicle, drones, node)

@@ -17,6 +17,7 @@ from model.kernel.flight import (
 )
 from model.kernel.instance import TYPE_DRONE_TRAVEL, TYPE_RELOAD, TYPE_TRAVEL, Instance
 from model.kernel.leg import lookup, matrix_of
+from model.kernel.start import counted_from, leaves_first
 from model.kernel.stop import as_late, end_of_service, start_of_service, too_late
 from model.problem import IntArray
 
@@ -170,6 +171,8 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
             if index > first:
                 arrival = travel_arrival(setting, log.stop[index - 1, STOP_NODE], node, leave)
             service_start = leave = free = launched = arrival
+            if index == first:
+                leave = leaves_first(setting.type, arrival)
             if node >= num_depots:
                 place = setting.node[node]
                 if not _arrival_allowed(place, arrival, log.stop[index, STOP_ARRIVAL], write):
@@ -213,10 +216,14 @@ def latest_start(setting: Setting, num_depots: int, log: VehicleLog, trip: int, 
 
 @compiled
 def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
-    """Return when truck or drone first leaves the depot if the first trip begins at `start`."""
+    """Return when truck or drone first leaves the depot if the first trip begins at `start`.
+
+    If its work counts from an instant, however late it leaves: that instant.
+    """
+    departure = leaves_first(setting.type, start)
     if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
-        return sortie_takeoff(setting, log, log.sortie[log.op[0, OP_SORTIE]], start)
-    return start
+        departure = sortie_takeoff(setting, log, log.sortie[log.op[0, OP_SORTIE]], start)
+    return counted_from(setting.type, departure)
 
 
 @compiled

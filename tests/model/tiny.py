@@ -122,6 +122,17 @@ def with_places(rng: np.random.Generator, problem: Problem) -> Problem:
         coordinates=problem.coordinates[nodes])
 
 
+def with_beginnings(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem whose vehicles have begun to work, loaded, and have something left to do."""
+    def begun(kind: VehicleType) -> VehicleType:
+        load = tuple(_draw(rng, 0, min(2, most), 1) for most in kind.capacity)
+        since = _draw(rng, 0, kind.earliest // MINUTE) if rng.random() < 0.7 else None
+        busy = kind.earliest + (_maybe(rng, 0.5, 1, 8) or 0)
+        return replace(kind, max_trips=1, initial_load=load, works_since=since, busy_until=busy)
+
+    return replace(problem, vehicle_types=tuple(map(begun, problem.vehicle_types)))
+
+
 def draw_late(rng: np.random.Generator) -> Problem:
     """Draw a problem with drones some of whose windows open long after all else is done."""
     problem = draw_tiny(rng, drone_share=1.0)

@@ -15,6 +15,7 @@ from model.kernel.instance import (
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import Amount, demand_of, holds, plus
+from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival
 from model.problem import IntArray
 from model.search.route.layout import NOWHERE, World
@@ -87,7 +88,7 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray) 
         place, link = world.place[node], chain[node]
         link[C_BEFORE], link[C_BEHIND], link[C_ROUTE], link[C_LAST] = NOWHERE, NOWHERE, node, node
         set_chain_load(link, demand_of(place))
-        ready = max(columns[TYPE_EARLIEST], place[NODE_RELEASE])
+        ready = max(leaves_first(columns, columns[TYPE_EARLIEST]), place[NODE_RELEASE])
         link[C_LEAVE] = end_of_service(place, ready + leg(legs, start, node).duration)
         leave = columns[TYPE_LATEST] - leg(legs, node, end).duration
         link[C_LATEST] = latest_arrival(place, leave)

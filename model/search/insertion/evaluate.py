@@ -7,6 +7,7 @@ from model.kernel.instance import (
     NONE,
 )
 from model.kernel.leg import leg, leg_at, legs_of, legs_to
+from model.kernel.start import counted_from
 from model.kernel.stop import as_late, end_of_service, service_duration, too_late
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block
@@ -136,7 +137,7 @@ def price_part(world: World, fleet: Fleet, slot: int, first: int, last: int, to:
         depart = min(depart, behind[S_LATEST] - cum)
         cum += behind[S_REST]
         end = max(arrival + behind[S_REST], behind[S_END])
-    working = end - min(depart, end - cum) - route[R_OFFSET]
+    working = end - counted_from(world.type[k], min(depart, end - cum)) - route[R_OFFSET]
     if working > world.type[k, TYPE_MAX_WORKING]:
         return INFEASIBLE
     for p in range(first, last):
@@ -264,7 +265,7 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     else:
         depart = min(depart, behind[S_LATEST] - cum)
         end, cum = max(time + behind[S_REST], behind[S_END]), cum + behind[S_REST]
-    working = end - min(depart, end - cum) - route[R_OFFSET]
+    working = end - counted_from(world.type[k], min(depart, end - cum)) - route[R_OFFSET]
     if working > world.type[k, TYPE_MAX_WORKING]:
         return INFEASIBLE
     return cost + (working - route[R_WORKING]) * world.rate[k, RATE_HOUR]

@@ -8,6 +8,7 @@ from model.kernel.flight import (
 )
 from model.kernel.instance import FAR, NONE, TYPE_DRONE_TRAVEL, TYPE_LATEST, TYPE_TRAVEL
 from model.kernel.leg import leg, legs_of
+from model.kernel.start import leaves_first
 from model.kernel.stop import allowed_within, as_late, service_duration, start_within, too_late
 from model.problem import IntArray
 from model.search.route.layout import (
@@ -37,7 +38,7 @@ def travel(world: World, k: int, duration: int, d: int, c: int) -> tuple[int, in
 
 
 @inlined
-def serve(world: World, stop: IntArray, time: int, d: int, c: int) -> tuple[int, int]:
+def serve(world: World, k: int, stop: IntArray, time: int, d: int, c: int) -> tuple[int, int]:
     """Return the pair at the end of what a truck does at a stop by itself, reached at (d, c)."""
     kind = stop[S_KIND]
     if kind == CUSTOMER:
@@ -45,7 +46,8 @@ def serve(world: World, stop: IntArray, time: int, d: int, c: int) -> tuple[int,
         start_d, start_c = start_within(place, time, d, c)
         return start_d + service_duration(place), start_c + service_duration(place)
     if kind == START:
-        return d, max(c, max(stop[S_RELEASE], stop[S_HOLD]))
+        ready = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
+        return d, leaves_first(world.type[k], ready)
     return d, c
 
 
@@ -53,7 +55,7 @@ def serve(world: World, stop: IntArray, time: int, d: int, c: int) -> tuple[int,
 def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
     """Write the block of a stop without launches, reached at `time`. In place."""
     d, c = origin(world, k, time)
-    stop[S_D], stop[S_C] = serve(world, stop, time, d, c)
+    stop[S_D], stop[S_C] = serve(world, k, stop, time, d, c)
     stop[S_LO], stop[S_HI], stop[S_DEP] = NONE, FAR, FAR
     if stop[S_KIND] == CUSTOMER:
         place = world.place[stop[S_NODE]]
@@ -259,7 +261,7 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
         elif kind == START:
             c = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
         acc[A_FREE_D], acc[A_FREE_C] = d, c
-        d, c = serve(world, stop, time, d, c)
+        d, c = serve(world, k, stop, time, d, c)
         if not operate(world.place, flights, columns, sorties, count, p, node, acc):
             return -1
         d, c = max(d, acc[A_FREE_D]), max(c, acc[A_FREE_C])

@@ -5,6 +5,7 @@ from model.kernel.copying import clear
 from model.kernel.instance import RATE_FIXED, RATE_KM, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds
+from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival, too_late
 from model.problem import IntArray
 from model.search.route.layout import (
@@ -23,7 +24,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     legs = legs_of(world.leg, columns[TYPE_TRAVEL])
     clear(trip)
     route[R_TRIPS], trip[T_LAST] = 1, last
-    time, node = columns[TYPE_EARLIEST], stops[0, S_NODE]
+    time, node = leaves_first(columns, columns[TYPE_EARLIEST]), stops[0, S_NODE]
     stops[0, S_LEAVE], stops[0, S_FLYING], stops[0, S_TRIP] = time, 0, 0
     for p in range(1, last + 1):
         following = stops[p, S_NODE]

@@ -3,6 +3,7 @@
 from model.kernel.clock import leg_start
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import FAR, NONE, TYPE_MAX_WORKING
+from model.kernel.start import counted_from, leaves_first
 from model.kernel.stop import latest_free_arrival
 from model.problem import IntArray, UIntArray
 from model.search.route.layout import (
@@ -106,15 +107,16 @@ def settle(world: World, route: IntArray, stops: IntArray, trips: IntArray, sort
 
 
 @inlined
-def settled_departure(route: IntArray, stops: IntArray, sorties: IntArray) -> int:
+def settled_departure(world: World, route: IntArray, stops: IntArray, sorties: IntArray) -> int:
     """Return when truck or drone first leaves the depot on a settled route."""
-    depart = FAR
+    depart, columns = FAR, world.type[route[R_TYPE]]
     for s in range(route[R_SORTIES]):
         if sorties[s, F_LAUNCH] == 0:
             depart = min(depart, sorties[s, F_TAKEOFF])
     if depart == FAR:
         depart = max(stops[0, S_ARRIVAL], max(stops[0, S_RELEASE], stops[0, S_HOLD]))
-    return depart
+        depart = leaves_first(columns, depart)
+    return counted_from(columns, depart)
 
 
 @inlined
@@ -134,7 +136,7 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: IntArray) -> bool:
     if mode & MODE_SETTLED:
         if not settle(world, route, stops, trips, sorties, acc):
             return False
-        depart = settled_departure(route, stops, sorties)
+        depart = settled_departure(world, route, stops, sorties)
     route[R_WORKING] = route[R_END] - depart
     if route[R_WORKING] > world.type[route[R_TYPE], TYPE_MAX_WORKING]:
         return False

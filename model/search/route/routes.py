@@ -9,6 +9,7 @@ from model.kernel.instance import (
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds
+from model.kernel.start import counted_from, has_begun
 from model.kernel.stop import lateness, waiting
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block, travel
@@ -194,11 +195,11 @@ def sortie_cost(world: World, k: int, stops: IntArray, sortie: IntArray) -> floa
 def first_departure(world: World, route: IntArray, stops: IntArray, sorties: IntArray) -> int:
     """Return when truck or drone first leaves the depot, as late as costs nothing."""
     depart = min(stops[route[R_LENGTH] - 1, S_DEPART], route[R_END] - route[R_CUM])
-    offset = 0
-    if route[R_SORTIES] > 0 and sorties[0, F_LAUNCH] == 0:
-        offset = launch_duration(world.type[route[R_TYPE]])
+    offset, columns = 0, world.type[route[R_TYPE]]
+    if route[R_SORTIES] > 0 and sorties[0, F_LAUNCH] == 0 and not has_begun(columns):
+        offset = launch_duration(columns)
     route[R_OFFSET] = offset
-    return depart + offset
+    return counted_from(columns, depart + offset)
 
 
 @inlined

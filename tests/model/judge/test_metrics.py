@@ -41,6 +41,49 @@ def test_leaving_out_costs_what_the_customer_states(tiny_problem, customers, tru
     assert check(problem, Solution((), (1, 2, 3, 4))).cost == Cost(unassigned=207.5)
 
 
+def test_work_counts_from_when_it_is_said_to(tiny_problem, customers, truck):
+    begun = replace(truck, cost_per_hour=60.0, earliest=5 * MINUTE, works_since=2 * MINUTE)
+    problem = tiny_problem(*customers[:2], truck=begun)
+    late = TripDecision((0, 1, 2, 0), start=9 * MINUTE)
+    evaluation = check(problem, plan(problem, late))
+    assert evaluation.violations == ()
+    # 18 minutes from the departure
+    assert evaluation.routes[0].working_duration == 25 * MINUTE
+    assert evaluation.cost.time == pytest.approx(25.0)
+
+
+def test_a_busy_truck_leaves_later_than_its_drone(tiny_problem, customers, truck, drones):
+    busy = replace(truck, drones=drones, busy_until=4 * MINUTE)
+    problem = tiny_problem(*customers[:3], truck=busy)
+    trip = TripDecision((0, 1, 0), (SortieDecision((2,), 0, 1),), start=0)
+    evaluation = check(problem, replace(plan(problem, trip), unassigned=(3,)))
+    assert evaluation.violations == ()
+    route = plan(problem, trip).routes[0]
+    assert route.trips[0].stops[0].departure == 4 * MINUTE
+    assert route.trips[0].sorties[0].launch_time == MINUTE
+
+
+def test_what_else_is_aboard_counts(tiny_problem, customers, truck):
+    loaded = replace(truck, initial_load=(8000,))
+    problem = tiny_problem(*customers[:2], truck=loaded)
+    evaluation = check(problem, plan(problem, TripDecision((0, 1, 2, 0))))
+    assert evaluation.violations == ()
+    trip = evaluation.routes[0].trips[0]
+    assert (trip.load, trip.load_rate) == ((10_000,), 1.0)
+    assert trip.stop_loads == ((10_000,), (9000,), (8000,), (8000,))
+    more = tiny_problem(*customers[:2], truck=replace(loaded, initial_load=(8001,)))
+    assert [item.code for item in check(more, plan(more, TripDecision((0, 1, 2, 0)))).violations
+            ] == ["CAPACITY"]
+
+
+@pytest.mark.parametrize("field", [{"start": 1}, {"end": 1}, {"initial_load": (1,)},
+                                   {"busy_until": 1}])
+def test_a_beginning_of_its_own_is_for_one_trip(field, truck):
+    replace(truck, **field)
+    with pytest.raises(ValueError, match="max_trips: 2"):
+        replace(truck, max_trips=2, **field)
+
+
 def test_soft_windows_cost(tiny_problem, customers, truck, drones):
     a = replace(customers[0], earliest=4 * MINUTE, early_cost_per_hour=30.0)  # waits 2 min
     b = replace(customers[1], latest=8 * MINUTE, late_cost_per_hour=60.0)  # reached at 11

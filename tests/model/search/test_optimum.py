@@ -15,7 +15,7 @@ from model.problem import (
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
-from tests.model.tiny import draw_tiny, with_places
+from tests.model.tiny import draw_tiny, with_beginnings, with_places
 
 MINUTE = 60_000
 TURNS = 6_000
@@ -188,6 +188,10 @@ def all_rules_elsewhere(rng: np.random.Generator) -> Problem:
     return with_places(rng, all_rules(rng))
 
 
+def all_rules_begun(rng: np.random.Generator) -> Problem:
+    return with_beginnings(rng, with_places(rng, all_rules(rng)))
+
+
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     assert missed_seeds(draw, range(4)) == []
@@ -204,5 +208,8 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
     assert missed_seeds(lambda rng: with_places(rng, draw(rng)), range(3)) == []
 
 
-def test_search_finds_the_cheapest_plan_from_place_to_place_where_all_rules_mix() -> None:
-    assert missed_seeds(all_rules_elsewhere, range(60)) == []
+@pytest.mark.parametrize("draw", [all_rules_elsewhere, all_rules_begun],
+                         ids=lambda draw: draw.__name__)
+def test_search_finds_the_cheapest_plan_however_vehicles_begin(
+        draw: Callable[[np.random.Generator], Problem]) -> None:
+    assert missed_seeds(draw, range(60)) == []
