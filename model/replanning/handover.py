@@ -23,8 +23,8 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
 
     Customers for whom a rule is broken are left out.
     """
-    number = len(left.nodes) - len(left.anchors)
-    here = {node: index for index, node in enumerate(left.nodes[:number])}
+    first = left.problem.num_depots
+    here = {node: index for index, node in enumerate(left.nodes[first:], first)}
     decisions = [
         _rest_of_trip(left, kind, way_on.planned, here) for kind, worker in left.workers.items()
         if worker.is_under_way and (way_on := kept[worker.vehicle].way_on) is not None]
@@ -35,20 +35,12 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
         if kind is None or used[kind] >= left.problem.vehicle_types[kind].count:
             continue
         trips = [_moved(trip, here) for trip in _trips_left(problem, route, kept.get(vehicle))]
-        trips = _anchored(left, kind, [trip for trip in trips if customers_of(trip)])
+        trips = [trip for trip in trips if customers_of(trip)]
+        trips = trips[:left.problem.vehicle_types[kind].max_trips]
         if trips:
             decisions.append(RouteDecision(kind, used[kind], tuple(trips)))
             used[kind] += 1
     return _scheduled(left, decisions)
-
-
-def _anchored(left: Remainder, kind: int, trips: list[TripDecision]) -> list[TripDecision]:
-    """Return as many trips as a type may make, the first to its anchor if it has one."""
-    vehicle_type = left.problem.vehicle_types[kind]
-    if kind in left.anchors:
-        first = TripDecision((vehicle_type.depot, left.anchors[kind], vehicle_type.depot))
-        trips = [first, *trips]
-    return trips[:vehicle_type.max_trips]
 
 
 def _trips_left(problem: Problem, route: Route, kept: Kept | None) -> list[TripDecision]:
@@ -78,14 +70,10 @@ def _moved(decision: TripDecision, here: Mapping[int, int]) -> TripDecision:
 
 def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
                   here: Mapping[int, int]) -> RouteDecision:
-    """Return how a vehicle goes on from its anchor with the trip that it is on."""
-    depot = left.problem.vehicle_types[kind].depot
-    rest = _moved(planned, here)
-    sorties = tuple(replace(sortie, launch_stop=sortie.launch_stop + 1,
-                            recovery_stop=sortie.recovery_stop + 1) for sortie in rest.sorties)
-    operations = None if rest.operations is None else ((), *rest.operations)
-    trip = TripDecision((depot, left.anchors[kind], *rest.nodes[1:-1], depot), sorties, operations)
-    return RouteDecision(kind, 0, (trip,))
+    """Return how a vehicle goes on with the trip that it is on."""
+    own, rest = left.problem.vehicle_types[kind], _moved(planned, here)
+    nodes = (own.begins_at, *rest.nodes[1:-1], own.ends_at)
+    return RouteDecision(kind, 0, (TripDecision(nodes, rest.sorties, rest.operations),))
 
 
 def _scheduled(left: Remainder, decisions: Iterable[RouteDecision]) -> Solution:
@@ -98,7 +86,7 @@ def _mended(left: Remainder, decision: RouteDecision) -> Route | None:
     """Return a route without the customers for whom it breaks rules; None if nobody is left."""
     if not decision.trips:
         return None
-    return repaired_route(left.problem, decision, set(left.anchors.values()),
+    return repaired_route(left.problem, decision, (),
                           [partial(_timed, left.problem), partial(_timed_at_once, left.problem)])
 
 
@@ -132,32 +120,6 @@ def _served(trip: Trip) -> list[int]:
             *(visit.node for sortie in trip.sorties for visit in sortie.visits)]
 
 
-def with_anchors(left: Remainder, plan: Solution) -> Solution:
-    """Return a plan of what is left in which every vehicle under way goes on from its anchor.
-
-    Where one was left out, it comes first and those whom that makes late are left out.
-    """
-    routes = {route.vehicle_type: route for route in plan.routes}
-    missing = [kind for kind, node in left.anchors.items()
-               if kind not in routes or node not in _customers(routes[kind])]
-    if not missing:
-        return plan
-    mended = []
-    for kind in missing:
-        later = [_decision(left.problem, kind, trip)
-                 for trip in (routes[kind].trips if kind in routes else ())]
-        decision = RouteDecision(kind, 0, tuple(_anchored(left, kind, later)))
-        mended.append(_mended(left, decision))
-    others = [route for route in plan.routes if route.vehicle_type not in missing]
-    return _complete(left.problem,
-                     (*others, *(route for route in mended if route is not None)))
-
-
-def _decision(problem: Problem, kind: int, trip: Trip) -> TripDecision:
-    drones = problem.vehicle_types[kind].drones
-    return read_decision(trip, 0 if drones is None else drones.launch_duration)
-
-
 def settled(problem: Problem, kept: Mapping[Vehicle, Kept]) -> Solution:
     """Return the plan in which vehicles do what they do in any case, and go home."""
     return _complete(problem, tuple(route.route for route in kept.values()))
@@ -165,7 +127,7 @@ def settled(problem: Problem, kept: Mapping[Vehicle, Kept]) -> Solution:
 
 def take_back(problem: Problem, past: Past, before: Solution, kept: Mapping[Vehicle, Kept],
               left: Remainder, plan: Solution) -> Solution:
-    """Return a plan of the whole from a plan of what is left, in which no anchor is left out.
+    """Return a plan of the whole from a plan of what is left.
 
     Vehicles that have begun to work come first, in the order of `kept`. Others keep their numbers
     in `before`, the plan given, where they serve the same customers.
@@ -175,16 +137,16 @@ def take_back(problem: Problem, past: Past, before: Solution, kept: Mapping[Vehi
     # The rest of a trip before later ones.
     for route in sorted(plan.routes, key=lambda route: not _is_under_way(left, route)):
         worker = left.workers.get(route.vehicle_type)
-        mine = route.trips if _is_under_way(left, route) else _without_anchor(left, route)
-        if worker is None:
-            others.append(Route(left.kinds[route.vehicle_type], 0,
-                                tuple(_whole(trip, left.nodes) for trip in mine)))
-        elif worker.is_under_way:
+        if worker is not None and worker.is_under_way:
             *done, last = trips[worker.vehicle]
-            trips[worker.vehicle] = (*done, _joined(last, mine[0], left.nodes))
-        elif mine:
-            trips[worker.vehicle] = (*trips.get(worker.vehicle, ()),
-                                     *(_whole(trip, left.nodes) for trip in mine))
+            rest = _begun_at_once(left.problem, route)
+            trips[worker.vehicle] = (*done, _joined(last, rest, left.nodes))
+            continue
+        mine = tuple(_whole(trip, left.nodes) for trip in route.trips)
+        if worker is None:
+            others.append(Route(left.kinds[route.vehicle_type], 0, mine))
+        else:
+            trips[worker.vehicle] = (*trips.get(worker.vehicle, ()), *mine)
     known = [Route(*vehicle, done) for vehicle, done in trips.items()]
     taken = {*trips, *(worker.vehicle for worker in left.workers.values()), *past.unavailable}
     return _complete(problem, (*known, *_numbered(before, taken, others)))
@@ -195,10 +157,13 @@ def _is_under_way(left: Remainder, route: Route) -> bool:
     return worker is not None and worker.is_under_way
 
 
-def _without_anchor(left: Remainder, route: Route) -> tuple[Trip, ...]:
-    """Return a route's trips but for the one to an anchor at the depot, where nobody is served."""
-    anchor = left.anchors.get(route.vehicle_type)
-    return tuple(trip for trip in route.trips if trip.stops[1].node != anchor)
+def _begun_at_once(problem: Problem, route: Route) -> Trip:
+    """Return the rest of a trip without waiting where it begins, which no trip under way does."""
+    kind, trip = problem.vehicle_types[route.vehicle_type], route.trips[0]
+    if trip.stops[0].arrival == kind.earliest:
+        return trip
+    decision = read_decision(trip, 0 if kind.drones is None else kind.drones.launch_duration)
+    return schedule_trip(problem, kind, replace(decision, start=None), kind.earliest)
 
 
 def _whole(trip: Trip, nodes: Sequence[int], offset: int = 0) -> Trip:
@@ -213,11 +178,11 @@ def _whole(trip: Trip, nodes: Sequence[int], offset: int = 0) -> Trip:
 
 
 def _joined(begun: Trip, rest: Trip, nodes: Sequence[int]) -> Trip:
-    """Return a trip that goes on at its last stop but the depot as another from its anchor."""
+    """Return a trip that goes on at its last stop but the depot as another from there."""
     position = len(begun.stops) - 2
-    rest = _whole(rest, nodes, position - 1)
-    here = replace(begun.stops[position], departure=rest.stops[1].departure)
-    return Trip((*begun.stops[:position], here, *rest.stops[2:]),
+    rest = _whole(rest, nodes, position)
+    here = replace(begun.stops[position], departure=rest.stops[0].departure)
+    return Trip((*begun.stops[:position], here, *rest.stops[1:]),
                 (*begun.sorties, *rest.sorties))
 
 

@@ -1,8 +1,7 @@
 """What is left to plan, as a problem of its own.
 
-What one vehicle alone can do is a type of its own. A customer stands for the place from which it
-goes on, its anchor: nothing of that vehicle's comes before, and only those whose parcels are aboard
-come behind on the same trip.
+What one vehicle alone can do is a type of its own. The rest of a trip begins at the place where its
+vehicle is, a depot here, and serves those whose parcels are aboard.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,13 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from model.judge.past import Past, Vehicle
-from model.problem import (
-    MAX_QUANTITY, UNREACHABLE, BoolArray, Customer, IntArray, Problem, Travel, VehicleType,
-)
+from model.problem import BoolArray, Customer, Depot, Problem, Travel, VehicleType
 from model.replanning.kept import Kept
-from model.replanning.workers import Anchor, Worker
-
-TRUCK, DRONE = "truck", "drone"
+from model.replanning.workers import Worker
 
 NOBODY, ANYBODY = -1, -2
 """Instead of the only type that may serve a customer."""
@@ -25,13 +20,12 @@ NOBODY, ANYBODY = -1, -2
 
 @dataclass(frozen=True)
 class Remainder:
-    """The problem that is left. Its nodes are depots, customers to plan, then anchors."""
+    """The problem that is left. Its depots are those of the whole, then places of vehicles."""
 
     problem: Problem
-    nodes: tuple[int, ...]  # of the whole problem; an anchor's is the place that it stands for
+    nodes: tuple[int, ...]  # of the whole problem
     kinds: tuple[int, ...]  # by type: that of the whole problem
     workers: Mapping[int, Worker]  # types that are one vehicle
-    anchors: Mapping[int, int]  # by type, nodes here
 
     @property
     def num_plain(self) -> int:
@@ -71,27 +65,23 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     plain = _plain_types(problem, past, kept, workers)
     if not nodes or not (plain or workers):
         return None
-    owners = dict(enumerate(workers, len(plain)))
-    places = {kind: worker.anchor for kind, worker in owners.items() if worker.anchor is not None}
-    first = problem.num_depots + len(nodes)
-    anchors = {kind: first + index for index, kind in enumerate(places)}
-    source = [*range(problem.num_depots), *nodes, *(anchor.node for anchor in places.values())]
-    here = {node: index for index, node in enumerate(source[:first])}
     kinds = (*plain, *(own.vehicle.type for own in workers))
-    travels = _Travels(problem, source)
-    types = [travels.moved(kind) for kind in (*plain.values(), *(own.kind for own in workers))]
-    for index, anchor in places.items():
-        travels.begin(types[index], anchor, anchors[index],
-                      [here[node] for node in owners[index].aboard])
-    customers = [_back(problem.customer_at(node), past.returned.get(node, 0))
-                 for node in nodes]
-    customers += [_anchor_customer(types[kind], anchor) for kind, anchor in places.items()]
-    table = _table(problem, past, kinds, owners, nodes)
-    at_anchors = np.arange(len(kinds))[:, None] == np.array([*places], np.int64)
-    left = Problem(problem.depots, tuple(customers), tuple(types), travels.built(),
-                   problem.coordinates[source], problem.unassigned_cost,
-                   problem.amount_decimals, np.hstack([table, at_anchors]))
-    return Remainder(left, tuple(source), kinds, owners, anchors)
+    owners = dict(enumerate(workers, len(plain)))
+    places = {kind: own.place for kind, own in owners.items() if own.place is not None}
+    source = [*range(problem.num_depots), *places.values(), *nodes]
+    start = {kind: problem.num_depots + index for index, kind in enumerate(places)}
+    types = [replace(kind, start=start.get(index, kind.start))
+             for index, kind in enumerate((*plain.values(), *(own.kind for own in workers)))]
+    grid = np.ix_(source, source)
+    left = replace(
+        problem,
+        depots=(*problem.depots, *(Depot(f"start of {types[kind].id}") for kind in places)),
+        customers=tuple(_back(problem.customer_at(node), past.returned.get(node, 0))
+                        for node in nodes),
+        vehicle_types=tuple(types), coordinates=problem.coordinates[source],
+        travel=tuple(Travel(each.duration[grid], each.distance[grid]) for each in problem.travel),
+        may_serve=_table(problem, past, kinds, owners, nodes))
+    return Remainder(left, tuple(source), kinds, owners)
 
 
 def _plain_types(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
@@ -130,57 +120,3 @@ def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[i
 def _back(customer: Customer, returned: int) -> Customer:
     """Return a customer whose parcel may have to come back to the depot first."""
     return replace(customer, release_time=max(customer.release_time, returned))
-
-
-def _anchor_customer(kind: VehicleType, anchor: Anchor) -> Customer:
-    """Return the customer who is served at an anchor, at once."""
-    return Customer(f"{kind.id} at {anchor.time} ms", anchor.load, anchor.service, anchor.time,
-                    anchor.time, served_by="truck")
-
-
-class _Travels:
-    """Travel matrices between the nodes that are left, those of trucks and of drones apart."""
-
-    def __init__(self, problem: Problem, source: Sequence[int]) -> None:
-        self._problem = problem
-        self._grid = np.ix_(source, source)
-        self._index: dict[tuple[int, str], int] = {}
-        self._matrices: list[tuple[IntArray, IntArray]] = []
-
-    def built(self) -> tuple[Travel, ...]:
-        """Return the matrices."""
-        return tuple(Travel(duration, distance) for duration, distance in self._matrices)
-
-    def moved(self, kind: VehicleType) -> VehicleType:
-        """Return a type with the matrices for the nodes that are left."""
-        drones = kind.drones
-        if drones is not None:
-            drones = replace(drones, travel=self._take(drones.travel, DRONE))
-        return replace(kind, travel=self._take(kind.travel, TRUCK), drones=drones)
-
-    def begin(self, kind: VehicleType, anchor: Anchor, node: int, aboard: Sequence[int]) -> None:
-        """Let a vehicle begin at its anchor; where nothing is aboard, go home from there.
-
-        In place.
-        """
-        duration, distance = self._matrices[kind.travel]
-        duration[:, node] = MAX_QUANTITY
-        duration[kind.depot, node] = 0
-        distance[kind.depot, node] = anchor.driven
-        if not aboard:
-            duration[node, :] = MAX_QUANTITY
-            duration[node, kind.depot] = distance[node, kind.depot] = 0
-        # Nobody else may serve those whose parcels are aboard, so this bars nobody else's way.
-        columns = np.array(aboard, np.int64)
-        duration[:self._problem.num_depots, columns] = MAX_QUANTITY
-        if kind.drones is not None:
-            for flights in self._matrices[kind.drones.travel]:
-                flights[:self._problem.num_depots, columns] = UNREACHABLE
-
-    def _take(self, travel: int, use: str) -> int:
-        key = travel, use
-        if key not in self._index:
-            self._index[key] = len(self._matrices)
-            matrix = self._problem.travel[travel]
-            self._matrices.append((matrix.duration[self._grid], matrix.distance[self._grid]))
-        return self._index[key]

@@ -13,7 +13,7 @@ from model.judge.rules import Violation
 from model.kernel.instance import pack
 from model.planner import ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
-from model.replanning.handover import hand_over, settled, take_back, with_anchors
+from model.replanning.handover import hand_over, settled, take_back
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.remainder import Remainder, what_is_left
 from model.replanning.workers import find_workers, vehicle_name
@@ -57,8 +57,7 @@ class _Bridge:
 
     def whole(self, found: Solution) -> Solution:
         """Return the plan of the whole."""
-        return take_back(self.problem, self.past, self.plan, self.kept, self.left,
-                         with_anchors(self.left, found))
+        return take_back(self.problem, self.past, self.plan, self.kept, self.left, found)
 
 
 class Replanning:
@@ -237,10 +236,9 @@ def _begin(left: Remainder, begun: Solution, options: PlanOptions,
         return begun
     improved = improve(left.problem, pack([left.problem], neighbours=False), begun,
                        SearchConfig(options.seed, turns=0), should_stop=should_stop)
-    found = with_anchors(left, improved.solution)
-    before, after = check(left.problem, begun), check(left.problem, found)
+    before, after = check(left.problem, begun), check(left.problem, improved.solution)
     if after.is_feasible and after.cost.total <= before.cost.total:
-        return found
+        return improved.solution
     return begun
 
 

@@ -1,12 +1,13 @@
 """Vehicles that have begun to work, or have customers of their own: each becomes a type.
 
-One that can still deliver what it carries becomes two: for the trip that it is on, and for later
-ones, which begin once that would be over by the plan given. Where work goes on from a place and an
-instant, not from the depot as soon as the search likes, that is its anchor.
+One that can still deliver what it carries becomes two: for the trip that it is on, which goes on
+from the place where it is, and for later ones, which begin once that would be over by the plan
+given.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from operator import le
 
 from model.judge.metrics import first_departure
 from model.judge.past import Past, Vehicle
@@ -23,24 +24,13 @@ class TooManyTypesError(ValueError):
 
 
 @dataclass(frozen=True)
-class Anchor:
-    """The place where a vehicle goes on with its work, and when."""
-
-    node: int  # of the problem as a whole
-    time: int  # ms
-    service: int = 0  # ms
-    driven: int = 0  # mm on this trip so far, if that is limited
-    load: tuple[int, ...] = ()  # what else on this trip takes room
-
-
-@dataclass(frozen=True)
 class Worker:
     """What one vehicle, and no other, does from now on."""
 
     vehicle: Vehicle
     kind: VehicleType
-    anchor: Anchor | None = None
     aboard: tuple[int, ...] = ()  # if any, nobody else is served
+    place: int | None = None  # node of the whole problem where it goes on with its trip
 
     @property
     def is_under_way(self) -> bool:
@@ -109,35 +99,33 @@ def _driven(problem: Problem, route: Kept) -> tuple[int, int]:
     return sum(map(distance.item, nodes[:-2], nodes[1:-1])), distance.item(*nodes[-2:])
 
 
-def _load(problem: Problem, nodes: list[int] | tuple[int, ...]) -> tuple[int, ...]:
-    """Return the demand of customers together."""
-    demands = [problem.customer_at(node).demand for node in nodes]
-    return tuple(map(sum, zip((0,) * problem.num_dimensions, *demands, strict=True)))
+def _load(problem: Problem, route: Kept) -> tuple[int, ...]:
+    """Return what a vehicle has carried on its last trip for those whom it serves in any case."""
+    kind = problem.vehicle_types[route.vehicle.type]
+    demands = [problem.customer_at(node).demand for node in customers_of(route.decision.trips[-1])]
+    own = kind.initial_load or (0,) * problem.num_dimensions
+    return tuple(map(sum, zip(own, *demands, strict=True)))
 
 
 def _can_go_on(problem: Problem, route: Kept, home_by: int) -> bool:
     """Tell whether a vehicle can deliver some of what it carries."""
     kind = problem.vehicle_types[route.vehicle.type]
     limit = kind.max_trip_distance
-    load = _load(problem, customers_of(route.decision.trips[-1]))
     return (route.end <= home_by
-            and all(a <= b for a, b in zip(load, kind.capacity, strict=True))
+            and all(map(le, _load(problem, route), kind.capacity))
             and (limit is None or sum(_driven(problem, route)) <= limit))
 
 
 def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> Worker:
     """Return what a vehicle can do on the trip that it is on."""
-    kind = problem.vehicle_types[route.vehicle.type]
-    nodes = route.decision.trips[-1].nodes
-    load = _load(problem, customers_of(route.decision.trips[-1]))
-    # The heavier an anchor, the sooner the search puts it in its place.
-    spare = zip(kind.capacity, load, _load(problem, way_on.aboard), strict=True)
-    anchor = Anchor(
-        nodes[way_on.position], way_on.ready, way_on.service_left,
-        0 if kind.max_trip_distance is None else _driven(problem, route)[0],
-        tuple(min(room, max(taken, room - carried)) for room, taken, carried in spare))
-    own = _own_type(problem, route, way_on.ready, home_by, 1)
-    return Worker(route.vehicle, own, anchor, way_on.aboard)
+    limit = problem.vehicle_types[route.vehicle.type].max_trip_distance
+    own = replace(
+        _own_type(problem, route, way_on.ready, home_by, 1),
+        max_trip_distance=None if limit is None else limit - _driven(problem, route)[0],
+        initial_load=_load(problem, route),
+        busy_until=way_on.ready + way_on.service_left, works_since=way_on.ready)
+    place = route.decision.trips[-1].nodes[way_on.position]
+    return Worker(route.vehicle, own, way_on.aboard, place)
 
 
 def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int) -> Worker | None:
@@ -147,13 +135,8 @@ def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int) -
     trips_left = kind.max_trips - len(route.route.trips)
     if route.vehicle in past.unavailable or trips_left < 1 or ready > home_by:
         return None
-    weighs = all(any(customer.demand) for customer in problem.customers)
-    if not kind.cost_per_hour or not weighs or not any(kind.capacity):
-        return Worker(route.vehicle, _own_type(problem, route, ready, home_by, trips_left))
-    # A trip to nobody that is full keeps the clock running, as it costs.
-    begin = ready - kind.reload_duration
-    anchor = Anchor(kind.depot, begin, load=kind.capacity)
-    return Worker(route.vehicle, _own_type(problem, route, begin, home_by, trips_left + 1), anchor)
+    own = _own_type(problem, route, ready, home_by, trips_left)
+    return Worker(route.vehicle, replace(own, works_since=home) if kind.cost_per_hour else own)
 
 
 def _own_type(problem: Problem, route: Kept, earliest: int, home_by: int,
