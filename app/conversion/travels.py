@@ -141,12 +141,6 @@ class Travels:
         self._preparing.expect(legs_seconds(len(self._places), len(keys) - flights, flights,
                                             self._ground.is_geographic))
 
-    def count_apart(self) -> int:
-        """Return how many pairs replanning makes of them: drones share none with trucks."""
-        fleet = self._request.fleet
-        return (len({self._driving(kind)[0] for kind in fleet})
-                + len({self._flying(kind.drones) for kind in fleet if kind.drones is not None}))
-
     def built(self) -> tuple[Travel, ...]:
         """Return the matrices built so far."""
         return tuple(self._travels)

@@ -74,8 +74,8 @@ def leg_errors(request: PlanRequest, bounds: Bounds) -> Iterator[InputError]:
     legs = kinds * places**2
     once_more = ""
     if request.replan is not None:
-        left = places + _most_anchors(request.replan)
-        legs += travels.count_apart() * left**2
+        left = places + _most_under_way(request.replan)
+        legs += kinds * left**2
         once_more = f", and {left} at most where the plan given goes on"
     if legs > bounds.legs:
         yield InputError(
@@ -85,6 +85,6 @@ def leg_errors(request: PlanRequest, bounds: Bounds) -> Iterator[InputError]:
             "(TANDEM_MAX_LEGS): give vehicle types the same speed, or send fewer customers.")
 
 
-def _most_anchors(replan: ReplanInput) -> int:
-    """Return how many places vehicles under way may add, for this trip and for later ones."""
-    return 0 if replan.freeze_before is None else min(2 * len(replan.plan.routes), MAX_OWN_TYPES)
+def _most_under_way(replan: ReplanInput) -> int:
+    """Return how many vehicles may be under way, each at a place of its own."""
+    return 0 if replan.freeze_before is None else min(len(replan.plan.routes), MAX_OWN_TYPES)
