@@ -6,16 +6,16 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.flight import ready, recovery_end
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_END, TYPE_MAX_TRIPS,
-    TYPE_START, NODE_DEMAND, NONE,
+    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_MAX_TRIPS,
+    NODE_DEMAND, NONE,
 )
 from model.kernel.stop import start_of_service
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.savings import savings_routes
-from model.search.insertion.evaluate import INFEASIBLE
+from model.search.insertion.evaluate import INFEASIBLE, serve_alone
 from model.search.insertion.offers import AT_ONE_STOP
 from model.search.moves.split import LINE_COLUMNS
-from model.search.route.edit import MOVE_COLUMNS, begin_route
+from model.search.route.edit import MOVE_COLUMNS
 from model.search.route.layout import (
     CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, KEPT_COLUMNS,
     K_MOVE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, START, S_ARRIVAL, S_GAP, S_HOLD,
@@ -119,12 +119,9 @@ def alone_costs(world: World, fleet: Fleet, acc: IntArray, alone: FloatArray) ->
     for k in range(world.num_types):
         for by_drone in range(2):
             for node in range(world.num_depots, world.num_nodes):
-                if world.can[k, by_drone, node] and not rung(world.stop):
-                    begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k,
-                                world.type[k, TYPE_START], world.type[k, TYPE_END], node,
-                                by_drone == 1)
-                    if refresh(world, fleet, slot, acc):
-                        alone[k, by_drone, node] = fleet.cost[slot]
+                if (world.can[k, by_drone, node] and not rung(world.stop)
+                        and serve_alone(world, fleet, slot, k, node, by_drone == 1, acc)):
+                    alone[k, by_drone, node] = fleet.cost[slot]
 
 
 @compiled

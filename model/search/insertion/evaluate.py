@@ -4,7 +4,7 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.copying import copy_row
 from model.kernel.instance import (
     RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE,
-    NONE,
+    NONE, TYPE_START,
 )
 from model.kernel.leg import leg, leg_at, legs_of, legs_to
 from model.kernel.start import counted_from
@@ -12,7 +12,8 @@ from model.kernel.stop import as_late, end_of_service, service_duration, too_lat
 from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block
 from model.search.route.edit import (
-    BY_SORTIE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, apply,
+    BY_SORTIE, BY_TRUCK, FLIGHT_TRIP, FROM_START, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE,
+    NEW_TRIP, ON_SORTIE, WAYS, apply, begin_route,
 )
 from model.search.route.layout import (
     CUSTOMER, END, F_LAUNCH, F_RECOVERY, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, R_LENGTH,
@@ -149,6 +150,28 @@ def price_part(world: World, fleet: Fleet, slot: int, first: int, last: int, to:
         if first <= fleet.sortie[slot, s, F_LAUNCH] <= last:
             cost -= sortie_cost(world, k, old, fleet.sortie[slot, s])
     return cost
+
+
+@inlined
+def serve_alone(world: World, fleet: Fleet, slot: int, k: int, node: int, by_drone: bool,
+                acc: IntArray) -> bool:
+    """Write the route that serves a customer alone at the least cost. In place; False if none may.
+
+    Where it begins and ends at one place, a drone leaves from the start, and comes back there.
+    """
+    start, end = world.type[k, TYPE_START], world.type[k, TYPE_END]
+    first = FROM_START if by_drone else BY_TRUCK
+    last = WAYS if by_drone and start != end else first
+    best, chosen, done = INFEASIBLE, first, False
+    for tried in range(first, last + 1):
+        # The last time, the best of them is written once more.
+        way = chosen if tried == last else tried
+        begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k, start, end, node,
+                    way)
+        done = refresh(world, fleet, slot, acc)
+        if done and fleet.cost[slot] < best:
+            best, chosen = fleet.cost[slot], way
+    return done
 
 
 @inlined

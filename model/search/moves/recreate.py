@@ -7,11 +7,9 @@ from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, total
 from model.kernel.stop import closing, width
 from model.problem import UIntArray
-from model.search.insertion.evaluate import INFEASIBLE
+from model.search.insertion.evaluate import INFEASIBLE, serve_alone
 from model.search.insertion.places import find_beside, find_place, try_new_route
-from model.search.route.edit import (
-    M_FIRST, M_KIND, M_SLOT, M_TYPE, NEW_FLIGHT, NEW_ROUTE, apply, begin_route,
-)
+from model.search.route.edit import M_FIRST, M_KIND, M_SLOT, M_TYPE, NEW_FLIGHT, NEW_ROUTE, apply
 from model.search.route.layout import MODE_LEAN, R_LENGTH, R_TYPE, World
 from model.search.route.lean import insert_lean
 from model.search.route.randomness import uniform
@@ -69,9 +67,7 @@ def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bo
     if slot < 0:
         return False
     touch(searcher, slot)
-    begin_route(now.route[slot], now.stop[slot], now.sortie[slot], k, world.type[k, TYPE_START],
-                world.type[k, TYPE_END], node, by_drone)
-    if not refresh(world, now, slot, searcher.acc):
+    if not serve_alone(world, now, slot, k, node, by_drone, searcher.acc):
         now.route[slot, R_LENGTH] = 0
         now.cost[slot] = 0.0
         return False

@@ -19,6 +19,11 @@ on sortie M_SORTIE before its customer M_FIRST; on a trip of its own behind stop
 or drone; behind M_FIRST, where a new trip begins, or where one ends; on a route of its own; by
 drone from there."""
 
+BY_TRUCK, FROM_START, ACROSS, FROM_END = range(4)
+WAYS = 4
+"""How a route serves one customer alone: by truck, or by a drone from the start and back, from the
+start to the end, or from the end and back."""
+
 
 @inlined
 def put(stops: IntArray, p: int, node: int, kind: int) -> None:
@@ -105,15 +110,15 @@ def apply(depot: int, route: IntArray, stops: IntArray, sorties: IntArray, move:
 
 @inlined
 def begin_route(route: IntArray, stops: IntArray, sorties: IntArray, k: int, start: int, end: int,
-                node: int, by_drone: bool) -> None:
-    """Write a route that serves one customer. In place."""
+                node: int, way: int) -> None:
+    """Write a route that serves one customer in one of the `WAYS`. In place."""
     clear(route)
     route[R_TYPE] = k
     put(stops, 0, start, START)
-    if by_drone:
+    if way != BY_TRUCK:
         put(stops, 1, end, END)
         route[R_LENGTH] = 2
-        add_sortie(route, sorties, 0, 0, 0, node)
+        add_sortie(route, sorties, int(way == FROM_END), int(way != FROM_START), 0, node)
     else:
         put(stops, 1, node, CUSTOMER)
         put(stops, 2, end, END)
