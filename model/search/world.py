@@ -110,7 +110,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         keeps=scan_all and (not general or blink <= LEAST_BLINK),
         blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_more=instance.unassigned_more[0],
-        must_serve=_must_serve(problem, instance),
+        must_serve=_must_serve(problem),
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
         type=columns, rate=rate, mode=mode, visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
@@ -155,14 +155,19 @@ def _modes(instance: Instance, columns: IntArray, place: IntArray) -> IntArray:
     return mode
 
 
-def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
-    """Mark the nodes that cost more to leave out than the longest drive there and back."""
+def _must_serve(problem: Problem) -> BoolArray:
+    """Mark the nodes that cost more to leave out than the longest drive there and back.
+
+    Not those with a cost of their own: that is a price, which may well be paid.
+    """
     dearest = 0.0
     for kind in problem.vehicle_types:
         distance = problem.travel[kind.travel].distance
         longest = float(distance[kind.begins_at].max() + distance[:, kind.ends_at].max())
         dearest = max(dearest, kind.fixed_cost + longest / MM_PER_KM * kind.cost_per_km)
-    must_serve: BoolArray = instance.unassigned_cost[0] + instance.unassigned_more[0] > dearest
+    must_serve = np.full(problem.num_nodes, problem.unassigned_cost > dearest)
+    priced = [customer.unassigned_cost is not None for customer in problem.customers]
+    must_serve[problem.num_depots:] &= ~np.array(priced, np.bool_)
     return must_serve
 
 

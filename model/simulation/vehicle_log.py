@@ -167,12 +167,10 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
             log.trip[trip, TRIP_START] = start
         for index in range(first, behind):
             node = log.stop[index, STOP_NODE]
-            arrival = start
-            if index > first:
-                arrival = travel_arrival(setting, log.stop[index - 1, STOP_NODE], node, leave)
-            service_start = leave = free = launched = arrival
-            if index == first:
-                leave = leaves_first(setting.type, arrival)
+            arrival = start if index == first else travel_arrival(
+                setting, log.stop[index - 1, STOP_NODE], node, leave)
+            service_start = free = launched = arrival
+            leave = leaves_first(setting.type, arrival) if index == first else arrival
             if node >= num_depots:
                 place = setting.node[node]
                 if not _arrival_allowed(place, arrival, log.stop[index, STOP_ARRIVAL], write):

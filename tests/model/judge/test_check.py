@@ -77,19 +77,6 @@ def test_the_table_says_whom_a_type_may_serve(trip, tiny_problem, customers, tru
     assert violations[0].path == "routes[0].trips[0].stops[1]"
 
 
-def test_a_table_has_a_row_a_type_and_a_column_a_customer(tiny_problem, customers, truck):
-    problem = tiny_problem(*customers, truck=truck)
-    for table in (np.ones((1, 3), np.bool_), np.ones((2, 4), np.bool_), np.ones((1, 4))):
-        with pytest.raises(ValueError, match="may_serve"):
-            replace(problem, may_serve=table)
-
-
-@pytest.mark.parametrize("cost", [-1.0, float("nan"), float("inf")])
-def test_leaving_a_customer_out_costs_no_less_than_nothing(cost, customers):
-    with pytest.raises(ValueError, match="customer a unassigned_cost"):
-        replace(customers[0], unassigned_cost=cost)
-
-
 def test_message_and_path_name_the_offender(tiny_problem, customers, truck):
     late = replace(customers[1], latest=8 * MINUTE)
     problem = tiny_problem(customers[0], late, truck=truck)

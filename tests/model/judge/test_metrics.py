@@ -76,14 +76,6 @@ def test_what_else_is_aboard_counts(tiny_problem, customers, truck):
             ] == ["CAPACITY"]
 
 
-@pytest.mark.parametrize("field", [{"start": 1}, {"end": 1}, {"initial_load": (1,)},
-                                   {"busy_until": 1}])
-def test_a_beginning_of_its_own_is_for_one_trip(field, truck):
-    replace(truck, **field)
-    with pytest.raises(ValueError, match="max_trips: 2"):
-        replace(truck, max_trips=2, **field)
-
-
 def test_soft_windows_cost(tiny_problem, customers, truck, drones):
     a = replace(customers[0], earliest=4 * MINUTE, early_cost_per_hour=30.0)  # waits 2 min
     b = replace(customers[1], latest=8 * MINUTE, late_cost_per_hour=60.0)  # reached at 11

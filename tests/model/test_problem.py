@@ -1,0 +1,27 @@
+"""What can't be a problem."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+
+def test_a_table_has_a_row_a_type_and_a_column_a_customer(tiny_problem, customers, truck):
+    problem = tiny_problem(*customers, truck=truck)
+    for table in (np.ones((1, 3), np.bool_), np.ones((2, 4), np.bool_), np.ones((1, 4))):
+        with pytest.raises(ValueError, match="may_serve"):
+            replace(problem, may_serve=table)
+
+
+@pytest.mark.parametrize("cost", [-1.0, float("nan"), float("inf")])
+def test_leaving_a_customer_out_costs_no_less_than_nothing(cost, customers):
+    with pytest.raises(ValueError, match="customer a unassigned_cost"):
+        replace(customers[0], unassigned_cost=cost)
+
+
+@pytest.mark.parametrize("field", [{"start": 1}, {"end": 1}, {"initial_load": (1,)},
+                                   {"busy_until": 1}])
+def test_a_beginning_of_its_own_is_for_one_trip(field, truck):
+    replace(truck, **field)
+    with pytest.raises(ValueError, match="max_trips: 2"):
+        replace(truck, max_trips=2, **field)
