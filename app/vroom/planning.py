@@ -1,8 +1,8 @@
 """Plans a VROOM request in a limited time: by VROOM's objective, one stage after another.
 
 VROOM maximises the sum of the priorities of jobs served, then their number, then minimises cost.
-The planner knows number and cost, so that unequal priorities take stages of their own; and not all
-of VROOM's rules, so that some plans are judged before they count.
+Where not all can be served, a stage of its own chooses whom, by what leaving each job out costs.
+The planner knows not all of VROOM's rules, so that some plans are judged before they count.
 """
 
 import time
