@@ -1,7 +1,6 @@
 """Tests of the compiled meaning of flights against the judge's."""
 
 import numpy as np
-from numba import njit
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, held_until, schedule
@@ -12,10 +11,11 @@ from model.kernel.flight import (
 from model.kernel.instance import pack
 from model.problem import UNREACHABLE, DroneType, IntArray, Problem
 from model.solution import Solution
+from tests.model.entry import entry
 from tests.model.tiny import MINUTE, draw_late, draw_tiny
 
 
-@njit
+@entry
 def flown(columns: IntArray, place: IntArray, begin: int, out: int,
           home: int) -> tuple[int, int, int, int]:
     takeoff = held_takeoff(columns, place, take_off(columns, begin), home)
@@ -24,24 +24,24 @@ def flown(columns: IntArray, place: IntArray, begin: int, out: int,
     return takeoff, arrival, back, recovery_end(columns, back)
 
 
-@njit
+@entry
 def is_short_enough(columns: IntArray, takeoff: int, back: int, begin: int) -> bool:
     return within_endurance(columns, takeoff, back, begin)
 
 
-@njit
+@entry
 def lasts(columns: IntArray, place: IntArray, out: int, home: int) -> tuple[bool, bool]:
     flight = out + drone_service(columns, place) + home
     return can_last(columns, flight), unreachable(out) or unreachable(home)
 
 
-@njit
+@entry
 def enduring(columns: IntArray, takeoff_d: int, takeoff_c: int, d: int,
              c: int) -> tuple[int, int]:
     return enduring_within(columns, takeoff_d, takeoff_c, d, c)
 
 
-@njit
+@entry
 def handled(columns: IntArray, time: int) -> tuple[int, int, int, int]:
     return (launch_begin(columns, take_off(columns, time)), launch_duration(columns),
             handling_duration(columns), counted_until(columns, time, time + 1))
@@ -50,7 +50,7 @@ def handled(columns: IntArray, time: int) -> tuple[int, int, int, int]:
 def drawn(seed: int, count: int = 200) -> list[tuple[Problem, DroneType, int, int]]:
     """Return problems whose first type has drones, a customer's node in each, and a start."""
     rng = np.random.default_rng(seed)
-    found = []
+    found: list[tuple[Problem, DroneType, int, int]] = []
     while len(found) < count:
         problem = (draw_tiny, draw_late)[len(found) % 2](rng)
         drones = problem.vehicle_types[0].drones
