@@ -18,7 +18,7 @@ def source(tmp_path: Path) -> Path:
     """A folder with a copy of every file that takes part in compilation."""
     for name in SOURCES:
         target = tmp_path / f"{name}.py"
-        target.parent.mkdir(exist_ok=True)
+        target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / "model" / f"{name}.py", target)
     return tmp_path
 
