@@ -1,6 +1,7 @@
 """Copies of rows without temporary arrays."""
 
 from model.kernel.compiled import inlined
+from model.kernel.records import Records
 from model.problem import IntArray
 
 
@@ -17,6 +18,13 @@ def copy_rows(source: IntArray, target: IntArray, count: int) -> None:
     for row in range(count):
         for column in range(target.shape[1]):
             target[row, column] = source[row, column]
+
+
+@inlined
+def copy_records(source: Records, target: Records, count: int) -> None:
+    """Copy the first `count` records. In place."""
+    for row in range(count):
+        target[row] = source[row]
 
 
 @inlined

@@ -17,9 +17,7 @@ from model.search.beginning.translate import first_plan, make_searcher, read_pla
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.moves.anneal import ANY, anneal
 from model.search.route.layout import World
-from model.search.route.state import (
-    I_CUSTOMERS, I_TURN, V_BEST, V_COOLING, V_COST, V_TEMPERATURE, Searcher,
-)
+from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.temperature import Heat
@@ -118,7 +116,7 @@ class _Worker:
         turns: float = self.limits.turns or 0
         if self.limits.turns is None and self.pace > 0.0:
             turns = (self.limits.deadline - self.limits.began) / self.pace
-        return turns / max(1, int(self.searcher.count[I_CUSTOMERS]))
+        return turns / max(1, int(self.searcher.count.customers))
 
     def _slice(self, seconds: float) -> float:
         if self.limits.turns is not None and self.limits.deadline == math.inf:
@@ -131,16 +129,16 @@ class _Worker:
         value, span = self.searcher.value, self.span
         hot, cold = self.heat.ends(self.expected() * (span.end - span.begin), span.heat)
         if self.limits.turns is None:
-            value[V_TEMPERATURE] = hot * (cold / hot) ** span.share(self.limits.share(self.turns))
-            value[V_COOLING] = 1.0
+            value.temperature = hot * (cold / hot) ** span.share(self.limits.share(self.turns))
+            value.cooling = 1.0
         elif span is not self.cooling:
             # By turns alone, so that the clock changes nothing.
-            value[V_TEMPERATURE] = hot
-            value[V_COOLING] = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
+            value.temperature = hot
+            value.cooling = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
             self.cooling = span
-        began, before = time.perf_counter(), int(self.searcher.count[I_TURN])
+        began, before = time.perf_counter(), int(self.searcher.count.turn)
         anneal(self.world, self.searcher, turns, ANY)
-        made = int(self.searcher.count[I_TURN]) - before
+        made = int(self.searcher.count.turn) - before
         self.turns += made
         self.pace = (time.perf_counter() - began) / max(1, made)
 
@@ -252,15 +250,15 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     whole = make_searcher(problem, world, solution, seeds[0])
     _begin(world, whole, fresh, limits)
     heat = Heat.of(world, whole, from_trucks, config.hot, config.cold)
-    first_cost = float(whole.value[V_COST])
+    first_cost = float(whole.value.cost)
     workers = [_Worker(world, whole, limits, heat) for _ in range(config.threads)]
 
     def tell(turns: int) -> None:
-        on_progress(Progress(float(whole.value[V_BEST]), turns, partial(read_plan, world, whole)))
+        on_progress(Progress(float(whole.value.best), turns, partial(read_plan, world, whole)))
 
     with ThreadPoolExecutor(config.threads) as pool:
         _search(_Team(whole, workers, limits, pool, tell), world, problem, seeds[1:])
-    return Improved(read_plan(world, whole), float(whole.value[V_BEST]), first_cost,
+    return Improved(read_plan(world, whole), float(whole.value.best), first_cost,
                     sum(worker.turns for worker in workers), not task.alarm.has_rung)
 
 

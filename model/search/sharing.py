@@ -7,14 +7,9 @@ from model.kernel.copying import copy_some
 from model.kernel.instance import TYPE_COUNT
 from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
-from model.search.route.layout import (
-    ELSEWHERE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, W_SLOT, World,
-)
+from model.search.route.layout import ELSEWHERE, NOWHERE, World
 from model.search.route.refresh import locate
-from model.search.route.state import (
-    I_ACTIVE, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher,
-    copy_route, keep_best, left_out_cost, list_active,
-)
+from model.search.route.state import Searcher, copy_route, keep_best, left_out_cost, list_active
 
 DIVIDED_FROM = 200
 """Number of customers from which on each thread has a region of its own."""
@@ -51,8 +46,8 @@ class Crew:
         whole, threads = self.whole, len(self._rooms)
         if threads == 1:
             return self._rooms
-        routes = int(whole.count[I_ACTIVE])
-        self._divided = (whole.count[I_CUSTOMERS] >= DIVIDED_FROM
+        routes = int(whole.count.active)
+        self._divided = (whole.count.customers >= DIVIDED_FROM
                          and routes >= FEWEST_ROUTES * threads)
         if self._divided:
             self._divide()
@@ -66,12 +61,12 @@ class Crew:
         """Give each part the routes of a region, and a share of vehicles and slots left over."""
         whole, threads = self.whole, len(self._rooms)
         owner = regions(self._place, whole, threads, self._rng)
-        missing = whole.missing[: whole.count[I_MISSING]]
-        beside = whole.now.where[self._world.near[missing], W_SLOT]
+        missing = whole.missing[: whole.count.missing]
+        beside = whole.now.where["slot"][self._world.near[missing]]
         nearest = np.take_along_axis(beside, (beside >= 0).argmax(axis=1)[:, None], axis=1)[:, 0]
         heir = np.where(nearest >= 0, owner[nearest], 0)
         spare = self._world.type[:, TYPE_COUNT] - whole.now.used
-        routes = np.bincount(owner[whole.active[: whole.count[I_ACTIVE]]], minlength=threads)
+        routes = np.bincount(owner[whole.active[: whole.count.active]], minlength=threads)
         free = (len(whole.active) - routes.sum()) // threads
         self._parts = [room._replace(active=room.active[: routes[number] + free])
                        for number, room in enumerate(self._rooms)]
@@ -87,12 +82,12 @@ class Crew:
         chosen = self._parts
         best = self._parts
         if not self._divided:
-            chosen = [min(self._parts, key=lambda part: float(part.value[V_COST]))]
-            best = [min(self._parts, key=lambda part: float(part.value[V_BEST]))]
-        whole.now.route[:, R_LENGTH] = 0
+            chosen = [min(self._parts, key=lambda part: float(part.value.cost))]
+            best = [min(self._parts, key=lambda part: float(part.value.best))]
+        whole.now.route["length"] = 0
         whole.now.used[:] = 0
-        whole.count[I_MISSING] = filled = 0
-        whole.value[V_COST] = sum(float(part.value[V_COST]) for part in chosen)
+        whole.count.missing = filled = 0
+        whole.value.cost = sum(float(part.value.cost) for part in chosen)
         for part in chosen:
             filled = add_routes(whole, part, filled)
         keep_best_of(whole, best)
@@ -109,27 +104,27 @@ def make_rooms(world: World, whole: Searcher,
 def take_all(world: World, whole: Searcher, part: Searcher) -> None:
     """Go on from all routes as they are. In place."""
     take_part(world, whole, part, np.zeros(len(whole.active), np.int64), 0,
-              whole.missing[: whole.count[I_MISSING]], world.type[:, TYPE_COUNT] - whole.now.used)
+              whole.missing[: whole.count.missing], world.type[:, TYPE_COUNT] - whole.now.used)
 
 
 def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
     """Let the best routes be those of all parts together if they cost less. In place."""
-    cost = sum(float(part.value[V_BEST]) for part in parts)
-    if cost < float(whole.value[V_BEST]) - ROUNDING:
-        whole.best.route[:, R_LENGTH] = 0
-        whole.count[I_BEST_MISSING] = filled = 0
-        whole.value[V_BEST] = cost
+    cost = sum(float(part.value.best) for part in parts)
+    if cost < float(whole.value.best) - ROUNDING:
+        whole.best.route["length"] = 0
+        whole.count.best_missing = filled = 0
+        whole.value.best = cost
         for part in parts:
             filled = add_best(whole, part, filled)
-        whole.best.route[:, R_STAMP] = OTHERS
+        whole.best.route["stamp"] = OTHERS
 
 
 def go_on_from_best(world: World, whole: Searcher) -> None:
     """Let the routes be the best ones. In place."""
     best, count = whole.best, whole.count.copy()
-    slots = np.flatnonzero(best.route[: len(whole.active), R_LENGTH] > 0)
-    best.used[:] = np.bincount(best.route[slots, R_TYPE], minlength=world.num_types)
-    count[I_ACTIVE], count[I_MISSING] = len(slots), count[I_BEST_MISSING]
+    slots = np.flatnonzero(best.route[: len(whole.active)]["length"] > 0)
+    best.used[:] = np.bincount(best.route["type"][slots], minlength=world.num_types)
+    count.active, count.missing = len(slots), count.best_missing
     active = whole.active.copy()
     active[: len(slots)] = slots
     take_all(world, whole._replace(now=best, active=active, missing=whole.best_missing.copy(),
@@ -143,7 +138,7 @@ def regions(place: FloatArray, whole: Searcher, threads: int,
     Regions are sectors around the depot or stripes of about as many customers, drawn anew each
     time, so that no border stays.
     """
-    slot = whole.now.where[:, W_SLOT]
+    slot = whole.now.where["slot"]
     served = np.flatnonzero(slot >= 0)
     slots = len(whole.active)
     customers = np.bincount(slot[served], minlength=slots)
@@ -170,34 +165,34 @@ def take_part(world: World, whole: Searcher, part: Searcher, owner: IntArray, nu
     `spare` (type,) vehicles may be used besides.
     """
     now, count = part.now, part.count
-    count[I_STAMP] += 1
+    count.stamp += 1
     for node in range(len(now.where)):
-        now.where[node, W_SLOT] = ELSEWHERE
+        now.where[node].slot = ELSEWHERE
     cost, filled = 0.0, 0
-    for index in range(whole.count[I_ACTIVE]):
+    for index in range(whole.count.active):
         slot = whole.active[index]
         if owner[slot] == number:
-            copy_route(whole.now, slot, now, filled, count[I_LEAN])
+            copy_route(whole.now, slot, now, filled, count.lean)
             locate(now, filled)
             cost += now.cost[filled]
             filled += 1
     for slot in range(len(part.active)):
         if slot >= filled:
-            now.route[slot, R_LENGTH] = now.route[slot, R_SORTIES] = now.route[slot, R_TRIPS] = 0
+            now.route[slot].length = now.route[slot].sorties = now.route[slot].trips = 0
             now.cost[slot] = 0.0
-        now.route[slot, R_STAMP] = count[I_STAMP]
+        now.route[slot].stamp = count.stamp
     for k in range(world.num_types):
         now.used[k] = world.type[k, TYPE_COUNT] - spare[k]
     list_active(part)
     for node in missing:
-        now.where[node, W_SLOT] = NOWHERE
-    count[I_MISSING] = len(missing)
+        now.where[node].slot = NOWHERE
+    count.missing = len(missing)
     copy_some(missing, part.missing, len(missing))
-    count[I_CUSTOMERS] = 0
+    count.customers = 0
     for node in range(world.num_depots, world.num_nodes):
-        if now.where[node, W_SLOT] != ELSEWHERE:
-            count[I_CUSTOMERS] += 1
-    part.value[V_COST] = cost + left_out_cost(world, missing, len(missing))
+        if now.where[node].slot != ELSEWHERE:
+            count.customers += 1
+    part.value.cost = cost + left_out_cost(world, missing, len(missing))
     keep_best(part)
 
 
@@ -208,16 +203,16 @@ def add_routes(whole: Searcher, part: Searcher, filled: int) -> int:
     In place; returns how many slots are filled.
     """
     now, count = whole.now, whole.count
-    for index in range(part.count[I_ACTIVE]):
-        copy_route(part.now, part.active[index], now, filled, count[I_LEAN])
-        now.used[now.route[filled, R_TYPE]] += 1
+    for index in range(part.count.active):
+        copy_route(part.now, part.active[index], now, filled, count.lean)
+        now.used[now.route[filled].type] += 1
         locate(now, filled)
         filled += 1
-    for index in range(part.count[I_MISSING]):
+    for index in range(part.count.missing):
         node = part.missing[index]
-        now.where[node, W_SLOT] = NOWHERE
-        whole.missing[count[I_MISSING]] = node
-        count[I_MISSING] += 1
+        now.where[node].slot = NOWHERE
+        whole.missing[count.missing] = node
+        count.missing += 1
     list_active(whole)
     return filled
 
@@ -230,10 +225,10 @@ def add_best(whole: Searcher, part: Searcher, filled: int) -> int:
     """
     count = whole.count
     for slot in range(len(part.active)):
-        if part.best.route[slot, R_LENGTH] > 0:
-            copy_route(part.best, slot, whole.best, filled, count[I_LEAN])
+        if part.best.route[slot].length > 0:
+            copy_route(part.best, slot, whole.best, filled, count.lean)
             filled += 1
-    for index in range(part.count[I_BEST_MISSING]):
-        whole.best_missing[count[I_BEST_MISSING]] = part.best_missing[index]
-        count[I_BEST_MISSING] += 1
+    for index in range(part.count.best_missing):
+        whole.best_missing[count.best_missing] = part.best_missing[index]
+        count.best_missing += 1
     return filled

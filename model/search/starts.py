@@ -4,7 +4,7 @@ import numpy as np
 
 from model.search.beginning.construct import begin_again
 from model.search.route.layout import World
-from model.search.route.state import V_BEST, Searcher
+from model.search.route.state import Searcher
 from model.search.sharing import keep_best_of, make_rooms, take_all
 
 
@@ -35,4 +35,4 @@ class Starts:
 
     def gather(self) -> None:
         """Keep the best of all in the whole."""
-        keep_best_of(self._whole, [min(self._rooms, key=lambda room: float(room.value[V_BEST]))])
+        keep_best_of(self._whole, [min(self._rooms, key=lambda room: float(room.value.best))])

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from model.kernel.instance import TYPE_DRONES
 from model.search.beginning.translate import leg_cost
 from model.search.route.layout import World
-from model.search.route.state import I_CUSTOMERS, I_MISSING, V_COST, Searcher, missing_cost
+from model.search.route.state import Searcher, missing_cost
 
 HOT, COLD = 1.0, 0.1
 """First temperature by what a customer costs, last by what a leg between customers does."""
@@ -44,9 +44,9 @@ class Heat:
     def of(cls, world: World, searcher: Searcher, from_trucks: bool, hot: float | None,
            cold: float | None) -> "Heat":
         """Measure the routes as they are."""
-        missing = int(searcher.count[I_MISSING])
-        served = max(1, int(searcher.count[I_CUSTOMERS]) - missing)
-        cost = float(searcher.value[V_COST]) - missing_cost(world, searcher)
+        missing = int(searcher.count.missing)
+        served = max(1, int(searcher.count.customers) - missing)
+        cost = float(searcher.value.cost) - missing_cost(world, searcher)
         return cls(cost / served, leg_cost(world, searcher), world.num_types,
                    bool((world.type[:, TYPE_DRONES] > 0).any()),
                    bool((world.type[:, TYPE_DRONES] == 1).any()), from_trucks, hot, cold)

@@ -11,11 +11,12 @@ from model.kernel.instance import (
     FAR, NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE, NO_PROFILE, RATE_HOUR,
     TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, Instance,
 )
+from model.kernel.records import Record
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
 from model.search.route.layout import (
-    MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED, World,
+    MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED, World, MOST_VISITS,
 )
 
 NEAR_RUIN = 128
@@ -34,9 +35,6 @@ LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
 """How often a better place is overlooked: the last by the number of customers squared and that on a
 sortie, within the first two. Small problems have so few places that little else would differ from
 turn to turn, so that none are kept there where more than distance counts."""
-
-MOST_VISITS = 8
-"""Customers on a sortie that the search puts there at most."""
 
 WAITING_WEIGHT = 0.2
 LATENESS_WEIGHT = 1.0
@@ -77,7 +75,7 @@ def lay_ground(problem: Problem, instance: Instance) -> Ground:
 
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
-               ground: Ground | None = None, stop: IntArray | None = None) -> World:
+               ground: Ground | None = None, stop: Record | None = None) -> World:
     """Lay out a problem for the search.
 
     `ground` is that of the same problem, if it is there already; `stop` an alarm's flag.

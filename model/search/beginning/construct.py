@@ -6,10 +6,8 @@ from model.kernel.compiled import compiled
 from model.kernel.copying import clear
 from model.search.moves.anneal import anneal
 from model.search.moves.recreate import BY_FAR, BY_WIDTH
-from model.search.route.layout import NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, W_SLOT, World
-from model.search.route.state import (
-    I_ABSENT, I_MISSING, I_STAMP, V_BEST, V_COST, Searcher, go_back, list_active, missing_cost,
-)
+from model.search.route.layout import NOWHERE, World
+from model.search.route.state import Searcher, go_back, list_active, missing_cost
 
 CONSTRUCTED = (BY_FAR, BY_WIDTH)
 """Orders in which customers are inserted into no routes."""
@@ -19,18 +17,18 @@ CONSTRUCTED = (BY_FAR, BY_WIDTH)
 def disband(searcher: Searcher) -> None:
     """Take all routes apart. In place."""
     now, count = searcher.now, searcher.count
-    count[I_STAMP] += 1
+    count.stamp += 1
     for slot in range(len(searcher.active)):
-        now.route[slot, R_STAMP] = count[I_STAMP]
-        now.route[slot, R_LENGTH] = now.route[slot, R_SORTIES] = now.route[slot, R_TRIPS] = 0
+        now.route[slot].stamp = count.stamp
+        now.route[slot].length = now.route[slot].sorties = now.route[slot].trips = 0
         now.cost[slot] = 0.0
     clear(now.used)
-    count[I_ABSENT] = 0
+    count.absent = 0
     for node in range(len(now.where)):
-        if now.where[node, W_SLOT] >= 0:
-            now.where[node, W_SLOT] = NOWHERE
-            searcher.missing[count[I_MISSING]] = node
-            count[I_MISSING] += 1
+        if now.where[node].slot >= 0:
+            now.where[node].slot = NOWHERE
+            searcher.missing[count.missing] = node
+            count.missing += 1
     list_active(searcher)
 
 
@@ -40,7 +38,7 @@ def insert_missing(world: World, searcher: Searcher, order: int) -> None:
     Once more those for whom the only place, such as a route of their own, was overlooked.
     """
     anneal(world, searcher, 1, order)
-    if searcher.count[I_MISSING] > 0:
+    if searcher.count.missing > 0:
         anneal(world, searcher, 1, order)
 
 
@@ -50,16 +48,16 @@ def begin_anew(world: World, searcher: Searcher, freely: bool,
 
     The latter in a `hurried` world, which is the same and may end sooner, once nobody is left out.
     """
-    if searcher.count[I_MISSING] > 0:
+    if searcher.count.missing > 0:
         insert_missing(world, searcher, BY_FAR)
     if freely:
-        left_out = searcher.count[I_MISSING] > 0
+        left_out = searcher.count.missing > 0
         _construct(world if hurried is None or left_out else hurried, searcher)
 
 
 def begin_again(world: World, searcher: Searcher) -> None:
     """Plan all anew by insertion, whatever there is. In place."""
-    searcher.value[V_BEST] = math.inf
+    searcher.value.best = math.inf
     _construct(world, searcher)
 
 
@@ -67,6 +65,6 @@ def _construct(world: World, searcher: Searcher) -> None:
     """Plan anew by insertion in the best of several orders, if that is better. In place."""
     for order in CONSTRUCTED:
         disband(searcher)
-        searcher.value[V_COST] = missing_cost(world, searcher)
+        searcher.value.cost = missing_cost(world, searcher)
         insert_missing(world, searcher, order)
     go_back(searcher)

@@ -15,6 +15,7 @@ from model.kernel.instance import (
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import Amount, demand_of, holds, plus
+from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival
 from model.problem import IntArray
@@ -23,9 +24,8 @@ from model.search.route.layout import NOWHERE, World
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
 
-C_BEFORE, C_BEHIND, C_ROUTE, C_LEAVE, C_LATEST, C_LAST, C_LOAD = range(7)
-CHAIN_COLUMNS = C_LOAD + MAX_DIMENSIONS
-"""Columns of a customer in a chain: who comes before and behind; of its last, who comes first; the
+CHAIN = record("before", "behind", "route", "leave", "latest", "last", load=MAX_DIMENSIONS)
+"""A customer in a chain: who comes before and behind; of its last, who comes first; the
 departure and the latest arrival; of its first, who comes last, and the load."""
 
 
@@ -48,57 +48,57 @@ def savings_routes(world: World, k: int) -> list[list[int]]:
     saving = distance[one, end] + distance[start, other] - distance[one, other]
     order = np.argsort(-saving, kind="stable")
     order = order[saving[order] > 0]
-    chain = np.zeros((world.num_nodes, CHAIN_COLUMNS), np.int64)
+    chain = np.zeros(world.num_nodes, CHAIN)
     join(world, k, one[order], other[order], chain)
     heads = [int(node) for node in nodes
-             if world.can[k, 0, node] and chain[node, C_BEFORE] == NOWHERE]
+             if world.can[k, 0, node] and chain[node].before == NOWHERE]
     return [_customers(chain, head) for head in heads]
 
 
-def _customers(chain: IntArray, node: int) -> list[int]:
+def _customers(chain: Records, node: int) -> list[int]:
     customers = []
     while node != NOWHERE:
         customers.append(node)
-        node = int(chain[node, C_BEHIND])
+        node = int(chain[node].behind)
     return customers
 
 
 @inlined
-def chain_load(link: IntArray) -> Amount:
+def chain_load(link: Record) -> Amount:
     """Return what the chain that begins here carries."""
-    return link[C_LOAD], link[C_LOAD + 1], link[C_LOAD + 2]
+    return link.load[0], link.load[1], link.load[2]
 
 
 @inlined
-def set_chain_load(link: IntArray, amount: Amount) -> None:
+def set_chain_load(link: Record, amount: Amount) -> None:
     """Let the chain that begins here carry an amount. In place."""
-    link[C_LOAD], link[C_LOAD + 1], link[C_LOAD + 2] = amount
+    link.load[0], link.load[1], link.load[2] = amount
 
 
 @compiled
-def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray) -> None:
+def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -> None:
     """Join the route that ends at `one` and that which begins at `other`, pair after pair.
 
-    In place: `chain` (node, CHAIN_COLUMNS) is set up here.
+    In place: `chain` (node,) is set up here.
     """
     columns = world.type[k]
     legs = legs_of(world.leg, columns[TYPE_TRAVEL])
     start, end = columns[TYPE_START], columns[TYPE_END]
     for node in range(world.num_depots, world.num_nodes):
         place, link = world.place[node], chain[node]
-        link[C_BEFORE], link[C_BEHIND], link[C_ROUTE], link[C_LAST] = NOWHERE, NOWHERE, node, node
+        link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
         set_chain_load(link, demand_of(place))
         ready = max(leaves_first(columns, columns[TYPE_EARLIEST]), place[NODE_RELEASE])
-        link[C_LEAVE] = end_of_service(place, ready + leg(legs, start, node).duration)
+        link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
         leave = columns[TYPE_LATEST] - leg(legs, node, end).duration
-        link[C_LATEST] = latest_arrival(place, leave)
+        link.latest = latest_arrival(place, leave)
     for index in range(len(one)):
         a, b = one[index], other[index]
-        if (chain[a, C_BEHIND] != NOWHERE or chain[b, C_BEFORE] != NOWHERE
+        if (chain[a].behind != NOWHERE or chain[b].before != NOWHERE
                 or not (world.can[k, 0, a] and world.can[k, 0, b])
-                or chain[a, C_LEAVE] + leg(legs, a, b).duration > chain[b, C_LATEST]):
+                or chain[a].leave + leg(legs, a, b).duration > chain[b].latest):
             continue
-        head, tail = chain[a, C_ROUTE], chain[b, C_LAST]
+        head, tail = chain[a].route, chain[b].last
         load = plus(chain_load(chain[head]), chain_load(chain[b]))
         if head != b and holds(columns, load):
             link_up(world, legs, chain, a, b, head, tail)
@@ -106,24 +106,24 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: IntArray) 
 
 
 @compiled
-def link_up(world: World, legs: IntArray, chain: IntArray, a: int, b: int, head: int,
+def link_up(world: World, legs: IntArray, chain: Records, a: int, b: int, head: int,
             tail: int) -> None:
     """Put the route from `b` to `tail` behind that from `head` to `a`. In place."""
-    chain[a, C_BEHIND], chain[b, C_BEFORE] = b, a
-    chain[head, C_LAST], chain[tail, C_ROUTE] = tail, head
-    node, leave = b, chain[a, C_LEAVE] + leg(legs, a, b).duration
+    chain[a].behind, chain[b].before = b, a
+    chain[head].last, chain[tail].route = tail, head
+    node, leave = b, chain[a].leave + leg(legs, a, b).duration
     while node != NOWHERE:
-        behind = chain[node, C_BEHIND]
+        behind = chain[node].behind
         leave = end_of_service(world.place[node], leave)
-        chain[node, C_LEAVE] = leave
+        chain[node].leave = leave
         if behind != NOWHERE:
             leave += leg(legs, node, behind).duration
         node = behind
-    node, latest = a, chain[b, C_LATEST] - leg(legs, a, b).duration
+    node, latest = a, chain[b].latest - leg(legs, a, b).duration
     while node != NOWHERE:
-        before = chain[node, C_BEFORE]
+        before = chain[node].before
         latest = latest_arrival(world.place[node], latest)
-        chain[node, C_LATEST] = latest
+        chain[node].latest = latest
         if before != NOWHERE:
             latest -= leg(legs, before, node).duration
         node = before

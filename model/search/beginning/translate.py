@@ -1,5 +1,7 @@
 """Plans to and from the routes of a search."""
 
+from typing import Any
+
 import numpy as np
 
 from model.kernel.alarm import rung
@@ -9,24 +11,21 @@ from model.kernel.instance import (
     RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_MAX_TRIPS,
     NODE_DEMAND, NONE,
 )
+from model.kernel.records import Record, one, read_rows
 from model.kernel.stop import start_of_service
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.savings import savings_routes
 from model.search.insertion.evaluate import INFEASIBLE, serve_alone
 from model.search.insertion.offers import AT_ONE_STOP
-from model.search.moves.split import LINE_COLUMNS
-from model.search.route.edit import MOVE_COLUMNS
+from model.search.moves.split import LINE
+from model.search.route.block import SUMS
+from model.search.route.edit import MOVE
 from model.search.route.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, KEPT_COLUMNS,
-    K_MOVE, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, START, S_ARRIVAL, S_GAP, S_HOLD,
-    S_KIND, S_LEAVE, S_LEG, S_NODE, S_RELEASE, T_FIRST, T_LAST, W_SLOT, Fleet, World, empty_fleet,
+    CUSTOMER, END, NOWHERE, START, Fleet, World, empty_fleet, BOUND, KEPT,
 )
 from model.search.route.refresh import clear_holds, locate, refresh, settle
 from model.search.route.routes import drive_forward, load_trips
-from model.search.route.state import (
-    COUNTS, I_BEST_MISSING, I_CUSTOMERS, I_LEAN, I_MISSING, I_STAMP, V_COST, Searcher, keep_best,
-    left_out_cost, list_active,
-)
+from model.search.route.state import COUNTS, Searcher, keep_best, left_out_cost, list_active, VALUES
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
 SPARE_SLOTS = 8
@@ -51,24 +50,24 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
     """Make room for a search: for so many routes, and stops, trips and sorties of one."""
     slots, stops, trips, sorties = sizes
     now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
-    nodes, count = world.num_nodes, _row(COUNTS)
-    count[I_LEAN] = not world.general
-    columns = K_MOVE + MOVE_COLUMNS if world.general else KEPT_COLUMNS
-    kept = np.zeros((nodes, slots, columns) if world.keeps else (0, 0, 0), np.int64)
-    kept_cost = np.zeros((nodes, slots) if world.keeps and world.general else (0, 0))
+    nodes, count = world.num_nodes, one(COUNTS)
+    count.lean = not world.general
+    room = (nodes, slots) if world.keeps else (0, 0)
+    of_moves = room if world.general else (0, 0)
     # On one route, by a trip more on any, beside neighbours.
     offers = max(AT_ONE_STOP * stops + sorties * (world.max_visits + 1),
                  nodes + slots * (3 * trips + 2), 2 * AT_ONE_STOP * world.fit.shape[1])
     return Searcher(
-        now=now, before=before, best=best, count=count, value=np.zeros(4),
+        now=now, before=before, best=best, count=count, value=one(VALUES),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
         hit=np.zeros((slots, trips), np.int64), key=np.zeros(nodes),
-        line=np.zeros((nodes + 3, LINE_COLUMNS), np.int64), line_cost=np.zeros(nodes + 3),
-        moved=_row(max(slots, stops) + 2), move=_row(MOVE_COLUMNS),
-        offer=np.zeros((offers, MOVE_COLUMNS), np.int64), least=np.zeros(offers),
-        acc=_row(8), bound=np.zeros(2), alone=alone, kept=kept, kept_cost=kept_cost)
+        line=np.zeros(nodes + 3, LINE), line_cost=np.zeros(nodes + 3),
+        moved=_row(max(slots, stops) + 2), move=one(MOVE),
+        offer=np.zeros(offers, MOVE), least=np.zeros(offers),
+        acc=one(SUMS), bound=one(BOUND), alone=alone, kept=np.zeros(room, KEPT),
+        kept_move=np.zeros(of_moves, MOVE), kept_cost=np.zeros(of_moves))
 
 
 def _row(length: int) -> IntArray:
@@ -113,7 +112,7 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
 
 
 @compiled
-def alone_costs(world: World, fleet: Fleet, acc: IntArray, alone: FloatArray) -> None:
+def alone_costs(world: World, fleet: Fleet, acc: Record, alone: FloatArray) -> None:
     """Write the cost of a route that serves one customer alone, (type, 2, node). In place."""
     slot = len(fleet.route) - 1
     for k in range(world.num_types):
@@ -128,24 +127,25 @@ def alone_costs(world: World, fleet: Fleet, acc: IntArray, alone: FloatArray) ->
 def begin(world: World, searcher: Searcher, num_routes: int) -> None:
     """Time the routes written; those that break a rule are left to be planned anew. In place."""
     now, count = searcher.now, searcher.count
-    now.where[:] = NOWHERE
+    for node in range(world.num_nodes):
+        now.where[node].slot = NOWHERE
     cost = 0.0
     for slot in range(num_routes):
         if refresh(world, now, slot, searcher.acc):
-            now.used[now.route[slot, R_TYPE]] += 1
-            now.route[slot, R_STAMP] = 1
+            now.used[now.route[slot].type] += 1
+            now.route[slot].stamp = 1
             cost += now.cost[slot]
             locate(now, slot)
         else:
-            now.route[slot, R_LENGTH] = now.route[slot, R_SORTIES] = now.route[slot, R_TRIPS] = 0
+            now.route[slot].length = now.route[slot].sorties = now.route[slot].trips = 0
             now.cost[slot] = 0.0
     for node in range(world.num_depots, world.num_nodes):
-        if now.where[node, W_SLOT] == NOWHERE:
-            searcher.missing[count[I_MISSING]] = node
-            count[I_MISSING] += 1
-    count[I_STAMP], count[I_CUSTOMERS] = 1, world.num_nodes - world.num_depots
-    left_out = left_out_cost(world, searcher.missing, count[I_MISSING])
-    searcher.value[V_COST] = cost + left_out
+        if now.where[node].slot == NOWHERE:
+            searcher.missing[count.missing] = node
+            count.missing += 1
+    count.stamp, count.customers = 1, world.num_nodes - world.num_depots
+    left_out = left_out_cost(world, searcher.missing, count.missing)
+    searcher.value.cost = cost + left_out
     list_active(searcher)
     keep_best(searcher)
 
@@ -159,24 +159,25 @@ def leg_cost(world: World, searcher: Searcher) -> float:
     now = searcher.now
     cost, legs = 0.0, 0
     for slot in range(len(searcher.active)):
-        rate = world.rate[now.route[slot, R_TYPE]]
-        for p in range(now.route[slot, R_LENGTH] - 1):
-            if now.stop[slot, p, S_KIND] == CUSTOMER and now.stop[slot, p + 1, S_KIND] == CUSTOMER:
-                cost += (now.stop[slot, p, S_LEG] * rate[RATE_KM]
-                         + now.stop[slot, p, S_GAP] * rate[RATE_HOUR])
+        rate = world.rate[now.route[slot].type]
+        for p in range(now.route[slot].length - 1):
+            if now.stop[slot, p].kind == CUSTOMER and now.stop[slot, p + 1].kind == CUSTOMER:
+                cost += (now.stop[slot, p].leg * rate[RATE_KM]
+                         + now.stop[slot, p].gap * rate[RATE_HOUR])
                 legs += 1
     if cost > 0.0:
         return cost / legs
-    left_out = left_out_cost(world, searcher.missing, searcher.count[I_MISSING])
-    return max(1e-9, (searcher.value[V_COST] - left_out) / len(world.place))
+    left_out = left_out_cost(world, searcher.missing, searcher.count.missing)
+    return max(1e-9, (searcher.value.cost - left_out) / len(world.place))
 
 
 def write_route(fleet: Fleet, slot: int, route: Route) -> None:
     """Write the sequence of a route. In place."""
     stops = [(stop.node, START if index == 0 else END if index == len(trip.stops) - 1 else CUSTOMER)
              for trip in route.trips for index, stop in enumerate(trip.stops)]
-    fleet.stop[slot, : len(stops), [S_NODE, S_KIND]] = np.array(stops).T
-    fleet.stop[slot, : len(stops), S_HOLD] = NONE
+    written = fleet.stop[slot, : len(stops)]
+    written["node"], written["kind"] = np.array(stops).T
+    written["hold"] = NONE
     firsts = np.cumsum([0] + [len(trip.stops) for trip in route.trips])
     sorties = sorted(
         ((int(first) + sortie.launch_stop, sortie.launch_time, int(first) + sortie.recovery_stop,
@@ -186,11 +187,10 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
     for s, (launch, _, recovery, _, sortie) in enumerate(sorties):
         row = fleet.sortie[slot, s]
         nodes = [visit.node for visit in sortie.visits]
-        row[[F_LAUNCH, F_RECOVERY, F_DRONE, F_COUNT]] = (launch, recovery, sortie.drone,
-                                                         len(nodes))
-        row[F_NODE:F_NODE + len(nodes)] = nodes
-    fleet.route[slot, [R_TYPE, R_LENGTH, R_SORTIES]] = (route.vehicle_type, len(stops),
-                                                        len(sorties))
+        row.launch, row.recovery, row.drone = launch, recovery, sortie.drone
+        row.count, row.nodes[: len(nodes)] = len(nodes), nodes
+    row = fleet.route[slot]
+    row.type, row.length, row.sorties = route.vehicle_type, len(stops), len(sorties)
 
 
 def read_plan(world: World, searcher: Searcher) -> Solution:
@@ -199,17 +199,17 @@ def read_plan(world: World, searcher: Searcher) -> Solution:
     routes = []
     numbers = [0] * world.num_types
     for slot in range(len(searcher.active)):
-        if best.route[slot, R_LENGTH] > 0:
+        if best.route[slot].length > 0:
             finish_route(world, best, slot, searcher.acc)
-            k = int(best.route[slot, R_TYPE])
+            k = int(best.route[slot].type)
             routes.append(Route(k, numbers[k], _trips(world, best, slot)))
             numbers[k] += 1
-    missing = searcher.best_missing[: searcher.count[I_BEST_MISSING]]
+    missing = searcher.best_missing[: searcher.count.best_missing]
     return Solution(tuple(routes), tuple(sorted(int(node) for node in missing)))
 
 
 @compiled
-def finish_route(world: World, fleet: Fleet, slot: int, acc: IntArray) -> None:
+def finish_route(world: World, fleet: Fleet, slot: int, acc: Record) -> None:
     """Write the times of a route whose trips begin as late as costs nothing. In place."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     trips, sorties = fleet.trip[slot], fleet.sortie[slot]
@@ -242,37 +242,36 @@ def sortie_ends(place: IntArray, columns: IntArray, nodes: IntArray, arrivals: I
 def _trips(world: World, fleet: Fleet, slot: int) -> tuple[Trip, ...]:
     """Return the trips of a timed route."""
     columns = fleet.route[slot]
-    kind = world.type[columns[R_TYPE]]
-    rows = fleet.stop[slot, : columns[R_LENGTH]]
-    starts = service_starts(world.place, rows[:, S_NODE].copy(), rows[:, S_ARRIVAL].copy())
-    stops = rows.tolist()
+    kind = world.type[columns.type]
+    rows = fleet.stop[slot, : columns.length]
+    starts = service_starts(world.place, rows["node"].copy(), rows["arrival"].copy())
+    stops = read_rows(rows)
     halts = [_stop(row, start) for row, start in zip(stops, starts.tolist(), strict=True)]
-    sorties = fleet.sortie[slot, : columns[R_SORTIES]]
+    sorties = read_rows(fleet.sortie[slot, : columns.sorties])
     trips = []
-    for first, last in fleet.trip[slot, : columns[R_TRIPS], [T_FIRST, T_LAST]].T.tolist():
+    for first, last in fleet.trip[slot, : columns.trips][["first", "last"]].tolist():
         flown = tuple(_sortie(world, kind, row, first) for row in sorties
-                      if first <= row[F_LAUNCH] <= last)
+                      if first <= row.launch <= last)
         trips.append(Trip(tuple(halts[first:last + 1]), flown))
     return tuple(trips)
 
 
-def _stop(row: list[int], start: int) -> Stop:
+def _stop(row: Any, start: int) -> Stop:
     """Return a timed stop; `start` is when service begins if it is a customer's."""
-    arrival = begin = row[S_ARRIVAL]
-    if row[S_KIND] == START:
-        arrival = begin = max(arrival, row[S_RELEASE], row[S_HOLD])
-    elif row[S_KIND] == CUSTOMER:
+    arrival = begin = row.arrival
+    if row.kind == START:
+        arrival = begin = max(arrival, row.release, row.hold)
+    elif row.kind == CUSTOMER:
         begin = start
-    return Stop(row[S_NODE], arrival, begin, row[S_LEAVE])
+    return Stop(row.node, arrival, begin, row.leave)
 
 
-def _sortie(world: World, kind: IntArray, row: IntArray, first: int) -> Sortie:
-    count, times = row[F_COUNT], F_NODE + world.max_visits
-    nodes, arrivals = row[F_NODE:F_NODE + count], row[times:times + count]
-    launch, recovery, drone, takeoff, begin = row[
-        [F_LAUNCH, F_RECOVERY, F_DRONE, F_TAKEOFF, F_BEGIN]].tolist()
+def _sortie(world: World, kind: IntArray, row: Any, first: int) -> Sortie:
+    nodes = np.array(row.nodes[: row.count], np.int64)
+    arrivals = np.array(row.arrivals[: row.count], np.int64)
     starts = service_starts(world.place, nodes, arrivals)
-    ends, aboard = sortie_ends(world.place, kind, nodes, arrivals, begin)
+    ends, aboard = sortie_ends(world.place, kind, nodes, arrivals, row.begin)
     visits = tuple(Visit(*visit) for visit in zip(
         nodes.tolist(), arrivals.tolist(), starts.tolist(), ends.tolist(), strict=True))
-    return Sortie(drone, launch - first, recovery - first, visits, takeoff, begin, int(aboard))
+    return Sortie(row.drone, row.launch - first, row.recovery - first, visits, row.takeoff,
+                  row.begin, int(aboard))

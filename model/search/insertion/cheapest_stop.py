@@ -4,14 +4,11 @@ from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import FAR, NODE_RELEASE, RATE_KM, TYPE_MAX_DISTANCE, TYPE_TRAVEL
 from model.kernel.leg import leg_at, legs_from, legs_to
 from model.kernel.load import fits
+from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, hours, too_late
-from model.problem import FloatArray, IntArray, UIntArray
-from model.search.route.edit import AT_STOP, M_FIRST, M_KIND, M_SLOT, M_TYPE
-from model.search.route.layout import (
-    B_BEST, B_BLINK, CHANGING, K_DETOUR, K_STAMP, K_STOP, MODE_SIMPLE, NOWHERE, R_SORTIES, R_STAMP,
-    R_TRIPS, R_TYPE, S_GAP, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_FIRST, T_LAST,
-    W_POSITION, W_SLOT, Fleet, World,
-)
+from model.problem import IntArray, UIntArray
+from model.search.route.edit import AT_STOP
+from model.search.route.layout import CHANGING, MODE_SIMPLE, NOWHERE, Fleet, World
 from model.search.route.randomness import uniform
 from model.search.route.vehicles import larger_type, load_of, route_cost
 
@@ -19,12 +16,12 @@ from model.search.route.vehicles import larger_type, load_of, route_cost
 @spliced
 def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
     """Tell whether an insertion into a route costs its detour alone."""
-    return (world.mode[fleet.route[slot, R_TYPE]] & MODE_SIMPLE > 0
-            and fleet.route[slot, R_SORTIES] == 0)
+    return (world.mode[fleet.route[slot].type] & MODE_SIMPLE > 0
+            and fleet.route[slot].sorties == 0)
 
 
 @spliced
-def scan_stops(inward: IntArray, onward: IntArray, stops: IntArray, first: int, last: int,
+def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, last: int,
                skipped: int, place: IntArray, spare: int, rate: float, best: float, blink: float,
                rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
@@ -36,47 +33,47 @@ def scan_stops(inward: IntArray, onward: IntArray, stops: IntArray, first: int, 
     chosen = -1
     own = hours(place)
     for p in range(first, last + 1):
-        out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
-        detour = out.distance + on.distance - stops[p, S_LEG]
+        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
         if cost >= best or detour > spare or p == skipped:
             continue
-        arrival = stops[p, S_LEAVE] + out.duration
+        arrival = stops[p].leave + out.duration
         if too_late(own, arrival):
-            if too_late(own, stops[p, S_LEAVE]):
+            if too_late(own, stops[p].leave):
                 break
             continue
         arrival = end_of_service(own, arrival) + on.duration
-        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
+        if arrival <= stops[p + 1].latest and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
 
 
 @inlined
-def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: IntArray, start: int,
+def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Records, start: int,
                  first: int, last: int, node: int, spare: int, rate: float, best: float,
                  blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
     chosen, own = -1, hours(world.place[node])
     leave = world.place[node, NODE_RELEASE]
-    if leave > stops[start, S_LATEST]:
+    if leave > stops[start].latest:
         return best, chosen
     for p in range(start, last + 1):
         if p > start:
-            arrival = leave + stops[p - 1, S_GAP]
-            if arrival > stops[p, S_LATEST]:
+            arrival = leave + stops[p - 1].gap
+            if arrival > stops[p].latest:
                 break
-            leave = end_of_service(world.place[stops[p, S_NODE]], arrival)
+            leave = end_of_service(world.place[stops[p].node], arrival)
         if too_late(own, leave):
             break
-        out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
-        detour = out.distance + on.distance - stops[p, S_LEG]
+        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
         arrival = leave + out.duration
         if p < first or cost >= best or detour > spare or too_late(own, arrival):
             continue
         arrival = end_of_service(own, arrival) + on.duration
-        if arrival <= stops[p + 1, S_LATEST] and uniform(rng) >= blink:
+        if arrival <= stops[p + 1].latest and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
 
@@ -85,13 +82,13 @@ def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: IntArr
 def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, last: int, node: int,
               rate: float, best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer on a trip. As `scan_stops`."""
-    k, trip, stops = fleet.route[slot, R_TYPE], fleet.trip[slot, index], fleet.stop[slot]
+    k, trip, stops = fleet.route[slot].type, fleet.trip[slot, index], fleet.stop[slot]
     m = world.type[k, TYPE_TRAVEL]
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     place = world.place[node]
-    spare = world.type[k, TYPE_MAX_DISTANCE] - trip[T_DISTANCE]
-    if place[NODE_RELEASE] > stops[trip[T_FIRST], S_LEAVE]:
-        return scan_delayed(world, inward, onward, stops, trip[T_FIRST], first, last, node, spare,
+    spare = world.type[k, TYPE_MAX_DISTANCE] - trip.distance
+    if place[NODE_RELEASE] > stops[trip.first].leave:
+        return scan_delayed(world, inward, onward, stops, trip.first, first, last, node, spare,
                             rate, best, blink, rng)
     return scan_stops(inward, onward, stops, first, last, -1, place, spare, rate, best, blink, rng)
 
@@ -103,7 +100,7 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
 
     A larger one if `enlarge`; or `NOWHERE`.
     """
-    k = fleet.route[slot, R_TYPE]
+    k = fleet.route[slot].type
     if fits(world.type[k], load_of(fleet.trip[slot, index]), world.place[node]):
         return k, 0.0
     if not enlarge:
@@ -111,11 +108,11 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
     by = larger_type(world, fleet, slot, node)
     if by < 0:
         return NOWHERE, 0.0
-    return by, route_cost(world, by, fleet.trip[slot, 0, T_DISTANCE]) - fleet.cost[slot]
+    return by, route_cost(world, by, fleet.trip[slot, 0].distance) - fleet.cost[slot]
 
 
 @spliced
-def shortest_detour(inward: IntArray, onward: IntArray, stops: IntArray, last: int, place: IntArray,
+def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: int, place: IntArray,
                     best: int) -> tuple[int, int]:
     """Return the shortest detour for a customer on a lean route, and the stop before it.
 
@@ -123,62 +120,62 @@ def shortest_detour(inward: IntArray, onward: IntArray, stops: IntArray, last: i
     """
     chosen, own = -1, hours(place)
     for p in range(last):
-        out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
-        detour = out.distance + on.distance - stops[p, S_LEG]
+        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        detour = out.distance + on.distance - stops[p].leg
         if detour >= best:
             continue
-        arrival = stops[p, S_LEAVE] + out.duration
+        arrival = stops[p].leave + out.duration
         if too_late(own, arrival):
-            if too_late(own, stops[p, S_LEAVE]):
+            if too_late(own, stops[p].leave):
                 break
             continue
         arrival = end_of_service(own, arrival) + on.duration
-        if arrival <= stops[p + 1, S_LATEST]:
+        if arrival <= stops[p + 1].latest:
             chosen, best = p, detour
     return best, chosen
 
 
 @spliced
 def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, best: float,
-              kept: IntArray) -> tuple[float, int]:
+              kept: Record) -> tuple[float, int]:
     """As `scan_stops`, on a lean route that this turn doesn't change, but for overlooking.
 
     Most turns are undone, so that most routes are as when the customer was inserted before.
     """
-    stamp = fleet.route[slot, R_STAMP]
-    if kept[K_STAMP] != stamp or (kept[K_STOP] < 0 and kept[K_DETOUR] * rate < best):
-        m = world.type[fleet.route[slot, R_TYPE], TYPE_TRAVEL]
+    stamp = fleet.route[slot].stamp
+    if kept.stamp != stamp or (kept.stop < 0 and kept.detour * rate < best):
+        m = world.type[fleet.route[slot].type, TYPE_TRAVEL]
         most = FAR
         # Also where distance costs nothing, or a larger vehicle saves more than any detour costs.
         if abs(best) < FAR * rate:
             most = int(best / rate) + 1
-        kept[K_STAMP] = stamp
-        kept[K_DETOUR], kept[K_STOP] = shortest_detour(
+        kept.stamp = stamp
+        kept.detour, kept.stop = shortest_detour(
             legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot],
-            fleet.trip[slot, 0, T_LAST], world.place[node], most)
-    cost = kept[K_DETOUR] * rate
+            fleet.trip[slot, 0].last, world.place[node], most)
+    cost = kept.detour * rate
     if cost >= best:
         return best, -1
-    return cost, kept[K_STOP]
+    return cost, kept.stop
 
 
 @spliced
 def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
-              best: float, enlarge: bool, kept: IntArray, move: IntArray, rng: UIntArray) -> float:
+              best: float, enlarge: bool, kept: Record, move: Record, rng: UIntArray) -> float:
     """Find the cheapest stop where all routes are lean; return the best cost so far.
 
     In place: `move`, if that is a stop that costs less than `best`; also `kept`, as in `Searcher`.
     """
     for index in range(num_active):
         slot = active[index]
-        k = fleet.route[slot, R_TYPE]
+        k = fleet.route[slot].type
         if not world.can[k, 0, node]:
             continue
         by, base = serving_type(world, fleet, slot, 0, node, enlarge)
         if by < 0 or (by != k and base >= best):
             continue
         rate = world.rate[by, RATE_KM]
-        skipped, changing = -1, not world.scan_all or fleet.route[slot, R_STAMP] == CHANGING
+        skipped, changing = -1, not world.scan_all or fleet.route[slot].stamp == CHANGING
         cost, p = best, -1
         if not changing:
             cost, p = scan_kept(world, fleet, slot, node, rate, best - base, kept[node, slot])
@@ -188,46 +185,46 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
             m = world.type[k, TYPE_TRAVEL]
             cost, p = scan_stops(
                 legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot], 0,
-                fleet.trip[slot, 0, T_LAST] - 1, skipped, world.place[node], FAR, rate, best - base,
+                fleet.trip[slot, 0].last - 1, skipped, world.place[node], FAR, rate, best - base,
                 world.blink, rng)
         if p >= 0:
             best = cost + base
-            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+            move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
     return best
 
 
 @spliced
 def scan_simple(world: World, fleet: Fleet, slot: int, node: int, enlarge: bool,
-                bound: FloatArray, move: IntArray, rng: UIntArray) -> None:
+                bound: Record, move: Record, rng: UIntArray) -> None:
     """Find the cheapest stop on a route where only distance counts. As `places.try_route`."""
-    k = fleet.route[slot, R_TYPE]
-    for trip in range(fleet.route[slot, R_TRIPS]):
+    k = fleet.route[slot].type
+    for trip in range(fleet.route[slot].trips):
         by, base = serving_type(world, fleet, slot, trip, node, enlarge)
-        if by < 0 or (by != k and base >= bound[B_BEST]):
+        if by < 0 or (by != k and base >= bound.best):
             continue
         cost, p = scan_trip(
-            world, fleet, slot, trip, fleet.trip[slot, trip, T_FIRST],
-            fleet.trip[slot, trip, T_LAST] - 1, node, world.rate[by, RATE_KM],
-            bound[B_BEST] - base, bound[B_BLINK], rng)
+            world, fleet, slot, trip, fleet.trip[slot, trip].first,
+            fleet.trip[slot, trip].last - 1, node, world.rate[by, RATE_KM],
+            bound.best - base, bound.blink, rng)
         if p >= 0:
-            bound[B_BEST] = cost + base
-            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+            bound.best = cost + base
+            move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
 
 
 @pasted
 def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
-                move: IntArray, rng: UIntArray) -> float:
+                move: Record, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where only distance counts. As `scan_lean`."""
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
-        slot = fleet.where[other, W_SLOT]
+        slot = fleet.where[other].slot
         if slot < 0:
             continue
-        k = fleet.route[slot, R_TYPE]
+        k = fleet.route[slot].type
         if not (is_simple(world, fleet, slot) and world.can[k, 0, node]):
             continue
-        p = fleet.where[other, W_POSITION]
-        trip = fleet.stop[slot, p, S_TRIP]
+        p = fleet.where[other].position
+        trip = fleet.stop[slot, p].trip
         by, base = serving_type(world, fleet, slot, trip, node, enlarge)
         if by < 0 or (by != k and base >= best):
             continue
@@ -235,21 +232,21 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
                             best - base, world.blink, rng)
         if p >= 0:
             best = cost + base
-            move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+            move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
     return best
 
 
 @spliced
 def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
-                     move: IntArray, rng: UIntArray) -> float:
+                     move: Record, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where all routes are lean. As `scan_lean`."""
     own = hours(world.place[node])
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
-        slot, behind = fleet.where[other, W_SLOT], fleet.where[other, W_POSITION]
+        slot, behind = fleet.where[other].slot, fleet.where[other].position
         if slot < 0:
             continue
-        k = fleet.route[slot, R_TYPE]
+        k = fleet.route[slot].type
         if not world.can[k, 0, node]:
             continue
         by, base = serving_type(world, fleet, slot, 0, node, enlarge)
@@ -259,12 +256,12 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
         inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
         stops = fleet.stop[slot]
         for p in (behind - 1, behind):
-            out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
-            cost = (out.distance + on.distance - stops[p, S_LEG]) * rate + base
-            arrival = stops[p, S_LEAVE] + out.duration
+            out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+            cost = (out.distance + on.distance - stops[p].leg) * rate + base
+            arrival = stops[p].leave + out.duration
             following = end_of_service(own, arrival) + on.duration
-            if (cost < best and not too_late(own, arrival) and following <= stops[p + 1, S_LATEST]
+            if (cost < best and not too_late(own, arrival) and following <= stops[p + 1].latest
                     and uniform(rng) >= world.blink):
                 best = cost
-                move[M_KIND], move[M_SLOT], move[M_FIRST], move[M_TYPE] = AT_STOP, slot, p, by
+                move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
     return best

@@ -1,26 +1,20 @@
 """What an insertion costs: from the blocks around it, or by timing the whole route again."""
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.copying import copy_row
 from model.kernel.instance import (
     RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE,
     NONE, TYPE_START,
 )
 from model.kernel.leg import leg, leg_at, legs_of, legs_to
+from model.kernel.records import Record, Records
 from model.kernel.start import counted_from
 from model.kernel.stop import as_late, end_of_service, service_duration, too_late
-from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block
 from model.search.route.edit import (
-    BY_SORTIE, BY_TRUCK, FLIGHT_TRIP, FROM_START, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE,
-    NEW_TRIP, ON_SORTIE, WAYS, apply, begin_route,
+    BY_SORTIE, BY_TRUCK, FLIGHT_TRIP, FROM_START, NEW_TRIP, ON_SORTIE, WAYS, apply, begin_route,
 )
 from model.search.route.layout import (
-    CUSTOMER, END, F_LAUNCH, F_RECOVERY, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, R_LENGTH,
-    R_OFFSET, R_SORTIES, R_TYPE, R_WORKING, SEQUENCE_COLUMNS, START, S_ARRIVAL, S_BEFORE, S_BLOCK,
-    S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_HOLD, S_KIND, S_LAST,
-    S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, T_FIRST, T_RELEASE, Fleet,
-    World,
+    CUSTOMER, END, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, START, Fleet, World, copy_sequence,
 )
 from model.search.route.refresh import refresh
 from model.search.route.routes import sortie_cost, window_cost
@@ -36,125 +30,124 @@ def copy_part(fleet: Fleet, slot: int, first: int, last: int, to: int) -> int:
     """
     source, target = fleet.stop[slot], fleet.stop[to]
     for p in range(first, last + 1):
-        for column in range(SEQUENCE_COLUMNS):
-            target[p - first, column] = source[p, column]
-        target[p - first, S_HOLD] = NONE
+        copy_sequence(source[p], target[p - first])
+        target[p - first].hold = NONE
     skipped, count = 0, 0
     sorties, copies = fleet.sortie[slot], fleet.sortie[to]
-    for s in range(fleet.route[slot, R_SORTIES]):
-        launch = sorties[s, F_LAUNCH]
+    for s in range(fleet.route[slot].sorties):
+        launch = sorties[s].launch
         if launch < first:
             skipped += 1
         elif launch <= last:
-            copy_row(sorties[s], copies[count])
-            copies[count, F_LAUNCH] -= first
-            copies[count, F_RECOVERY] -= first
+            copies[count] = sorties[s]
+            copies[count].launch -= first
+            copies[count].recovery -= first
             count += 1
-    copy_row(fleet.route[slot], fleet.route[to])
-    fleet.route[to, R_LENGTH], fleet.route[to, R_SORTIES] = last - first + 1, count
+    fleet.route[to] = fleet.route[slot]
+    fleet.route[to].length, fleet.route[to].sorties = last - first + 1, count
     return skipped
 
 
 @inlined
-def part_of(fleet: Fleet, slot: int, move: IntArray, held: bool) -> tuple[int, int]:
+def part_of(fleet: Fleet, slot: int, move: Record, held: bool) -> tuple[int, int]:
     """Return the first and last stop of the blocks that a move changes.
 
     `held` tells that the trip will begin later, so that all from its beginning on changes.
     """
     stops = fleet.stop[slot]
-    kind, p = move[M_KIND], move[M_FIRST]
+    kind, p = move.kind, move.first
     q = p + 1
     if kind == BY_SORTIE:
-        q = move[M_LAST]
+        q = move.last
     elif kind == ON_SORTIE:
-        p = fleet.sortie[slot, move[M_SORTIE], F_LAUNCH]
-        q = fleet.sortie[slot, move[M_SORTIE], F_RECOVERY]
-    p, q = max(p, 0), min(q, fleet.route[slot, R_LENGTH] - 1)
+        p = fleet.sortie[slot, move.sortie].launch
+        q = fleet.sortie[slot, move.sortie].recovery
+    p, q = max(p, 0), min(q, fleet.route[slot].length - 1)
     if held:
-        p = fleet.trip[slot, stops[p, S_TRIP], T_FIRST]
-    return stops[p, S_BLOCK], stops[stops[q, S_BLOCK], S_LAST]
+        p = fleet.trip[slot, stops[p].trip].first
+    return stops[p].block, stops[stops[q].block].last
 
 
 @inlined
-def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: IntArray) -> bool:
+def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: Record) -> bool:
     """Time the changed stops in slot `to`, which take the place of those from `first` on.
 
     In place; False if a rule is broken. Leaves the sums so far in the route of slot `to`.
     """
     route, stops, sorties = fleet.route[to], fleet.stop[to], fleet.sortie[to]
     old = fleet.stop[slot]
-    k, length, count = route[R_TYPE], route[R_LENGTH], route[R_SORTIES]
+    k, length, count = route.type, route.length, route.sorties
     legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
-    time, cum = old[first, S_ARRIVAL], old[first, S_BEFORE]
-    depart = old[first - 1, S_DEPART] if first > 0 else FAR
+    time, cum = old[first].arrival, old[first].before
+    depart = old[first - 1].depart if first > 0 else FAR
     make_ready(world, k, stops, sorties, count)
     p = s = driven = 0
     while p < length:
         stop = stops[p]
         last = p
-        if s < count and sorties[s, F_LAUNCH] == p:
+        if s < count and sorties[s].launch == p:
             last = time_block(world, k, stops, length, sorties, count, p, s, time, acc)
             if last < 0:
                 return False
-            while s < count and sorties[s, F_LAUNCH] <= last:
+            while s < count and sorties[s].launch <= last:
                 s += 1
             for q in range(p, last):
-                driven += leg(legs, stops[q, S_NODE], stops[q + 1, S_NODE]).distance
+                driven += leg(legs, stops[q].node, stops[q + 1].node).distance
         else:
             plain_block(world, k, stop, time)
-        if time > stop[S_HI] or time < stop[S_LO]:
+        if time > stop.hi or time < stop.lo:
             return False
-        depart = min(depart, stop[S_DEP] - cum)
-        cum += stop[S_D]
-        time = max(time + stop[S_D], stop[S_C])
+        depart = min(depart, stop.dep - cum)
+        cum += stop.d
+        time = max(time + stop.d, stop.c)
         p = last + 1
         if p < length:
-            if stops[last, S_KIND] == END:
+            if stops[last].kind == END:
                 gap = world.type[k, TYPE_RELOAD]
             else:
-                way = leg(legs, stops[last, S_NODE], stops[p, S_NODE])
+                way = leg(legs, stops[last].node, stops[p].node)
                 gap = way.duration
                 driven += way.distance
             cum, time = cum + gap, time + gap
-    acc[0], acc[1], acc[2], acc[3] = time, cum, depart, driven
+    acc.end, acc.cum, acc.depart, acc.driven = time, cum, depart, driven
     return True
 
 
 @inlined
 def price_part(world: World, fleet: Fleet, slot: int, first: int, last: int, to: int,
-               acc: IntArray) -> float:
+               acc: Record) -> float:
     """Return what it costs to put the stops in slot `to` in the place of `first` to `last`."""
     if not time_part(world, fleet, slot, first, to, acc):
         return INFEASIBLE
-    time, cum, depart, driven = acc[0], acc[1], acc[2], acc[3]
+    time, cum, depart, driven = acc.end, acc.cum, acc.depart, acc.driven
     route, old = fleet.route[slot], fleet.stop[slot]
-    k, end = route[R_TYPE], time
-    if last + 1 < route[R_LENGTH]:
-        arrival = time + old[last, S_GAP]
+    k, end = route.type, time
+    if last + 1 < route.length:
+        arrival = time + old[last].gap
         behind = old[last + 1]
-        cum += old[last, S_GAP]
-        if arrival > behind[S_LATEST] or arrival < behind[S_EARLY]:
+        cum += old[last].gap
+        if arrival > behind.latest or arrival < behind.early:
             return INFEASIBLE
-        depart = min(depart, behind[S_LATEST] - cum)
-        cum += behind[S_REST]
-        end = max(arrival + behind[S_REST], behind[S_END])
-    working = end - counted_from(world.type[k], min(depart, end - cum)) - route[R_OFFSET]
+        depart = min(depart, behind.latest - cum)
+        cum += behind.rest
+        end = max(arrival + behind.rest, behind.end)
+    working = end - counted_from(world.type[k], min(depart, end - cum)) - route.offset
     if working > world.type[k, TYPE_MAX_WORKING]:
         return INFEASIBLE
     for p in range(first, last):
-        driven -= old[p, S_LEG]
-    cost = driven * world.rate[k, RATE_KM] + (working - route[R_WORKING]) * world.rate[k, RATE_HOUR]
-    for s in range(fleet.route[to, R_SORTIES]):
+        driven -= old[p].leg
+    cost = driven * world.rate[k, RATE_KM] + (working - route.working) * world.rate[k, RATE_HOUR]
+    for s in range(fleet.route[to].sorties):
         cost += sortie_cost(world, k, fleet.stop[to], fleet.sortie[to, s])
-    for s in range(route[R_SORTIES]):
-        if first <= fleet.sortie[slot, s, F_LAUNCH] <= last:
+    for s in range(route.sorties):
+        if first <= fleet.sortie[slot, s].launch <= last:
             cost -= sortie_cost(world, k, old, fleet.sortie[slot, s])
     return cost
 
 
 @inlined
 def serve_alone(world: World, fleet: Fleet, slot: int, k: int, node: int, by_drone: bool,
-                acc: IntArray) -> bool:
+                acc: Record) -> bool:
     """Write the route that serves a customer alone at the least cost. In place; False if none may.
 
     Where it begins and ends at one place, a drone leaves from the start, and comes back there.
@@ -175,43 +168,42 @@ def serve_alone(world: World, fleet: Fleet, slot: int, k: int, node: int, by_dro
 
 
 @inlined
-def give_releases(fleet: Fleet, to: int, alone: bool, trip: IntArray, release: int) -> None:
+def give_releases(fleet: Fleet, to: int, alone: bool, trip: Record, release: int) -> None:
     """Let the trips in slot `to` begin no earlier than their parcels are there.
 
     In place; `alone` tells that the customer has a trip of its own.
     """
-    for p in range(fleet.route[to, R_LENGTH]):
+    for p in range(fleet.route[to].length):
         stop = fleet.stop[to, p]
-        if stop[S_KIND] == START:
-            if stop[S_RELEASE] == NONE:
-                stop[S_RELEASE] = release
+        if stop.kind == START:
+            if stop.release == NONE:
+                stop.release = release
                 if not alone:
-                    stop[S_RELEASE] = max(release, trip[T_RELEASE])
+                    stop.release = max(release, trip.release)
             elif p == 0 and not alone:
-                stop[S_RELEASE] = max(stop[S_RELEASE], release)
+                stop.release = max(stop.release, release)
 
 
 @inlined
-def price_move(world: World, fleet: Fleet, move: IntArray, node: int, acc: IntArray) -> float:
+def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record) -> float:
     """Return what it costs to insert a customer as `move` says; INFEASIBLE if it can't be."""
-    slot, to = move[M_SLOT], len(fleet.route) - 1
+    slot, to = move.slot, len(fleet.route) - 1
     route = fleet.route[slot]
-    k = route[R_TYPE]
+    k = route.type
     depot = world.type[k, TYPE_END]
     if world.mode[k] & MODE_PRICED:
-        copy_part(fleet, slot, 0, route[R_LENGTH] - 1, to)
+        copy_part(fleet, slot, 0, route.length - 1, to)
         apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0)
         if not refresh(world, fleet, to, acc):
             return INFEASIBLE
         return fleet.cost[to] - fleet.cost[slot]
-    kind = move[M_KIND]
-    trip = fleet.trip[slot, fleet.stop[slot, max(move[M_FIRST], 0), S_TRIP]]
+    kind = move.kind
+    trip = fleet.trip[slot, fleet.stop[slot, max(move.first, 0)].trip]
     if kind == ON_SORTIE:
-        trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move[M_SORTIE], F_LAUNCH],
-                                           S_TRIP]]
+        trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move.sortie].launch].trip]
     release = world.place[node, NODE_RELEASE]
     alone = kind in (NEW_TRIP, FLIGHT_TRIP)
-    held = not alone and release > trip[T_RELEASE]
+    held = not alone and release > trip.release
     first, last = part_of(fleet, slot, move, held)
     skipped = copy_part(fleet, slot, first, last, to)
     apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, first, skipped)
@@ -226,38 +218,38 @@ def stands_alone(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bo
     No drone is in the air there, the trip needs not wait for the parcel and, if lateness counts,
     no drone flies at all, so that stops follow one another in time.
     """
-    mode = world.mode[fleet.route[slot, R_TYPE]]
+    mode = world.mode[fleet.route[slot].type]
     stop = fleet.stop[slot, p]
     if mode & MODE_PRICED and (mode & (MODE_SETTLED | MODE_PROFILE)
-                               or fleet.route[slot, R_SORTIES] > 0):
+                               or fleet.route[slot].sorties > 0):
         return False
-    return (stop[S_FLYING] == 0
-            and world.place[node, NODE_RELEASE] <= fleet.trip[slot, stop[S_TRIP], T_RELEASE])
+    return (stop.flying == 0
+            and world.place[node, NODE_RELEASE] <= fleet.trip[slot, stop.trip].release)
 
 
 @inlined
-def follow(world: World, route: IntArray, stops: IntArray, p: int, time: int, cum: int,
+def follow(world: World, route: Record, stops: Records, p: int, time: int, cum: int,
            depart: int) -> tuple[float, int, int, int]:
     """Return what lateness costs more if stop `p` is reached at `time`, and how the route ends.
 
     That is its end, the sum of all durations, and the latest departure that costs nothing; `cum`
     and `depart` are those up to stop `p`. No drone flies.
     """
-    cost, last = 0.0, route[R_LENGTH] - 1
+    cost, last = 0.0, route.length - 1
     for q in range(p, last + 1):
         stop = stops[q]
         leave = time
-        if stop[S_KIND] == CUSTOMER:
-            node = stop[S_NODE]
+        if stop.kind == CUSTOMER:
+            node = stop.node
             place = world.place[node]
-            cost += window_cost(world, node, time) - window_cost(world, node, stop[S_ARRIVAL])
+            cost += window_cost(world, node, time) - window_cost(world, node, stop.arrival)
             depart = min(depart, as_late(place, time) - cum)
             leave, cum = end_of_service(place, time), cum + service_duration(place)
-        elif stop[S_KIND] == START:
-            leave = max(time, stop[S_RELEASE])
+        elif stop.kind == START:
+            leave = max(time, stop.release)
         time = leave
         if q < last:
-            time, cum = time + stop[S_GAP], cum + stop[S_GAP]
+            time, cum = time + stop.gap, cum + stop.gap
     return cost, time, cum, depart
 
 
@@ -268,27 +260,27 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     For where `stands_alone`; in constant time unless lateness costs.
     """
     route, stops, place = fleet.route[slot], fleet.stop[slot], world.place[node]
-    k, here, behind = route[R_TYPE], stops[p], stops[p + 1]
+    k, here, behind = route.type, stops[p], stops[p + 1]
     m = world.type[k, TYPE_TRAVEL]
-    out = leg_at(legs_to(world.back, m, node), here[S_NODE])
-    on = leg(legs_of(world.leg, m), node, behind[S_NODE])
-    time, cum = here[S_LEAVE] + out.duration, here[S_CUM] + out.duration
+    out = leg_at(legs_to(world.back, m, node), here.node)
+    on = leg(legs_of(world.leg, m), node, behind.node)
+    time, cum = here.leave + out.duration, here.cum + out.duration
     if too_late(place, time):
         return INFEASIBLE
-    cost = (out.distance + on.distance - here[S_LEG]) * world.rate[k, RATE_KM]
-    depart = min(here[S_DEPART], as_late(place, time) - cum)
+    cost = (out.distance + on.distance - here.leg) * world.rate[k, RATE_KM]
+    depart = min(here.depart, as_late(place, time) - cum)
     late = window_cost(world, node, time)
     time = end_of_service(place, time) + on.duration
     cum += service_duration(place) + on.duration
-    if time > behind[S_LATEST] or time < behind[S_EARLY]:
+    if time > behind.latest or time < behind.early:
         return INFEASIBLE
     if world.mode[k] & MODE_PRICED:
         later, end, cum, depart = follow(world, route, stops, p + 1, time, cum, depart)
         cost += late + later
     else:
-        depart = min(depart, behind[S_LATEST] - cum)
-        end, cum = max(time + behind[S_REST], behind[S_END]), cum + behind[S_REST]
-    working = end - counted_from(world.type[k], min(depart, end - cum)) - route[R_OFFSET]
+        depart = min(depart, behind.latest - cum)
+        end, cum = max(time + behind.rest, behind.end), cum + behind.rest
+    working = end - counted_from(world.type[k], min(depart, end - cum)) - route.offset
     if working > world.type[k, TYPE_MAX_WORKING]:
         return INFEASIBLE
-    return cost + (working - route[R_WORKING]) * world.rate[k, RATE_HOUR]
+    return cost + (working - route.working) * world.rate[k, RATE_HOUR]

@@ -7,13 +7,10 @@ from model.kernel.instance import (
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds, plus
+from model.kernel.records import Records
 from model.kernel.stop import end_of_service, too_late
-from model.problem import IntArray
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
-from model.search.route.layout import (
-    CUSTOMER, F_LAUNCH, R_LENGTH, R_SORTIES, R_TYPE, S_ARRIVAL, S_GAP, S_KIND, S_LATEST, S_LEAVE,
-    S_LEG, S_NODE, S_TRIP, T_FIRST, T_LAST, Fleet, World,
-)
+from model.search.route.layout import CUSTOMER, Fleet, World
 from model.search.route.vehicles import payload
 
 
@@ -21,16 +18,16 @@ from model.search.route.vehicles import payload
 def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: bool) -> bool:
     """Tell whether a customer's demand fits on top of a trip's up to stop `p`, or of the rest."""
     stops, sorties = fleet.stop[slot], fleet.sortie[slot]
-    trip = fleet.trip[slot, stops[p, S_TRIP]]
-    first, last = (trip[T_FIRST], p) if front else (p + 1, trip[T_LAST])
+    trip = fleet.trip[slot, stops[p].trip]
+    first, last = (trip.first, p) if front else (p + 1, trip.last)
     load = demand_of(world.place[node])
     for q in range(first, last + 1):
-        if stops[q, S_KIND] == CUSTOMER:
-            load = plus(load, demand_of(world.place[stops[q, S_NODE]]))
-    for s in range(fleet.route[slot, R_SORTIES]):
-        if first <= sorties[s, F_LAUNCH] <= last:
+        if stops[q].kind == CUSTOMER:
+            load = plus(load, demand_of(world.place[stops[q].node]))
+    for s in range(fleet.route[slot].sorties):
+        if first <= sorties[s].launch <= last:
             load = plus(load, payload(world, sorties[s]))
-    return holds(world.type[fleet.route[slot, R_TYPE]], load)
+    return holds(world.type[fleet.route[slot].type], load)
 
 
 @spliced
@@ -41,10 +38,10 @@ def serve_at(world: World, node: int, arrival: int) -> int:
 
 
 @spliced
-def drive_to(world: World, stops: IntArray, first: int, last: int, time: int) -> int:
+def drive_to(world: World, stops: Records, first: int, last: int, time: int) -> int:
     """Return when a truck that leaves stop `first` at `time` leaves stop `last`; FAR: too late."""
     for p in range(first + 1, last + 1):
-        time = serve_at(world, stops[p, S_NODE], time + stops[p - 1, S_GAP])
+        time = serve_at(world, stops[p].node, time + stops[p - 1].gap)
         if time >= FAR:
             break
     return time
@@ -57,26 +54,26 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     `until`: before. Loads are not looked at.
     """
     stops = fleet.stop[slot]
-    columns, trip = world.type[fleet.route[slot, R_TYPE]], fleet.trip[slot, stops[p, S_TRIP]]
+    columns, trip = world.type[fleet.route[slot].type], fleet.trip[slot, stops[p].trip]
     legs, depot = legs_of(world.leg, columns[TYPE_TRAVEL]), columns[TYPE_END]
-    first, last = trip[T_FIRST], trip[T_LAST]
+    first, last = trip.first, trip.last
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
-        release = world.place[stops[q, S_NODE], NODE_RELEASE] if q > first else 0
+        release = world.place[stops[q].node, NODE_RELEASE] if q > first else 0
         if q <= p:
             front = max(front, release)
         else:
             rear = max(rear, release)
-            rear_length += stops[q, S_LEG]
+            rear_length += stops[q].leg
         if q < p:
-            front_length += stops[q, S_LEG]
+            front_length += stops[q].leg
     release = world.place[node, NODE_RELEASE]
     if until:
         front = max(front, release)
     else:
         rear = max(rear, release)
-    here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
-    time = drive_to(world, stops, first, p, max(stops[first, S_ARRIVAL], front))
+    here, there = stops[p].node, stops[p + 1].node
+    time = drive_to(world, stops, first, p, max(stops[first].arrival, front))
     if until:
         time = serve_at(world, node, time + leg(legs, here, node).duration)
         front_length += leg(legs, here, node).distance
@@ -92,7 +89,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
         rear_length += leg(legs, depot, node).distance
         here = node
     rear_length += leg(legs, here, there).distance
-    return (time + leg(legs, here, there).duration <= stops[p + 1, S_LATEST]
+    return (time + leg(legs, here, there).duration <= stops[p + 1].latest
             and max(front_length, rear_length) <= columns[TYPE_MAX_DISTANCE])
 
 
@@ -100,15 +97,15 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
 def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     """Tell whether a customer can be served by a trip of its own behind stop `p`, or -1."""
     route, stops = fleet.route[slot], fleet.stop[slot]
-    columns = world.type[route[R_TYPE]]
+    columns = world.type[route.type]
     legs, depot = legs_of(world.leg, columns[TYPE_TRAVEL]), columns[TYPE_END]
     time = columns[TYPE_EARLIEST]
     if p >= 0:
-        time = stops[p, S_LEAVE] + columns[TYPE_RELOAD]
+        time = stops[p].leave + columns[TYPE_RELOAD]
     time = max(time, world.place[node, NODE_RELEASE])
     out, home = leg(legs, depot, node), leg(legs, node, depot)
     time = serve_at(world, node, time + out.duration) + home.duration
-    if p + 1 < route[R_LENGTH] and time + columns[TYPE_RELOAD] > stops[p + 1, S_LATEST]:
+    if p + 1 < route.length and time + columns[TYPE_RELOAD] > stops[p + 1].latest:
         return False
     return (time <= columns[TYPE_LATEST]
             and out.distance + home.distance <= columns[TYPE_MAX_DISTANCE])

@@ -2,7 +2,6 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
-from model.kernel.copying import copy_row
 from model.kernel.flight import (
     can_last, drone_service, earliest_back, recovery_end, take_off, unreachable, within_endurance,
 )
@@ -12,24 +11,20 @@ from model.kernel.instance import (
 )
 from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
 from model.kernel.load import demand_of, fits, lifts, plus
+from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, service_duration, too_late
 from model.problem import FloatArray, IntArray
 from model.search.insertion.cheapest_stop import is_simple
 from model.search.insertion.evaluate import INFEASIBLE, price_move, price_stop, stands_alone
 from model.search.insertion.new_trips import more_trips_fit, part_fits
 from model.search.route.edit import (
-    AT_STOP, BY_SORTIE, FLIGHT_TRIP, M_DRONE, M_FIRST, M_KIND, M_LAST, M_SLOT, M_SORTIE, NEW_TRIP,
-    ON_SORTIE, TRIP_FROM, TRIP_UNTIL,
+    AT_STOP, BY_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL, copy_move,
 )
-from model.search.route.layout import (
-    B_BEST, B_BLINK, END, F_COUNT, F_DRONE, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, MODE_TIMED,
-    NOWHERE, R_LENGTH, R_SORTIES, R_TYPE, START, S_ARRIVAL, S_FLYING, S_GAP, S_IDLE, S_KIND,
-    S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, T_DISTANCE, T_LAST, Fleet, World,
-)
+from model.search.route.layout import END, MODE_PRICED, MODE_TIMED, NOWHERE, START, Fleet, World
 from model.search.route.randomness import uniform
 from model.search.route.refresh import idle_time
 from model.search.route.routes import lateness_cost
-from model.search.route.state import I_OFFERS, Searcher
+from model.search.route.state import Searcher
 from model.search.route.vehicles import load_of, payload
 
 MAX_SPAN = 8
@@ -40,41 +35,41 @@ AT_ONE_STOP = MAX_SPAN + 2
 
 
 @spliced
-def add_offer(offer: IntArray, least: FloatArray, count: IntArray, cost: float, kind: int,
-              slot: int, first: int) -> int:
+def add_offer(offer: Records, least: FloatArray, count: Record, cost: float, kind: int, slot: int,
+              first: int) -> int:
     """List an insertion that costs at least `cost`; return where, to complete it. In place."""
-    index = count[I_OFFERS]
-    offer[index, M_KIND], offer[index, M_SLOT], offer[index, M_FIRST] = kind, slot, first
+    index = count.offers
+    offer[index].kind, offer[index].slot, offer[index].first = kind, slot, first
     least[index] = cost
-    count[I_OFFERS] += 1
+    count.offers += 1
     return index
 
 
 @spliced
-def stop_costs(world: World, k: int, inward: IntArray, onward: IntArray, stops: IntArray, p: int,
+def stop_costs(world: World, k: int, inward: IntArray, onward: IntArray, stops: Records, p: int,
                node: int, spare: int, early: float, best: float) -> float:
     """Return what a customer behind stop `p` costs at least, or `best` if that is no less.
 
     Or not allowed. `spare` is the time that the route could work longer at no cost, `early` what
     its waiting costs, which may become less.
     """
-    place, here, there = world.place[node], stops[p, S_NODE], stops[p + 1, S_NODE]
+    place, here, there = world.place[node], stops[p].node, stops[p + 1].node
     out, on = leg_at(inward, here), leg_at(onward, there)
-    cost = (out.distance + on.distance - stops[p, S_LEG]) * world.rate[k, RATE_KM] - early
+    cost = (out.distance + on.distance - stops[p].leg) * world.rate[k, RATE_KM] - early
     mode = world.mode[k]
     if mode & MODE_TIMED:
         # While drones fly, the truck may have time before they are back.
-        longer = out.duration + on.duration + service_duration(place) - stops[p, S_GAP]
-        cost += max(0, longer - spare - stops[p, S_IDLE]) * world.rate[k, RATE_HOUR]
+        longer = out.duration + on.duration + service_duration(place) - stops[p].gap
+        cost += max(0, longer - spare - stops[p].idle) * world.rate[k, RATE_HOUR]
     if cost >= best:
         return best
-    arrival = stops[p, S_LEAVE] + out.duration
+    arrival = stops[p].leave + out.duration
     following = end_of_service(place, arrival) + on.duration
-    if too_late(place, arrival) or following > stops[p + 1, S_LATEST]:
+    if too_late(place, arrival) or following > stops[p + 1].latest:
         return best
     if mode & MODE_PRICED:
         cost += (lateness_cost(world, node, arrival) + lateness_cost(world, there, following)
-                 - lateness_cost(world, there, stops[p + 1, S_ARRIVAL]))
+                 - lateness_cost(world, there, stops[p + 1].arrival))
     return cost
 
 
@@ -85,16 +80,16 @@ def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: i
 
     For where more than distance counts. In place.
     """
-    now, best = searcher.now, searcher.bound[B_BEST]
-    k, stops = now.route[slot, R_TYPE], now.stop[slot]
+    now, best = searcher.now, searcher.bound.best
+    k, stops = now.route[slot].type, now.stop[slot]
     m = world.type[k, TYPE_TRAVEL]
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     spare, early = idle_time(now.route[slot]), now.early[slot]
-    room = world.type[k, TYPE_MAX_DISTANCE] - now.trip[slot, stops[first, S_TRIP], T_DISTANCE]
+    room = world.type[k, TYPE_MAX_DISTANCE] - now.trip[slot, stops[first].trip].distance
     for p in range(first, last + 1):
         cost = stop_costs(world, k, inward, onward, stops, p, node, spare, early, best)
-        out, on = leg_at(inward, stops[p, S_NODE]), leg_at(onward, stops[p + 1, S_NODE])
-        if cost < best and out.distance + on.distance - stops[p, S_LEG] <= room:
+        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        if cost < best and out.distance + on.distance - stops[p].leg <= room:
             add_offer(searcher.offer, searcher.least, searcher.count, cost, AT_STOP, slot, p)
 
 
@@ -106,11 +101,11 @@ def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int
     """
     sorties = fleet.sortie[slot]
     chosen, fewest = NOWHERE, 0
-    for drone in range(world.type[fleet.route[slot, R_TYPE], TYPE_DRONES]):
+    for drone in range(world.type[fleet.route[slot].type, TYPE_DRONES]):
         free, beside = True, 0
-        for s in range(fleet.route[slot, R_SORTIES]):
-            if sorties[s, F_DRONE] == drone:
-                first, last = sorties[s, F_LAUNCH], sorties[s, F_RECOVERY]
+        for s in range(fleet.route[slot].sorties):
+            if sorties[s].drone == drone:
+                first, last = sorties[s].launch, sorties[s].recovery
                 if first <= recovery and launch <= last:
                     beside += 1
                 if first < recovery and launch < last:
@@ -129,14 +124,14 @@ def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int
 @pasted
 def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node: int) -> None:
     """List sorties to a customer from stop `launch`. As `offer_stops`."""
-    now, best = searcher.now, searcher.bound[B_BEST]
-    k, stops = now.route[slot, R_TYPE], now.stop[slot]
+    now, best = searcher.now, searcher.bound.best
+    k, stops = now.route[slot].type, now.stop[slot]
     columns = world.type[k]
     m = columns[TYPE_DRONE_TRAVEL]
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
-    out = leg_at(inward, stops[launch, S_NODE])
-    place, left = world.place[node], stops[launch, S_LEAVE]
-    begun = stops[launch, S_ARRIVAL]
+    out = leg_at(inward, stops[launch].node)
+    place, left = world.place[node], stops[launch].leave
+    begun = stops[launch].arrival
     if launch > 0:
         begun = take_off(columns, begun)
     service = drone_service(columns, place)
@@ -147,10 +142,10 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     first = launch if world.loops else launch + 1
     last = launch
     if world.crossings:
-        last = min(launch + MAX_SPAN, now.trip[slot, stops[launch, S_TRIP], T_LAST])
+        last = min(launch + MAX_SPAN, now.trip[slot, stops[launch].trip].last)
     for recovery in range(first, last + 1):
-        home = leg_at(onward, stops[recovery, S_NODE])
-        met = stops[recovery, S_ARRIVAL]
+        home = leg_at(onward, stops[recovery].node)
+        met = stops[recovery].arrival
         flight = out.duration + service + home.duration
         if not within_endurance(columns, left, left, met):
             # Held back for the window, the truck leaves later and may wait less on its way.
@@ -159,58 +154,58 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
             if met > earliest_back(columns, place, home.duration):
                 continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
-        longer = max(0, begun + flight - stops[recovery, S_LEAVE])
+        longer = max(0, begun + flight - stops[recovery].leave)
         cost = ((out.distance + home.distance) * world.rate[k, RATE_DRONE_KM]
                 + longer * world.rate[k, RATE_HOUR] + late - now.early[slot])
         if cost < best and can_last(columns, flight):
             index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
                               slot, launch)
-            searcher.offer[index, M_LAST] = recovery
+            searcher.offer[index].last = recovery
 
 
 @pasted
 def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> None:
     """List a customer on each sortie of a route. As `offer_stops`."""
     now = searcher.now
-    k, stops, sorties = now.route[slot, R_TYPE], now.stop[slot], now.sortie[slot]
+    k, stops, sorties = now.route[slot].type, now.stop[slot], now.sortie[slot]
     flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
-    for s in range(now.route[slot, R_SORTIES]):
+    for s in range(now.route[slot].sorties):
         sortie = sorties[s]
-        trip = stops[sortie[F_LAUNCH], S_TRIP]
-        if (sortie[F_COUNT] >= world.visits[k]
+        trip = stops[sortie.launch].trip
+        if (sortie.count >= world.visits[k]
                 or not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node])
                 or not lifts(world.type[k], plus(payload(world, sortie),
                                                  demand_of(world.place[node])))):
             continue
-        here = stops[sortie[F_LAUNCH], S_NODE]
-        for place in range(sortie[F_COUNT] + 1):
-            there = stops[sortie[F_RECOVERY], S_NODE]
-            if place < sortie[F_COUNT]:
-                there = sortie[F_NODE + place]
+        here = stops[sortie.launch].node
+        for place in range(sortie.count + 1):
+            there = stops[sortie.recovery].node
+            if place < sortie.count:
+                there = sortie.nodes[place]
             out, on, direct = (leg(flights, here, node), leg(flights, node, there),
                                leg(flights, here, there))
             cost = ((out.distance + on.distance - direct.distance) * world.rate[k, RATE_DRONE_KM]
                     - now.early[slot])
             here = there
-            if cost < searcher.bound[B_BEST]:
+            if cost < searcher.bound.best:
                 index = add_offer(searcher.offer, searcher.least, searcher.count, cost,
                                   ON_SORTIE, slot, place)
-                searcher.offer[index, M_SORTIE] = s
+                searcher.offer[index].sortie = s
 
 
 @pasted
 def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
     """List trips that a drone flies alone to a customer. As `offer_stops`."""
     route, stops = searcher.now.route[slot], searcher.now.stop[slot]
-    k = route[R_TYPE]
+    k = route.type
     flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
     depot = world.type[k, TYPE_END]
     out, home = leg(flights, depot, node), leg(flights, node, depot)
     cost = (out.distance + home.distance) * world.rate[k, RATE_DRONE_KM] - searcher.now.early[slot]
     if (world.loops and not unreachable(max(out.duration, home.duration))
-            and cost < searcher.bound[B_BEST]):
-        for p in range(-1, route[R_LENGTH]):
-            if p < 0 or stops[p, S_KIND] == END:
+            and cost < searcher.bound.best):
+        for p in range(-1, route.length):
+            if p < 0 or stops[p].kind == END:
                 add_offer(searcher.offer, searcher.least, searcher.count, cost, FLIGHT_TRIP, slot,
                           p)
 
@@ -219,19 +214,19 @@ def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -
 def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
     """List a customer where a trip more begins or ends. As `offer_stops`."""
     now = searcher.now
-    route, stops, best = now.route[slot], now.stop[slot], searcher.bound[B_BEST]
-    k = route[R_TYPE]
+    route, stops, best = now.route[slot], now.stop[slot], searcher.bound.best
+    k = route.type
     m, depot, rate = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_END], world.rate[k, RATE_KM]
     legs, inward = legs_of(world.leg, m), legs_to(world.back, m, node)
     out, home = leg_at(inward, depot).distance, leg(legs, node, depot).distance
-    for p in range(-1, route[R_LENGTH]):
+    for p in range(-1, route.length):
         kind = NEW_TRIP
         cost = (out + home) * rate
-        if p >= 0 and stops[p, S_KIND] != END:
-            if stops[p, S_FLYING] > 0 or stops[p, S_KIND] == START or stops[p + 1, S_KIND] == END:
+        if p >= 0 and stops[p].kind != END:
+            if stops[p].flying > 0 or stops[p].kind == START or stops[p + 1].kind == END:
                 continue
-            here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
-            base = -stops[p, S_LEG]
+            here, there = stops[p].node, stops[p + 1].node
+            base = -stops[p].leg
             until = (base + leg_at(inward, here).distance + home
                      + leg(legs, depot, there).distance) * rate
             cost = (base + leg(legs, here, depot).distance + out
@@ -242,21 +237,21 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
             if cost < best and not part_fits(world, now, slot, p, node, kind == TRIP_UNTIL):
                 continue
         cost -= now.early[slot]
-        if cost < best and (p < 0 or not too_late(world.place[node], stops[p, S_LEAVE])):
+        if cost < best and (p < 0 or not too_late(world.place[node], stops[p].leave)):
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 
 
 @inlined
-def price_offer(world: World, fleet: Fleet, move: IntArray, node: int, least: float,
-                acc: IntArray) -> float:
+def price_offer(world: World, fleet: Fleet, move: Record, node: int, least: float,
+                acc: Record) -> float:
     """Return what an insertion costs, at least `least`; INFEASIBLE if it can't be.
 
     In place: a sortie's drone.
     """
-    kind, slot, p = move[M_KIND], move[M_SLOT], move[M_FIRST]
+    kind, slot, p = move.kind, move.slot, move.first
     if kind == BY_SORTIE:
-        move[M_DRONE] = free_drone(world, fleet, slot, p, move[M_LAST])
-        if move[M_DRONE] < 0:
+        move.drone = free_drone(world, fleet, slot, p, move.last)
+        if move.drone < 0:
             return INFEASIBLE
     elif kind == AT_STOP:
         if stands_alone(world, fleet, slot, p, node):
@@ -274,19 +269,19 @@ def take_cheapest(world: World, searcher: Searcher, node: int) -> None:
     must end. In place.
     """
     bound, least, offer = searcher.bound, searcher.least, searcher.offer
-    left = searcher.count[I_OFFERS]
+    left = searcher.count.offers
     while left > 0 and not rung(world.stop):
         first = 0
         for index in range(1, left):
             if least[index] < least[first]:
                 first = index
-        if least[first] >= bound[B_BEST]:
+        if least[first] >= bound.best:
             break
         cost = price_offer(world, searcher.now, offer[first], node, least[first], searcher.acc)
-        if cost < bound[B_BEST] and uniform(searcher.rng) >= bound[B_BLINK]:
-            bound[B_BEST] = cost
-            copy_row(offer[first], searcher.move)
+        if cost < bound.best and uniform(searcher.rng) >= bound.blink:
+            bound.best = cost
+            copy_move(offer[first], searcher.move)
         left -= 1
         least[first] = least[left]
-        copy_row(offer[left], offer[first])
-    searcher.count[I_OFFERS] = 0
+        offer[first] = offer[left]
+    searcher.count.offers = 0

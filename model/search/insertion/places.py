@@ -2,7 +2,6 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import pasted
-from model.kernel.copying import copy_row
 from model.kernel.flight import held_until
 from model.kernel.instance import NONE, TYPE_COUNT, TYPE_MAX_TRIPS
 from model.kernel.load import fits
@@ -14,14 +13,11 @@ from model.search.insertion.evaluate import INFEASIBLE
 from model.search.insertion.offers import (
     offer_flight_trips, offer_joining, offer_sorties, offer_stops, offer_trips, take_cheapest,
 )
-from model.search.route.edit import M_KIND, M_TYPE, NEW_ROUTE
-from model.search.route.layout import (
-    B_BEST, B_BLINK, CHANGING, K_MOVE, K_STAMP, NOWHERE, R_STAMP, R_TRIPS, R_TYPE, S_LEAVE, S_TRIP,
-    T_FIRST, T_LAST, W_SLOT, World,
-)
+from model.search.route.edit import NEW_ROUTE, copy_move
+from model.search.route.layout import CHANGING, NOWHERE, World
 from model.search.route.randomness import uniform
 from model.search.route.refresh import stop_beside
-from model.search.route.state import I_ACTIVE, Searcher
+from model.search.route.state import Searcher
 from model.search.route.vehicles import load_of
 
 MORE_TRIPS = 0.2
@@ -42,7 +38,7 @@ def try_new_route(world: World, searcher: Searcher, node: int) -> float:
             cost = searcher.alone[k, by_drone, node]
             if cost < best and uniform(searcher.rng) >= world.blink:
                 best = cost
-                searcher.move[M_KIND], searcher.move[M_TYPE] = NEW_ROUTE + by_drone, k
+                searcher.move.kind, searcher.move.type = NEW_ROUTE + by_drone, k
     return best
 
 
@@ -53,17 +49,17 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
     In place: the move, and the cost of the best so far.
     """
     now = searcher.now
-    k = now.route[slot, R_TYPE]
+    k = now.route[slot].type
     by_truck, by_drone = world.can[k, 0, node], world.can[k, 1, node]
     simple = is_simple(world, now, slot)
     if simple and by_truck:
         scan_simple(world, now, slot, node, enlarge, searcher.bound, searcher.move, searcher.rng)
     if simple and not by_drone:
         return
-    for trip in range(now.route[slot, R_TRIPS]):
+    for trip in range(now.route[slot].trips):
         if not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node]):
             continue
-        first, last = now.trip[slot, trip, T_FIRST], now.trip[slot, trip, T_LAST]
+        first, last = now.trip[slot, trip].first, now.trip[slot, trip].last
         if by_truck and not simple:
             offer_stops(world, searcher, slot, first, last - 1, node)
         if by_drone:
@@ -71,7 +67,7 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
                 offer_sorties(world, searcher, slot, p, node)
             # Who would have to wait for a flight from the depot may fly when the trip is over.
             soonest = held_until(world.type[k], opening(world.place[node], NONE))
-            if now.stop[slot, first, S_LEAVE] < soonest:
+            if now.stop[slot, first].leave < soonest:
                 offer_sorties(world, searcher, slot, last, node)
     if world.visits[k] > 1 and by_drone:
         offer_joining(world, searcher, slot, node)
@@ -82,18 +78,18 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
 def is_kept(searcher: Searcher, slot: int, node: int) -> bool:
     """Tell whether the best place kept for a customer on a route is still that, or none is."""
     row = searcher.kept[node, slot]
-    return (row[K_STAMP] == searcher.now.route[slot, R_STAMP]
-            and (row[K_MOVE + M_KIND] >= 0
-                 or searcher.kept_cost[node, slot] >= searcher.bound[B_BEST]))
+    return (row.stamp == searcher.now.route[slot].stamp
+            and (searcher.kept_move[node, slot].kind >= 0
+                 or searcher.kept_cost[node, slot] >= searcher.bound.best))
 
 
 @pasted
 def take_kept(searcher: Searcher, slot: int, node: int) -> None:
     """Let the move be the place kept for a customer on a route if it is the best. In place."""
     cost = searcher.kept_cost[node, slot]
-    if cost < searcher.bound[B_BEST] and uniform(searcher.rng) >= searcher.bound[B_BLINK]:
-        searcher.bound[B_BEST] = cost
-        copy_row(searcher.kept[node, slot, K_MOVE:], searcher.move)
+    if cost < searcher.bound.best and uniform(searcher.rng) >= searcher.bound.blink:
+        searcher.bound.best = cost
+        copy_move(searcher.kept_move[node, slot], searcher.move)
 
 
 @pasted
@@ -102,12 +98,12 @@ def keep(searcher: Searcher, slot: int, node: int, before: float) -> None:
 
     In place.
     """
-    row, best = searcher.kept[node, slot], searcher.bound[B_BEST]
-    row[K_STAMP] = searcher.now.route[slot, R_STAMP]
+    row, best = searcher.kept[node, slot], searcher.bound.best
+    row.stamp = searcher.now.route[slot].stamp
     searcher.kept_cost[node, slot] = best
-    copy_row(searcher.move, row[K_MOVE:])
+    copy_move(searcher.move, searcher.kept_move[node, slot])
     if best >= before:
-        row[K_MOVE + M_KIND] = NOWHERE
+        searcher.kept_move[node, slot].kind = NOWHERE
 
 
 @pasted
@@ -119,24 +115,24 @@ def try_routes(world: World, searcher: Searcher, node: int, enlarge: bool) -> No
     """
     now, bound = searcher.now, searcher.bound
     for costly in (False, True):
-        for index in range(searcher.count[I_ACTIVE]):
+        for index in range(searcher.count.active):
             slot = searcher.active[index]
-            k = now.route[slot, R_TYPE]
+            k = now.route[slot].type
             if not (world.can[k, 0, node] or world.can[k, 1, node]):
                 continue
             if rung(world.stop):
                 return
-            known = world.keeps and not enlarge and now.route[slot, R_STAMP] != CHANGING
+            known = world.keeps and not enlarge and now.route[slot].stamp != CHANGING
             if known and is_kept(searcher, slot, node):
                 if not costly:
                     take_kept(searcher, slot, node)
                 continue
             if costly != (world.can[k, 1, node] or not is_simple(world, now, slot)):
                 continue
-            before = bound[B_BEST]
-            bound[B_BLINK] = 0.0 if known else world.blink
+            before = bound.best
+            bound.blink = 0.0 if known else world.blink
             try_route(world, searcher, slot, node, enlarge)
-            bound[B_BLINK] = world.blink
+            bound.blink = world.blink
             if known:
                 keep(searcher, slot, node, before)
 
@@ -150,22 +146,22 @@ def find_place(world: World, searcher: Searcher, node: int, enlarge: bool) -> fl
     now, bound, move = searcher.now, searcher.bound, searcher.move
     best = try_new_route(world, searcher, node)
     if not world.general:
-        return scan_lean(world, now, searcher.active, searcher.count[I_ACTIVE], node, best,
+        return scan_lean(world, now, searcher.active, searcher.count.active, node, best,
                          enlarge, searcher.kept, move, searcher.rng)
-    bound[B_BEST], bound[B_BLINK] = best, world.blink
+    bound.best, bound.blink = best, world.blink
     try_routes(world, searcher, node, enlarge)
-    if bound[B_BEST] == INFEASIBLE or uniform(searcher.rng) < MORE_TRIPS:
-        for index in range(searcher.count[I_ACTIVE]):
+    if bound.best == INFEASIBLE or uniform(searcher.rng) < MORE_TRIPS:
+        for index in range(searcher.count.active):
             slot = searcher.active[index]
-            k = now.route[slot, R_TYPE]
-            if now.route[slot, R_TRIPS] >= world.type[k, TYPE_MAX_TRIPS] or rung(world.stop):
+            k = now.route[slot].type
+            if now.route[slot].trips >= world.type[k, TYPE_MAX_TRIPS] or rung(world.stop):
                 continue
             if world.can[k, 0, node]:
                 offer_trips(world, searcher, slot, node)
             if world.can[k, 1, node]:
                 offer_flight_trips(world, searcher, slot, node)
         take_cheapest(world, searcher, node)
-    return bound[B_BEST]
+    return bound.best
 
 
 @pasted
@@ -176,26 +172,26 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
     if not world.general:
         return scan_beside_lean(world, now, node, best, enlarge, move, searcher.rng)
     best = scan_beside(world, now, node, best, enlarge, move, searcher.rng)
-    bound[B_BEST], bound[B_BLINK] = best, world.blink
+    bound.best, bound.blink = best, world.blink
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
-        slot = now.where[other, W_SLOT]
+        slot = now.where[other].slot
         if slot < 0:
             continue
-        k = now.route[slot, R_TYPE]
+        k = now.route[slot].type
         by_truck = world.can[k, 0, node] and not is_simple(world, now, slot)
         p = stop_beside(now, other)
-        trip = now.stop[slot, p, S_TRIP]
+        trip = now.stop[slot, p].trip
         if (not (by_truck or world.can[k, 1, node])
                 or not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node])):
             continue
-        first = max(p - 1, now.trip[slot, trip, T_FIRST])
+        first = max(p - 1, now.trip[slot, trip].first)
         if by_truck:
             # Nobody is served behind the depot.
-            offer_stops(world, searcher, slot, first, min(p, now.trip[slot, trip, T_LAST] - 1),
+            offer_stops(world, searcher, slot, first, min(p, now.trip[slot, trip].last - 1),
                         node)
         if world.can[k, 1, node]:
             for q in range(first, p + 1):
                 offer_sorties(world, searcher, slot, q, node)
     take_cheapest(world, searcher, node)
-    return bound[B_BEST]
+    return bound.best

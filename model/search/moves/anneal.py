@@ -16,12 +16,11 @@ from model.search.moves.recreate import ORDERS, recreate, sort_absent
 from model.search.moves.resplit import resplit
 from model.search.moves.retype import cheapen_types, draw_type, improve_types
 from model.search.moves.ruin import choose, remove_marked
-from model.search.route.layout import NOWHERE, R_LENGTH, R_TYPE, W_SLOT, World
+from model.search.route.layout import NOWHERE, World
 from model.search.route.randomness import below, uniform
 from model.search.route.refresh import locate
 from model.search.route.state import (
-    I_ABSENT, I_ACTIVE, I_CUSTOMERS, I_LEAN, I_MISSING, I_TOUCHED, I_TURN, V_BEST, V_COOLING,
-    V_COST, V_TEMPERATURE, Searcher, accept, copy_route, keep_best, left_out_cost, list_active,
+    Searcher, accept, copy_route, keep_best, left_out_cost, list_active,
     served_cost, touch, turn_cost,
 )
 
@@ -42,15 +41,15 @@ RETYPED = 0.1
 def begin_turn(searcher: Searcher, most: int) -> int:
     """List `most` of the customers left out as absent. In place; return how many are not tried."""
     count, absent, missing = searcher.count, searcher.absent, searcher.missing
-    count[I_TURN] += 1
-    count[I_TOUCHED] = 0
-    total = count[I_MISSING]
+    count.turn += 1
+    count.touched = 0
+    total = count.missing
     copy_some(missing, absent, total)
     alone = max(0, total - most)
     for index in range(total - 1, alone - 1, -1):
         other = below(searcher.rng, index + 1)
         absent[index], absent[other] = absent[other], absent[index]
-    count[I_ABSENT] = total
+    count.absent = total
     return alone
 
 
@@ -58,10 +57,10 @@ def begin_turn(searcher: Searcher, most: int) -> int:
 def ruin(world: World, searcher: Searcher, first: int) -> None:
     """Remove strings of customers near each other. In place."""
     count, now = searcher.count, searcher.now
-    before = count[I_ABSENT]
+    before = count.absent
     total, num_touched = choose(
-        world, now, searcher.active, count[I_ACTIVE], count[I_CUSTOMERS], searcher.marked,
-        searcher.absent, before, searcher.moved, searcher.hit, count[I_TURN], searcher.rng)
+        world, now, searcher.active, count.active, count.customers, searcher.marked,
+        searcher.absent, before, searcher.moved, searcher.hit, count.turn, searcher.rng)
     emptied = False
     for index in range(num_touched):
         touch(searcher, searcher.moved[index])
@@ -69,14 +68,14 @@ def ruin(world: World, searcher: Searcher, first: int) -> None:
         slot = searcher.touched[index]
         total = remove_marked(world, now, slot, searcher.marked, searcher.absent, total,
                               searcher.moved, searcher.acc)
-        if now.route[slot, R_LENGTH] == 0:
+        if now.route[slot].length == 0:
             emptied = True
         else:
             locate(now, slot)
     for index in range(before, total):
         searcher.marked[searcher.absent[index]] = False
-        now.where[searcher.absent[index], W_SLOT] = NOWHERE
-    count[I_ABSENT] = total
+        now.where[searcher.absent[index]].slot = NOWHERE
+    count.absent = total
     if emptied:
         list_active(searcher)
 
@@ -90,17 +89,17 @@ def rarer_absences(world: World, searcher: Searcher) -> bool:
     """
     count, absences = searcher.count, searcher.absences
     before = after = more = 0
-    for index in range(count[I_MISSING]):
+    for index in range(count.missing):
         if world.must_serve[searcher.missing[index]]:
             before += absences[searcher.missing[index]]
             more -= 1
-    for index in range(count[I_ABSENT]):
+    for index in range(count.absent):
         if world.must_serve[searcher.absent[index]]:
             after += absences[searcher.absent[index]]
             absences[searcher.absent[index]] += 1
             more += 1
-    dearer = (left_out_cost(world, searcher.absent, count[I_ABSENT])
-              > left_out_cost(world, searcher.missing, count[I_MISSING]))
+    dearer = (left_out_cost(world, searcher.absent, count.absent)
+              > left_out_cost(world, searcher.missing, count.missing))
     return more == 0 and after < before and not dearer
 
 
@@ -109,17 +108,17 @@ def undo(searcher: Searcher) -> None:
     """Take back this turn. In place."""
     now, before = searcher.now, searcher.before
     same = True
-    for index in range(searcher.count[I_TOUCHED]):
+    for index in range(searcher.count.touched):
         slot = searcher.touched[index]
-        if now.route[slot, R_LENGTH] > 0:
-            now.used[now.route[slot, R_TYPE]] -= 1
-        same = same and (now.route[slot, R_LENGTH] > 0) == (before.route[slot, R_LENGTH] > 0)
-        copy_route(before, slot, now, slot, searcher.count[I_LEAN])
-        if now.route[slot, R_LENGTH] > 0:
-            now.used[now.route[slot, R_TYPE]] += 1
+        if now.route[slot].length > 0:
+            now.used[now.route[slot].type] -= 1
+        same = same and (now.route[slot].length > 0) == (before.route[slot].length > 0)
+        copy_route(before, slot, now, slot, searcher.count.lean)
+        if now.route[slot].length > 0:
+            now.used[now.route[slot].type] += 1
             locate(now, slot)
-    for index in range(searcher.count[I_MISSING]):
-        now.where[searcher.missing[index], W_SLOT] = NOWHERE
+    for index in range(searcher.count.missing):
+        now.where[searcher.missing[index]].slot = NOWHERE
     if not same:
         list_active(searcher)
 
@@ -128,23 +127,23 @@ def undo(searcher: Searcher) -> None:
 def move_parts(world: World, searcher: Searcher, tails: bool) -> None:
     """Swap tails of routes, or plan a trip anew, if that is accepted. In place."""
     value, count = searcher.value, searcher.count
-    limit = -value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
-    count[I_TOUCHED] = 0
-    count[I_ABSENT] = count[I_MISSING]
+    limit = -value.temperature * math.log(1.0 - uniform(searcher.rng))
+    count.touched = 0
+    count.absent = count.missing
     changed = (exchange_tails(world, searcher, limit) if tails
                else resplit(world, searcher, limit))
     if changed:
         if world.traded and uniform(searcher.rng) < RETYPED:
             improve_types(world, searcher)
         cost = turn_cost(world, searcher)
-        if cost < value[V_COST] + limit:
-            copy_some(searcher.missing, searcher.absent, count[I_MISSING])
+        if cost < value.cost + limit:
+            copy_some(searcher.missing, searcher.absent, count.missing)
             list_active(searcher)
             accept(searcher, cost)
-            if cost < value[V_BEST]:
+            if cost < value.best:
                 keep_best(searcher)
             return
-    if count[I_TOUCHED] > 0:
+    if count.touched > 0:
         undo(searcher)
 
 
@@ -162,23 +161,23 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
     value, count = searcher.value, searcher.count
     building = order != ANY
     for _ in range(turns):
-        first = begin_turn(searcher, count[I_MISSING] if building else MOST_MISSING)
+        first = begin_turn(searcher, count.missing if building else MOST_MISSING)
         if not building:
             ruin(world, searcher, first)
-            if world.mixed and count[I_TOUCHED] > 0 and uniform(searcher.rng) < RETYPED:
+            if world.mixed and count.touched > 0 and uniform(searcher.rng) < RETYPED:
                 draw_type(world, searcher)
         sort_absent(world, searcher, first,
                     order if building else ORDERS[below(searcher.rng, len(ORDERS))])
-        limit = value[V_COST] - value[V_TEMPERATURE] * math.log(1.0 - uniform(searcher.rng))
+        limit = value.cost - value.temperature * math.log(1.0 - uniform(searcher.rng))
         retyped = (not building and (world.traded or world.mixed)
                    and uniform(searcher.rng) < RETYPED)
         spare = math.inf
-        if world.adds_up and not (building or retyped) and count[I_MISSING] == 0:
+        if world.adds_up and not (building or retyped) and count.missing == 0:
             spare = limit - served_cost(searcher)
         done = recreate(world, searcher, first, building or world.scan_all, spare)
         if rung(world.stop) and not building:
             undo(searcher)
-            count[I_TURN] -= 1
+            count.turn -= 1
             return
         if done and retyped:
             if world.traded:
@@ -186,11 +185,11 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
             if world.mixed:
                 cheapen_types(world, searcher)
         cost = turn_cost(world, searcher)
-        forced = (done and not building and count[I_ABSENT] > 0
+        forced = (done and not building and count.absent > 0
                   and rarer_absences(world, searcher))
         if building or cost < limit or forced:
             accept(searcher, cost)
-            if cost < value[V_BEST]:
+            if cost < value.best:
                 keep_best(searcher)
         else:
             undo(searcher)
@@ -198,4 +197,4 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
             for part in range(1 + RESPLITS if world.single_drones else 1):
                 if (part > 0 or world.tails) and not rung(world.stop):
                     move_parts(world, searcher, part == 0)
-        value[V_TEMPERATURE] *= value[V_COOLING]
+        value.temperature *= value.cooling

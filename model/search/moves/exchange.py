@@ -3,7 +3,6 @@
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.copying import copy_row
 from model.kernel.instance import (
     RATE_FIXED, RATE_KM, TYPE_END,
     TYPE_MAX_TRIPS, TYPE_START, TYPE_TRAVEL,
@@ -11,10 +10,7 @@ from model.kernel.instance import (
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import NOTHING, demand_of, holds, plus
 from model.search.route.edit import put
-from model.search.route.layout import (
-    CUSTOMER, END, F_LAUNCH, F_RECOVERY, NOWHERE, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, START,
-    S_FLYING, S_KIND, S_LATEST, S_LEAVE, S_LEG, S_NODE, S_TRIP, W_POSITION, W_SLOT, Fleet, World,
-)
+from model.search.route.layout import CUSTOMER, END, NOWHERE, START, Fleet, World
 from model.search.route.refresh import any_customer, locate, refresh
 from model.search.route.state import Searcher, free_slot, keep_aside, touch
 
@@ -26,8 +22,8 @@ NEIGHBOURS = 16
 def rest_distance(fleet: Fleet, slot: int, p: int) -> int:
     """Return how far a route goes on from stop `p`."""
     distance = 0
-    for q in range(p, fleet.route[slot, R_LENGTH]):
-        distance += fleet.stop[slot, q, S_LEG]
+    for q in range(p, fleet.route[slot].length):
+        distance += fleet.stop[slot, q].leg
     return distance
 
 
@@ -37,18 +33,18 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
 
     By distance alone; infinite where a tail would be reached too late.
     """
-    k, by = fleet.route[a, R_TYPE], fleet.route[b, R_TYPE]
+    k, by = fleet.route[a].type, fleet.route[b].type
     legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
     one, other = fleet.stop[a], fleet.stop[b]
-    here, there = one[p, S_NODE], other[q, S_NODE]
-    after_here, after_there = one[p + 1, S_NODE], other[q + 1, S_NODE]
+    here, there = one[p].node, other[q].node
+    after_here, after_there = one[p + 1].node, other[q + 1].node
     to_other, to_one = leg(legs, here, after_there), leg(legs, there, after_here)
-    if (one[p, S_LEAVE] + to_other.duration > other[q + 1, S_LATEST]
-            or other[q, S_LEAVE] + to_one.duration > one[p + 1, S_LATEST]):
+    if (one[p].leave + to_other.duration > other[q + 1].latest
+            or other[q].leave + to_one.duration > one[p + 1].latest):
         return math.inf
     rate, rate_by = world.rate[k, RATE_KM], world.rate[by, RATE_KM]
-    cost = ((to_other.distance - one[p, S_LEG]) * rate
-            + (to_one.distance - other[q, S_LEG]) * rate_by)
+    cost = ((to_other.distance - one[p].leg) * rate
+            + (to_one.distance - other[q].leg) * rate_by)
     if rate != rate_by:
         longer = rest_distance(fleet, b, q + 1) - rest_distance(fleet, a, p + 1)
         cost += longer * (rate - rate_by)
@@ -62,27 +58,27 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
     The route is NOWHERE if none is worth less than `limit`, or an empty slot for a new route.
     """
     now = searcher.now
-    k = now.route[a, R_TYPE]
-    node = now.stop[a, p, S_NODE]
+    k = now.route[a].type
+    node = now.stop[a, p].node
     chosen, place, best = NOWHERE, 0, limit
     for rank in range(min(NEIGHBOURS, world.near.shape[1])):
         other = world.near[node, rank]
         if other < 0:
             break
-        b, q = now.where[other, W_SLOT], now.where[other, W_POSITION] - 1
-        if b < 0 or q < 0 or b == a or now.stop[b, q, S_FLYING] > 0:
+        b, q = now.where[other].slot, now.where[other].position - 1
+        if b < 0 or q < 0 or b == a or now.stop[b, q].flying > 0:
             continue
-        by = now.route[b, R_TYPE]
+        by = now.route[b].type
         if by != k and not world.swap[k, by]:
             continue
         cost = tail_saving(world, now, a, p, b, q)
         if cost < best:
             chosen, place, best = b, q, cost
-    if now.stop[a, p + 1, S_KIND] == CUSTOMER:
+    if now.stop[a, p + 1].kind == CUSTOMER:
         legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
         start, end = world.type[k, TYPE_START], world.type[k, TYPE_END]
-        detour = (leg(legs, node, end).distance - now.stop[a, p, S_LEG]
-                  + leg(legs, start, now.stop[a, p + 1, S_NODE]).distance)
+        detour = (leg(legs, node, end).distance - now.stop[a, p].leg
+                  + leg(legs, start, now.stop[a, p + 1].node).distance)
         if world.rate[k, RATE_FIXED] + detour * world.rate[k, RATE_KM] < best:
             slot = free_slot(world, searcher, k)
             if slot >= 0:
@@ -97,18 +93,18 @@ def append(source: Fleet, slot: int, first: int, behind: int, to: int) -> None:
     In place.
     """
     route = source.route[to]
-    shift = route[R_LENGTH] - first
+    shift = route.length - first
     for p in range(first, behind):
-        put(source.stop[to], p + shift, source.stop[slot, p, S_NODE], source.stop[slot, p, S_KIND])
-    route[R_LENGTH] += behind - first
-    for s in range(source.route[slot, R_SORTIES]):
-        launch = source.sortie[slot, s, F_LAUNCH]
+        put(source.stop[to], p + shift, source.stop[slot, p].node, source.stop[slot, p].kind)
+    route.length += behind - first
+    for s in range(source.route[slot].sorties):
+        launch = source.sortie[slot, s].launch
         if first <= launch < behind:
-            copy = source.sortie[to, route[R_SORTIES]]
-            copy_row(source.sortie[slot, s], copy)
-            copy[F_LAUNCH] += shift
-            copy[F_RECOVERY] += shift
-            route[R_SORTIES] += 1
+            source.sortie[to, route.sorties] = source.sortie[slot, s]
+            copy = source.sortie[to, route.sorties]
+            copy.launch += shift
+            copy.recovery += shift
+            route.sorties += 1
 
 
 @inlined
@@ -118,9 +114,9 @@ def swap_tails(world: World, searcher: Searcher, a: int, p: int, b: int, q: int)
     touch(searcher, a)
     touch(searcher, b)
     one, two = len(now.route) - 2, len(now.route) - 1
-    k = now.route[a, R_TYPE]
-    if now.route[b, R_LENGTH] == 0:
-        now.route[b, R_TYPE], now.route[b, R_LENGTH], now.route[b, R_SORTIES] = k, 2, 0
+    k = now.route[a].type
+    if now.route[b].length == 0:
+        now.route[b].type, now.route[b].length, now.route[b].sorties = k, 2, 0
         put(now.stop[b], 0, world.type[k, TYPE_START], START)
         put(now.stop[b], 1, world.type[k, TYPE_END], END)
         now.used[k] += 1
@@ -128,15 +124,15 @@ def swap_tails(world: World, searcher: Searcher, a: int, p: int, b: int, q: int)
     keep_aside(now, b, two)
     for slot, keep in ((a, p + 1), (b, q + 1)):
         mine, others, cut = (one, two, q + 1) if slot == a else (two, one, p + 1)
-        now.route[slot, R_LENGTH] = now.route[slot, R_SORTIES] = 0
+        now.route[slot].length = now.route[slot].sorties = 0
         append(now, mine, 0, keep, slot)
-        append(now, others, cut, now.route[others, R_LENGTH], slot)
+        append(now, others, cut, now.route[others].length, slot)
     done = True
     for slot in (a, b):
-        if now.route[slot, R_LENGTH] == 2 and now.route[slot, R_SORTIES] == 0:
-            now.route[slot, R_LENGTH] = now.route[slot, R_TRIPS] = 0
+        if now.route[slot].length == 2 and now.route[slot].sorties == 0:
+            now.route[slot].length = now.route[slot].trips = 0
             now.cost[slot] = 0.0
-            now.used[now.route[slot, R_TYPE]] -= 1
+            now.used[now.route[slot].type] -= 1
         elif done:
             done = refresh(world, now, slot, searcher.acc)
             locate(now, slot)
@@ -150,30 +146,30 @@ def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> boo
     Stops of the truck alone are counted.
     """
     load, index = NOTHING, p
-    while fleet.stop[a, index, S_KIND] == CUSTOMER:
-        load = plus(load, demand_of(world.place[fleet.stop[a, index, S_NODE]]))
+    while fleet.stop[a, index].kind == CUSTOMER:
+        load = plus(load, demand_of(world.place[fleet.stop[a, index].node]))
         index -= 1
     index = q + 1
-    while fleet.stop[b, index, S_KIND] == CUSTOMER:
-        load = plus(load, demand_of(world.place[fleet.stop[b, index, S_NODE]]))
+    while fleet.stop[b, index].kind == CUSTOMER:
+        load = plus(load, demand_of(world.place[fleet.stop[b, index].node]))
         index += 1
-    return not holds(world.type[fleet.route[a, R_TYPE]], load)
+    return not holds(world.type[fleet.route[a].type], load)
 
 
 @inlined
 def too_long(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
     """Tell whether route `a` up to stop `p`, then `b` behind stop `q`, has too many trips."""
-    trips = fleet.stop[a, p, S_TRIP] + fleet.route[b, R_TRIPS] - fleet.stop[b, q, S_TRIP]
-    sorties = fleet.route[a, R_SORTIES] + fleet.route[b, R_SORTIES]
-    return (trips > world.type[fleet.route[a, R_TYPE], TYPE_MAX_TRIPS]
+    trips = fleet.stop[a, p].trip + fleet.route[b].trips - fleet.stop[b, q].trip
+    sorties = fleet.route[a].sorties + fleet.route[b].sorties
+    return (trips > world.type[fleet.route[a].type, TYPE_MAX_TRIPS]
             or sorties > fleet.sortie.shape[1])
 
 
 @inlined
 def leaves_nothing(fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
     """Tell whether route `b` up to stop `q`, then `a` behind stop `p`, has a trip to nobody."""
-    nobody = fleet.stop[b, q, S_KIND] == START and fleet.stop[a, p + 1, S_KIND] == END
-    return nobody and not (q == 0 and p + 2 == fleet.route[a, R_LENGTH])
+    nobody = fleet.stop[b, q].kind == START and fleet.stop[a, p + 1].kind == END
+    return nobody and not (q == 0 and p + 2 == fleet.route[a].length)
 
 
 @spliced
@@ -184,13 +180,13 @@ def exchange_tails(world: World, searcher: Searcher, limit: float) -> bool:
     """
     now = searcher.now
     node = any_customer(world, now, searcher.rng)
-    a, p = now.where[node, W_SLOT], now.where[node, W_POSITION]
-    if a < 0 or p < 0 or now.stop[a, p, S_FLYING] > 0:
+    a, p = now.where[node].slot, now.where[node].position
+    if a < 0 or p < 0 or now.stop[a, p].flying > 0:
         return False
     b, q = find_tail(world, searcher, a, p, limit)
     if b < 0:
         return False
-    if now.route[b, R_LENGTH] > 0 and (
+    if now.route[b].length > 0 and (
             leaves_nothing(now, a, p, b, q)
             or overloads(world, now, a, p, b, q) or overloads(world, now, b, q, a, p)
             or too_long(world, now, a, p, b, q) or too_long(world, now, b, q, a, p)):

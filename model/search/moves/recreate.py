@@ -9,12 +9,12 @@ from model.kernel.stop import closing, width
 from model.problem import UIntArray
 from model.search.insertion.evaluate import INFEASIBLE, serve_alone
 from model.search.insertion.places import find_beside, find_place, try_new_route
-from model.search.route.edit import M_FIRST, M_KIND, M_SLOT, M_TYPE, NEW_FLIGHT, NEW_ROUTE, apply
-from model.search.route.layout import MODE_LEAN, R_LENGTH, R_TYPE, World
+from model.search.route.edit import NEW_FLIGHT, NEW_ROUTE, apply
+from model.search.route.layout import MODE_LEAN, World
 from model.search.route.lean import insert_lean
 from model.search.route.randomness import uniform
 from model.search.route.refresh import locate, refresh
-from model.search.route.state import I_ABSENT, Searcher, free_slot, keep_aside, list_active, touch
+from model.search.route.state import Searcher, free_slot, keep_aside, list_active, touch
 from model.search.route.vehicles import change_type
 
 ENLARGED = 0.2
@@ -49,7 +49,7 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
 def sort_absent(world: World, searcher: Searcher, first: int, order: int) -> None:
     """Put the customers to insert in order, from number `first` on. In place."""
     absent, key, rng = searcher.absent, searcher.key, searcher.rng
-    for index in range(first, searcher.count[I_ABSENT]):
+    for index in range(first, searcher.count.absent):
         node = absent[index]
         weight = order_key(world, order, node, rng)
         place = index
@@ -68,7 +68,7 @@ def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bo
         return False
     touch(searcher, slot)
     if not serve_alone(world, now, slot, k, node, by_drone, searcher.acc):
-        now.route[slot, R_LENGTH] = 0
+        now.route[slot].length = 0
         now.cost[slot] = 0.0
         return False
     now.used[k] += 1
@@ -81,19 +81,19 @@ def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bo
 def insert(world: World, searcher: Searcher, node: int) -> bool:
     """Insert a customer where `searcher.move` says. In place; False if that breaks a rule."""
     move, now = searcher.move, searcher.now
-    if move[M_KIND] == NEW_ROUTE or move[M_KIND] == NEW_FLIGHT:
-        return open_route(world, searcher, node, move[M_TYPE], move[M_KIND] == NEW_FLIGHT)
-    slot = move[M_SLOT]
+    if move.kind == NEW_ROUTE or move.kind == NEW_FLIGHT:
+        return open_route(world, searcher, node, move.type, move.kind == NEW_FLIGHT)
+    slot = move.slot
     touch(searcher, slot)
     route = now.route[slot]
-    if world.mode[route[R_TYPE]] & MODE_LEAN:
-        if move[M_TYPE] != route[R_TYPE]:
-            change_type(world, now, slot, move[M_TYPE])
-        insert_lean(world, now, slot, move[M_FIRST], node)
+    if world.mode[route.type] & MODE_LEAN:
+        if move.type != route.type:
+            change_type(world, now, slot, move.type)
+        insert_lean(world, now, slot, move.first, node)
         return True
     spare = len(now.route) - 2
     keep_aside(now, slot, spare)
-    depot = world.type[route[R_TYPE], TYPE_END]
+    depot = world.type[route.type, TYPE_END]
     apply(depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0)
     done = refresh(world, now, slot, searcher.acc)
     if not done:
@@ -114,7 +114,7 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare
     enlarge = world.traded and uniform(searcher.rng) < ENLARGED
     opening = uniform(searcher.rng) < OPENING
     left = first
-    for index in range(first, count[I_ABSENT]):
+    for index in range(first, count.absent):
         node = absent[index]
         cost = INFEASIBLE
         if rung(world.stop):
@@ -135,5 +135,5 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare
         spare -= min(cost, left_out)
         if spare < 0.0:
             return False
-    count[I_ABSENT] = left
+    count.absent = left
     return True

@@ -9,16 +9,13 @@ import math
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import RATE_FIXED, TYPE_DRONES, TYPE_END, TYPE_START
 from model.kernel.load import NOTHING, demand_of, holds, plus
-from model.problem import IntArray
+from model.kernel.records import Record, Records
 from model.search.moves.exchange import append
 from model.search.moves.split import (
-    L_BEFORE, L_FLIGHT, L_NODE, NEIGHBOURS, NO_FLIGHT, measure, present_cost, shift, shuffle, split,
+    NEIGHBOURS, NO_FLIGHT, measure, present_cost, shift, shuffle, split,
 )
 from model.search.route.edit import add_sortie, put
-from model.search.route.layout import (
-    CUSTOMER, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, MODE_PRICED, NOWHERE, R_LENGTH, R_SORTIES,
-    R_TRIPS, R_TYPE, S_KIND, S_NODE, S_TRIP, T_FIRST, T_LAST, W_SLOT, Fleet, World,
-)
+from model.search.route.layout import CUSTOMER, MODE_PRICED, NOWHERE, Fleet, World
 from model.search.route.randomness import below, uniform
 from model.search.route.refresh import any_customer, idle_time, locate, refresh, stop_beside
 from model.search.route.state import Searcher, free_slot, keep_aside, touch
@@ -40,16 +37,16 @@ SAME = 1e-12
 def flown_over(fleet: Fleet, slot: int, p: int) -> bool:
     """Tell whether a drone is launched before stop `p` and recovered behind it."""
     over = False
-    for s in range(fleet.route[slot, R_SORTIES]):
-        over = over or fleet.sortie[slot, s, F_LAUNCH] < p < fleet.sortie[slot, s, F_RECOVERY]
+    for s in range(fleet.route[slot].sorties):
+        over = over or fleet.sortie[slot, s].launch < p < fleet.sortie[slot, s].recovery
     return over
 
 
 @inlined
 def window(fleet: Fleet, slot: int, p: int) -> tuple[int, int]:
     """Return the stops around `p` between which all that is launched is recovered."""
-    trip = fleet.trip[slot, fleet.stop[slot, p, S_TRIP]]
-    first, last = max(trip[T_FIRST], p - WINDOW), min(trip[T_LAST], p + WINDOW)
+    trip = fleet.trip[slot, fleet.stop[slot, p].trip]
+    first, last = max(trip.first, p - WINDOW), min(trip.last, p + WINDOW)
     while flown_over(fleet, slot, first):
         first -= 1
     while flown_over(fleet, slot, last):
@@ -58,7 +55,7 @@ def window(fleet: Fleet, slot: int, p: int) -> tuple[int, int]:
 
 
 @spliced
-def line_up(fleet: Fleet, slot: int, first: int, last: int, line: IntArray) -> tuple[int, bool]:
+def line_up(fleet: Fleet, slot: int, first: int, last: int, line: Records) -> tuple[int, bool]:
     """Write the places of stops `first` to `last` in the order they are left for.
 
     And the operations as they are. Returns how many places there are, 0 if a sortie serves several
@@ -67,21 +64,21 @@ def line_up(fleet: Fleet, slot: int, first: int, last: int, line: IntArray) -> t
     stops, sorties = fleet.stop[slot], fleet.sortie[slot]
     length = begin = s = 0
     landing, flown, exact = first, NO_FLIGHT, True
-    while s < fleet.route[slot, R_SORTIES] and sorties[s, F_LAUNCH] < first:
+    while s < fleet.route[slot].sorties and sorties[s].launch < first:
         s += 1
     for p in range(first, last + 1):
-        line[length, L_NODE] = stops[p, S_NODE]
+        line[length].node = stops[p].node
         if p == landing:
-            line[length, L_BEFORE], line[length, L_FLIGHT] = begin, flown
+            line[length].before, line[length].flight = begin, flown
             begin, flown, landing = length, NO_FLIGHT, p + 1
         length += 1
-        while p < last and s < fleet.route[slot, R_SORTIES] and sorties[s, F_LAUNCH] == p:
-            if sorties[s, F_COUNT] > 1:
+        while p < last and s < fleet.route[slot].sorties and sorties[s].launch == p:
+            if sorties[s].count > 1:
                 return 0, False
-            if sorties[s, F_RECOVERY] > p:
+            if sorties[s].recovery > p:
                 exact = exact and length == begin + 1
-                flown, landing = length, sorties[s, F_RECOVERY]
-            line[length, L_NODE] = sorties[s, F_NODE]
+                flown, landing = length, sorties[s].recovery
+            line[length].node = sorties[s].nodes[0]
             length += 1
             s += 1
     return length, exact
@@ -89,7 +86,7 @@ def line_up(fleet: Fleet, slot: int, first: int, last: int, line: IntArray) -> t
 
 @spliced
 def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first: int, last: int,
-                line: IntArray) -> tuple[int, float, bool, int]:
+                line: Records) -> tuple[int, float, bool, int]:
     """Write the places of stops `first` to `last` of a route, then those of the other, if any.
 
     Returns how many places there are, 0 if that can't be, what the operations cost if that is all
@@ -99,7 +96,7 @@ def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first
     member = slot
     while member >= 0:
         begin = length - 1
-        if fleet.route[member, R_LENGTH] > 0:
+        if fleet.route[member].length > 0:
             count, whole = line_up(fleet, member, first, last, line[begin:])
             if count == 0:
                 return 0, 0.0, False, 0
@@ -109,19 +106,19 @@ def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first
                 before += present_cost(world, k, line[begin:], count) + world.rate[k, RATE_FIXED]
             length = begin + count
         else:
-            line[length, L_NODE] = line[begin, L_NODE]
+            line[length].node = line[begin].node
             length += 1
         member, first = other if member == slot else NOWHERE, 0
         if member >= 0:
-            last = fleet.route[member, R_LENGTH] - 1
+            last = fleet.route[member].length - 1
     return length, before, exact, idle
 
 
 @inlined
 def ends_in_flight(fleet: Fleet, slot: int) -> bool:
     """Tell whether a drone is launched at the last stop of a route, which no line knows of."""
-    last = fleet.route[slot, R_SORTIES] - 1
-    return last >= 0 and fleet.sortie[slot, last, F_LAUNCH] == fleet.route[slot, R_LENGTH] - 1
+    last = fleet.route[slot].sorties - 1
+    return last >= 0 and fleet.sortie[slot, last].launch == fleet.route[slot].length - 1
 
 
 @spliced
@@ -131,29 +128,29 @@ def partner(world: World, searcher: Searcher, slot: int, node: int) -> int:
     An empty slot if that is the same route; NOWHERE if there is none.
     """
     now = searcher.now
-    route, k = now.route[slot], now.route[slot, R_TYPE]
+    route, k = now.route[slot], now.route[slot].type
     near = world.near[node, below(searcher.rng, min(NEIGHBOURS, world.near.shape[1]))]
     # The end of the one route is the start of the other in a line.
-    if (near < 0 or route[R_TRIPS] > 1 or ends_in_flight(now, slot)
+    if (near < 0 or route.trips > 1 or ends_in_flight(now, slot)
             or world.type[k, TYPE_START] != world.type[k, TYPE_END]):
         return NOWHERE
-    other = now.where[near, W_SLOT]
+    other = now.where[near].slot
     if other == slot:
         other = free_slot(world, searcher, k)
     if other < 0:
         return NOWHERE
     mate = now.route[other]
-    if mate[R_LENGTH] > 0 and (mate[R_TYPE] != k or mate[R_TRIPS] > 1
+    if mate.length > 0 and (mate.type != k or mate.trips > 1
                                or ends_in_flight(now, other)):
         return NOWHERE
-    return other if route[R_LENGTH] + mate[R_LENGTH] <= 2 * WINDOW else NOWHERE
+    return other if route.length + mate.length <= 2 * WINDOW else NOWHERE
 
 
 @inlined
-def depot_between(world: World, line: IntArray, length: int) -> int:
+def depot_between(world: World, line: Records, length: int) -> int:
     """Return where in a line of two routes the first ends, or the end of a line of one."""
     place = 1
-    while place < length - 1 and line[place, L_NODE] >= world.num_depots:
+    while place < length - 1 and line[place].node >= world.num_depots:
         place += 1
     return place
 
@@ -170,14 +167,14 @@ def is_worth(world: World, k: int, idle: int, before: float, after: float, limit
 
 
 @spliced
-def overloads(world: World, k: int, line: IntArray, begin: int, end: int) -> bool:
+def overloads(world: World, k: int, line: Records, begin: int, end: int) -> bool:
     """Tell whether the customers between two places of the line are too much for a truck.
 
     There may be no room for so many stops and sorties then, so that it has to be known before.
     """
     load = NOTHING
     for place in range(begin + 1, end):
-        load = plus(load, demand_of(world.place[line[place, L_NODE]]))
+        load = plus(load, demand_of(world.place[line[place].node]))
     return not holds(world.type[k], load)
 
 
@@ -203,34 +200,34 @@ def split_all(world: World, searcher: Searcher, k: int, cut: int, length: int) -
 
 
 @inlined
-def write_operations(route: IntArray, stops: IntArray, sorties: IntArray, line: IntArray,
+def write_operations(route: Record, stops: Records, sorties: Records, line: Records,
                      length: int, kind: int) -> None:
-    """Append the stops that the operations make, but for the last. In place; turns L_BEFORE round.
+    """Append the stops that the operations make, but for the last. In place; turns `before` round.
 
     `kind` is that of the first stop.
     """
     j, behind = length - 1, NOWHERE
     while j > 0:
-        before = line[j, L_BEFORE]
-        line[j, L_BEFORE] = behind
+        before = line[j].before
+        line[j].before = behind
         behind, j = j, before
-    line[0, L_BEFORE] = behind
-    put(stops, route[R_LENGTH], line[0, L_NODE], kind)
+    line[0].before = behind
+    put(stops, route.length, line[0].node, kind)
     i = 0
     while i < length - 1:
-        j, p = line[i, L_BEFORE], route[R_LENGTH]
-        flown = line[j, L_FLIGHT]
+        j, p = line[i].before, route.length
+        flown = line[j].flight
         if flown != NO_FLIGHT:
-            add_sortie(route, sorties, p, p + j - i - 1, 0, line[flown, L_NODE])
+            add_sortie(route, sorties, p, p + j - i - 1, 0, line[flown].node)
         for place in range(i + 1, j):
             if flown == NO_FLIGHT:
-                add_sortie(route, sorties, p, p, 0, line[place, L_NODE])
+                add_sortie(route, sorties, p, p, 0, line[place].node)
             elif place != flown:
-                route[R_LENGTH] += 1
-                put(stops, route[R_LENGTH], line[place, L_NODE], CUSTOMER)
-        route[R_LENGTH] += 1
+                route.length += 1
+                put(stops, route.length, line[place].node, CUSTOMER)
+        route.length += 1
         if j < length - 1:
-            put(stops, route[R_LENGTH], line[j, L_NODE], CUSTOMER)
+            put(stops, route.length, line[j].node, CUSTOMER)
         i = j
 
 
@@ -242,7 +239,7 @@ def write_all(world: World, searcher: Searcher, slot: int, other: int, first: in
     In place; False if that breaks a rule.
     """
     now, line = searcher.now, searcher.line
-    k, spare, behind = now.route[slot, R_TYPE], len(now.route) - 2, now.route[slot, R_LENGTH]
+    k, spare, behind = now.route[slot].type, len(now.route) - 2, now.route[slot].length
     touch(searcher, slot)
     if other >= 0:
         touch(searcher, other)
@@ -250,16 +247,16 @@ def write_all(world: World, searcher: Searcher, slot: int, other: int, first: in
     begin, end, member, done = 0, cut, slot, True
     while member >= 0:
         route = now.route[member]
-        if route[R_LENGTH] > 0:
+        if route.length > 0:
             now.used[k] -= 1
-        route[R_LENGTH] = route[R_SORTIES] = route[R_TRIPS] = 0
+        route.length = route.sorties = route.trips = 0
         now.cost[member] = 0.0
         if end > begin + 1:
-            route[R_TYPE] = k
+            route.type = k
             now.used[k] += 1
             append(now, spare, 0, first, member)
             write_operations(route, now.stop[member], now.sortie[member], line[begin:],
-                             end - begin + 1, now.stop[spare, first, S_KIND])
+                             end - begin + 1, now.stop[spare, first].kind)
             append(now, spare, last, behind, member)
             done = refresh(world, now, member, searcher.acc) and done
             locate(now, member)
@@ -276,13 +273,13 @@ def resplit(world: World, searcher: Searcher, limit: float) -> bool:
     """
     now, line, rng = searcher.now, searcher.line, searcher.rng
     node = any_customer(world, now, rng)
-    slot = now.where[node, W_SLOT]
-    if slot < 0 or world.type[now.route[slot, R_TYPE], TYPE_DRONES] != 1:
+    slot = now.where[node].slot
+    if slot < 0 or world.type[now.route[slot].type, TYPE_DRONES] != 1:
         return False
-    k, other = now.route[slot, R_TYPE], NOWHERE
+    k, other = now.route[slot].type, NOWHERE
     if uniform(rng) < TOGETHER:
         other = partner(world, searcher, slot, node)
-    first, last = 0, now.route[slot, R_LENGTH] - 1
+    first, last = 0, now.route[slot].length - 1
     if other < 0:
         first, last = window(now, slot, stop_beside(now, node))
     length, before, exact, idle = line_up_all(world, now, k, slot, other, first, last, line)

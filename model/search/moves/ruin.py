@@ -1,12 +1,10 @@
 """Removal of strings of adjacent customers."""
 
 from model.kernel.compiled import inlined, spliced
+from model.kernel.records import Record
 from model.problem import BoolArray, IntArray, UIntArray
 from model.search.route.edit import close_ranks, keep_sorties
-from model.search.route.layout import (
-    CUSTOMER, F_COUNT, F_NODE, NOWHERE, R_LENGTH, R_SORTIES, R_TRIPS, R_TYPE, S_KIND, S_NODE,
-    S_TRIP, T_FIRST, T_LAST, W_POSITION, W_SLOT, Fleet, World,
-)
+from model.search.route.layout import CUSTOMER, NOWHERE, Fleet, World
 from model.search.route.randomness import below, uniform
 from model.search.route.refresh import any_customer, refresh, stop_beside
 
@@ -38,7 +36,7 @@ def mark_string(fleet: Fleet, slot: int, index: int, p: int, size: int, marked: 
                 absent: IntArray, num_absent: int, rng: UIntArray) -> int:
     """Mark `size` adjacent stops of a trip around stop `p`, or all but some within. As `mark`."""
     stops = fleet.stop[slot]
-    first, last = fleet.trip[slot, index, T_FIRST], fleet.trip[slot, index, T_LAST]
+    first, last = fleet.trip[slot, index].first, fleet.trip[slot, index].last
     stops_there = last - first - 1
     spared = 0
     if 1 < size < stops_there and uniform(rng) < SPLIT:
@@ -53,7 +51,7 @@ def mark_string(fleet: Fleet, slot: int, index: int, p: int, size: int, marked: 
         gap = 1 + below(rng, size - 1)
     for offset in range(span):
         if offset < gap or offset >= gap + spared:
-            num_absent = mark(marked, absent, num_absent, stops[begin + offset, S_NODE])
+            num_absent = mark(marked, absent, num_absent, stops[begin + offset].node)
     return num_absent
 
 
@@ -61,11 +59,11 @@ def mark_string(fleet: Fleet, slot: int, index: int, p: int, size: int, marked: 
 def mark_around(fleet: Fleet, customer: int, longest: float, marked: BoolArray, absent: IntArray,
                 num_absent: int, rng: UIntArray) -> int:
     """Mark a string around a customer, or the customer alone if a drone serves it. As `mark`."""
-    slot, p = fleet.where[customer, W_SLOT], stop_beside(fleet, customer)
-    if fleet.where[customer, W_POSITION] < 0:
+    slot, p = fleet.where[customer].slot, stop_beside(fleet, customer)
+    if fleet.where[customer].position < 0:
         num_absent = mark(marked, absent, num_absent, customer)
-    index = fleet.stop[slot, p, S_TRIP]
-    first, last = fleet.trip[slot, index, T_FIRST], fleet.trip[slot, index, T_LAST]
+    index = fleet.stop[slot, p].trip
+    first, last = fleet.trip[slot, index].first, fleet.trip[slot, index].last
     stops_there = last - first - 1
     if stops_there == 0:
         return num_absent
@@ -88,7 +86,7 @@ def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_cu
     """
     num_touched = trips = 0
     for index in range(num_active):
-        trips += fleet.route[active[index], R_TRIPS]
+        trips += fleet.route[active[index]].trips
     longest = min(float(LONGEST_STRING), (num_customers - num_absent) / max(1, trips))
     strings = 1 + int(uniform(rng) * (4 * AVERAGE_REMOVED / (1 + longest) - 1))
     customer = any_customer(world, fleet, rng)
@@ -96,11 +94,11 @@ def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_cu
         customer = absent[below(rng, num_absent)]
     rank = -1
     while strings > 0 and customer >= 0:
-        slot = fleet.where[customer, W_SLOT]
+        slot = fleet.where[customer].slot
         if slot >= 0 and not marked[customer]:
-            trip = fleet.stop[slot, stop_beside(fleet, customer), S_TRIP]
+            trip = fleet.stop[slot, stop_beside(fleet, customer)].trip
             before = num_absent
-            if fleet.where[customer, W_POSITION] < 0 and uniform(rng) < FLIGHT_ONLY:
+            if fleet.where[customer].position < 0 and uniform(rng) < FLIGHT_ONLY:
                 num_absent = mark(marked, absent, num_absent, customer)
             elif hit[slot, trip] != turn:
                 hit[slot, trip] = turn
@@ -131,28 +129,28 @@ def listed(slots: IntArray, count: int, slot: int) -> bool:
 def mark_all(fleet: Fleet, slot: int, marked: BoolArray, absent: IntArray,
              num_absent: int) -> int:
     """Mark all customers of a route. As `mark`."""
-    for p in range(fleet.route[slot, R_LENGTH]):
-        if fleet.stop[slot, p, S_KIND] == CUSTOMER:
-            num_absent = mark(marked, absent, num_absent, fleet.stop[slot, p, S_NODE])
-    for s in range(fleet.route[slot, R_SORTIES]):
-        for visit in range(fleet.sortie[slot, s, F_COUNT]):
+    for p in range(fleet.route[slot].length):
+        if fleet.stop[slot, p].kind == CUSTOMER:
+            num_absent = mark(marked, absent, num_absent, fleet.stop[slot, p].node)
+    for s in range(fleet.route[slot].sorties):
+        for visit in range(fleet.sortie[slot, s].count):
             num_absent = mark(marked, absent, num_absent,
-                              fleet.sortie[slot, s, F_NODE + visit])
+                              fleet.sortie[slot, s].nodes[visit])
     return num_absent
 
 
 @spliced
 def remove_marked(world: World, fleet: Fleet, slot: int, marked: BoolArray, absent: IntArray,
-                  num_absent: int, moved: IntArray, acc: IntArray) -> int:
+                  num_absent: int, moved: IntArray, acc: Record) -> int:
     """Take the marked customers out of a route; all, if the rest breaks a rule. As `mark`."""
     route, stops, sorties = fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]
     num_absent = keep_sorties(route, stops, sorties, marked, absent, num_absent)
     close_ranks(route, stops, sorties, marked, moved)
-    if route[R_LENGTH] > 0 and not refresh(world, fleet, slot, acc):
+    if route.length > 0 and not refresh(world, fleet, slot, acc):
         num_absent = mark_all(fleet, slot, marked, absent, num_absent)
-        route[R_LENGTH] = 0
-    if route[R_LENGTH] == 0:
-        route[R_SORTIES] = route[R_TRIPS] = 0
+        route.length = 0
+    if route.length == 0:
+        route.sorties = route.trips = 0
         fleet.cost[slot] = 0.0
-        fleet.used[route[R_TYPE]] -= 1
+        fleet.used[route.type] -= 1
     return num_absent

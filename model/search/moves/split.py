@@ -19,14 +19,14 @@ from model.kernel.instance import (
     RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL, TYPE_TRAVEL,
 )
 from model.kernel.leg import leg, legs_of
+from model.kernel.records import Records, record
 from model.kernel.stop import service_duration
-from model.problem import FloatArray, IntArray, UIntArray
+from model.problem import FloatArray, UIntArray
 from model.search.route.layout import World
 from model.search.route.randomness import below, uniform
 
-(L_NODE, L_DRIVE, L_DISTANCE, L_GROUNDED, L_BEFORE, L_FLIGHT, L_SPARED_DRIVE,
- L_SPARED_DISTANCE) = range(8)
-LINE_COLUMNS = 8
+LINE = record("node", "drive", "distance", "grounded", "before", "flight", "spared_drive",
+              "spared_distance")
 """Node; driving and serving up to the arrival there; distance; how many so far no truck may serve;
 the operation that ends there: the stop where it begins, the customer flown to; what a truck that
 passes by the place is spared of both."""
@@ -44,27 +44,27 @@ NEIGHBOURLY, NEIGHBOURS = 0.8, 8
 
 
 @inlined
-def place_near(world: World, line: IntArray, count: int, one: int, rng: UIntArray) -> int:
+def place_near(world: World, line: Records, count: int, one: int, rng: UIntArray) -> int:
     """Return a random place in the line, most often that of a near neighbour of place `one`."""
     if uniform(rng) < NEIGHBOURLY:
-        wanted = world.near[line[one, L_NODE], below(rng, min(NEIGHBOURS, world.near.shape[1]))]
+        wanted = world.near[line[one].node, below(rng, min(NEIGHBOURS, world.near.shape[1]))]
         for place in range(1, count + 1):
-            if line[place, L_NODE] == wanted:
+            if line[place].node == wanted:
                 return place
     return 1 + below(rng, count)
 
 
 @inlined
-def shift(line: IntArray, one: int, to: int) -> None:
+def shift(line: Records, one: int, to: int) -> None:
     """Move what is at place `one` to place `to`. In place."""
-    node, step = line[one, L_NODE], 1 if to > one else -1
+    node, step = line[one].node, 1 if to > one else -1
     for position in range(one, to, step):
-        line[position, L_NODE] = line[position + step, L_NODE]
-    line[to, L_NODE] = node
+        line[position].node = line[position + step].node
+    line[to].node = node
 
 
 @inlined
-def shuffle(world: World, line: IntArray, length: int, rng: UIntArray) -> None:
+def shuffle(world: World, line: Records, length: int, rng: UIntArray) -> None:
     """Change the order of the customers in the line a little. In place."""
     count = length - 2
     kind = KINDS[below(rng, len(KINDS))]
@@ -78,46 +78,46 @@ def shuffle(world: World, line: IntArray, length: int, rng: UIntArray) -> None:
     # Either way the neighbour comes beside place `one`, or the other way round.
     low, high = (one + 1, other) if other > one else (other, one - 1)
     if kind == SWAP:
-        line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
+        line[low].node, line[high].node = line[high].node, line[low].node
         return
     while low < high:
-        line[low, L_NODE], line[high, L_NODE] = line[high, L_NODE], line[low, L_NODE]
+        line[low].node, line[high].node = line[high].node, line[low].node
         low, high = low + 1, high - 1
 
 
 @spliced
-def measure(world: World, k: int, line: IntArray, length: int) -> None:
+def measure(world: World, k: int, line: Records, length: int) -> None:
     """Write what a truck that served the whole line would drive. In place."""
     legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
-    line[0, L_DRIVE] = line[0, L_DISTANCE] = line[0, L_GROUNDED] = 0
+    line[0].drive = line[0].distance = line[0].grounded = 0
     for j in range(1, length):
-        before, node = line[j - 1, L_NODE], line[j, L_NODE]
+        before, node = line[j - 1].node, line[j].node
         way = leg(legs, before, node)
-        served = line[j - 1, L_DRIVE] + service_duration(world.place[before])
-        line[j, L_DRIVE] = served + way.duration
-        line[j, L_DISTANCE] = line[j - 1, L_DISTANCE] + way.distance
-        line[j, L_GROUNDED] = line[j - 1, L_GROUNDED]
+        served = line[j - 1].drive + service_duration(world.place[before])
+        line[j].drive = served + way.duration
+        line[j].distance = line[j - 1].distance + way.distance
+        line[j].grounded = line[j - 1].grounded
         if j < length - 1 and not world.can[k, 0, node]:
-            line[j, L_GROUNDED] += 1
+            line[j].grounded += 1
     for j in range(1, length - 1):
-        direct = leg(legs, line[j - 1, L_NODE], line[j + 1, L_NODE])
-        line[j, L_SPARED_DRIVE] = line[j + 1, L_DRIVE] - line[j - 1, L_DRIVE] - direct.duration
-        line[j, L_SPARED_DRIVE] -= service_duration(world.place[line[j - 1, L_NODE]])
-        line[j, L_SPARED_DISTANCE] = line[j + 1, L_DISTANCE] - line[j - 1, L_DISTANCE]
-        line[j, L_SPARED_DISTANCE] -= direct.distance
+        direct = leg(legs, line[j - 1].node, line[j + 1].node)
+        line[j].spared_drive = line[j + 1].drive - line[j - 1].drive - direct.duration
+        line[j].spared_drive -= service_duration(world.place[line[j - 1].node])
+        line[j].spared_distance = line[j + 1].distance - line[j - 1].distance
+        line[j].spared_distance -= direct.distance
 
 
 @spliced
-def operation_cost(world: World, k: int, line: IntArray, i: int, j: int, flown: int,
+def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: int,
                    most: float) -> float:
     """Return what it costs to go from place `i` to `j` while the drone serves place `flown`.
 
     Infinite if that can't be, or if what the truck does alone costs `most` or more.
     """
     columns, rate = world.type[k], world.rate[k]
-    node, customer, to = line[i, L_NODE], line[flown, L_NODE], line[j, L_NODE]
-    drive = line[j, L_DRIVE] - line[i, L_DRIVE] - line[flown, L_SPARED_DRIVE]
-    distance = line[j, L_DISTANCE] - line[i, L_DISTANCE] - line[flown, L_SPARED_DISTANCE]
+    node, customer, to = line[i].node, line[flown].node, line[j].node
+    drive = line[j].drive - line[i].drive - line[flown].spared_drive
+    distance = line[j].distance - line[i].distance - line[flown].spared_distance
     here, handled = service_duration(world.place[node]), handling_duration(columns)
     driven = drive - here + max(0, here - launch_duration(columns))
     if (handled + driven) * rate[RATE_HOUR] + distance * rate[RATE_KM] >= most:
@@ -150,31 +150,31 @@ def loop_cost(world: World, k: int, node: int, customer: int) -> float:
 
 
 @spliced
-def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, i: int) -> None:
+def extend(world: World, k: int, line: Records, cost: FloatArray, length: int, i: int) -> None:
     """Try all operations that begin at place `i`. In place."""
     rate = world.rate[k]
     legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
-    here, loops = line[i, L_NODE], 0.0
+    here, loops = line[i].node, 0.0
     service = service_duration(world.place[here])
     for j in range(i + 1, min(length, i + LONGEST_OPERATION + 1)):
-        to = line[j, L_NODE]
+        to = line[j].node
         lands = j == length - 1 or world.can[k, 0, to]
-        grounded = line[j - 1, L_GROUNDED] - line[i, L_GROUNDED]
+        grounded = line[j - 1].grounded - line[i].grounded
         if lands:
             way = leg(legs, here, to)
             total = (cost[i] + loops + (way.duration + service) * rate[RATE_HOUR]
                      + way.distance * rate[RATE_KM])
             if total < cost[j]:
-                cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, NO_FLIGHT
+                cost[j], line[j].before, line[j].flight = total, i, NO_FLIGHT
         if lands and grounded <= 1 and world.crossings:
             for flown in range(i + 1, j):
-                customer = line[flown, L_NODE]
+                customer = line[flown].node
                 if not world.can[k, 1, customer] or (grounded == 1 and world.can[k, 0, customer]):
                     continue
                 total = cost[i] + operation_cost(world, k, line, i, j, flown,
                                                  cost[j] - cost[i])
                 if total < cost[j]:
-                    cost[j], line[j, L_BEFORE], line[j, L_FLIGHT] = total, i, flown
+                    cost[j], line[j].before, line[j].flight = total, i, flown
         if loops < math.inf:
             if world.can[k, 1, to]:
                 loops += loop_cost(world, k, here, to)
@@ -183,7 +183,7 @@ def extend(world: World, k: int, line: IntArray, cost: FloatArray, length: int, 
 
 
 @spliced
-def split(world: World, k: int, line: IntArray, cost: FloatArray, length: int) -> bool:
+def split(world: World, k: int, line: Records, cost: FloatArray, length: int) -> bool:
     """Cut the line into operations at least cost. In place; False if it can't be cut."""
     for j in range(length):
         cost[j] = math.inf
@@ -195,19 +195,19 @@ def split(world: World, k: int, line: IntArray, cost: FloatArray, length: int) -
 
 
 @spliced
-def present_cost(world: World, k: int, line: IntArray, length: int) -> float:
+def present_cost(world: World, k: int, line: Records, length: int) -> float:
     """Return what the operations that are noted in the line cost."""
     rate, legs = world.rate[k], legs_of(world.leg, world.type[k, TYPE_TRAVEL])
     cost, j = 0.0, length - 1
     while j > 0:
-        i, flown = line[j, L_BEFORE], line[j, L_FLIGHT]
+        i, flown = line[j].before, line[j].flight
         if flown != NO_FLIGHT:
             cost += operation_cost(world, k, line, i, j, flown, math.inf)
         else:
-            here = line[i, L_NODE]
-            way, service = leg(legs, here, line[j, L_NODE]), service_duration(world.place[here])
+            here = line[i].node
+            way, service = leg(legs, here, line[j].node), service_duration(world.place[here])
             cost += (way.duration + service) * rate[RATE_HOUR] + way.distance * rate[RATE_KM]
             for place in range(i + 1, j):
-                cost += loop_cost(world, k, here, line[place, L_NODE])
+                cost += loop_cost(world, k, here, line[place].node)
         j = i
     return cost

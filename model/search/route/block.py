@@ -1,4 +1,7 @@
-"""Timing of a block: the stops of a truck from one where all drones are aboard to the next."""
+"""Timing of a block: the stops of a truck from one where all drones are aboard to the next.
+
+By pairs `(d, c)`, which docs/search.md derives under "Times on a route".
+"""
 
 from model.kernel.clock import is_steady, leg_end
 from model.kernel.compiled import inlined
@@ -8,17 +11,15 @@ from model.kernel.flight import (
 )
 from model.kernel.instance import FAR, NONE, TYPE_DRONE_TRAVEL, TYPE_LATEST, TYPE_TRAVEL
 from model.kernel.leg import leg, legs_of
+from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import allowed_within, as_late, service_duration, start_within, too_late
 from model.problem import IntArray
-from model.search.route.layout import (
-    CUSTOMER, DONE, END, FLYING, F_BEGIN, F_COUNT, F_DRONE, F_HELD, F_LAUNCH, F_NODE, F_READY_C,
-    F_READY_D, F_RECOVERY, F_STATE, F_TAKEOFF, F_TAKEOFF_C, F_TAKEOFF_D, START, S_ARRIVAL, S_BLOCK,
-    S_C, S_D, S_DEP, S_EARLY, S_FLYING, S_GAP, S_HI, S_HOLD, S_IDLE, S_KIND, S_LATEST, S_LEAVE,
-    S_LO, S_NODE, S_RELEASE, WAITING, World,
-)
+from model.search.route.layout import CUSTOMER, DONE, END, FLYING, START, WAITING, World
 
-A_TIME, A_FREE_D, A_FREE_C, A_HI, A_LO, A_DEP, A_OLDEST, A_FLYING = range(8)
+SUMS = record("time", "free_d", "free_c", "hi", "lo", "dep", "oldest", "flying",
+              # What `evaluate` makes of a part.
+              "end", "cum", "depart", "driven")
 
 
 @inlined
@@ -38,35 +39,35 @@ def travel(world: World, k: int, duration: int, d: int, c: int) -> tuple[int, in
 
 
 @inlined
-def serve(world: World, k: int, stop: IntArray, time: int, d: int, c: int) -> tuple[int, int]:
+def serve(world: World, k: int, stop: Record, time: int, d: int, c: int) -> tuple[int, int]:
     """Return the pair at the end of what a truck does at a stop by itself, reached at (d, c)."""
-    kind = stop[S_KIND]
+    kind = stop.kind
     if kind == CUSTOMER:
-        place = world.place[stop[S_NODE]]
+        place = world.place[stop.node]
         start_d, start_c = start_within(place, time, d, c)
         return start_d + service_duration(place), start_c + service_duration(place)
     if kind == START:
-        ready = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
+        ready = max(c, max(stop.release, stop.hold))
         return d, leaves_first(world.type[k], ready)
     return d, c
 
 
 @inlined
-def plain_block(world: World, k: int, stop: IntArray, time: int) -> None:
+def plain_block(world: World, k: int, stop: Record, time: int) -> None:
     """Write the block of a stop without launches, reached at `time`. In place."""
     d, c = origin(world, k, time)
-    stop[S_D], stop[S_C] = serve(world, k, stop, time, d, c)
-    stop[S_LO], stop[S_HI], stop[S_DEP] = NONE, FAR, FAR
-    if stop[S_KIND] == CUSTOMER:
-        place = world.place[stop[S_NODE]]
-        stop[S_LO], stop[S_HI] = allowed_within(place, time, 0, NONE)
-        stop[S_DEP] = as_late(place, time)
-    elif stop[S_KIND] == END:
-        stop[S_HI] = world.type[k, TYPE_LATEST]
+    stop.d, stop.c = serve(world, k, stop, time, d, c)
+    stop.lo, stop.hi, stop.dep = NONE, FAR, FAR
+    if stop.kind == CUSTOMER:
+        place = world.place[stop.node]
+        stop.lo, stop.hi = allowed_within(place, time, 0, NONE)
+        stop.dep = as_late(place, time)
+    elif stop.kind == END:
+        stop.hi = world.type[k, TYPE_LATEST]
 
 
 @inlined
-def make_ready(world: World, k: int, stops: IntArray, sorties: IntArray, count: int) -> None:
+def make_ready(world: World, k: int, stops: Records, sorties: Records, count: int) -> None:
     """Have the sorties of a route wait for their launches. In place.
 
     And write how long each is held back: until windows let it be back within the endurance.
@@ -75,132 +76,131 @@ def make_ready(world: World, k: int, stops: IntArray, sorties: IntArray, count: 
     legs = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
     for s in range(count):
         sortie = sorties[s]
-        node = stops[sortie[F_RECOVERY], S_NODE]
+        node = stops[sortie.recovery].node
         back = home = 0
-        for index in range(sortie[F_COUNT] - 1, -1, -1):
-            customer = sortie[F_NODE + index]
+        for index in range(sortie.count - 1, -1, -1):
+            customer = sortie.nodes[index]
             place = world.place[customer]
             home += leg(legs, customer, node).duration
             back = max(back, earliest_back(columns, place, home))
             home += drone_service(columns, place)
             node = customer
-        sortie[F_STATE], sortie[F_HELD] = WAITING, held_until(columns, back)
+        sortie.state, sortie.held = WAITING, held_until(columns, back)
 
 
 @inlined
-def bound_arrival(acc: IntArray, first: int, last: int) -> None:
+def bound_arrival(acc: Record, first: int, last: int) -> None:
     """Let the truck arrive at the block from `first` to `last`. In place."""
-    acc[A_LO], acc[A_HI] = max(acc[A_LO], first), min(acc[A_HI], last)
+    acc.lo, acc.hi = max(acc.lo, first), min(acc.hi, last)
 
 
 @inlined
-def reach(place: IntArray, arrival: int, d: int, c: int, acc: IntArray) -> bool:
+def reach(place: IntArray, arrival: int, d: int, c: int, acc: Record) -> bool:
     """Bound the truck's arrival by the window of a customer reached at (d, c), at `arrival`.
 
     In place; False if that is too late however soon the truck arrives.
     """
     if too_late(place, c):
         return False
-    first, last = allowed_within(place, acc[A_TIME], d, c)
+    first, last = allowed_within(place, acc.time, d, c)
     bound_arrival(acc, first, last)
-    acc[A_DEP] = min(acc[A_DEP], as_late(place, arrival) - d)
+    acc.dep = min(acc.dep, as_late(place, arrival) - d)
     return True
 
 
 @inlined
-def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: IntArray, node: int,
-            acc: IntArray) -> bool:
+def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: Record, node: int,
+            acc: Record) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
-    arrivals = (F_NODE + len(sortie)) // 2
-    d = take_off(columns, acc[A_FREE_D])
-    c = max(take_off(columns, acc[A_FREE_C]), sortie[F_HELD])
-    acc[A_FREE_D], acc[A_FREE_C] = d, c
-    sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C] = d, c
-    sortie[F_TAKEOFF] = max(acc[A_TIME] + d, c)
-    for index in range(sortie[F_COUNT]):
-        customer = sortie[F_NODE + index]
+    d = take_off(columns, acc.free_d)
+    c = max(take_off(columns, acc.free_c), sortie.held)
+    acc.free_d, acc.free_c = d, c
+    sortie.takeoff_d, sortie.takeoff_c = d, c
+    sortie.takeoff = max(acc.time + d, c)
+    for index in range(sortie.count):
+        customer = sortie.nodes[index]
         flight = leg(legs, node, customer).duration
         place = places[customer]
         d, c = d + flight, c + flight
-        arrival = max(acc[A_TIME] + d, c)
+        arrival = max(acc.time + d, c)
         if unreachable(flight) or not reach(place, arrival, d, c, acc):
             return False
-        sortie[arrivals + index] = arrival
-        d, c = start_within(place, acc[A_TIME], d, c)
+        sortie.arrivals[index] = arrival
+        d, c = start_within(place, acc.time, d, c)
         service = drone_service(columns, place)
         d, c = d + service, c + service
         node = customer
-    sortie[F_READY_D], sortie[F_READY_C] = d, c
-    sortie[F_STATE] = FLYING
-    acc[A_FLYING] += 1
+    sortie.ready_d, sortie.ready_c = d, c
+    sortie.state = FLYING
+    acc.flying += 1
     return True
 
 
 @inlined
-def bring_home(legs: IntArray, columns: IntArray, sortie: IntArray, node: int,
-               acc: IntArray) -> bool:
+def bring_home(legs: IntArray, columns: IntArray, sortie: Record, node: int,
+               acc: Record) -> bool:
     """Recover a sortie at `node`. In place; False if endurance forbids it."""
-    last = sortie[F_NODE + sortie[F_COUNT] - 1]
+    last = sortie.nodes[sortie.count - 1]
     flight = leg(legs, last, node).duration
-    back_d, back_c = sortie[F_READY_D] + flight, sortie[F_READY_C] + flight
-    begin_d, begin_c = max(acc[A_FREE_D], back_d), max(acc[A_FREE_C], back_c)
+    back_d, back_c = sortie.ready_d + flight, sortie.ready_c + flight
+    begin_d, begin_c = max(acc.free_d, back_d), max(acc.free_c, back_c)
     if unreachable(flight):
         return False
-    first, last = enduring_within(columns, sortie[F_TAKEOFF_D], sortie[F_TAKEOFF_C],
+    first, last = enduring_within(columns, sortie.takeoff_d, sortie.takeoff_c,
                                   counted_until(columns, back_d, begin_d),
                                   counted_until(columns, back_c, begin_c))
     bound_arrival(acc, first, last)
-    begin = max(acc[A_TIME] + begin_d, begin_c)
-    sortie[F_BEGIN] = begin
+    begin = max(acc.time + begin_d, begin_c)
+    sortie.begin = begin
     slack = begin - begin_d
-    if sortie[F_TAKEOFF] - sortie[F_TAKEOFF_D] > slack:
-        acc[A_DEP] = min(acc[A_DEP], slack)
-    acc[A_FREE_D] = recovery_end(columns, begin_d)
-    acc[A_FREE_C] = recovery_end(columns, begin_c)
-    sortie[F_STATE] = DONE
-    acc[A_FLYING] -= 1
-    return acc[A_LO] <= acc[A_HI]
+    if sortie.takeoff - sortie.takeoff_d > slack:
+        acc.dep = min(acc.dep, slack)
+    acc.free_d = recovery_end(columns, begin_d)
+    acc.free_c = recovery_end(columns, begin_c)
+    sortie.state = DONE
+    acc.flying -= 1
+    return acc.lo <= acc.hi
 
 
 @inlined
-def is_aboard(sorties: IntArray, index: int, oldest: int) -> bool:
+def is_aboard(sorties: Records, index: int, oldest: int) -> bool:
     """Tell whether the drone of a sortie has ended all sorties before it."""
     for other in range(oldest, index):
-        if sorties[other, F_DRONE] == sorties[index, F_DRONE] and sorties[other, F_STATE] != DONE:
+        if sorties[other].drone == sorties[index].drone and sorties[other].state != DONE:
             return False
     return True
 
 
 @inlined
-def next_operation(legs: IntArray, columns: IntArray, sorties: IntArray, count: int, p: int,
-                   node: int, acc: IntArray) -> int:
+def next_operation(legs: IntArray, columns: IntArray, sorties: Records, count: int, p: int,
+                   node: int, acc: Record) -> int:
     """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 
     A drone that is there is recovered before another is launched.
     """
     chosen, earliest = -1, FAR
-    free = max(acc[A_TIME] + acc[A_FREE_D], acc[A_FREE_C])
-    for index in range(acc[A_OLDEST], count):
-        if sorties[index, F_LAUNCH] > p:
+    free = max(acc.time + acc.free_d, acc.free_c)
+    for index in range(acc.oldest, count):
+        if sorties[index].launch > p:
             break
         begin = FAR
-        if sorties[index, F_STATE] == FLYING:
-            if sorties[index, F_RECOVERY] == p:
-                last = sorties[index, F_NODE + sorties[index, F_COUNT] - 1]
+        if sorties[index].state == FLYING:
+            if sorties[index].recovery == p:
+                last = sorties[index].nodes[sorties[index].count - 1]
                 flight = leg(legs, last, node).duration
-                begin = max(2 * free, 2 * (max(acc[A_TIME] + sorties[index, F_READY_D],
-                                               sorties[index, F_READY_C]) + flight))
-        elif (sorties[index, F_STATE] == WAITING and sorties[index, F_LAUNCH] == p
-              and is_aboard(sorties, index, acc[A_OLDEST])):
-            begin = 2 * max(free, launch_begin(columns, sorties[index, F_HELD])) + 1
+                begin = max(2 * free, 2 * (max(acc.time + sorties[index].ready_d,
+                                               sorties[index].ready_c) + flight))
+        elif (sorties[index].state == WAITING and sorties[index].launch == p
+              and is_aboard(sorties, index, acc.oldest)):
+            begin = 2 * max(free, launch_begin(columns, sorties[index].held)) + 1
         if begin < earliest:
             chosen, earliest = index, begin
     return chosen
 
 
 @inlined
-def operate(places: IntArray, legs: IntArray, columns: IntArray, sorties: IntArray, count: int,
-            p: int, node: int, acc: IntArray) -> bool:
+def operate(places: IntArray, legs: IntArray, columns: IntArray, sorties: Records, count: int,
+            p: int, node: int, acc: Record) -> bool:
     """Launch and recover all that stop `p` asks for. In place; False if not allowed.
 
     `legs` (origin, to, 2) are flown; `columns` are those of the vehicle type.
@@ -210,38 +210,38 @@ def operate(places: IntArray, legs: IntArray, columns: IntArray, sorties: IntArr
         index = next_operation(legs, columns, sorties, count, p, node, acc)
         if index < 0:
             break
-        if sorties[index, F_STATE] == FLYING:
+        if sorties[index].state == FLYING:
             if not bring_home(legs, columns, sorties[index], node, acc):
                 return False
         elif not fly_out(places, legs, columns, sorties[index], node, acc):
             return False
-    for index in range(acc[A_OLDEST], count):
-        if sorties[index, F_LAUNCH] > p:
+    for index in range(acc.oldest, count):
+        if sorties[index].launch > p:
             break
-        if sorties[index, F_STATE] == WAITING:
+        if sorties[index].state == WAITING:
             return False
-    while acc[A_OLDEST] < count and sorties[acc[A_OLDEST], F_STATE] == DONE:
-        acc[A_OLDEST] += 1
+    while acc.oldest < count and sorties[acc.oldest].state == DONE:
+        acc.oldest += 1
     return True
 
 
 @inlined
-def note_idle(places: IntArray, stops: IntArray, first: int, last: int) -> None:
+def note_idle(places: IntArray, stops: Records, first: int, last: int) -> None:
     """Write how long the truck waits for drones in a block, at all stops but the last. In place."""
-    idle = stops[first, S_D]
+    idle = stops[first].d
     for p in range(first, last + 1):
-        if stops[p, S_KIND] == CUSTOMER:
-            idle -= service_duration(places[stops[p, S_NODE]])
+        if stops[p].kind == CUSTOMER:
+            idle -= service_duration(places[stops[p].node])
         if p < last:
-            idle -= stops[p, S_GAP]
+            idle -= stops[p].gap
     for p in range(first, last):
-        stops[p, S_IDLE] = idle
-    stops[last, S_IDLE] = 0
+        stops[p].idle = idle
+    stops[last].idle = 0
 
 
 @inlined
-def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntArray, count: int,
-               first: int, oldest: int, time: int, acc: IntArray) -> int:
+def time_block(world: World, k: int, stops: Records, length: int, sorties: Records, count: int,
+               first: int, oldest: int, time: int, acc: Record) -> int:
     """Write the block from stop `first`, which the truck reaches at `time`. In place.
 
     `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
@@ -249,37 +249,37 @@ def time_block(world: World, k: int, stops: IntArray, length: int, sorties: IntA
     columns = world.type[k]
     flights = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
     d, c = origin(world, k, time)
-    acc[A_TIME], acc[A_HI], acc[A_LO], acc[A_DEP] = time, FAR, NONE, FAR
-    acc[A_OLDEST], acc[A_FLYING], p = oldest, 0, first
+    acc.time, acc.hi, acc.lo, acc.dep = time, FAR, NONE, FAR
+    acc.oldest, acc.flying, p = oldest, 0, first
     while True:
         stop = stops[p]
-        kind, node = stop[S_KIND], stop[S_NODE]
-        stop[S_ARRIVAL], stop[S_BLOCK] = max(time + d, c), first
+        kind, node = stop.kind, stop.node
+        stop.arrival, stop.block = max(time + d, c), first
         if kind == CUSTOMER:
-            if not reach(world.place[node], stop[S_ARRIVAL], d, c, acc):
+            if not reach(world.place[node], stop.arrival, d, c, acc):
                 return -1
         elif kind == START:
-            c = max(c, max(stop[S_RELEASE], stop[S_HOLD]))
-        acc[A_FREE_D], acc[A_FREE_C] = d, c
+            c = max(c, max(stop.release, stop.hold))
+        acc.free_d, acc.free_c = d, c
         d, c = serve(world, k, stop, time, d, c)
         if not operate(world.place, flights, columns, sorties, count, p, node, acc):
             return -1
-        d, c = max(d, acc[A_FREE_D]), max(c, acc[A_FREE_C])
-        stop[S_LEAVE], stop[S_FLYING] = max(time + d, c), acc[A_FLYING]
-        stop[S_LATEST], stop[S_EARLY] = FAR, NONE
+        d, c = max(d, acc.free_d), max(c, acc.free_c)
+        stop.leave, stop.flying = max(time + d, c), acc.flying
+        stop.latest, stop.early = FAR, NONE
         if kind == END:
             if c > columns[TYPE_LATEST]:
                 return -1
-            acc[A_HI] = min(acc[A_HI], columns[TYPE_LATEST] - d)
-        if acc[A_FLYING] == 0:
+            acc.hi = min(acc.hi, columns[TYPE_LATEST] - d)
+        if acc.flying == 0:
             break
         if kind == END or p + 1 >= length:
             return -1
         legs = legs_of(world.leg, columns[TYPE_TRAVEL])
-        stop[S_GAP] = leg(legs, node, stops[p + 1, S_NODE]).duration
-        d, c = travel(world, k, stop[S_GAP], d, c)
+        stop.gap = leg(legs, node, stops[p + 1].node).duration
+        d, c = travel(world, k, stop.gap, d, c)
         p += 1
-    stops[first, S_D], stops[first, S_C], stops[first, S_HI] = d, c, acc[A_HI]
-    stops[first, S_LO], stops[first, S_DEP] = acc[A_LO], acc[A_DEP]
+    stops[first].d, stops[first].c, stops[first].hi = d, c, acc.hi
+    stops[first].lo, stops[first].dep = acc.lo, acc.dep
     note_idle(world.place, stops, first, p)
     return p

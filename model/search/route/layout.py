@@ -8,49 +8,54 @@ route and are sorted by them. All else in the arrays follows from these and is w
 Times inside a block of stops hang on the truck's arrival `t` as `max(t + d, c)`: `d` is the longest
 path of durations from there, `c` what windows and releases hold up. Such pairs add up and take
 maxima by parts, so that a block, a trip and a route are each a pair with an interval of arrivals
-at which all rules hold (Vidal et al. 2013, time-window segments, with drones).
+at which all rules hold (Vidal et al. 2013, time-window segments, with drones). `docs/search.md`
+derives what is made of them under "Times on a route".
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from model.kernel.compiled import inlined
+from model.kernel.instance import MAX_DIMENSIONS
+from model.kernel.records import Record, Records, record
 from model.problem import BoolArray, FloatArray, IntArray
 
-(S_NODE, S_KIND, S_RELEASE, S_LEAVE, S_LATEST, S_LEG, S_GAP, S_FLYING, S_TRIP, S_EARLY, S_REST,
- S_END, S_CUM, S_DEPART, S_ARRIVAL, S_BEFORE, S_BLOCK, S_LAST, S_D, S_C, S_HI, S_LO, S_DEP,
- S_HOLD, S_IDLE) = range(25)
-STOP_COLUMNS = 25
-SEQUENCE_COLUMNS = 3
-"""The first columns of a stop, which are chosen; the others follow."""
-LEAN_COLUMNS = 9
-"""The first columns of a stop, which are all that a lean route needs."""
+MOST_VISITS = 8
+"""Customers on a sortie that the search puts there at most."""
+
+STOP = record(
+    # What is chosen.
+    "node", "kind", "release",
+    # What a lean route needs, with these.
+    "leave", "latest", "leg", "gap", "flying", "trip",
+    # All else that follows.
+    "early", "rest", "end", "cum", "depart", "arrival", "before", "block", "last", "d", "c", "hi",
+    "lo", "dep", "hold", "idle")
 
 CUSTOMER, START, END = range(3)
 
-(F_LAUNCH, F_RECOVERY, F_DRONE, F_COUNT, F_STATE, F_TAKEOFF_D, F_TAKEOFF_C, F_READY_D, F_READY_C,
- F_TAKEOFF, F_BEGIN, F_HELD, F_NODE) = range(13)
+SORTIE = record(
+    "launch", "recovery", "drone", "count", "state", "takeoff_d", "takeoff_c", "ready_d", "ready_c",
+    "takeoff", "begin", "held", nodes=MOST_VISITS, arrivals=MOST_VISITS)
+"""Where it begins and ends; its customers, and when it reaches them; what `block` knows of it."""
 WAITING, FLYING, DONE = range(3)
 
-T_FIRST, T_LAST, T_RELEASE, T_DISTANCE, T_LOAD = range(5)
-TRIP_COLUMNS = 8
+TRIP = record("first", "last", "release", "distance", load=MAX_DIMENSIONS)
 
-(R_TYPE, R_LENGTH, R_TRIPS, R_SORTIES, R_END, R_CUM, R_WORKING, R_OFFSET, R_STAMP) = range(9)
-ROUTE_COLUMNS = 9
+ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "offset", "stamp")
 
 CHANGING = 0
 """Stamp of a route that this turn changes; any other stands for what the route in the slot is."""
 
-K_STAMP, K_DETOUR, K_STOP = range(3)
+KEPT = record("stamp", "detour", "stop")
 """Stamp of the route, shortest detour for a customer, stop before it; -1 if none is that short."""
-KEPT_COLUMNS = 3
-K_MOVE = 1
-"""Where routes are not lean, what follows the stamp is the best insertion, as in `edit`."""
 
-B_BEST, B_BLINK = range(2)
+BOUND = record(best=float, blink=float)
 """Cost below which insertions are looked for, and how often one is overlooked."""
 
-W_SLOT, W_POSITION, W_SORTIE = range(3)
+PLACE = record("slot", "position", "sortie")
+"""Where a customer is served: the route's slot; the stop's position, or the sortie; else -1."""
 NOWHERE, ELSEWHERE = -1, -2
 """Slot of a customer who is left out; of one whom another thread deals with."""
 
@@ -95,31 +100,53 @@ class World(NamedTuple):
     profile_factor: IntArray  # (type, change + 1)
     near: IntArray  # (node, rank) customers, nearest first, -1 behind the last
     fit: IntArray  # (node, rank) customers whom a truck would visit before or after
-    stop: IntArray  # (1,) not 0 once the search must end, as `model.kernel.alarm` says
+    stop: Record  # (1,) not 0 once the search must end, as `model.kernel.alarm` says
 
 
 class Fleet(NamedTuple):
     """Routes, one a slot; the last two slots are scratch."""
 
-    route: IntArray  # (slot, ROUTE_COLUMNS)
+    route: Records  # (slot,) ROUTE
     cost: FloatArray  # (slot,)
     early: FloatArray  # (slot,) of it, what waiting costs where trips are held back
-    stop: IntArray  # (slot, position, STOP_COLUMNS)
-    trip: IntArray  # (slot, trip, TRIP_COLUMNS)
-    sortie: IntArray  # (slot, sortie, F_NODE + 2 * max_visits) customers, then their arrivals
-    where: IntArray  # (node, 3) slot, position of the stop or -1, sortie or -1
+    stop: Records  # (slot, position) STOP
+    trip: Records  # (slot, trip) TRIP
+    sortie: Records  # (slot, sortie) SORTIE
+    where: Records  # (node,) PLACE
     used: IntArray  # (type,) routes
+
+
+@inlined
+def copy_sequence(stop: Record, to: Record) -> None:
+    """Copy what is chosen of a stop. In place."""
+    to.node, to.kind, to.release = stop.node, stop.kind, stop.release
+
+
+@inlined
+def copy_lean(stop: Record, to: Record) -> None:
+    """Copy what a lean route needs of a stop. In place."""
+    copy_sequence(stop, to)
+    to.leave, to.latest, to.leg = stop.leave, stop.latest, stop.leg
+    to.gap, to.flying, to.trip = stop.gap, stop.flying, stop.trip
+
+
+@inlined
+def clear_trip(trip: Record) -> None:
+    """Let a trip be empty. In place."""
+    trip.first = trip.last = trip.release = trip.distance = 0
+    for dimension in range(MAX_DIMENSIONS):
+        trip.load[dimension] = 0
 
 
 def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int) -> Fleet:
     """Allocate a fleet without routes. Pages are touched only where routes are."""
     return Fleet(
-        route=np.zeros((slots + 2, ROUTE_COLUMNS), np.int64),
+        route=np.zeros(slots + 2, ROUTE),
         cost=np.zeros(slots + 2),
         early=np.zeros(slots + 2),
-        stop=np.zeros((slots + 2, stops, STOP_COLUMNS), np.int64),
-        trip=np.zeros((slots + 2, trips, TRIP_COLUMNS), np.int64),
-        sortie=np.zeros((slots + 2, sorties, F_NODE + 2 * world.max_visits), np.int64),
-        where=np.full((world.num_nodes, 3), NOWHERE, np.int64),
+        stop=np.zeros((slots + 2, stops), STOP),
+        trip=np.zeros((slots + 2, trips), TRIP),
+        sortie=np.zeros((slots + 2, sorties), SORTIE),
+        where=np.full(world.num_nodes, np.array((NOWHERE, NOWHERE, NOWHERE), PLACE)),
         used=np.zeros(world.num_types, np.int64),
     )

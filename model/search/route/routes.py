@@ -1,7 +1,6 @@
 """All that follows from the sequence of a route: loads, times, where it bends, its cost."""
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.copying import clear
 from model.kernel.flight import launch_duration, recovery_end
 from model.kernel.instance import (
     FAR, NODE_RELEASE, NONE, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM,
@@ -9,73 +8,67 @@ from model.kernel.instance import (
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds
+from model.kernel.records import Record, Records
 from model.kernel.start import counted_from, has_begun
 from model.kernel.stop import lateness, waiting
-from model.problem import IntArray
 from model.search.route.block import make_ready, plain_block, time_block, travel
-from model.search.route.layout import (
-    CUSTOMER, END, F_BEGIN, F_COUNT, F_LAUNCH, F_NODE, F_RECOVERY, F_TAKEOFF, MODE_PRICED, R_CUM,
-    R_END, R_LENGTH, R_OFFSET, R_SORTIES, R_TRIPS, R_TYPE, R_WORKING, START, S_ARRIVAL, S_BEFORE,
-    S_BLOCK, S_C, S_CUM, S_D, S_DEP, S_DEPART, S_EARLY, S_END, S_FLYING, S_GAP, S_HI, S_IDLE,
-    S_KIND, S_LAST, S_LATEST, S_LEAVE, S_LEG, S_LO, S_NODE, S_RELEASE, S_REST, S_TRIP, T_DISTANCE,
-    T_FIRST, T_LAST, T_RELEASE, World,
-)
+from model.search.route.layout import CUSTOMER, END, MODE_PRICED, START, World, clear_trip
 from model.search.route.vehicles import add_load, load_of
 
 
 @inlined
-def carry(world: World, trip: IntArray, node: int) -> None:
+def carry(world: World, trip: Record, node: int) -> None:
     """Put a customer's parcel on a trip. In place."""
     place = world.place[node]
-    trip[T_RELEASE] = max(trip[T_RELEASE], place[NODE_RELEASE])
+    trip.release = max(trip.release, place[NODE_RELEASE])
     add_load(trip, demand_of(place))
 
 
 @inlined
-def load_trips(world: World, route: IntArray, stops: IntArray, trips: IntArray,
-               sorties: IntArray) -> bool:
+def load_trips(world: World, route: Record, stops: Records, trips: Records,
+               sorties: Records) -> bool:
     """Write loads, releases and distances of the trips. In place; False if one is too much."""
-    k = route[R_TYPE]
+    k = route.type
     columns = world.type[k]
     legs = legs_of(world.leg, columns[TYPE_TRAVEL])
     index, s = -1, 0
     most_trips, most_distance = len(trips), columns[TYPE_MAX_DISTANCE]
-    for p in range(route[R_LENGTH]):
+    for p in range(route.length):
         stop = stops[p]
-        kind = stop[S_KIND]
+        kind = stop.kind
         if kind == START:
             index += 1
             if index >= columns[TYPE_MAX_TRIPS] or index >= most_trips:
                 return False
-            clear(trips[index])
-            trips[index, T_FIRST] = p
+            clear_trip(trips[index])
+            trips[index].first = p
         trip = trips[index]
-        stop[S_TRIP] = index
+        stop.trip = index
         if kind == CUSTOMER:
-            carry(world, trip, stop[S_NODE])
-        while s < route[R_SORTIES] and sorties[s, F_LAUNCH] == p:
-            for visit in range(sorties[s, F_COUNT]):
-                carry(world, trip, sorties[s, F_NODE + visit])
+            carry(world, trip, stop.node)
+        while s < route.sorties and sorties[s].launch == p:
+            for visit in range(sorties[s].count):
+                carry(world, trip, sorties[s].nodes[visit])
             s += 1
         if kind == END:
-            trip[T_LAST] = p
-            stops[trip[T_FIRST], S_RELEASE] = trip[T_RELEASE]
-            if trip[T_DISTANCE] > most_distance or not holds(columns, load_of(trip)):
+            trip.last = p
+            stops[trip.first].release = trip.release
+            if trip.distance > most_distance or not holds(columns, load_of(trip)):
                 return False
-            stop[S_LEG], stop[S_GAP] = 0, columns[TYPE_RELOAD]
+            stop.leg, stop.gap = 0, columns[TYPE_RELOAD]
         else:
-            way = leg(legs, stop[S_NODE], stops[p + 1, S_NODE])
-            stop[S_GAP], stop[S_LEG] = way.duration, way.distance
-            trip[T_DISTANCE] += way.distance
-    route[R_TRIPS] = index + 1
+            way = leg(legs, stop.node, stops[p + 1].node)
+            stop.gap, stop.leg = way.duration, way.distance
+            trip.distance += way.distance
+    route.trips = index + 1
     return True
 
 
 @inlined
-def drive_forward(world: World, route: IntArray, stops: IntArray, sorties: IntArray,
-                  acc: IntArray) -> bool:
+def drive_forward(world: World, route: Record, stops: Records, sorties: Records,
+                  acc: Record) -> bool:
     """Write times as soon as possible, stop after stop. In place; False if a rule is broken."""
-    k, length, count = route[R_TYPE], route[R_LENGTH], route[R_SORTIES]
+    k, length, count = route.type, route.length, route.sorties
     time = world.type[k, TYPE_EARLIEST]
     cum, depart = 0, FAR
     make_ready(world, k, stops, sorties, count)
@@ -83,62 +76,65 @@ def drive_forward(world: World, route: IntArray, stops: IntArray, sorties: IntAr
     while p < length:
         stop = stops[p]
         last = p
-        if s < count and sorties[s, F_LAUNCH] == p:
+        if s < count and sorties[s].launch == p:
             last = time_block(world, k, stops, length, sorties, count, p, s, time, acc)
             if last < 0:
                 return False
-            while s < count and sorties[s, F_LAUNCH] <= last:
+            while s < count and sorties[s].launch <= last:
                 s += 1
         else:
             plain_block(world, k, stop, time)
-            stop[S_FLYING], stop[S_BLOCK], stop[S_IDLE] = 0, p, 0
-        if time > stop[S_HI] or time < stop[S_LO]:
+            stop.flying, stop.block, stop.idle = 0, p, 0
+        if time > stop.hi or time < stop.lo:
             return False
-        stop[S_ARRIVAL], stop[S_BEFORE], stop[S_LAST] = time, cum, last
-        depart = min(depart, stop[S_DEP] - cum)
-        cum += stop[S_D]
-        leave = max(time + stop[S_D], stop[S_C])
+        stop.arrival, stop.before, stop.last = time, cum, last
+        depart = min(depart, stop.dep - cum)
+        cum += stop.d
+        leave = max(time + stop.d, stop.c)
         behind = stops[last]
-        behind[S_LEAVE], behind[S_CUM], behind[S_DEPART] = leave, cum, depart
+        behind.leave, behind.cum, behind.depart = leave, cum, depart
         time = leave
-        if behind[S_KIND] == END:
-            time += behind[S_GAP]
+        if behind.kind == END:
+            time += behind.gap
         else:
-            _, time = travel(world, k, behind[S_GAP], NONE, leave)
-        cum += behind[S_GAP]
+            _, time = travel(world, k, behind.gap, NONE, leave)
+        cum += behind.gap
         p = last + 1
-    route[R_END], route[R_CUM] = stops[length - 1, S_LEAVE], stops[length - 1, S_CUM]
+    route.end, route.cum = stops[length - 1].leave, stops[length - 1].cum
     return True
 
 
 @inlined
-def look_back(world: World, route: IntArray, stops: IntArray) -> None:
-    """Write how late, and how early, each block may be reached, and what follows it. In place."""
+def look_back(world: World, route: Record, stops: Records) -> None:
+    """Write how late, and how early, each block may be reached, and what follows it. In place.
+
+    As docs/search.md derives under "Times on a route".
+    """
     latest, earliest, rest, end = FAR, NONE, 0, NONE
-    q = route[R_LENGTH] - 1
+    q = route.length - 1
     gap = 0
     while q >= 0:
-        p = stops[q, S_BLOCK]
+        p = stops[q].block
         stop = stops[p]
-        d, c = stop[S_D], stop[S_C]
-        if q < route[R_LENGTH] - 1:
-            gap = stops[q, S_GAP]
-        early = stop[S_LO]
+        d, c = stop.d, stop.c
+        if q < route.length - 1:
+            gap = stops[q].gap
+        early = stop.lo
         if c < earliest - gap:
             early = max(early, earliest - gap - d)
-        latest = min(stop[S_HI], latest - gap - d)
+        latest = min(stop.hi, latest - gap - d)
         earliest = early
         end = max(c + gap + rest, end)
         rest += d + gap
-        stop[S_LATEST], stop[S_EARLY], stop[S_REST], stop[S_END] = latest, early, rest, end
+        stop.latest, stop.early, stop.rest, stop.end = latest, early, rest, end
         q = p - 1
 
 
 @inlined
-def open_up(route: IntArray, stops: IntArray) -> None:
+def open_up(route: Record, stops: Records) -> None:
     """Mark a route whose legs change with time: nothing is known of later arrivals. In place."""
-    for p in range(route[R_LENGTH]):
-        stops[p, S_LATEST], stops[p, S_EARLY] = FAR, NONE
+    for p in range(route.length):
+        stops[p].latest, stops[p].early = FAR, NONE
 
 
 @spliced
@@ -160,58 +156,58 @@ def window_cost(world: World, node: int, arrival: int) -> float:
 
 
 @inlined
-def price_windows(world: World, route: IntArray, stops: IntArray,
-                  sorties: IntArray) -> tuple[float, float]:
+def price_windows(world: World, route: Record, stops: Records,
+                  sorties: Records) -> tuple[float, float]:
     """Return what lateness and what waiting cost on a timed route."""
     late = early = 0.0
-    for p in range(route[R_LENGTH]):
-        if stops[p, S_KIND] == CUSTOMER:
-            late += lateness_cost(world, stops[p, S_NODE], stops[p, S_ARRIVAL])
-            early += waiting_cost(world, stops[p, S_NODE], stops[p, S_ARRIVAL])
-    for s in range(route[R_SORTIES]):
-        for visit in range(sorties[s, F_COUNT]):
-            node = sorties[s, F_NODE + visit]
-            arrival = sorties[s, F_NODE + world.max_visits + visit]
+    for p in range(route.length):
+        if stops[p].kind == CUSTOMER:
+            late += lateness_cost(world, stops[p].node, stops[p].arrival)
+            early += waiting_cost(world, stops[p].node, stops[p].arrival)
+    for s in range(route.sorties):
+        for visit in range(sorties[s].count):
+            node = sorties[s].nodes[visit]
+            arrival = sorties[s].arrivals[visit]
             late += lateness_cost(world, node, arrival)
             early += waiting_cost(world, node, arrival)
     return late, early
 
 
 @inlined
-def sortie_cost(world: World, k: int, stops: IntArray, sortie: IntArray) -> float:
+def sortie_cost(world: World, k: int, stops: Records, sortie: Record) -> float:
     """Return what the flight of a sortie costs."""
     flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
-    node, flown = stops[sortie[F_LAUNCH], S_NODE], 0
-    for visit in range(sortie[F_COUNT]):
-        following = sortie[F_NODE + visit]
+    node, flown = stops[sortie.launch].node, 0
+    for visit in range(sortie.count):
+        following = sortie.nodes[visit]
         flown += leg(flights, node, following).distance
         node = following
-    flown += leg(flights, node, stops[sortie[F_RECOVERY], S_NODE]).distance
-    airborne = recovery_end(world.type[k], sortie[F_BEGIN]) - sortie[F_TAKEOFF]
+    flown += leg(flights, node, stops[sortie.recovery].node).distance
+    airborne = recovery_end(world.type[k], sortie.begin) - sortie.takeoff
     return flown * world.rate[k, RATE_DRONE_KM] + airborne * world.rate[k, RATE_DRONE_HOUR]
 
 
 @inlined
-def first_departure(world: World, route: IntArray, stops: IntArray, sorties: IntArray) -> int:
+def first_departure(world: World, route: Record, stops: Records, sorties: Records) -> int:
     """Return when truck or drone first leaves the depot, as late as costs nothing."""
-    depart = min(stops[route[R_LENGTH] - 1, S_DEPART], route[R_END] - route[R_CUM])
-    offset, columns = 0, world.type[route[R_TYPE]]
-    if route[R_SORTIES] > 0 and sorties[0, F_LAUNCH] == 0 and not has_begun(columns):
+    depart = min(stops[route.length - 1].depart, route.end - route.cum)
+    offset, columns = 0, world.type[route.type]
+    if route.sorties > 0 and sorties[0].launch == 0 and not has_begun(columns):
         offset = launch_duration(columns)
-    route[R_OFFSET] = offset
+    route.offset = offset
     return counted_from(columns, depart + offset)
 
 
 @inlined
-def price_route(world: World, route: IntArray, stops: IntArray, trips: IntArray,
-                sorties: IntArray) -> tuple[float, float]:
+def price_route(world: World, route: Record, stops: Records, trips: Records,
+                sorties: Records) -> tuple[float, float]:
     """Return the cost of a timed route, and what waiting for windows costs of it."""
-    k = route[R_TYPE]
+    k = route.type
     cost, early = world.rate[k, RATE_FIXED], 0.0
-    for index in range(route[R_TRIPS]):
-        cost += trips[index, T_DISTANCE] * world.rate[k, RATE_KM]
-    cost += route[R_WORKING] * world.rate[k, RATE_HOUR]
-    for s in range(route[R_SORTIES]):
+    for index in range(route.trips):
+        cost += trips[index].distance * world.rate[k, RATE_KM]
+    cost += route.working * world.rate[k, RATE_HOUR]
+    for s in range(route.sorties):
         cost += sortie_cost(world, k, stops, sorties[s])
     if world.mode[k] & MODE_PRICED:
         late, early = price_windows(world, route, stops, sorties)

@@ -3,20 +3,17 @@
 from typing import NamedTuple
 
 from model.kernel.compiled import compiled, inlined, spliced
-from model.kernel.copying import copy_row, copy_rows, copy_some
+from model.kernel.copying import copy_row, copy_some, copy_records
 from model.kernel.instance import TYPE_COUNT
+from model.kernel.records import Record, Records, record
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
-from model.search.route.layout import (
-    CHANGING, LEAN_COLUMNS, NOWHERE, R_LENGTH, R_SORTIES, R_STAMP, R_TRIPS, R_TYPE, S_KIND, S_NODE,
-    W_SLOT, Fleet, World,
-)
+from model.search.route.layout import CHANGING, NOWHERE, Fleet, World, copy_lean
 from model.search.route.refresh import locate
 
-(I_ACTIVE, I_MISSING, I_ABSENT, I_TOUCHED, I_TURN, I_STAMP, I_BEST_MISSING, I_CUSTOMERS,
- I_LEAN, I_OFFERS) = range(10)
+COUNTS = record("active", "missing", "absent", "touched", "turn", "stamp", "best_missing",
+                "customers", "lean", "offers")
 """How many there are of each; the turn, the last stamp given, and whether all routes are lean."""
-COUNTS = 10
-V_COST, V_BEST, V_TEMPERATURE, V_COOLING = range(4)
+VALUES = record(cost=float, best=float, temperature=float, cooling=float)
 
 
 class Searcher(NamedTuple):
@@ -25,8 +22,8 @@ class Searcher(NamedTuple):
     now: Fleet
     before: Fleet
     best: Fleet
-    count: IntArray  # type: ignore[assignment]  # (COUNTS,) I_ numbers
-    value: FloatArray  # (4,) V_ numbers
+    count: Record  # COUNTS
+    value: Record  # VALUES
     rng: UIntArray  # (1,)
     active: IntArray  # slots in use
     missing: IntArray  # customers left out
@@ -36,17 +33,18 @@ class Searcher(NamedTuple):
     marked: BoolArray  # (node,) removed this turn
     absences: IntArray  # (node,) turns after which a customer was left out
     hit: IntArray  # (slot, trip) turn of the last string
-    line: IntArray  # (node + 3, LINE_COLUMNS) scratch, places of a trip or two in order
+    line: Records  # (node + 3,) scratch, places of a trip or two in order
     line_cost: FloatArray  # (node + 3,) scratch
     key: FloatArray  # (node,) order of insertion
     moved: IntArray  # scratch
-    move: IntArray  # scratch, best insertion
-    offer: IntArray  # (offer, MOVE_COLUMNS) scratch, insertions that may be best
+    move: Record  # MOVE, scratch, best insertion
+    offer: Records  # (offer,) MOVE, scratch, insertions that may be best
     least: FloatArray  # (offer,) scratch, what each costs at least
-    acc: IntArray  # scratch, sums of a block
-    bound: FloatArray  # (2,) scratch, B_ numbers
+    acc: Record  # SUMS of a block, scratch
+    bound: Record  # BOUND, scratch
     alone: FloatArray  # (type, 2, node) cost of a route that serves one customer
-    kept: IntArray  # (node, slot, column) K_ columns, the best places on routes as they are
+    kept: Records  # (node, slot) KEPT, the best places on lean routes as they are
+    kept_move: Records  # (node, slot) MOVE, the best insertions where not all routes are lean
     kept_cost: FloatArray  # (node, slot) where not all routes are lean, what these cost
 
 
@@ -57,33 +55,32 @@ def copy_route(source: Fleet, slot: int, target: Fleet, to: int, lean: int) -> N
     In place.
     """
     route = source.route[slot]
-    copy_row(route, target.route[to])
+    target.route[to] = source.route[slot]
     target.cost[to] = source.cost[slot]
     if lean:
         stops, copies = source.stop[slot], target.stop[to]
-        for p in range(route[R_LENGTH]):
-            for column in range(LEAN_COLUMNS):
-                copies[p, column] = stops[p, column]
-        copy_row(source.trip[slot, 0], target.trip[to, 0])
+        for p in range(route.length):
+            copy_lean(stops[p], copies[p])
+        target.trip[to, 0] = source.trip[slot, 0]
         return
     target.early[to] = source.early[slot]
-    copy_rows(source.stop[slot], target.stop[to], route[R_LENGTH])
-    copy_rows(source.trip[slot], target.trip[to], route[R_TRIPS])
-    copy_rows(source.sortie[slot], target.sortie[to], route[R_SORTIES])
+    copy_records(source.stop[slot], target.stop[to], route.length)
+    copy_records(source.trip[slot], target.trip[to], route.trips)
+    copy_records(source.sortie[slot], target.sortie[to], route.sorties)
 
 
 @inlined
 def is_same(fleet: Fleet, other: Fleet, slot: int) -> bool:
     """Tell whether a route without sorties is the same in two fleets."""
     route, before = fleet.route[slot], other.route[slot]
-    length = route[R_LENGTH]
-    if (length != before[R_LENGTH] or route[R_TYPE] != before[R_TYPE]
-            or route[R_SORTIES] + before[R_SORTIES] > 0):
+    length = route.length
+    if (length != before.length or route.type != before.type
+            or route.sorties + before.sorties > 0):
         return False
     for p in range(length):
-        for column in (S_NODE, S_KIND):
-            if fleet.stop[slot, p, column] != other.stop[slot, p, column]:
-                return False
+        stop, former = fleet.stop[slot, p], other.stop[slot, p]
+        if stop.node != former.node or stop.kind != former.kind:
+            return False
     return True
 
 
@@ -92,10 +89,10 @@ def list_active(searcher: Searcher) -> None:
     """List the slots in use. In place."""
     found = 0
     for slot in range(len(searcher.active)):
-        if searcher.now.route[slot, R_LENGTH] > 0:
+        if searcher.now.route[slot].length > 0:
             searcher.active[found] = slot
             found += 1
-    searcher.count[I_ACTIVE] = found
+    searcher.count.active = found
 
 
 @inlined
@@ -104,7 +101,7 @@ def free_slot(world: World, searcher: Searcher, k: int) -> int:
     now = searcher.now
     if now.used[k] < world.type[k, TYPE_COUNT]:
         for slot in range(len(searcher.active)):
-            if now.route[slot, R_LENGTH] == 0:
+            if now.route[slot].length == 0:
                 return slot
     return NOWHERE
 
@@ -112,22 +109,22 @@ def free_slot(world: World, searcher: Searcher, k: int) -> int:
 @inlined
 def touch(searcher: Searcher, slot: int) -> None:
     """Keep a route as it is before it changes this turn. In place."""
-    for index in range(searcher.count[I_TOUCHED]):
+    for index in range(searcher.count.touched):
         if searcher.touched[index] == slot:
             return
-    copy_route(searcher.now, slot, searcher.before, slot, searcher.count[I_LEAN])
-    searcher.now.route[slot, R_STAMP] = CHANGING
-    searcher.touched[searcher.count[I_TOUCHED]] = slot
-    searcher.count[I_TOUCHED] += 1
+    copy_route(searcher.now, slot, searcher.before, slot, searcher.count.lean)
+    searcher.now.route[slot].stamp = CHANGING
+    searcher.touched[searcher.count.touched] = slot
+    searcher.count.touched += 1
 
 
 @inlined
 def keep_aside(fleet: Fleet, slot: int, to: int) -> None:
     """Copy the sequence and times of a route to another slot. In place."""
     route = fleet.route[slot]
-    copy_row(route, fleet.route[to])
-    copy_rows(fleet.stop[slot], fleet.stop[to], route[R_LENGTH])
-    copy_rows(fleet.sortie[slot], fleet.sortie[to], route[R_SORTIES])
+    fleet.route[to] = fleet.route[slot]
+    copy_records(fleet.stop[slot], fleet.stop[to], route.length)
+    copy_records(fleet.sortie[slot], fleet.sortie[to], route.sorties)
 
 
 @inlined
@@ -135,20 +132,20 @@ def keep_best(searcher: Searcher) -> None:
     """Take the routes as they are for the best. In place."""
     now, best = searcher.now, searcher.best
     for slot in range(len(searcher.active)):
-        if now.route[slot, R_STAMP] != best.route[slot, R_STAMP]:
-            copy_route(now, slot, best, slot, searcher.count[I_LEAN])
+        if now.route[slot].stamp != best.route[slot].stamp:
+            copy_route(now, slot, best, slot, searcher.count.lean)
     copy_row(now.used, best.used)
-    missing = searcher.count[I_MISSING]
-    searcher.count[I_BEST_MISSING] = missing
+    missing = searcher.count.missing
+    searcher.count.best_missing = missing
     copy_some(searcher.missing, searcher.best_missing, missing)
-    searcher.value[V_BEST] = searcher.value[V_COST]
+    searcher.value.best = searcher.value.cost
 
 
 @spliced
 def served_cost(searcher: Searcher) -> float:
     """Return the cost of the routes as they are, and of the customers left out before this turn."""
-    cost = searcher.value[V_COST]
-    for index in range(searcher.count[I_TOUCHED]):
+    cost = searcher.value.cost
+    for index in range(searcher.count.touched):
         slot = searcher.touched[index]
         cost += searcher.now.cost[slot] - searcher.before.cost[slot]
     return cost
@@ -172,16 +169,16 @@ def left_out_cost(world: World, nodes: IntArray, count: int) -> float:
 @compiled
 def missing_cost(world: World, searcher: Searcher) -> float:
     """Return what the customers left out cost."""
-    return left_out_cost(world, searcher.missing, searcher.count[I_MISSING])
+    return left_out_cost(world, searcher.missing, searcher.count.missing)
 
 
 @spliced
 def turn_cost(world: World, searcher: Searcher) -> float:
     """Return the cost of the routes as they are after this turn."""
     count = searcher.count
-    fewer_or_more = (count[I_ABSENT] - count[I_MISSING]) * world.unassigned_cost
-    others = (unassigned_more(world, searcher.absent, count[I_ABSENT])
-              - unassigned_more(world, searcher.missing, count[I_MISSING]))
+    fewer_or_more = (count.absent - count.missing) * world.unassigned_cost
+    others = (unassigned_more(world, searcher.absent, count.absent)
+              - unassigned_more(world, searcher.missing, count.missing))
     return served_cost(searcher) + (fewer_or_more + others)
 
 
@@ -189,32 +186,32 @@ def turn_cost(world: World, searcher: Searcher) -> float:
 def accept(searcher: Searcher, cost: float) -> None:
     """Go on from this turn's routes. In place."""
     count = searcher.count
-    count[I_STAMP] += 1
-    for index in range(count[I_TOUCHED]):
+    count.stamp += 1
+    for index in range(count.touched):
         slot = searcher.touched[index]
-        stamp = count[I_STAMP]
+        stamp = count.stamp
         if len(searcher.kept) > 0 and is_same(searcher.now, searcher.before, slot):
-            stamp = searcher.before.route[slot, R_STAMP]
-        searcher.now.route[slot, R_STAMP] = stamp
-    count[I_MISSING] = count[I_ABSENT]
-    copy_some(searcher.absent, searcher.missing, count[I_ABSENT])
-    searcher.value[V_COST] = cost
+            stamp = searcher.before.route[slot].stamp
+        searcher.now.route[slot].stamp = stamp
+    count.missing = count.absent
+    copy_some(searcher.absent, searcher.missing, count.absent)
+    searcher.value.cost = cost
 
 
 @compiled
 def go_back(searcher: Searcher) -> None:
     """Go on from the best routes. In place."""
     now, best, count = searcher.now, searcher.best, searcher.count
-    count[I_STAMP] += 1
+    count.stamp += 1
     for slot in range(len(searcher.active)):
-        copy_route(best, slot, now, slot, count[I_LEAN])
-        now.route[slot, R_STAMP] = count[I_STAMP]
+        copy_route(best, slot, now, slot, count.lean)
+        now.route[slot].stamp = count.stamp
     copy_row(best.used, now.used)
     for node in range(len(now.where)):
-        now.where[node, W_SLOT] = NOWHERE
+        now.where[node].slot = NOWHERE
     list_active(searcher)
-    for index in range(count[I_ACTIVE]):
+    for index in range(count.active):
         locate(now, searcher.active[index])
-    count[I_MISSING] = count[I_BEST_MISSING]
-    copy_some(searcher.best_missing, searcher.missing, count[I_BEST_MISSING])
-    searcher.value[V_COST] = searcher.value[V_BEST]
+    count.missing = count.best_missing
+    copy_some(searcher.best_missing, searcher.missing, count.best_missing)
+    searcher.value.cost = searcher.value.best

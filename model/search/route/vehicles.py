@@ -5,10 +5,8 @@ import math
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import RATE_FIXED, RATE_KM, TYPE_COUNT
 from model.kernel.load import NOTHING, Amount, demand_of, fits, plus
-from model.problem import IntArray
-from model.search.route.layout import (
-    F_COUNT, F_NODE, NOWHERE, R_TYPE, T_DISTANCE, T_LOAD, Fleet, World,
-)
+from model.kernel.records import Record
+from model.search.route.layout import NOWHERE, Fleet, World
 
 
 @spliced
@@ -18,23 +16,23 @@ def route_cost(world: World, k: int, distance: int) -> float:
 
 
 @inlined
-def load_of(trip: IntArray) -> Amount:
+def load_of(trip: Record) -> Amount:
     """Return what a trip carries from the depot."""
-    return trip[T_LOAD], trip[T_LOAD + 1], trip[T_LOAD + 2]
+    return trip.load[0], trip.load[1], trip.load[2]
 
 
 @inlined
-def add_load(trip: IntArray, amount: Amount) -> None:
+def add_load(trip: Record, amount: Amount) -> None:
     """Let a trip carry more. In place."""
-    trip[T_LOAD], trip[T_LOAD + 1], trip[T_LOAD + 2] = plus(load_of(trip), amount)
+    trip.load[0], trip.load[1], trip.load[2] = plus(load_of(trip), amount)
 
 
 @spliced
-def payload(world: World, sortie: IntArray) -> Amount:
+def payload(world: World, sortie: Record) -> Amount:
     """Return what a sortie carries."""
     carried = NOTHING
-    for visit in range(sortie[F_COUNT]):
-        carried = plus(carried, demand_of(world.place[sortie[F_NODE + visit]]))
+    for visit in range(sortie.count):
+        carried = plus(carried, demand_of(world.place[sortie.nodes[visit]]))
     return carried
 
 
@@ -44,13 +42,13 @@ def larger_type(world: World, fleet: Fleet, slot: int, node: int) -> int:
 
     The cheapest that is left and holds them all; NOWHERE if there is none.
     """
-    k, trip = fleet.route[slot, R_TYPE], fleet.trip[slot, 0]
+    k, trip = fleet.route[slot].type, fleet.trip[slot, 0]
     chosen, best = NOWHERE, math.inf
     for other in range(world.num_types):
         if (not world.swap[k, other] or other == k or not world.can[other, 0, node]
                 or fleet.used[other] >= world.type[other, TYPE_COUNT]):
             continue
-        cost = route_cost(world, other, trip[T_DISTANCE])
+        cost = route_cost(world, other, trip.distance)
         if cost < best and fits(world.type[other], load_of(trip), world.place[node]):
             chosen, best = other, cost
     return chosen
@@ -59,7 +57,7 @@ def larger_type(world: World, fleet: Fleet, slot: int, node: int) -> int:
 @inlined
 def change_type(world: World, fleet: Fleet, slot: int, k: int) -> None:
     """Let a vehicle of another type drive a lean route. In place."""
-    fleet.used[fleet.route[slot, R_TYPE]] -= 1
+    fleet.used[fleet.route[slot].type] -= 1
     fleet.used[k] += 1
-    fleet.route[slot, R_TYPE] = k
-    fleet.cost[slot] = route_cost(world, k, fleet.trip[slot, 0, T_DISTANCE])
+    fleet.route[slot].type = k
+    fleet.cost[slot] = route_cost(world, k, fleet.trip[slot, 0].distance)

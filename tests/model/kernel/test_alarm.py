@@ -17,7 +17,7 @@ from model.search.beginning.translate import make_searcher, read_plan
 from model.search.improve import SearchConfig, improve
 from model.search.moves.anneal import ANY, anneal
 from model.search.moves.recreate import BY_FAR
-from model.search.route.state import I_TURN, V_BEST, V_COST, Searcher
+from model.search.route.state import Searcher
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import generate
@@ -77,7 +77,7 @@ def test_turns_end_while_compiled_code_runs(variant: str) -> None:
     with Alarm(began + 0.05) as alarm:
         anneal(world._replace(stop=alarm.flag), searcher, NEVER, ANY)
     assert time.perf_counter() - began < SOON
-    assert 0 < searcher.count[I_TURN] < NEVER
+    assert 0 < searcher.count.turn < NEVER
     assert check(problem, read_plan(world, searcher)).violations == ()
 
 
@@ -87,11 +87,11 @@ def test_nothing_changes_after_the_alarm(variant: str) -> None:
     searcher, flag = begun(problem)
     world = make_world(problem, pack([problem]), stop=flag)
     anneal(world, searcher, 50, ANY)
-    turns, costs = int(searcher.count[I_TURN]), searcher.value.copy()
+    turns, costs = int(searcher.count.turn), searcher.value.copy()
     flag[0] = 1
     anneal(world, searcher, 50, ANY)
-    assert searcher.count[I_TURN] == turns
-    assert (searcher.value[[V_COST, V_BEST]] == costs[[V_COST, V_BEST]]).all()
+    assert searcher.count.turn == turns
+    assert (searcher.value.cost, searcher.value.best) == (costs.cost, costs.best)
 
 
 def test_an_insertion_of_all_leaves_out_whom_there_is_no_time_for() -> None:

@@ -11,7 +11,6 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.moves.anneal import ANY, anneal
 from model.search.route.layout import World
-from model.search.route.state import I_BEST_MISSING, V_BEST, V_COOLING, V_COST, V_TEMPERATURE
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import generate
@@ -23,11 +22,11 @@ def found(problem: Problem, world: World, seed: int) -> float:
     """Return what the best plan of a short search costs."""
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(seed))
     begin_anew(world, searcher, True)
-    searcher.value[V_TEMPERATURE] = searcher.value[V_COST] / problem.num_customers
-    searcher.value[V_COOLING] = 0.03 ** (1 / TURNS)
+    searcher.value.temperature = searcher.value.cost / problem.num_customers
+    searcher.value.cooling = 0.03 ** (1 / TURNS)
     anneal(world, searcher, TURNS, ANY)
-    assert searcher.count[I_BEST_MISSING] == 0
-    return float(searcher.value[V_BEST])
+    assert searcher.count.best_missing == 0
+    return float(searcher.value.best)
 
 
 @pytest.mark.parametrize("variant", ["cvrp", "vrptw", "hetero", "table1"])

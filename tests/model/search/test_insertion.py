@@ -14,7 +14,6 @@ from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher, read_plan
 from model.search.improve import SearchConfig, improve
-from model.search.route.state import I_MISSING, V_COST
 from model.search.world import make_world
 from model.solution import Route, Solution
 
@@ -110,7 +109,7 @@ def inserted_cost(problem: Problem, plan: Solution, seed: int) -> float:
     world = make_world(problem, pack([problem]))
     searcher = make_searcher(problem, world, plan, np.random.SeedSequence(seed))
     begin_anew(world, searcher, False)
-    return math.inf if searcher.count[I_MISSING] else float(searcher.value[V_COST])
+    return math.inf if searcher.count.missing else float(searcher.value.cost)
 
 
 def without(plan: Solution, problem: Problem, node: int) -> Solution:

@@ -13,12 +13,8 @@ from model.search.beginning.translate import make_searcher
 from model.search.insertion.evaluate import INFEASIBLE
 from model.search.insertion.places import try_route
 from model.search.moves.anneal import ANY, anneal
-from model.search.route.edit import M_KIND
-from model.search.route.layout import (
-    B_BEST, B_BLINK, CHANGING, K_DETOUR, K_MOVE, K_STAMP, K_STOP, R_LENGTH, R_STAMP, R_TYPE,
-    S_LATEST, S_LEAVE, S_LEG, S_NODE, W_SLOT, World,
-)
-from model.search.route.state import I_ACTIVE, V_COST, V_TEMPERATURE, Searcher
+from model.search.route.layout import CHANGING, World
+from model.search.route.state import Searcher
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import generate
@@ -29,16 +25,16 @@ TURNS, ROUNDS = 40, 25
 @compiled_on_arrays
 def least_cost(world: World, searcher: Searcher, slot: int, node: int) -> float:
     """Return what a customer more on a route costs at least. In place: the searcher's scratch."""
-    searcher.bound[B_BEST], searcher.bound[B_BLINK] = INFEASIBLE, 0.0
+    searcher.bound.best, searcher.bound.blink = INFEASIBLE, 0.0
     try_route(world, searcher, slot, node, False)
-    return searcher.bound[B_BEST]
+    return searcher.bound.best
 
 
 def begun(problem: Problem, world: World) -> Searcher:
     """Return a search that has planned once by insertion."""
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(5))
     begin_anew(world, searcher, True)
-    searcher.value[V_TEMPERATURE] = searcher.value[V_COST] / 2000
+    searcher.value.temperature = searcher.value.cost / 2000
     return searcher
 
 
@@ -46,25 +42,25 @@ def kept_places(world: World, searcher: Searcher) -> Iterator[tuple[int, int]]:
     """Search in rounds; yield the routes and customers for which a place is kept after each."""
     for _ in range(ROUNDS):
         anneal(world, searcher, TURNS, ANY)
-        for slot in searcher.active[: searcher.count[I_ACTIVE]]:
-            stamp = searcher.now.route[slot, R_STAMP]
+        for slot in searcher.active[: searcher.count.active]:
+            stamp = searcher.now.route[slot].stamp
             assert stamp != CHANGING
-            for node in np.flatnonzero(searcher.kept[:, slot, K_STAMP] == stamp):
-                if searcher.now.where[node, W_SLOT] != slot:
+            for node in np.flatnonzero(searcher.kept[:, slot]["stamp"] == stamp):
+                if searcher.now.where[node].slot != slot:
                     yield int(slot), int(node)
 
 
 def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int, int]:
     """Return the detour for a customer behind each stop of a route where no rule is broken."""
     stops = searcher.now.stop[slot]
-    legs = world.leg[world.type[searcher.now.route[slot, R_TYPE], TYPE_TRAVEL]]
+    legs = world.leg[world.type[searcher.now.route[slot].type, TYPE_TRAVEL]]
     place, detours = world.place[node], {}
-    for p in range(searcher.now.route[slot, R_LENGTH] - 1):
-        here, there = stops[p, S_NODE], stops[p + 1, S_NODE]
-        arrival = stops[p, S_LEAVE] + legs[here, node, 0]
+    for p in range(searcher.now.route[slot].length - 1):
+        here, there = stops[p].node, stops[p + 1].node
+        arrival = stops[p].leave + legs[here, node, 0]
         leave = max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE]
-        if arrival <= place[NODE_LIMIT] and leave + legs[node, there, 0] <= stops[p + 1, S_LATEST]:
-            detours[p] = legs[here, node, 1] + legs[node, there, 1] - stops[p, S_LEG]
+        if arrival <= place[NODE_LIMIT] and leave + legs[node, there, 0] <= stops[p + 1].latest:
+            detours[p] = legs[here, node, 1] + legs[node, there, 1] - stops[p].leg
     return detours
 
 
@@ -77,7 +73,6 @@ def test_places_kept_are_the_shortest_detours_on_routes_as_they_are(seed: int) -
     found = none = 0
     for slot, node in kept_places(world, searcher):
         _, detour, p = searcher.kept[node, slot]
-        assert (K_DETOUR, K_STOP) == (1, 2)
         detours = shortest(world, searcher, slot, node)
         assert min(detours.values(), default=detour) >= detour
         if p >= 0:
@@ -99,7 +94,7 @@ def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: s
     found = none = 0
     for slot, node in kept_places(world, searcher):
         least = least_cost(world, searcher, slot, node)
-        if searcher.kept[node, slot, K_MOVE + M_KIND] >= 0:
+        if searcher.kept_move[node, slot].kind >= 0:
             assert searcher.kept_cost[node, slot] == pytest.approx(least)
             found += 1
         else:

@@ -8,7 +8,6 @@ from model.kernel.instance import pack
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.route.layout import W_SLOT
 from model.search.sharing import DIVIDED_FROM, regions
 from model.search.world import make_world
 from model.solution import Solution
@@ -34,7 +33,7 @@ def test_regions_have_about_as_many_customers(threads: int) -> None:
     world = make_world(problem, pack([problem]))
     whole = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
     begin_anew(world, whole, False)
-    slot = whole.now.where[1:, W_SLOT]
+    slot = whole.now.where[1:]["slot"]
     slot = slot[slot >= 0]
     longest = np.bincount(slot).max()
     for seed in range(20):

@@ -15,7 +15,7 @@ from model.search.improve import (
 from model.search.moves.anneal import ANY, anneal
 from model.search.moves.recreate import BY_FAR
 from model.search.route.layout import World
-from model.search.route.state import I_MISSING, V_BEST, V_COST, V_TEMPERATURE, Searcher
+from model.search.route.state import Searcher
 from model.search.sharing import go_on_from_best
 from model.search.starts import Starts
 from model.search.world import make_world
@@ -54,7 +54,7 @@ def test_nobody_is_left_out_where_there_are_trucks_enough() -> None:
     for seed in range(60):
         whole = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(seed))
         insert_missing(world, whole, BY_FAR)
-        assert whole.count[I_MISSING] == 0
+        assert whole.count.missing == 0
 
 
 @pytest.mark.parametrize("variant", TRUCKS)
@@ -68,9 +68,9 @@ def test_every_search_begins_with_a_legal_plan_of_its_own(variant: str) -> None:
         for room in starts.spread():
             evaluation = check(problem, read_plan(world, room))
             assert evaluation.violations == ()
-            assert evaluation.cost.total <= room.value[V_BEST] * (1 + 1e-9)
+            assert evaluation.cost.total <= room.value.best * (1 + 1e-9)
             if not anew:
-                assert room.value[V_BEST] == pytest.approx(whole.value[V_COST])
+                assert room.value.best == pytest.approx(whole.value.cost)
     assert read_plan(world, whole) == before
 
 
@@ -82,17 +82,17 @@ def test_the_whole_goes_on_from_the_best_of_all(variant: str) -> None:
     for anew in (False, True):
         starts.begin(anew)
         for room in starts.spread():
-            room.value[V_TEMPERATURE] = 1e-3
+            room.value.temperature = 1e-3
             anneal(world, room, 300, ANY)
         starts.gather()
-        least = min(float(room.value[V_BEST]) for room in starts.spread())
-        assert whole.value[V_BEST] <= least * (1 + 1e-9)
+        least = min(float(room.value.best) for room in starts.spread())
+        assert whole.value.best <= least * (1 + 1e-9)
     go_on_from_best(world, whole)
-    assert whole.value[V_COST] == pytest.approx(float(whole.value[V_BEST]))
+    assert whole.value.cost == pytest.approx(float(whole.value.best))
     anneal(world, whole, 300, ANY)
     evaluation = check(problem, read_plan(world, whole))
     assert evaluation.violations == ()
-    assert evaluation.cost.total <= whole.value[V_BEST] * (1 + 1e-9)
+    assert evaluation.cost.total <= whole.value.best * (1 + 1e-9)
 
 
 @pytest.mark.parametrize(("variant", "least", "most"), [

@@ -1,0 +1,44 @@
+"""Rows with named fields, as compiled code and Python alike read and write them."""
+
+from collections import namedtuple
+from functools import cache
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+Record = Any
+"""One row, whose fields are attributes."""
+Records = NDArray[np.record]
+
+
+def record(*names: str, **others: int | type) -> np.dtype[np.record]:
+    """Return the type of a row, whose fields lie in memory as they are listed.
+
+    Parameters
+    ----------
+    names
+        Integers.
+    others
+        By name, how many integers, or another type than that.
+    """
+    fields: list[Any] = [(name, np.int64) for name in names]
+    fields += [(name, np.int64, (other,)) if isinstance(other, int) else (name, other)
+               for name, other in others.items()]
+    return cast("np.dtype[np.record]", np.dtype((np.record, np.dtype(fields, align=True))))
+
+
+def one(kind: np.dtype[np.record]) -> Record:
+    """Return a row of zeros that stands alone."""
+    return np.zeros(1, kind)[0]
+
+
+def read_rows(records: Records) -> list[Any]:
+    """Return records as tuples of Python's own numbers, with the same names."""
+    row = _row(records.dtype.names or ())
+    return [row._make(values) for values in records.tolist()]
+
+
+@cache
+def _row(names: tuple[str, ...]) -> Any:
+    return namedtuple("Row", names)
