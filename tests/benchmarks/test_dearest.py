@@ -6,10 +6,14 @@ The search itself is `python -m benchmarks.dearest`.
 import json
 import random
 from collections.abc import Callable
+from contextlib import nullcontext
+from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
 import pytest
+import typer
 
 from app.requests.reading import read_request
 from app.schemas.request import PlanRequest
@@ -17,7 +21,7 @@ from app.vroom.schemas import VroomRequest
 from benchmarks.dear_requests import (
     KINDS, LARGEST, PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
 )
-from benchmarks.dearest import Asker, Search
+from benchmarks.dearest import Asker, Search, main
 
 Data = dict[str, Any]
 
@@ -99,3 +103,22 @@ def test_plans_that_go_on_are_planned_first() -> None:
     assert (status, length) == (200, len(json.dumps(second, separators=(",", ":"))))
     assert 0 < ratio < 2
     assert gene("/plan", genes, "replan") == "under way"
+
+
+@pytest.mark.parametrize(("only", "asked"), [("/vroom", {"/vroom"}), (None, set(KINDS))])
+def test_one_endpoint_may_be_asked_alone(monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
+                                         only: Any, asked: set[str]) -> None:
+    paths: list[str] = []
+
+    def measure(self: Asker, path: str, genes: Genes) -> tuple[float, int, int]:
+        paths.append(path)
+        return 1.0 if len(paths) == 1 else 0.5, 200, 1000
+
+    running = SimpleNamespace(url="http://service", key="", process=SimpleNamespace(
+        poll=lambda: None))
+    monkeypatch.setattr("benchmarks.dearest.service", lambda folder: nullcontext(running))
+    monkeypatch.setattr("benchmarks.dearest.pinned", lambda target, core: None)
+    monkeypatch.setattr(Asker, "measure", measure)
+    with pytest.raises(typer.Exit):
+        main(minutes=0.005, only=only, folder=tmp_path)
+    assert set(paths) == asked
