@@ -18,6 +18,7 @@ from model.judge.check import Evaluation, check
 from model.kernel.alarm import Alarm
 from model.kernel.compiled import first_to_compile
 from model.kernel.instance import Instance, pack
+from model.kernel.pausing import EndedError, Pause, pausing
 from model.kernel.warming import Tell, Warming, telling
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.policy.rollouts import NOTHING
@@ -178,7 +179,10 @@ class Planner:
         searches = options.search_iterations != 0 and deadline is not None
         by_policy = start is None and (not searches
                                        or policy_begins(problem, options))
-        instance = pack([problem], neighbours=by_policy)
+        try:
+            instance = pack([problem], by_policy, _pause(listener, deadline, start))
+        except EndedError:
+            return _unimproved(problem, start, options, began)
         decoded = began
         whole = True  # no clock cut the policy short
         if by_policy:
@@ -274,19 +278,39 @@ def _judged(problem: Problem, solution: Solution) -> _Judged:
     return _Judged(solution, evaluation)
 
 
+def _nobody(problem: Problem) -> Solution:
+    """Return the plan that serves no customer."""
+    return Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+
+
+def _pause(listener: Listener, deadline: float | None, start: Solution | None) -> Pause:
+    """Return what ends the work before a search; without a plan, a late one is better than none."""
+    latest = math.inf if deadline is None or start is None else deadline
+    return pausing(listener.should_stop, latest, GRACE)
+
+
+def _unimproved(problem: Problem, start: Solution | None, options: PlanOptions,
+                began: float) -> PlanResult:
+    """Return the plan given, or one that serves nobody, where nothing else was done."""
+    packed = time.perf_counter()
+    last = _judged(problem, _nobody(problem) if start is None else start)
+    elapsed = Elapsed(packed - began, 0.0, time.perf_counter() - packed)
+    return _result(last, "insertion" if start is None else "given", last.cost, options, None,
+                   False, elapsed)
+
+
 def _tell(listener: Listener, first: _Judged) -> None:
     listener.on_progress(Progress(first.cost, 0, lambda: first.solution))
 
 
 def _improve(problem: Problem, instance: Instance, first: _Judged | None, options: PlanOptions,
              deadline: float | None, listener: Listener) -> Improved:
-    nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     config = SearchConfig(options.seed, options.threads, options.search_iterations)
     if deadline is not None:
         each = SECONDS_PER_CUSTOMER + SECONDS_PER_REASON * len(problem.vehicle_types)
         deadline -= SECONDS_BEHIND + each * problem.num_customers
-    return improve(problem, instance, nobody if first is None else first.solution, config,
-                   deadline, listener.should_stop, listener.on_progress)
+    return improve(problem, instance, _nobody(problem) if first is None else first.solution,
+                   config, deadline, listener.should_stop, listener.on_progress)
 
 
 def _result(last: _Judged, start: Start, first_cost: float, options: PlanOptions,

@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.kernel.nearest import least_columns
+from model.kernel.pausing import Pause, go_on, matrix_blocks
 from model.problem import (
     MS_PER_HOUR, UNLIMITED, BoolArray, Customer, FloatArray, IntArray, Problem, VehicleType,
 )
@@ -65,10 +67,11 @@ class Instance(NamedTuple):
     neighbour: IntArray  # (problem, node, rank) nearest customers first, -1 behind the last
 
 
-def pack(problems: Sequence[Problem], neighbours: bool = True) -> Instance:
+def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go_on) -> Instance:
     """Pack problems into common arrays, padded with zeros and False.
 
     `neighbours` are what policies alone look at; without them `Instance.neighbour` lists none.
+    `pause` may end it.
 
     Raises
     ------
@@ -101,8 +104,9 @@ def pack(problems: Sequence[Problem], neighbours: bool = True) -> Instance:
     instance.node[:, :, NODE_LIMIT] = FAR
     for row, problem in enumerate(problems):
         _pack_row(instance, row, problem)
+        _pack_travel(instance, row, problem, pause)
         if neighbours:
-            _pack_neighbours(instance, row, problem)
+            _pack_neighbours(instance, row, problem, pause)
     return instance
 
 
@@ -117,9 +121,6 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
     depots, nodes = problem.num_depots, problem.num_nodes
     types = len(problem.vehicle_types)
     instance.size[row] = depots, problem.num_customers, types, dimensions
-    for index, travel in enumerate(problem.travel):
-        instance.duration[row, index, :nodes, :nodes] = travel.duration
-        instance.distance[row, index, :nodes, :nodes] = travel.distance
     if problem.customers:
         instance.node[row, depots:nodes, : NODE_DEMAND + dimensions] = [
             _customer_columns(customer) for customer in problem.customers]
@@ -141,6 +142,15 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
     _pack_compatibility(instance, row, problem)
+
+
+def _pack_travel(instance: Instance, row: int, problem: Problem, pause: Pause) -> None:
+    """Write all legs. In place."""
+    nodes = problem.num_nodes
+    for index, travel in enumerate(problem.travel):
+        for part in matrix_blocks(nodes, pause):
+            instance.duration[row, index, part, :nodes] = travel.duration[part]
+            instance.distance[row, index, part, :nodes] = travel.distance[part]
 
 
 def _customer_columns(customer: Customer) -> tuple[int, ...]:
@@ -201,15 +211,15 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
             instance.can_fly[row, index, customers] = fits & by_drone & liftable
 
 
-def _pack_neighbours(instance: Instance, row: int, problem: Problem) -> None:
+def _pack_neighbours(instance: Instance, row: int, problem: Problem, pause: Pause) -> None:
     """Write each node's nearest other customers, by the first vehicle type's drive. In place."""
     depots, nodes = problem.num_depots, problem.num_nodes
-    drive = problem.travel[problem.vehicle_types[0].travel].duration[:, depots:].astype(np.float64)
-    customers = np.arange(problem.num_customers)
-    drive[customers + depots, customers] = np.inf
+    duration = problem.travel[problem.vehicle_types[0].travel].duration[:, depots:]
     most = min(MAX_NEIGHBOURS, problem.num_customers - 1)
     if most < 1:
         return
-    nearest = np.argpartition(drive, most - 1, axis=1)[:, :most]
-    order = np.argsort(np.take_along_axis(drive, nearest, axis=1), axis=1, kind="stable")
-    instance.neighbour[row, :nodes, :most] = np.take_along_axis(nearest, order, axis=1) + depots
+    for part in matrix_blocks(nodes, pause):
+        drive = duration[part].astype(np.float64)
+        customers = np.arange(max(part.start, depots), part.stop)
+        drive[customers - part.start, customers - depots] = np.inf
+        instance.neighbour[row, part, :most] = least_columns(drive, most) + depots

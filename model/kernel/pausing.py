@@ -1,13 +1,35 @@
 """Long work in short parts, between which it may be told to end."""
 
+import math
+import time
 from collections.abc import Callable, Iterator
 
 Pause = Callable[[], None]
 """Called between parts of work that take some milliseconds each; raises whatever ends the work."""
 
 
+class EndedError(Exception):
+    """Work was told to end before there was anything to show for it."""
+
+
 def go_on() -> None:
     """Never end."""
+
+
+def pausing(should_stop: Callable[[], bool], deadline: float = math.inf,
+            patience: float = 0.0) -> Pause:
+    """Return what ends work by an `EndedError`, from `patience` seconds on.
+
+    It does so at `deadline`, on `time.perf_counter`, and once `should_stop` says so.
+    """
+    first = time.perf_counter() + patience
+
+    def pause() -> None:
+        now = time.perf_counter()
+        if now >= first and (now >= deadline or should_stop()):
+            raise EndedError
+
+    return pause
 
 
 ENTRIES_AT_ONCE = 2**17

@@ -11,6 +11,7 @@ import numpy as np
 
 from model.kernel.alarm import Alarm
 from model.kernel.instance import Instance
+from model.kernel.pausing import EndedError, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import first_plan, make_searcher, read_plan
@@ -83,8 +84,8 @@ class Improved:
     """The best plan found."""
 
     solution: Solution
-    cost: float  # as the search counts it
-    first_cost: float  # of the routes that it began with
+    cost: float  # as the search counts it; infinite if it ended before it began
+    first_cost: float  # of the routes that it began with; 0 if there are none
     turns: int
     whole: bool  # nothing was cut short
 
@@ -202,7 +203,8 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
 
     Returns
     -------
-    The best plan found. It may be worse than the one given if the search can't represent that.
+    The best plan found. It may be worse than the one given if the search can't represent that; it
+    is that one if there was no time to begin.
 
     Raises
     ------
@@ -212,7 +214,12 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     if deadline is None and config.turns is None:
         raise ValueError("deadline, turns: None, None is not allowed")
     began, end = time.perf_counter(), math.inf if deadline is None else deadline
-    ground = lay_ground(problem, instance)
+    # Where no routes are given, a late plan is better than none.
+    latest = end if solution.routes else math.inf
+    try:
+        ground = lay_ground(problem, instance, pausing(should_stop, latest, GRACE))
+    except EndedError:
+        return Improved(solution, math.inf, 0.0, 0, False)
     with Alarm(max(end, time.perf_counter() + GRACE), should_stop) as alarm:
         limits = Limits(began, end,
                          None if config.turns is None else config.turns // config.threads,

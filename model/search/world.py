@@ -1,16 +1,18 @@
 """The search's arrays for a problem, and plans to and from its routes."""
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from model.kernel.alarm import silent
 from model.kernel.instance import (
     FAR, NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE, NO_PROFILE, RATE_HOUR,
     TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, Instance,
 )
+from model.kernel.nearest import least_columns
+from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Record
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
@@ -23,7 +25,8 @@ NEAR_RUIN = 128
 """How many customers a ruin may spread to."""
 
 ROWS = 64
-"""For how many customers neighbours are ranked together."""
+"""For how many customers neighbours are ranked together; pages for all at once would take longer to
+get."""
 
 NEAR_INSERTION = 40
 """Beside how many customers an insertion is tried where not everywhere is."""
@@ -64,14 +67,22 @@ class Ground(NamedTuple):
     fit: IntArray
 
 
-def lay_ground(problem: Problem, instance: Instance) -> Ground:
-    """Lay out the legs of a problem, and rank each customer's neighbours."""
-    leg = np.stack([instance.duration[0], instance.distance[0]], axis=-1)
+def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on) -> Ground:
+    """Lay out the legs of a problem, and rank each customer's neighbours; `pause` may end it."""
+    duration, distance = instance.duration[0], instance.distance[0]
+    leg = np.empty((*duration.shape, 2), np.int64)
+    for travel in range(len(leg)):
+        for rows in matrix_blocks(leg.shape[1], pause):
+            leg[travel, rows, :, 0] = duration[travel, rows]
+            leg[travel, rows, :, 1] = distance[travel, rows]
     back = leg
-    if not _symmetric(instance.duration[0]) or not _symmetric(instance.distance[0]):
-        back = np.ascontiguousarray(leg.transpose(0, 2, 1, 3))
-    near = _near(problem)
-    return Ground(leg, back, near, _fit(problem, instance.node[0], near))
+    if not _symmetric(duration, pause) or not _symmetric(distance, pause):
+        back = np.empty_like(leg)
+        for travel in range(len(leg)):
+            for rows in matrix_blocks(leg.shape[1], pause):
+                back[travel, rows] = leg[travel, :, rows].transpose(1, 0, 2)
+    near = _near(problem, pause)
+    return Ground(leg, back, near, _fit(problem, instance.node[0], near, pause))
 
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
@@ -108,7 +119,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         keeps=scan_all and (not general or blink <= LEAST_BLINK),
         blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_more=instance.unassigned_more[0],
-        must_serve=_must_serve(problem),
+        must_serve=_must_serve(problem, instance),
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
         type=columns, rate=rate, mode=mode, visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
@@ -129,10 +140,10 @@ def _blink(num_customers: int, most_visits: int) -> float:
     return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / (most_visits * max(1, num_customers) ** 2)))
 
 
-def _symmetric(matrices: IntArray) -> bool:
+def _symmetric(matrices: IntArray, pause: Pause) -> bool:
     """Tell whether all matrices (travel, node, node) are their own transposes."""
-    return all(bool((matrices[:, rows] == matrices[:, :, rows].transpose(0, 2, 1)).all())
-               for rows in _blocks(matrices.shape[1]))
+    return all(bool((matrix[rows] == matrix[:, rows].T).all())
+               for matrix in matrices for rows in row_blocks(len(matrix), ROWS, pause))
 
 
 def _modes(instance: Instance, columns: IntArray, place: IntArray) -> IntArray:
@@ -153,34 +164,36 @@ def _modes(instance: Instance, columns: IntArray, place: IntArray) -> IntArray:
     return mode
 
 
-def _must_serve(problem: Problem) -> BoolArray:
-    """Mark the nodes that cost more to leave out than the longest drive there and back.
-
-    Not those with a cost of their own: that is a price, which may well be paid.
-    """
+def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
+    """Mark the nodes that cost more to leave out than the longest drive there and back."""
     dearest = 0.0
+    longest: dict[tuple[int, int, int], float] = {}
     for kind in problem.vehicle_types:
-        distance = problem.travel[kind.travel].distance
-        longest = float(distance[kind.begins_at].max() + distance[:, kind.ends_at].max())
-        dearest = max(dearest, kind.fixed_cost + longest / MM_PER_KM * kind.cost_per_km)
-    must_serve = np.full(problem.num_nodes, problem.unassigned_cost > dearest)
-    priced = [customer.unassigned_cost is not None for customer in problem.customers]
-    must_serve[problem.num_depots:] &= ~np.array(priced, np.bool_)
+        ends = kind.travel, kind.begins_at, kind.ends_at
+        if ends not in longest:
+            distance = problem.travel[kind.travel].distance
+            longest[ends] = float(distance[kind.begins_at].max() + distance[:, kind.ends_at].max())
+        dearest = max(dearest, kind.fixed_cost + longest[ends] / MM_PER_KM * kind.cost_per_km)
+    must_serve: BoolArray = instance.unassigned_cost[0] + instance.unassigned_more[0] > dearest
     return must_serve
 
 
 def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
+    """Mark the pairs of types whose vehicles may drive each other's routes."""
     table = problem.may_serve
-    kinds = [(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.busy_until,
-              kind.latest, kind.skills, None if table is None else table[index].tobytes())
-             for index, kind in enumerate(problem.vehicle_types)]
-    alike = np.array([[one == other for other in kinds] for one in kinds])
+    numbers: dict[Hashable, int] = {}
+    group = np.array([
+        numbers.setdefault((kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
+                            kind.skills, None if table is None else table[index].tobytes()),
+                           len(numbers))
+        for index, kind in enumerate(problem.vehicle_types)])
     lean = mode & MODE_LEAN > 0
-    swaps: BoolArray = alike & lean & lean[:, None] & ~np.eye(len(kinds), dtype=np.bool_)
+    swaps: BoolArray = (group == group[:, None]) & lean & lean[:, None]
+    np.fill_diagonal(swaps, False)
     return swaps
 
 
-def _near(problem: Problem) -> IntArray:
+def _near(problem: Problem, pause: Pause) -> IntArray:
     """Return each customer's closest others by the first type's drive, there or back.
 
     (node, rank), nearest first; -1 for depots and behind the last.
@@ -190,26 +203,14 @@ def _near(problem: Problem) -> IntArray:
     near = np.full((problem.num_nodes, ranks), -1, np.int64)
     if number > 1:
         duration = problem.travel[problem.vehicle_types[0].travel].duration[first:, first:]
-        for rows in _blocks(number):
+        for rows in row_blocks(number, ROWS, pause):
             drive = np.minimum(duration[rows], duration[:, rows].T).astype(np.float32)
             drive[np.arange(len(drive)), np.arange(rows.start, rows.stop)] = np.inf
-            near[first:][rows] = _ranked(drive, ranks) + first
+            near[first:][rows] = least_columns(drive, ranks) + first
     return near
 
 
-def _blocks(number: int) -> list[slice]:
-    """Return ranges of rows to rank together; pages for all at once would take longer to get."""
-    return [slice(begin, min(number, begin + ROWS)) for begin in range(0, number, ROWS)]
-
-
-def _ranked(weight: NDArray[np.floating], ranks: int) -> IntArray:
-    """Return the columns of the least entries of each row, least first."""
-    chosen = np.argpartition(weight, ranks - 1, axis=1)[:, :ranks]
-    order = np.argsort(np.take_along_axis(weight, chosen, axis=1), axis=1, kind="stable")
-    return np.take_along_axis(chosen, order, axis=1)
-
-
-def _fit(problem: Problem, place: IntArray, near: IntArray) -> IntArray:
+def _fit(problem: Problem, place: IntArray, near: IntArray, pause: Pause) -> IntArray:
     """Return those of each customer's neighbours whom a truck would best visit before or after.
 
     References
@@ -234,8 +235,8 @@ def _fit(problem: Problem, place: IntArray, near: IntArray) -> IntArray:
         return (drive + WAITING_WEIGHT * np.maximum(wait, 0.0)
                 + LATENESS_WEIGHT * np.maximum(late, 0.0))
 
-    for rows in _blocks(number):
+    for rows in row_blocks(number, ROWS, pause):
         one, other = np.arange(first + rows.start, first + rows.stop)[:, None], near[first:][rows]
         weight = np.minimum(detour(one, other), detour(other, one))
-        fit[first:][rows] = np.take_along_axis(other, _ranked(weight, ranks), axis=1)
+        fit[first:][rows] = np.take_along_axis(other, least_columns(weight, ranks), axis=1)
     return fit

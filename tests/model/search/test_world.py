@@ -1,0 +1,63 @@
+"""What the search lays out of a problem, in a time that grows no faster than the problem."""
+
+import time
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+
+from model.kernel.instance import pack
+from model.problem import Problem
+from model.search.world import lay_ground, make_world
+from training.instances import generate
+
+MANY = 3000
+
+
+def with_types(number: int, kinds: int) -> Problem:
+    """Return customers for so many types, of which every `kinds`-th drives alike."""
+    rng = np.random.default_rng(0)
+    problem = generate(rng, 5, "cvrp")
+    truck = problem.vehicle_types[0]
+    types = tuple(replace(truck, id=str(index), fixed_cost=float(index),
+                          latest=truck.latest - index % kinds)
+                  for index in range(number))
+    table = np.ones((number, 5), np.bool_)
+    table[: number // 2, 0] = False
+    return replace(problem, vehicle_types=types, may_serve=table)
+
+
+def test_types_that_drive_alike_for_the_same_customers_may_swap_routes() -> None:
+    swap = make_world(problem := with_types(12, 3), pack([problem])).swap
+    for one, other in product(range(12), repeat=2):
+        alike = one % 3 == other % 3 and (one < 6) == (other < 6) and one != other
+        assert swap[one, other] == alike
+
+
+def test_many_types_are_laid_out_soon() -> None:
+    problem = with_types(MANY, 1)
+    instance = pack([problem], neighbours=False)
+    ground = lay_ground(problem, instance)
+    began = time.thread_time()
+    make_world(problem, instance, ground=ground)
+    assert time.thread_time() - began < 0.4
+
+
+@pytest.mark.parametrize("layout", ["one place", "all but few at one place"])
+def test_neighbours_at_one_place_are_ranked_soon(layout: str) -> None:
+    problem = generate(np.random.default_rng(0), 2000, "cvrp")
+    x = np.zeros(problem.num_nodes)
+    if layout != "one place":
+        x[::50] = 1000.0
+    metres = np.rint(1000 * np.abs(x[:, None] - x)).astype(np.int64)
+    travel = replace(problem.travel[0], duration=metres, distance=metres)
+    there = replace(problem, travel=(travel,) * len(problem.travel))
+    spent = []
+    for each in (problem, there):
+        instance = pack([each], neighbours=False)
+        began = time.thread_time()
+        near = lay_ground(each, instance).near
+        spent.append(time.thread_time() - began)
+        assert (near[each.num_depots:] >= each.num_depots).all()
+    assert spent[1] < 3 * spent[0]
