@@ -51,6 +51,9 @@ PRICES = 6
 THROUGH_GAPS = 0.3
 """Share of the time for routes that don't heed gaps between windows, where these are many."""
 
+MENDING = 0.5
+"""Most of the rest for making these routes heed them."""
+
 ROUNDS = 6
 """How often windows are chosen among then."""
 
@@ -122,8 +125,9 @@ class Planning:
         options = replace(self._options, time_limit=seconds)
         given = hull.solution({}, self._start_windows)
         routes = hull.routes(self._plan(hull.problem, options, given, _tell_nobody).solution)
-        best = max(best, self._filled(self._mended(routes), slots, deadline),
-                   key=attrgetter("value"))
+        left = max(LEAST_FILLING, MENDING * self._left(deadline))
+        mended = self._mended(routes, time.perf_counter() + left)
+        best = max(best, self._filled(mended, slots, deadline), key=attrgetter("value"))
         share = max(LEAST_SECONDS, self._left(deadline) / ROUNDS)
         for number in range(ROUNDS):
             # Whoever is left out gets a chance, even if that takes a little longer.
@@ -168,26 +172,30 @@ class Planning:
                     if cost is not None and before is not None:
                         yield cost - before, kind, number, longer
 
-    def _mended(self, routes: Routes) -> Routes:
-        """Return routes without the jobs that keep them from being driven."""
-        mended = {kind: [kept for jobs in its_routes if (kept := self._drivable(kind, jobs))]
+    def _mended(self, routes: Routes, until: float) -> Routes:
+        """Return routes without the jobs that keep them from being driven.
+
+        After `until`, on `time.perf_counter`, those that haven't been looked at are left out, too.
+        """
+        mended = {kind: [kept for jobs in its_routes if (kept := self._drivable(kind, jobs, until))]
                   for kind, its_routes in routes.items()}
         return {kind: its_routes for kind, its_routes in mended.items() if its_routes}
 
-    def _drivable(self, kind: int, jobs: Sequence[int]) -> list[int]:
+    def _drivable(self, kind: int, jobs: Sequence[int], until: float) -> list[int]:
         """Return a route without those jobs at which it fails first."""
-        left = list(jobs)
-        while left and self._route_cost(kind, tuple(left)) is None:
+        kept: list[int] = []
+        rest, step = list(jobs), len(jobs)
+        while rest and time.perf_counter() <= until:
             # However it goes on, a route fails that fails until then.
-            sound, failing = 0, len(left)
-            while failing - sound > 1:
-                middle = (sound + failing) // 2
-                if self._route_cost(kind, tuple(left[:middle])) is None:
-                    failing = middle
-                else:
-                    sound = middle
-            del left[failing - 1]
-        return left
+            if self._route_cost(kind, (*kept, *rest[:step])) is not None:
+                kept += rest[:step]
+                del rest[:step]
+                step *= 2
+            elif step > 1:
+                step = max(1, min(step, len(rest)) // 2)
+            else:
+                del rest[0]
+        return kept
 
     def _find_by(self, model: Model, slots: Slots, deadline: float, start: Routes) -> Found:
         """Return the best plan found by a model of some windows of jobs."""

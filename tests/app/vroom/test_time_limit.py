@@ -1,9 +1,11 @@
 """The time limit of `POST /vroom` holds for large requests, and what can't keep it is refused."""
 
 import json
+import math
 import random
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -18,6 +20,7 @@ from app.vroom.convert import Converter, dearest_plan
 from app.vroom.drives import Drives
 from app.vroom.errors import TOO_LARGE, VroomError
 from app.vroom.places import Places, find_places
+from app.vroom.planning import Planning
 from app.vroom.schemas import VroomRequest
 from model.planner import ALONE, Listener, PlanOptions, PlanResult
 from model.problem import MM_PER_KM, MS_PER_HOUR, Problem, Travel, VehicleType
@@ -159,6 +162,27 @@ def test_windows_are_not_chosen_again_where_there_is_no_time(
     assert len(planner.given) <= most
     if seconds < 1.0:
         assert len(planner.given) > 1
+
+
+@pytest.mark.parametrize("every", [1, 2, 3, 50, 1000])
+def test_jobs_that_fail_are_taken_from_a_route_in_few_looks(
+        monkeypatch: pytest.MonkeyPatch, every: int) -> None:
+    looks: list[Sequence[int]] = []
+
+    def faults(request: VroomRequest, places: Places, vehicle: int,
+               jobs: Sequence[int]) -> Iterator[str]:
+        looks.append(jobs)
+        yield from ("late" for job in jobs if job % every == 0)
+
+    monkeypatch.setattr("app.vroom.planning.route_faults", faults)
+    monkeypatch.setattr("app.vroom.planning.drive", lambda *_: SimpleNamespace(cost=1))
+    read = VroomRequest.model_validate_json(json.dumps(crowd(300)))
+    planning = Planning(read, find_places(read, SPEEDS), plan=None,  # type: ignore[arg-type]
+                        options=PlanOptions("none"), max_legs=10**9)
+    sound = [job for job in range(300) if job % every]
+    assert planning._mended({0: [range(300)]}, math.inf) == ({0: [sound]} if sound else {})
+    assert len(looks) <= 20 + 3 * min(300, 6 * (300 // every + 1))
+    assert planning._mended({0: [range(300)]}, -math.inf) == {}
 
 
 def test_what_a_plan_costs_at_most_is_found_without_a_look_at_each_tariff() -> None:
