@@ -26,8 +26,8 @@ SLOW = (
         "vroom/test_windows.py")),
     *(f"tests/model/{name}" for name in (
         "search/test_anneal.py", "search/test_improve.py", "search/test_kept.py",
-        "search/test_optimum.py", "search/test_starts.py", "test_parts.py", "test_planner.py",
-        "test_replan_random.py", "test_simulator.py")),
+        "search/test_optimum.py", "search/test_starts.py", "test_planner.py",
+        "replanning/test_replan_random.py", "simulation/test_simulator.py")),
 )
 """What `make test-quick` leaves out: it starts other processes, or searches for seconds."""
 
