@@ -19,6 +19,8 @@ from tests.model.tiny import draw_tiny, with_beginnings, with_places
 
 MINUTE = 60_000
 TURNS = 6_000
+SHARE = 20
+"""Problems of many that are solved together, so that several processes share them."""
 
 Customers = tuple[Customer, ...]
 
@@ -197,8 +199,9 @@ def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Pr
     assert missed_seeds(draw, range(4)) == []
 
 
-def test_search_finds_the_cheapest_plan_where_all_rules_mix() -> None:
-    assert missed_seeds(all_rules, range(100)) == []
+@pytest.mark.parametrize("first", range(0, 100, SHARE))
+def test_search_finds_the_cheapest_plan_where_all_rules_mix(first: int) -> None:
+    assert missed_seeds(all_rules, range(first, first + SHARE)) == []
 
 
 @pytest.mark.parametrize("draw", [plain, timed_windows, soft_windows, two_types, one_drone],
@@ -208,8 +211,9 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
     assert missed_seeds(lambda rng: with_places(rng, draw(rng)), range(3)) == []
 
 
+@pytest.mark.parametrize("first", range(0, 60, SHARE))
 @pytest.mark.parametrize("draw", [all_rules_elsewhere, all_rules_begun],
                          ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_however_vehicles_begin(
-        draw: Callable[[np.random.Generator], Problem]) -> None:
-    assert missed_seeds(draw, range(60)) == []
+        draw: Callable[[np.random.Generator], Problem], first: int) -> None:
+    assert missed_seeds(draw, range(first, first + SHARE)) == []
