@@ -67,7 +67,7 @@ def request_of(jobs: int, windows: int, vehicles: int, length: int | None = None
                       place * step + draw.randrange(step - length) for place in range(windows))]}
                  for number in range(1, jobs + 1)],
         "matrices": {"car": {"durations": seconds}},
-        "options": {"x": 0},
+        "options": {"l": 1},
     }
 
 

@@ -7,16 +7,16 @@ import pytest
 
 from model.judge import timing
 from model.kernel.clock import is_steady, leg_end, leg_start
+from model.kernel.compiled import compiled
 from model.kernel.instance import pack
 from model.problem import FULL_SPEED, IntArray, SpeedProfile
-from tests.model.entry import entry
 from tests.model.tiny import MINUTE, RUSH_HOUR
 
 PROFILES = (None, RUSH_HOUR, SpeedProfile((), (FULL_SPEED // 7,)),
             SpeedProfile((MINUTE, 2 * MINUTE, 9 * MINUTE), (999_983, 1, 123_457, FULL_SPEED)))
 
 
-@entry
+@compiled
 def both(columns: IntArray, times: IntArray, factors: IntArray, duration: int,
          time: int) -> tuple[int, int, bool]:
     return (leg_end(columns, times, factors, duration, time),

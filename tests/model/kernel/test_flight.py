@@ -4,6 +4,7 @@ import numpy as np
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, held_until, schedule
+from model.kernel.compiled import compiled
 from model.kernel.flight import (
     can_last, counted_until, drone_service, enduring_within, handling_duration, held_takeoff,
     launch_begin, launch_duration, ready, recovery_end, take_off, unreachable, within_endurance,
@@ -11,11 +12,10 @@ from model.kernel.flight import (
 from model.kernel.instance import pack
 from model.problem import UNREACHABLE, DroneType, IntArray, Problem
 from model.solution import Solution
-from tests.model.entry import entry
 from tests.model.tiny import MINUTE, draw_late, draw_tiny
 
 
-@entry
+@compiled
 def flown(columns: IntArray, place: IntArray, begin: int, out: int,
           home: int) -> tuple[int, int, int, int]:
     takeoff = held_takeoff(columns, place, take_off(columns, begin), home)
@@ -24,24 +24,24 @@ def flown(columns: IntArray, place: IntArray, begin: int, out: int,
     return takeoff, arrival, back, recovery_end(columns, back)
 
 
-@entry
+@compiled
 def is_short_enough(columns: IntArray, takeoff: int, back: int, begin: int) -> bool:
     return within_endurance(columns, takeoff, back, begin)
 
 
-@entry
+@compiled
 def lasts(columns: IntArray, place: IntArray, out: int, home: int) -> tuple[bool, bool]:
     flight = out + drone_service(columns, place) + home
     return can_last(columns, flight), unreachable(out) or unreachable(home)
 
 
-@entry
+@compiled
 def enduring(columns: IntArray, takeoff_d: int, takeoff_c: int, d: int,
              c: int) -> tuple[int, int]:
     return enduring_within(columns, takeoff_d, takeoff_c, d, c)
 
 
-@entry
+@compiled
 def handled(columns: IntArray, time: int) -> tuple[int, int, int, int]:
     return (launch_begin(columns, take_off(columns, time)), launch_duration(columns),
             handling_duration(columns), counted_until(columns, time, time + 1))

@@ -4,16 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from model.kernel.compiled import compiled
 from model.kernel.instance import MAX_DIMENSIONS, pack
 from model.kernel.load import (
     NOTHING, capacity_of, demand_of, fits, holds, lifts, minus, plus, total, within,
 )
 from model.problem import IntArray, Problem
-from tests.model.entry import entry
 from tests.model.tiny import draw_tiny
 
 
-@entry
+@compiled
 def judged(columns: IntArray, places: IntArray) -> tuple[bool, bool, bool]:
     """Tell whether a vehicle holds all customers, holds the last on top, a drone lifts them."""
     load = NOTHING
@@ -23,7 +23,7 @@ def judged(columns: IntArray, places: IntArray) -> tuple[bool, bool, bool]:
     return holds(columns, everything), fits(columns, load, places[-1]), lifts(columns, everything)
 
 
-@entry
+@compiled
 def left(columns: IntArray, place: IntArray) -> tuple[bool, int, int]:
     """Tell whether a customer's demand is within a capacity, both amounts, and what is left."""
     capacity, demand = capacity_of(columns), demand_of(place)

@@ -5,6 +5,7 @@ import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.kernel.compiled import compiled
 from model.kernel.instance import pack
 from model.kernel.stop import (
     allowed_within, as_late, closing, end_of_service, hours, lateness, latest_arrival,
@@ -12,37 +13,36 @@ from model.kernel.stop import (
 )
 from model.problem import MS_PER_HOUR, UNLIMITED, IntArray, Problem
 from model.solution import Route, Solution
-from tests.model.entry import entry
 from tests.model.tiny import MINUTE, draw_tiny
 
 
-@entry
+@compiled
 def times(place: IntArray, arrival: int) -> tuple[int, int, int, int, bool]:
     return (start_of_service(place, arrival), end_of_service(place, arrival),
             waiting(place, arrival), lateness(place, arrival), too_late(place, arrival))
 
 
-@entry
+@compiled
 def times_of_hours(place: IntArray, arrival: int) -> tuple[int, int, int, int, bool]:
     own = hours(place)
     return (start_of_service(own, arrival), end_of_service(own, arrival), waiting(own, arrival),
             lateness(own, arrival), too_late(own, arrival))
 
 
-@entry
+@compiled
 def last_arrivals(place: IntArray, arrival: int, leave: int) -> tuple[int, int, int]:
     return (as_late(place, arrival), latest_arrival(place, leave),
             latest_free_arrival(place, arrival, leave))
 
 
-@entry
+@compiled
 def within_block(place: IntArray, time: int, d: int, c: int) -> tuple[int, int, int, int]:
     start_d, start_c = start_within(place, time, d, c)
     first, last = allowed_within(place, time, d, c)
     return start_d, start_c, first, last
 
 
-@entry
+@compiled
 def extent(place: IntArray) -> tuple[int, int]:
     return closing(place), width(place)
 
