@@ -100,7 +100,7 @@ class World(NamedTuple):
     profile_factor: IntArray  # (type, change + 1)
     near: IntArray  # (node, rank) customers, nearest first, -1 behind the last
     fit: IntArray  # (node, rank) customers whom a truck would visit before or after
-    stop: Record  # (1,) not 0 once the search must end, as `model.kernel.alarm` says
+    stop: IntArray  # (1,) not 0 once the search must end, as `model.kernel.alarm` says
 
 
 class Fleet(NamedTuple):
