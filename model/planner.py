@@ -1,4 +1,7 @@
-"""The planner: decode, improve, check."""
+"""The planner: decode, improve, check.
+
+`Progress` and `MAX_DIMENSIONS` are passed on to those who plan, who need no other part for them.
+"""
 
 import gc
 import math
@@ -17,13 +20,15 @@ import numpy as np
 from model.judge.check import Evaluation, check
 from model.kernel.alarm import Alarm
 from model.kernel.compiled import first_to_compile
+from model.kernel.instance import MAX_DIMENSIONS as MAX_DIMENSIONS
 from model.kernel.instance import Instance, pack
 from model.kernel.pausing import EndedError, Pause, pausing
 from model.kernel.warming import Tell, Warming, telling
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.policy.rollouts import NOTHING
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
-from model.search.improve import GRACE, Improved, Progress, SearchConfig, improve
+from model.search.improve import GRACE, Improved, SearchConfig, improve
+from model.search.improve import Progress as Progress
 from model.simulation.extract import extract
 from model.solution import Solution
 from model.travel.airspace import compile_ways
@@ -311,6 +316,20 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
         deadline -= SECONDS_BEHIND + each * problem.num_customers
     return improve(problem, instance, _nobody(problem) if first is None else first.solution,
                    config, deadline, listener.should_stop, listener.on_progress)
+
+
+def insert_missing(problem: Problem, begun: Solution, seed: int,
+                   should_stop: Callable[[], bool]) -> Solution:
+    """Return a plan with those whom it lacks where they cost least, as a search begins.
+
+    If it is told to stop, it is the plan as it was.
+    """
+    try:
+        instance = pack([problem], False, pausing(should_stop, patience=GRACE))
+    except EndedError:
+        return begun
+    return improve(problem, instance, begun, SearchConfig(seed, turns=0),
+                   should_stop=should_stop).solution
 
 
 def _result(last: _Judged, start: Start, first_cost: float, options: PlanOptions,

@@ -39,7 +39,7 @@ MODEL = {
     "search": ("problem", "solution", "kernel"),
     "planner": ("problem", "solution", "judge", "kernel", "travel", "simulation", "policy",
                 "search"),
-    "replanning": ("problem", "solution", "judge", "kernel", "search", "planner"),
+    "replanning": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
 MOST_ARROWS = 30

@@ -10,15 +10,15 @@ from model.judge.explain import Reason, explain_type, unexplained
 from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
 from model.judge.rules import Violation
-from model.kernel.instance import pack
-from model.kernel.pausing import EndedError, pausing
-from model.planner import ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult
+from model.planner import (
+    ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult, Progress,
+    insert_missing,
+)
 from model.problem import Problem
 from model.replanning.handover import hand_over, settled, take_back
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.remainder import Remainder, what_is_left
 from model.replanning.workers import find_workers, vehicle_name
-from model.search.improve import GRACE, Progress, SearchConfig, improve
 from model.solution import Route, Solution
 
 UNREADABLE = frozenset({"EMPTY_TRIP", "UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
@@ -235,15 +235,10 @@ def _begin(left: Remainder, begun: Solution, options: PlanOptions,
     """
     if (options.time_limit > 0 and options.search_iterations != 0) or not begun.unassigned:
         return begun
-    try:
-        instance = pack([left.problem], False, pausing(should_stop, patience=GRACE))
-    except EndedError:
-        return begun
-    improved = improve(left.problem, instance, begun, SearchConfig(options.seed, turns=0),
-                       should_stop=should_stop)
-    before, after = check(left.problem, begun), check(left.problem, improved.solution)
+    filled = insert_missing(left.problem, begun, options.seed, should_stop)
+    before, after = check(left.problem, begun), check(left.problem, filled)
     if after.is_feasible and after.cost.total <= before.cost.total:
-        return improved.solution
+        return filled
     return begun
 
 
