@@ -20,14 +20,15 @@ from tqdm import tqdm
 
 from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.places import find_places
-from app.vroom.planning import Planning
 from app.vroom.reading import read_request
+from app.vroom.translate import translate
 from benchmarks.vroom_requests import (
     CLASSES, both_ways, limits, mixed_fleet, priorities, several_windows,
 )
-from model.planner import Listener, Planner, PlanOptions, PlanResult, load_planner
+from model.dialects.vroom.planning import Planning
+from model.dialects.vroom.work import LegLimit
+from model.planner import Listener, Planner, PlanOptions, PlanResult, Progress, load_planner
 from model.problem import Problem
-from model.search.improve import Progress
 from model.solution import Solution
 
 Data = dict[str, Any]
@@ -115,8 +116,9 @@ def value(planner: Planner, request: Data, turns: int) -> tuple[int, int, int]:
     read = read_request(json.dumps(request).encode(), settings.max_customers,
                         settings.max_customers)
     places = find_places(read, settings.vroom_speeds, settings.max_legs)
-    planning = Planning(read, places, plan_by_turns(planner, turns),
-                        PlanOptions(planner.policies[0]), settings.max_legs)
+    planning = Planning(translate(read), places, plan_by_turns(planner, turns),
+                        PlanOptions(planner.policies[0]),
+                        LegLimit(settings.max_legs, "TANDEM_MAX_LEGS"))
     return planning.find(time.perf_counter() + UNTIMED, {}).value
 
 

@@ -40,6 +40,7 @@ MODEL = {
     "planner": ("problem", "solution", "judge", "kernel", "travel", "simulation", "policy",
                 "search"),
     "replanning": ("problem", "solution", "judge", "planner"),
+    "dialects": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
 MOST_ARROWS = 30

@@ -18,11 +18,6 @@ EDGE, LOOK, LOOK_AT_FEW = 1e-7, 1e-7, 3e-8
 these: the last where areas have few edges."""
 
 
-SPREAD, LAID_OUT, LISTED = 3e-8, 5e-8, 5e-5
-"""Seconds for each leg of a way to travel by VROOM's rules, to work it out and to hand it to a
-search; and for each job of a plan, to judge it."""
-
-
 def legs_seconds(places: int, drives: int, flights: int, geographic: bool) -> float:
     """Estimate how long the matrices take, without ways around no-fly areas."""
     each = drives * DRIVE + flights * FLIGHT + (GREAT_CIRCLE if geographic else PLANAR)
@@ -34,13 +29,3 @@ def sights_seconds(places: int, corners: int, edges: int) -> float:
     looks = places**2 / 2 + places * corners + corners**2 / 2
     each = LOOK_AT_FEW if edges <= FEW_EDGES else LOOK
     return (2 * places + corners) * edges * EDGE + looks * each
-
-
-def model_seconds(nodes: int, ways: int) -> float:
-    """Estimate how long the problem that a VROOM request becomes takes to build."""
-    return SPREAD * ways * nodes**2
-
-
-def attempt_seconds(nodes: int, ways: int) -> float:
-    """Estimate what planning such a problem once takes beside the search."""
-    return LAID_OUT * ways * nodes**2 + LISTED * nodes

@@ -11,19 +11,23 @@ from app.conversion.preparing import Preparing
 from app.errors import InvalidRequestError
 from app.load.bodies import ReceivedBody
 from app.settings import Settings
-from app.vroom.checking import drive, route_faults
-from app.vroom.errors import TOO_LARGE, VroomError, input_error
-from app.vroom.kinds import Kind
-from app.vroom.models import Routes
-from app.vroom.places import Places, find_places
-from app.vroom.planning import Planning
+from app.vroom.errors import TOO_LARGE, VroomError, input_error, refused
+from app.vroom.places import find_places
 from app.vroom.reading import read_request
 from app.vroom.reply import Writer
 from app.vroom.schemas import VroomOptionsInput, VroomRequest
-from app.vroom.timing import TimedRoute
-from model.planner import Listener, Planner, PlanOptions, PlanResult
+from app.vroom.translate import translate
+from model.dialects.vroom.checking import drive, route_faults
+from model.dialects.vroom.errors import RefusedError
+from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.models import Routes
+from model.dialects.vroom.places import Places
+from model.dialects.vroom.planning import Planning
+from model.dialects.vroom.request import Request
+from model.dialects.vroom.timing import TimedRoute
+from model.dialects.vroom.work import LegLimit
+from model.planner import Listener, Planner, PlanOptions, PlanResult, Progress
 from model.problem import Problem
-from model.search.improve import Progress
 from model.solution import Solution
 
 EXPLORATION_SECONDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
@@ -57,6 +61,8 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
         return _answer(planner, request, body, settings, preparing, on_plan)
     except InvalidRequestError as error:
         raise VroomError(TOO_LARGE, error.errors[0].message) from error
+    except RefusedError as error:
+        raise refused(error) from error
 
 
 def preparing_of(stated: VroomOptionsInput, body: ReceivedBody, settings: Settings,
@@ -71,26 +77,28 @@ def preparing_of(stated: VroomOptionsInput, body: ReceivedBody, settings: Settin
         advice="send fewer jobs, or fewer vehicles that drive unlike each other")
 
 
-def _answer(planner: Planner, request: VroomRequest, body: ReceivedBody, settings: Settings,
+def _answer(planner: Planner, stated: VroomRequest, body: ReceivedBody, settings: Settings,
             preparing: Preparing, on_plan: Callable[[Mapping[str, Any]], None]) -> bytes:
-    places = find_places(request, settings.vroom_speeds, settings.max_legs, preparing)
+    places = find_places(stated, settings.vroom_speeds, settings.max_legs, preparing)
+    request = translate(stated)
     options = PlanOptions(
         planner.policies[0],
-        threads=min(request.options.t or settings.search_threads, os.cpu_count() or 1))
+        threads=min(stated.options.t or settings.search_threads, os.cpu_count() or 1))
 
     def plan(problem: Problem, options: PlanOptions, start: Solution,
              tell: Callable[[Progress], None]) -> PlanResult:
         return planner.plan(problem, options, listener=Listener(preparing.should_stop, tell),
                             start=start)
 
-    planning = Planning(request, places, plan, options, settings.max_legs, preparing)
+    limit = LegLimit(settings.max_legs, "TANDEM_MAX_LEGS")
+    planning = Planning(request, places, plan, options, limit, preparing)
     start = stated_routes(request, places, planning.kinds)
     loaded = time.perf_counter()
-    seconds = search_seconds(request.options, settings) - SECONDS_PER_JOB * len(request.jobs)
+    seconds = search_seconds(stated.options, settings) - SECONDS_PER_JOB * len(request.jobs)
     found = planning.find(body.received_at + seconds, start)
     routes = name_vehicles(request, places, planning.kinds, found.routes)
     solved = time.perf_counter()
-    reply = Writer(request, places).reply(
+    reply = Writer(stated, places, request.is_timed).reply(
         routes, loading=int(1000 * (loaded - body.received_at)),
         solving=int(1000 * (solved - loaded)))
     on_plan(reply)
@@ -105,7 +113,7 @@ def search_seconds(options: VroomOptionsInput, settings: Settings) -> float:
     return min(seconds, settings.max_plan_seconds)
 
 
-def stated_routes(request: VroomRequest, places: Places, kinds: Sequence[Kind]) -> Routes:
+def stated_routes(request: Request, places: Places, kinds: Sequence[Kind]) -> Routes:
     """Return the routes that `steps` describe, by the index of the vehicle's kind.
 
     Raises
@@ -113,12 +121,11 @@ def stated_routes(request: VroomRequest, places: Places, kinds: Sequence[Kind]) 
     VroomError
         If one breaks a rule.
     """
-    index_of = {job.id: index for index, job in enumerate(request.jobs)}
-    routes: dict[int, list[list[int]]] = {}
+    routes: dict[int, list[Sequence[int]]] = {}
     faults: list[str] = []
     for number, kind in enumerate(kinds):
         for vehicle in kind.vehicles:
-            jobs = stated_jobs(request, vehicle, index_of)
+            jobs = request.vehicles[vehicle].steps
             if jobs:
                 faults += route_faults(request, places, vehicle, jobs)
                 routes.setdefault(number, []).append(jobs)
@@ -127,12 +134,7 @@ def stated_routes(request: VroomRequest, places: Places, kinds: Sequence[Kind]) 
     return routes
 
 
-def stated_jobs(request: VroomRequest, vehicle: int, index_of: dict[int, int]) -> list[int]:
-    """Return the jobs that a vehicle's `steps` name, in order."""
-    return [index_of[step.id] for step in request.vehicles[vehicle].steps if step.id is not None]
-
-
-def name_vehicles(request: VroomRequest, places: Places, kinds: Sequence[Kind],
+def name_vehicles(request: Request, places: Places, kinds: Sequence[Kind],
                   routes: Routes) -> list[TimedRoute]:
     """Return the routes, each with a vehicle of its kind, in the order of vehicles."""
     timed = [drive(request, places, vehicle, jobs)
@@ -141,14 +143,13 @@ def name_vehicles(request: VroomRequest, places: Places, kinds: Sequence[Kind],
     return sorted(timed, key=lambda route: route.vehicle)
 
 
-def _matched(request: VroomRequest, kind: Kind,
+def _matched(request: Request, kind: Kind,
              routes: Sequence[Sequence[int]]) -> Iterator[tuple[int, Sequence[int]]]:
     """Yield vehicles that are alike with their routes: the one most like its `steps`, or any."""
-    index_of = {job.id: index for index, job in enumerate(request.jobs)}
     left = list(routes)
     others = []
     for vehicle in kind.vehicles:
-        stated = set(stated_jobs(request, vehicle, index_of))
+        stated = set(request.vehicles[vehicle].steps)
         alike = max(left, key=lambda jobs: len(stated.intersection(jobs)), default=())
         if stated.intersection(alike):
             left.remove(alike)

@@ -5,6 +5,8 @@ from collections.abc import Sequence
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 
+from model.dialects.vroom.errors import RefusedError, TooLargeError
+
 INTERNAL, INPUT, ROUTING, TOO_LARGE = 1, 2, 3, 4
 """VROOM's codes; the last is vroom-express's."""
 
@@ -39,3 +41,8 @@ def input_error(faults: Sequence[str]) -> VroomError:
     more = len(faults) - MAX_TOLD
     told = [*faults[:MAX_TOLD], *([f"And {more} more."] if more > 0 else [])]
     return VroomError(INPUT, " ".join(told))
+
+
+def refused(error: RefusedError) -> VroomError:
+    """Return the error for what the planner refuses."""
+    return VroomError(TOO_LARGE if isinstance(error, TooLargeError) else INPUT, str(error))

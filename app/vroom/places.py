@@ -1,6 +1,6 @@
 """Where everything is, and the legs between: VROOM's matrices, or great circles."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,38 +10,22 @@ from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.work import legs_seconds
 from app.settings import MAX_LEGS
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError
-from app.vroom.schemas import Coordinates, VroomMatricesInput, Table, VroomRequest
+from app.vroom.schemas import Coordinates, Table, VroomMatricesInput, VroomRequest
+from model.dialects.vroom.places import NOWHERE, Legs, Places
 from model.kernel.pausing import Pause
 from model.problem import FloatArray, IntArray
-from model.travel.matrices import great_circle_distances
-
-NOWHERE = -1
-"""Stands for the start or end that a vehicle doesn't have."""
+from model.travel.matrices import great_circle_distances, local_coordinates
 
 _METRES_PER_SECOND = 3.6
 """km/h of a metre a second."""
 
 
 @dataclass(frozen=True, eq=False)
-class Legs:
-    """Legs of one profile, (site, site), as stated or to whole seconds and metres."""
+class StatedPlaces(Places):
+    """The places of a request, and how it and the reply tell of them."""
 
-    durations: IntArray  # s
-    distances: IntArray  # m, zeros if unknown
-    costs: IntArray | None  # in place of those by hour and kilometre
-    distances_known: bool
-
-
-@dataclass(frozen=True, eq=False)
-class Places:
-    """Sites are the distinct places of a request, numbered from 0."""
-
-    jobs: IntArray  # (job,) site
-    starts: IntArray  # (vehicle,) site or NOWHERE
-    ends: IntArray
     coordinates: tuple[Coordinates | None, ...]  # (site,)
     indices: tuple[int | None, ...]  # (site,) row in the request's matrices
-    legs: Mapping[str, Legs]  # by profile
     tells_distances: bool  # whether the reply does
 
 
@@ -49,7 +33,7 @@ Place = tuple[Coordinates | None, int | None]
 
 
 def find_places(request: VroomRequest, speeds: Mapping[str, float],
-                max_legs: int = MAX_LEGS, preparing: Preparing = UNHURRIED) -> Places:
+                max_legs: int = MAX_LEGS, preparing: Preparing = UNHURRIED) -> StatedPlaces:
     """Number the places of a request and find the legs between them.
 
     Parameters
@@ -95,8 +79,17 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float],
     preparing.expect(legs_seconds(len(known), len(profiles), 0, len(matrices) < len(profiles)))
     finder = _LegFinder(request, matrices, known, speeds, preparing.pause)
     legs = {profile: finder.find(profile) for profile in profiles}
-    return Places(jobs, starts, ends, tuple(coordinates for coordinates, _ in known),
-                  tuple(index for _, index in known), legs, finder.tells_distances)
+    points = [coordinates for coordinates, _ in known]
+    return StatedPlaces(jobs, starts, ends, _on_map(points), legs, tuple(points),
+                        tuple(index for _, index in known), finder.tells_distances)
+
+
+def _on_map(points: Sequence[Coordinates | None]) -> FloatArray | None:
+    """Return where points are in metres, None if some aren't known."""
+    known = [point for point in points if point is not None]
+    if len(known) < len(points) or not _on_globe(known):
+        return None
+    return local_coordinates(np.array(known, np.float64))
 
 
 def _stated_matrices(request: VroomRequest) -> Mapping[str, VroomMatricesInput]:
@@ -176,7 +169,7 @@ class _LegFinder:
         points = [point for point, _ in self._known if point is not None]
         if len(points) < len(self._known):
             raise VroomError(INPUT, "Missing coordinates for routing engine.")
-        if not on_globe(points):
+        if not _on_globe(points):
             raise VroomError(INPUT, "Coordinates are [longitude, latitude] within 180 and 90 "
                                     "degrees: correct them, or swap the two.")
         return great_circle_distances(np.array(points, np.float64), self._pause)
@@ -194,7 +187,7 @@ class _LegFinder:
         return np.array(table, np.int64)[np.ix_(rows, rows)]
 
 
-def on_globe(points: Iterable[Coordinates]) -> bool:
+def _on_globe(points: Iterable[Coordinates]) -> bool:
     """Tell whether points can be longitudes and latitudes."""
     return all(abs(longitude) <= 180 and abs(latitude) <= 90 for longitude, latitude in points)
 

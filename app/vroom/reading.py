@@ -1,7 +1,7 @@
 """Bytes -> a valid `VroomRequest`, or the error that VROOM would report.
 
 What one field tells is checked by the schema, what places and matrices tell in
-`app.vroom.places`, and what only the planner can't do in `app.vroom.convert`.
+`app.vroom.places`, and what only the planner can't do in `model.dialects.vroom`.
 """
 
 from collections import Counter
@@ -14,8 +14,8 @@ from pydantic_core import from_json
 from app.errors import InvalidRequestError, schema_error
 from app.requests.refusal import MAX_COUNTED_ERRORS, require_readable
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError, input_error
-from app.vroom.reply import amount_of
-from app.vroom.schemas import DEFAULT_COST_PER_HOUR, VroomVehicleInput, VroomRequest
+from app.vroom.schemas import DEFAULT_COST_PER_HOUR, VroomRequest, VroomVehicleInput
+from app.vroom.translate import amount_of
 
 LEAST_SPEED_FACTOR, MAX_SPEED_FACTOR = 0.01, 5.0
 

@@ -5,9 +5,11 @@ from typing import Any
 
 import polyline
 
-from app.vroom.places import NOWHERE, Places
+from app.vroom.places import StatedPlaces
 from app.vroom.schemas import VroomJobInput, VroomRequest
-from app.vroom.timing import COST_SCALE, TIME_SCALE, Driver, TimedRoute
+from app.vroom.translate import amount_of
+from model.dialects.vroom.places import NOWHERE
+from model.dialects.vroom.timing import COST_SCALE, TIME_SCALE, TimedRoute
 
 Data = dict[str, Any]
 
@@ -18,11 +20,12 @@ METRES_PER_KM = 1000
 class Writer:
     """Writes the reply to one request."""
 
-    def __init__(self, request: VroomRequest, places: Places) -> None:
+    def __init__(self, request: VroomRequest, places: StatedPlaces, is_timed: bool) -> None:
+        """Begin with what is asked for; `is_timed` if anything in it has a time window."""
         self._request = request
         self._places = places
         self._num_amounts = len(request.vehicles[0].capacity or ())
-        self._is_timed = has_windows(request)
+        self._is_timed = is_timed
 
     def reply(self, routes: Sequence[TimedRoute], loading: int, solving: int) -> Data:
         """Return the reply.
@@ -78,13 +81,12 @@ class Writer:
     def _cost(self, route: TimedRoute, duration: int, task_time: int) -> int:
         """Return a route's cost, rounded where VROOM rounds."""
         costs = self._request.vehicles[route.vehicle].costs
-        rates = Driver(self._request, self._places, route.vehicle).rates
         legs = self._places.legs[self._request.vehicles[route.vehicle].profile]
         travel = route.travel_cost // COST_SCALE
         if self._is_timed and legs.costs is None:
             travel = int(duration * costs.per_hour / SECONDS_PER_HOUR
                          + route.distances[-1] * costs.per_km / METRES_PER_KM + 0.5)
-        return costs.fixed + travel + rates.task_cost * task_time // COST_SCALE
+        return costs.fixed + travel + costs.per_task_hour * task_time // COST_SCALE
 
     def _steps(self, route: TimedRoute) -> list[Data]:
         places, vehicle = self._places, route.vehicle
@@ -169,21 +171,6 @@ class Writer:
         points = [(latitude, longitude) for longitude, latitude
                   in (step["location"] for step in steps)]
         return {"geometry": polyline.encode(points)}
-
-
-def amount_of(job: VroomJobInput, side: str) -> Sequence[int]:
-    """Return what a job takes (`pickup`) or is brought (`delivery`); empty: nothing."""
-    if side == "pickup":
-        return job.pickup or ()
-    if job.delivery is None and job.pickup is None:
-        return job.amount or ()
-    return job.delivery or ()
-
-
-def has_windows(request: VroomRequest) -> bool:
-    """Tell whether anything in a request has a time window."""
-    return (any(job.time_windows is not None for job in request.jobs)
-            or any(vehicle.time_window is not None for vehicle in request.vehicles))
 
 
 def _totals(routes: list[Data], names: tuple[str, ...]) -> Data:

@@ -7,11 +7,12 @@ from typing import Any
 import polyline
 import pytest
 
-from app.vroom.checking import route_faults
 from app.vroom.places import find_places
 from app.vroom.reply import Writer
 from app.vroom.schemas import VroomRequest
-from app.vroom.timing import Driver
+from app.vroom.translate import translate
+from model.dialects.vroom.checking import route_faults
+from model.dialects.vroom.timing import Driver
 from tests.app.vroom.judge import judge
 from tests.app.vroom.reference import solve
 from tests.app.vroom.sampling import sample_request
@@ -22,19 +23,19 @@ Data = dict[str, Any]
 def written_like(reply: Data, request: Data) -> Data:
     """Return our reply for the routes of another."""
     read = VroomRequest.model_validate_json(json.dumps(request))
-    places = find_places(read, {"car": 36.0})
+    places, meant = find_places(read, {"car": 36.0}), translate(read)
     vehicle_of = {vehicle.id: index for index, vehicle in enumerate(read.vehicles)}
     job_of = {job.id: index for index, job in enumerate(read.jobs)}
     routes = []
     for route in reply["routes"]:
         vehicle = vehicle_of[route["vehicle"]]
         jobs = [job_of[step["id"]] for step in route["steps"] if step["type"] == "job"]
-        assert list(route_faults(read, places, vehicle, jobs)) == []
-        timed = Driver(read, places, vehicle).drive(jobs)
+        assert list(route_faults(meant, places, vehicle, jobs)) == []
+        timed = Driver(meant, places, vehicle).drive(jobs)
         assert timed is not None
         routes.append(timed)
     times = reply["summary"]["computing_times"]
-    return Writer(read, places).reply(routes, times["loading"], times["solving"])
+    return Writer(read, places, meant.is_timed).reply(routes, times["loading"], times["solving"])
 
 
 @pytest.mark.parametrize("seed", range(150))
@@ -66,10 +67,11 @@ def street() -> Data:
 
 def steps_by(street: Data, *jobs: int) -> list[Data]:
     read = VroomRequest.model_validate_json(json.dumps(street))
-    places = find_places(read, {})
-    timed = Driver(read, places, 0).drive([job - 1 for job in jobs])
+    places, meant = find_places(read, {}), translate(read)
+    timed = Driver(meant, places, 0).drive([job - 1 for job in jobs])
     assert timed is not None
-    steps: list[Data] = Writer(read, places).reply([timed], 0, 0)["routes"][0]["steps"]
+    (route,) = Writer(read, places, meant.is_timed).reply([timed], 0, 0)["routes"]
+    steps: list[Data] = route["steps"]
     return steps
 
 
@@ -107,10 +109,10 @@ def test_geometry_is_straight_lines_between_the_steps(street: Data) -> None:
     del street["matrices"]
     street |= {"vehicles": [{"id": 1, "start": [0.0, 48.0]}], "options": {"g": True}}
     read = VroomRequest.model_validate_json(json.dumps(street))
-    places = find_places(read, {"car": 36.0})
-    timed = Driver(read, places, 0).drive([0, 1])
+    places, meant = find_places(read, {"car": 36.0}), translate(read)
+    timed = Driver(meant, places, 0).drive([0, 1])
     assert timed is not None
-    (route,) = Writer(read, places).reply([timed], 0, 0)["routes"]
+    (route,) = Writer(read, places, meant.is_timed).reply([timed], 0, 0)["routes"]
     assert polyline.decode(route["geometry"]) == [
         (48.0, 0.0), (48.0, 0.1), (48.0, 0.2), (48.0, 0.2)]
     metres = [step["distance"] for step in route["steps"]]

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Sequence
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from app.conversion.preparing import Preparing, StoppedError
@@ -16,20 +15,26 @@ from app.errors import InvalidRequestError
 from app.load.bodies import ReceivedBody
 from app.settings import Settings
 from app.vroom.answering import answer
-from app.vroom.convert import Converter, dearest_plan
-from app.vroom.drives import Drives
 from app.vroom.errors import TOO_LARGE, VroomError
-from app.vroom.places import Places, find_places
-from app.vroom.planning import Planning
+from app.vroom.places import find_places
 from app.vroom.schemas import VroomRequest
+from app.vroom.translate import translate
+from model.dialects.vroom.convert import Converter
+from model.dialects.vroom.drives import Drives
+from model.dialects.vroom.places import Places
+from model.dialects.vroom.planning import Planning
+from model.dialects.vroom.request import Request
+from model.dialects.vroom.work import LegLimit
 from model.planner import ALONE, Listener, PlanOptions, PlanResult
-from model.problem import MM_PER_KM, MS_PER_HOUR, Problem, Travel, VehicleType
+from model.problem import Problem
 from model.solution import Solution
 from tests.app.conftest import FirstFitPlanner
 
 Data = dict[str, Any]
 
 SPEEDS = {"car": 40.0}
+
+LIMIT = LegLimit(10**9, "MOST")
 
 
 def crowd(jobs: int, speeds: int = 1, **options: Any) -> Data:
@@ -90,7 +95,7 @@ def converted(request: Data, preparing: Preparing) -> int:
     """Build the problem of a request; return how many pairs of matrices it has."""
     read = VroomRequest.model_validate_json(json.dumps(request))
     places: Places = find_places(read, SPEEDS)
-    converter = Converter(read, places)
+    converter = Converter(translate(read), places, LIMIT)
     slots = {index: [(0, 40_000)] for index in range(len(read.jobs))}
     return len(converter.model(slots, preparing).problem.travel)
 
@@ -109,8 +114,8 @@ def test_matrices_are_no_longer_built_once_the_client_has_left() -> None:
 
 def test_matrices_are_no_longer_built_once_the_time_is_over(
         monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.vroom.convert.model_seconds", lambda *_: 0.0)
-    monkeypatch.setattr("app.vroom.convert.attempt_seconds", lambda *_: 0.0)
+    monkeypatch.setattr("model.dialects.vroom.convert.model_seconds", lambda *_: 0.0)
+    monkeypatch.setattr("model.dialects.vroom.convert.attempt_seconds", lambda *_: 0.0)
     with pytest.raises(InvalidRequestError):
         converted(crowd(10, 40), Preparing(seconds=1.0, began=-1e9))
 
@@ -140,7 +145,7 @@ def mixed() -> Data:
 @pytest.mark.parametrize(("seconds", "most"), [(1e-9, 100), (0.3, 7), (1.0, 2)])
 def test_stages_that_there_is_no_time_for_are_left_out(
         monkeypatch: pytest.MonkeyPatch, mixed: Data, seconds: float, most: int) -> None:
-    monkeypatch.setattr("app.vroom.planning.attempt_seconds", lambda *_: seconds)
+    monkeypatch.setattr("model.dialects.vroom.planning.attempt_seconds", lambda *_: seconds)
     planner = NotingPlanner()
     asked(mixed, planner)
     assert len(planner.given) <= most
@@ -151,7 +156,7 @@ def test_stages_that_there_is_no_time_for_are_left_out(
 @pytest.mark.parametrize(("seconds", "most"), [(1e-9, 100), (2.0, 1)])
 def test_windows_are_not_chosen_again_where_there_is_no_time(
         monkeypatch: pytest.MonkeyPatch, seconds: float, most: int) -> None:
-    monkeypatch.setattr("app.vroom.planning.attempt_seconds", lambda *_: seconds)
+    monkeypatch.setattr("model.dialects.vroom.planning.attempt_seconds", lambda *_: seconds)
     request = crowd(3, l=1.5)
     for job in request["jobs"]:
         job |= {"priority": 0, "skills": [7],
@@ -169,33 +174,18 @@ def test_jobs_that_fail_are_taken_from_a_route_in_few_looks(
         monkeypatch: pytest.MonkeyPatch, every: int) -> None:
     looks: list[Sequence[int]] = []
 
-    def faults(request: VroomRequest, places: Places, vehicle: int,
+    def faults(request: Request, places: Places, vehicle: int,
                jobs: Sequence[int]) -> Iterator[str]:
         looks.append(jobs)
         yield from ("late" for job in jobs if job % every == 0)
 
-    monkeypatch.setattr("app.vroom.planning.route_faults", faults)
-    monkeypatch.setattr("app.vroom.planning.drive", lambda *_: SimpleNamespace(cost=1))
+    monkeypatch.setattr("model.dialects.vroom.planning.route_faults", faults)
+    monkeypatch.setattr("model.dialects.vroom.planning.drive", lambda *_: SimpleNamespace(cost=1))
     read = VroomRequest.model_validate_json(json.dumps(crowd(300)))
-    planning = Planning(read, find_places(read, SPEEDS), plan=None,  # type: ignore[arg-type]
-                        options=PlanOptions("none"), max_legs=10**9)
+    planning = Planning(translate(read), find_places(read, SPEEDS),
+                        plan=None,  # type: ignore[arg-type]
+                        options=PlanOptions("none"), max_legs=LIMIT)
     sound = [job for job in range(300) if job % every]
     assert planning._mended({0: [range(300)]}, math.inf) == ({0: [sound]} if sound else {})
     assert len(looks) <= 20 + 3 * min(300, 6 * (300 // every + 1))
     assert planning._mended({0: [range(300)]}, -math.inf) == {}
-
-
-def test_what_a_plan_costs_at_most_is_found_without_a_look_at_each_tariff() -> None:
-    rng = np.random.default_rng(0)
-    duration, distance = rng.integers(0, 10**7, (2, 6, 6))
-    kinds = [VehicleType(str(number), 1, (1,), 0, fixed_cost=3.0, cost_per_km=per_km,
-                         cost_per_hour=per_hour)
-             for number, (per_km, per_hour) in enumerate(
-                 [*((0.1 * rate, 0.0) for rate in range(50)), (1.0, 7.0), (0.5, 7.0)])]
-    looks: list[None] = []
-    bound = dearest_plan(kinds, [Travel(duration, distance)], 1, lambda: looks.append(None))
-    costs = [distance * (kind.cost_per_km / MM_PER_KM)
-             + duration * (kind.cost_per_hour / MS_PER_HOUR) for kind in kinds]
-    to_nodes = np.max(costs, axis=(0, 1))
-    assert bound == pytest.approx(1 + to_nodes[1:].sum() + 5 * (to_nodes[0] + 3))
-    assert len(looks) == 2

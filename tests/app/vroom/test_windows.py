@@ -6,7 +6,6 @@ import random
 import time
 from typing import Any
 
-import numpy as np
 import pytest
 
 from app.load.bodies import ReceivedBody
@@ -14,7 +13,7 @@ from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.answering import answer
 from app.vroom.errors import TOO_LARGE, VroomError
 from app.vroom.reading import MAX_ALL_WINDOWS, read_request
-from app.vroom.windows import MOST_BESIDE, MOST_OF_A_JOB, are_few, choose_few, hulls
+from model.dialects.vroom.windows import MOST_BESIDE
 from model.planner import Planner, PlanOptions, PlanResult, load_planner
 from model.problem import Problem
 from tests.app.vroom.judge import judge
@@ -119,22 +118,6 @@ def test_whoever_cannot_be_served_is_left_out(planner: Planner) -> None:
     request["jobs"][7]["skills"] = [5]
     left_out = {job["id"] for job in answered(planner, request)["unassigned"]}
     assert left_out == {request["jobs"][3]["id"], request["jobs"][7]["id"]}
-
-
-def test_few_windows_are_chosen_about_those_that_are_used() -> None:
-    slots = {job: [(100 * begin, 100 * begin + 50) for begin in range(100)] for job in range(60)}
-    assert not are_few(slots)
-    starts = dict.fromkeys(range(50), (1000, 1050))
-    few = choose_few(slots, starts, np.random.default_rng(0))
-    assert are_few(few)
-    assert sum(map(len, few.values())) == 60 + MOST_BESIDE
-    assert all(starts[job] in few[job] for job in starts)
-    assert all(len(few[job]) == MOST_OF_A_JOB for job in range(50, 60))
-    assert all(list(windows) == [window for window in slots[job] if window in windows]
-               for job, windows in few.items())
-    assert all(window in slots[job][6:15] for job in starts for window in few[job])
-    assert hulls(slots)[0] == [(0, 9950)]
-    assert hulls({3: [None]}) == {3: [None]}
 
 
 def test_more_windows_than_can_be_looked_at_are_refused_at_once() -> None:

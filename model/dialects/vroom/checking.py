@@ -3,14 +3,13 @@
 from collections.abc import Iterator, Sequence
 from itertools import accumulate
 
-from app.vroom.places import Places
-from app.vroom.reply import amount_of
-from app.vroom.schemas import VroomJobInput, VroomRequest
-from app.vroom.timing import TIME_SCALE, Driver, TimedRoute
+from model.dialects.vroom.places import Places
+from model.dialects.vroom.request import Job, Request
+from model.dialects.vroom.timing import TIME_SCALE, Driver, TimedRoute
 from model.planner import PlanCheckError
 
 
-def route_faults(request: VroomRequest, places: Places, vehicle: int,
+def route_faults(request: Request, places: Places, vehicle: int,
                  jobs: Sequence[int]) -> Iterator[str]:
     """Yield what is wrong with the route of a vehicle through `jobs`, at least one.
 
@@ -24,9 +23,9 @@ def route_faults(request: VroomRequest, places: Places, vehicle: int,
     stated = request.vehicles[vehicle]
     visited = [request.jobs[job] for job in jobs]
     for job in visited:
-        if not set(job.skills) <= set(stated.skills):
+        if not job.skills <= stated.skills:
             yield f"Missing skill or step out of reach for vehicle {stated.id} and job {job.id}."
-    if not _fits(visited, stated.capacity or ()):
+    if not _fits(visited, stated.capacity):
         yield f"Route over capacity for vehicle {stated.id}."
     if stated.max_tasks is not None and len(jobs) > stated.max_tasks:
         yield f"Too many tasks for vehicle {stated.id}."
@@ -41,7 +40,7 @@ def route_faults(request: VroomRequest, places: Places, vehicle: int,
         yield f"Route over max_distance for vehicle {stated.id}."
 
 
-def drive(request: VroomRequest, places: Places, vehicle: int, jobs: Sequence[int]) -> TimedRoute:
+def drive(request: Request, places: Places, vehicle: int, jobs: Sequence[int]) -> TimedRoute:
     """Return the times of a route.
 
     Raises
@@ -56,11 +55,11 @@ def drive(request: VroomRequest, places: Places, vehicle: int, jobs: Sequence[in
     return route
 
 
-def _fits(jobs: Sequence[VroomJobInput], capacity: Sequence[int]) -> bool:
+def _fits(jobs: Sequence[Job], capacity: Sequence[int]) -> bool:
     """Tell whether the load stays within the capacity all the way."""
     for index, most in enumerate(capacity):
-        brought, taken = ([(amount_of(job, side) or [0] * len(capacity))[index] for job in jobs]
-                          for side in ("delivery", "pickup"))
+        brought = [job.delivery[index] if job.delivery else 0 for job in jobs]
+        taken = [job.pickup[index] if job.pickup else 0 for job in jobs]
         changes = (more - less for more, less in zip(taken, brought, strict=True))
         if max(accumulate(changes, initial=sum(brought))) > most:
             return False

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.vroom.kinds import Kind
-from app.vroom.places import NOWHERE, Places
-from app.vroom.schemas import Window
+from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.places import NOWHERE, Places
+from model.dialects.vroom.request import Window
 from model.problem import MAX_QUANTITY, BoolArray, IntArray
 
 PARTS = 1000

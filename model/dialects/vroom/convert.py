@@ -5,25 +5,22 @@ from math import isqrt
 
 import numpy as np
 
-from app.conversion.preparing import UNHURRIED, Preparing
-from app.conversion.work import attempt_seconds, model_seconds
-from app.settings import MAX_LEGS
-from app.vroom.alternatives import choose_windows
-from app.vroom.drives import Drive, Drives
-from app.vroom.errors import INPUT, TOO_LARGE, VroomError
-from app.vroom.kinds import Loads, find_kinds, find_loads
-from app.vroom.models import Model
-from app.vroom.nodes import LONGEST, PARTS, Nodes, Slots
-from app.vroom.places import Places, on_globe
-from app.vroom.reply import has_windows
-from app.vroom.schemas import VroomRequest, Window
-from app.vroom.timing import TIME_SCALE
-from model.kernel.pausing import Pause, go_on
+from model.dialects.vroom.alternatives import choose_windows
+from model.dialects.vroom.drives import Drive, Drives
+from model.dialects.vroom.errors import RefusedError, TooLargeError
+from model.dialects.vroom.kinds import Loads, find_kinds, find_loads
+from model.dialects.vroom.models import Model
+from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes, Slots
+from model.dialects.vroom.places import Places
+from model.dialects.vroom.request import Request, Window
+from model.dialects.vroom.timing import TIME_SCALE
+from model.dialects.vroom.work import (
+    UNHURRIED, LegLimit, Pause, Preparing, attempt_seconds, model_seconds,
+)
 from model.problem import (
     MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, Depot, FloatArray,
     IntArray, Problem, Travel, VehicleType,
 )
-from model.travel.matrices import local_coordinates
 
 EARLIER = 2 * 10**8
 """How many seconds before all that is stated a vehicle without time window may leave."""
@@ -34,24 +31,21 @@ class Converter:
 
     Parameters
     ----------
-    request, places
-        What is asked for, and where.
-    max_legs
-        Most legs of all matrices together.
+    request, places, max_legs
+        What is asked for, where, and how much is too much.
 
     Raises
     ------
-    VroomError
+    RefusedError
         If the request asks for what the planner can't do, or for too much.
     """
 
-    def __init__(self, request: VroomRequest, places: Places,
-                 max_legs: int = MAX_LEGS) -> None:
+    def __init__(self, request: Request, places: Places, max_legs: LegLimit) -> None:
         self._request = request
         self._max_legs = max_legs
         self._places = places
         self.kinds = find_kinds(request, places)
-        self._is_timed = has_windows(request)
+        self._is_timed = request.is_timed
         self._origin = self._find_origin()
         self._shifts = {kind.stated.time_window for kind in self.kinds}
 
@@ -62,17 +56,17 @@ class Converter:
 
         Raises
         ------
-        VroomError
+        RefusedError
             If it would be too large.
-        RequestError
-            If the work on it is to end.
+        Exception
+            If the work on it is to end, what `preparing` raises.
         """
         nodes = Nodes.of(self._places, self.kinds, slots)
         number = len(nodes.sites)
-        if number**2 > self._max_legs:
-            raise VroomError(TOO_LARGE, "Too many starts and ends of vehicles and windows of jobs "
-                                        f"({number}), maximum is {isqrt(self._max_legs)} "
-                                        "(TANDEM_MAX_LEGS)")
+        if number**2 > self._max_legs.legs:
+            raise TooLargeError("Too many starts and ends of vehicles and windows of jobs "
+                                f"({number}), maximum is {isqrt(self._max_legs.legs)} "
+                                f"({self._max_legs.setting})")
         drives = self._drives(nodes, relaxed=False, pause=preparing.pause)
         ways = drives.count(self.kinds)
         surplus = find_loads(self._request, self.kinds, relaxed=True).surplus
@@ -99,11 +93,11 @@ class Converter:
 
     def _require_room(self, ways: int, nodes: int) -> None:
         """Refuse more matrices than are held at a time."""
-        if ways * nodes**2 > self._max_legs:
-            raise VroomError(TOO_LARGE, "Too many vehicles that drive unlike each other for so "
-                                        f"many jobs: {ways} ways to travel between {nodes} places "
-                                        f"and windows, maximum is {self._max_legs} legs "
-                                        "(TANDEM_MAX_LEGS).")
+        if ways * nodes**2 > self._max_legs.legs:
+            raise TooLargeError("Too many vehicles that drive unlike each other for so many jobs: "
+                                f"{ways} ways to travel between {nodes} places and windows, "
+                                f"maximum is {self._max_legs.legs} legs "
+                                f"({self._max_legs.setting}).")
 
     def _problem(self, nodes: Nodes, drives: Drives) -> Problem:
         """Return the problem by given drives."""
@@ -146,7 +140,7 @@ class Converter:
         """Return an instant on the planner's clock, not before its time begins."""
         instant = max(0, seconds - self._origin) * PARTS
         if instant > MAX_QUANTITY:
-            raise VroomError(INPUT, "Time windows begin more than 31 years apart.")
+            raise RefusedError("Time windows begin more than 31 years apart.")
         return instant
 
     def _last_instant(self, seconds: int) -> int:
@@ -193,11 +187,9 @@ class Converter:
 
     def _coordinates(self, nodes: Nodes, travels: Sequence[Travel]) -> FloatArray:
         """Return where the policy sees the nodes: on the map, or as the legs place them."""
-        points = self._places.coordinates
-        known = [point for point in points if point is not None]
-        if len(known) < len(points) or not on_globe(known):
+        placed = self._places.map
+        if placed is None:
             return _by_landmarks(travels[0].duration)
-        placed = local_coordinates(np.array(known, np.float64))
         # Vehicles that start or end anywhere are seen to do so amid all places.
         return np.vstack([placed, placed.mean(axis=0)])[nodes.sites]
 
@@ -209,7 +201,7 @@ def _by_landmarks(duration: IntArray) -> FloatArray:
 
 
 def dearest_plan(vehicle_types: Sequence[VehicleType], travels: Sequence[Travel],
-                 num_depots: int, pause: Pause = go_on) -> float:
+                 num_depots: int, pause: Pause = UNHURRIED.pause) -> float:
     """Return more than any plan costs: serving one job more is always worth it."""
     fixed = max(kind.fixed_cost for kind in vehicle_types)
     to_nodes = np.zeros(len(travels[0].distance))

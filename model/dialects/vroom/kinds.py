@@ -4,12 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.vroom.errors import INPUT, VroomError
-from app.vroom.places import Places
-from app.vroom.reply import amount_of
-from app.vroom.schemas import VroomVehicleInput, VroomRequest
-from app.vroom.timing import Rates
-from model.kernel.instance import MAX_DIMENSIONS
+from model.dialects.vroom.errors import RefusedError
+from model.dialects.vroom.places import Places
+from model.dialects.vroom.request import Request, Vehicle
+from model.dialects.vroom.timing import Rates
+from model.planner import MAX_DIMENSIONS
 from model.problem import FloatArray, IntArray
 
 
@@ -18,7 +17,7 @@ class Kind:
     """Vehicles that are alike."""
 
     vehicles: tuple[int, ...]  # indices into the request's vehicles
-    stated: VroomVehicleInput  # the first of them
+    stated: Vehicle  # the first of them
     start: int  # site or NOWHERE
     end: int
     type: str  # empty if no job names it
@@ -35,7 +34,7 @@ class Loads:
     """(job,) what is taken minus what is brought, if an amount is both; in shares of capacity."""
 
 
-def find_kinds(request: VroomRequest, places: Places) -> tuple[Kind, ...]:
+def find_kinds(request: Request, places: Places) -> tuple[Kind, ...]:
     """Group the vehicles of a request."""
     named = {name for job in request.jobs
              for name in (*job.setup_per_type, *job.service_per_type)}
@@ -43,7 +42,7 @@ def find_kinds(request: VroomRequest, places: Places) -> tuple[Kind, ...]:
     for index, vehicle in enumerate(request.vehicles):
         key = (
             places.starts[index], places.ends[index], vehicle.profile, vehicle.costs,
-            tuple(vehicle.capacity or ()), frozenset(vehicle.skills),
+            vehicle.capacity, vehicle.skills,
             vehicle.type if vehicle.type in named else "", vehicle.time_window,
             vehicle.speed_factor, vehicle.max_tasks, vehicle.max_travel_time,
             vehicle.max_distance)
@@ -51,7 +50,7 @@ def find_kinds(request: VroomRequest, places: Places) -> tuple[Kind, ...]:
     return tuple(_kind(request, places, members, named) for members in groups.values())
 
 
-def _kind(request: VroomRequest, places: Places, members: list[int], named: set[str]) -> Kind:
+def _kind(request: Request, places: Places, members: list[int], named: set[str]) -> Kind:
     stated = request.vehicles[members[0]]
     has_costs = places.legs[stated.profile].costs is not None
     return Kind(tuple(members), stated, int(places.starts[members[0]]),
@@ -59,7 +58,7 @@ def _kind(request: VroomRequest, places: Places, members: list[int], named: set[
                 Rates.of(stated, has_costs))
 
 
-def find_loads(request: VroomRequest, kinds: tuple[Kind, ...], relaxed: bool) -> Loads:
+def find_loads(request: Request, kinds: tuple[Kind, ...], relaxed: bool) -> Loads:
     """Return the amounts that may fill a vehicle, and the number of jobs if that is limited.
 
     Parameters
@@ -71,14 +70,14 @@ def find_loads(request: VroomRequest, kinds: tuple[Kind, ...], relaxed: bool) ->
 
     Raises
     ------
-    VroomError
+    RefusedError
         If there are too many.
     """
-    size = len(kinds[0].stated.capacity or ())
-    brought, taken = (
-        np.array([amount_of(job, side) or [0] * size for job in request.jobs], np.int64)
-        for side in ("delivery", "pickup"))
-    capacities = np.array([kind.stated.capacity or () for kind in kinds], np.int64)
+    size = len(kinds[0].stated.capacity)
+    nothing = (0,) * size
+    brought = np.array([job.delivery or nothing for job in request.jobs], np.int64)
+    taken = np.array([job.pickup or nothing for job in request.jobs], np.int64)
+    capacities = np.array([kind.stated.capacity for kind in kinds], np.int64)
     strict, loose, looser = (_tasks(len(request.jobs), kinds) for _ in range(3))
     surplus = np.zeros(len(request.jobs))
     is_mixed = False
@@ -95,8 +94,8 @@ def find_loads(request: VroomRequest, kinds: tuple[Kind, ...], relaxed: bool) ->
             loose.append(strict[-1])
             looser.append(strict[-1])
     if len(strict) > MAX_DIMENSIONS:
-        raise VroomError(INPUT, f"capacity: {len(strict)} amounts may fill a vehicle, max_tasks "
-                                f"counted as one, and {MAX_DIMENSIONS} can be planned here.")
+        raise RefusedError(f"capacity: {len(strict)} amounts may fill a vehicle, max_tasks "
+                           f"counted as one, and {MAX_DIMENSIONS} can be planned here.")
     columns = strict
     if relaxed:
         columns = loose if len(loose) <= MAX_DIMENSIONS else looser

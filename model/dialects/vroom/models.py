@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.vroom.nodes import Nodes, Slots
-from app.vroom.schemas import Window
+from model.dialects.vroom.nodes import Nodes, Slots
+from model.dialects.vroom.request import Window
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import MAX_QUANTITY, BoolArray, IntArray, Problem
 from model.solution import Route, Solution

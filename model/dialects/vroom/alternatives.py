@@ -6,8 +6,8 @@ from math import gcd
 
 import numpy as np
 
-from app.vroom.models import Model
-from app.vroom.nodes import PARTS, Nodes
+from model.dialects.vroom.models import Model
+from model.dialects.vroom.nodes import PARTS, Nodes
 from model.problem import (
     MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, FloatArray, IntArray, Problem, Travel, VehicleType,
 )

@@ -1,9 +1,9 @@
 """Jobs with many time windows: a few of them at a time.
 
-The planner chooses among windows by customers that exclude each other (`app.vroom.alternatives`),
-and does so well only among few. With more, it first plans as if a job might start at any time from
-its first window to its last. Driven by the true windows, these routes tell in which of them jobs
-start; then windows near these are chosen among, and for jobs left out any others, again and again.
+The planner chooses among windows by customers that exclude each other (`choose_windows`), and does
+so well only among few. With more, it first plans as if a job might start at any time from its first
+window to its last. Driven by the true windows, these routes tell in which of them jobs start; then
+windows near these are chosen among, and for jobs left out any others, again and again.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,8 +11,8 @@ from operator import itemgetter
 
 import numpy as np
 
-from app.vroom.nodes import Slots
-from app.vroom.schemas import Window
+from model.dialects.vroom.nodes import Slots
+from model.dialects.vroom.request import Window
 
 MOST_OF_A_JOB = 10
 """Most windows of a job that are chosen among at a time."""

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
-from app.vroom.places import NOWHERE, Legs, Places
-from app.vroom.schemas import VroomJobInput, VroomVehicleInput, VroomRequest
+from model.dialects.vroom.places import NOWHERE, Legs, Places
+from model.dialects.vroom.request import Job, Request, Vehicle
 
 TIME_SCALE = 100
 """Hundredths of a second."""
@@ -39,7 +39,7 @@ class Rates:
     fixed_cost: int
 
     @classmethod
-    def of(cls, vehicle: VroomVehicleInput, has_costs: bool) -> "Rates":
+    def of(cls, vehicle: Vehicle, has_costs: bool) -> "Rates":
         """Return the rates of a vehicle; `has_costs` if its profile has a matrix of costs."""
         costs = vehicle.costs
         slowness = 1 / vehicle.speed_factor * TIME_SCALE
@@ -90,7 +90,7 @@ class TimedRoute:
 class Driver:
     """Times the routes of one vehicle."""
 
-    request: VroomRequest
+    request: Request
     places: Places
     vehicle: int
 
@@ -140,7 +140,7 @@ class Driver:
         return Rates.of(self._stated, self._legs.costs is not None)
 
     @property
-    def _stated(self) -> VroomVehicleInput:
+    def _stated(self) -> Vehicle:
         return self.request.vehicles[self.vehicle]
 
     @property
@@ -177,12 +177,12 @@ class Driver:
                 for job, (origin, site) in zip(jobs, self._pairs(jobs), strict=False)]
 
 
-def setup_of(job: VroomJobInput, kind: str) -> int:
+def setup_of(job: Job, kind: str) -> int:
     """Return the seconds of setup by a vehicle of a type; none has the empty name."""
     return job.setup_per_type.get(kind, job.setup) if kind else job.setup
 
 
-def service_of(job: VroomJobInput, kind: str) -> int:
+def service_of(job: Job, kind: str) -> int:
     """Return the seconds of service by a vehicle of a type."""
     return job.service_per_type.get(kind, job.service) if kind else job.service
 
@@ -191,7 +191,7 @@ def _scaled(window: tuple[int, int] | None) -> tuple[int, int]:
     return (0, ENDLESS) if window is None else (window[0] * TIME_SCALE, window[1] * TIME_SCALE)
 
 
-def _windows(job: VroomJobInput) -> list[tuple[int, int]]:
+def _windows(job: Job) -> list[tuple[int, int]]:
     if job.time_windows is None:
         return [(0, ENDLESS)]
     return [_scaled(window) for window in sorted(job.time_windows)]

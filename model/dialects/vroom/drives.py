@@ -12,13 +12,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from app.vroom.errors import INPUT, VroomError
-from app.vroom.kinds import Kind
-from app.vroom.nodes import LONGEST, PARTS, Nodes, at_most_longest
-from app.vroom.places import Legs, Places
-from app.vroom.schemas import VroomRequest
-from app.vroom.timing import COST_SCALE, TIME_SCALE, service_of, setup_of
-from model.kernel.pausing import Pause, go_on
+from model.dialects.vroom.errors import RefusedError
+from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes, at_most_longest
+from model.dialects.vroom.places import Legs, Places
+from model.dialects.vroom.request import Request
+from model.dialects.vroom.timing import COST_SCALE, TIME_SCALE, service_of, setup_of
+from model.dialects.vroom.work import UNHURRIED, Pause
 from model.problem import MAX_QUANTITY, IntArray, Travel
 
 Key = tuple[object, ...]
@@ -42,8 +42,8 @@ class Drive:
 class Drives:
     """Collects the matrices for a request; equal ones are built once."""
 
-    def __init__(self, request: VroomRequest, places: Places, kinds: tuple[Kind, ...],
-                 nodes: Nodes, is_timed: bool, relaxed: bool, pause: Pause = go_on) -> None:
+    def __init__(self, request: Request, places: Places, kinds: tuple[Kind, ...], nodes: Nodes,
+                 is_timed: bool, relaxed: bool, pause: Pause = UNHURRIED.pause) -> None:
         """Begin with no matrices.
 
         Parameters
@@ -74,7 +74,7 @@ class Drives:
 
         Raises
         ------
-        VroomError
+        RefusedError
             If they are limited in what isn't known.
         """
         return len({self._choose(kind)[0] for kind in kinds})
@@ -114,8 +114,8 @@ class Drives:
                 seconds = None
         if stated.max_distance is not None:
             if not legs.distances_known:
-                raise VroomError(INPUT, f"max_distance of vehicle {stated.id} needs "
-                                        f"matrices.{stated.profile}.distances: add them.")
+                raise RefusedError(f"max_distance of vehicle {stated.id} needs "
+                                   f"matrices.{stated.profile}.distances: add them.")
             metres = min(LONGEST, stated.max_distance)
             if self._longest_route(legs.distances) <= metres:
                 metres = None
@@ -282,7 +282,7 @@ class Actions:
     their setup were always needed, so that the plan can only be early.
     """
 
-    def __init__(self, request: VroomRequest, places: Places, kinds: tuple[Kind, ...],
+    def __init__(self, request: Request, places: Places, kinds: tuple[Kind, ...],
                  nodes: Nodes, relaxed: bool) -> None:
         self._nodes = nodes
         types = dict.fromkeys(kind.type for kind in kinds)

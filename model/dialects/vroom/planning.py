@@ -12,22 +12,20 @@ from operator import attrgetter
 
 import numpy as np
 
-from app.conversion.preparing import UNHURRIED, Preparing
-from app.conversion.work import attempt_seconds, model_seconds
-from app.vroom.alternatives import bring_first, leave_out_by_priority
-from app.vroom.checking import drive, route_faults
-from app.vroom.convert import Converter
-from app.vroom.errors import INPUT, VroomError
-from app.vroom.models import Model, Routes
-from app.vroom.nodes import Slots
-from app.vroom.places import Places
-from app.vroom.schemas import VroomJobInput, VroomRequest, Window
-from app.vroom.timing import Driver
-from app.vroom.windows import MOST_BESIDE, are_few, choose_few, hulls
+from model.dialects.vroom.alternatives import bring_first, leave_out_by_priority
+from model.dialects.vroom.checking import drive, route_faults
+from model.dialects.vroom.convert import Converter
+from model.dialects.vroom.errors import RefusedError
+from model.dialects.vroom.models import Model, Routes
+from model.dialects.vroom.nodes import Slots
+from model.dialects.vroom.places import Places
+from model.dialects.vroom.request import Job, Request, Window
+from model.dialects.vroom.timing import Driver
+from model.dialects.vroom.windows import MOST_BESIDE, are_few, choose_few, hulls
+from model.dialects.vroom.work import UNHURRIED, LegLimit, Preparing, attempt_seconds, model_seconds
 from model.judge.check import check
-from model.planner import PlanCheckError, PlanOptions, PlanResult
+from model.planner import PlanCheckError, PlanOptions, PlanResult, Progress
 from model.problem import Problem
-from model.search.improve import Progress
 from model.solution import Solution
 
 LEAST_SECONDS = 0.01
@@ -78,17 +76,16 @@ class Found:
 
 
 class Planning:
-    """Plans one request; `max_legs` is the most legs of a problem's matrices together.
+    """Plans one request.
 
     Raises
     ------
-    VroomError
+    RefusedError
         If the request asks for what the planner can't do, or for too much.
     """
 
-    def __init__(self, request: VroomRequest, places: Places, plan: Plan,
-                 options: PlanOptions, max_legs: int,
-                 preparing: Preparing = UNHURRIED) -> None:
+    def __init__(self, request: Request, places: Places, plan: Plan, options: PlanOptions,
+                 max_legs: LegLimit, preparing: Preparing = UNHURRIED) -> None:
         self._plan = plan
         self._options = options
         self._request = request
@@ -233,7 +230,7 @@ class Planning:
         return ((1 + len(model.relaxed)) * model_seconds(nodes, each)
                 + attempt_seconds(nodes, each))
 
-    def _reachable(self, job: VroomJobInput) -> list[Window | None]:
+    def _reachable(self, job: Job) -> list[Window | None]:
         """Return the windows of a job in which any vehicle works."""
         if job.time_windows is None:
             return [None]
@@ -245,8 +242,8 @@ class Planning:
         """Refuse routes to start from that break a rule as the planner sees them."""
         loosest = replace(model, problem=model.relaxed[0]) if model.relaxed else model
         if check(loosest.problem, loosest.solution(start, self._start_windows)).violations:
-            raise VroomError(INPUT, "The routes in steps can't be started from here: jobs with "
-                                    "setup and time_windows share a place.")
+            raise RefusedError("The routes in steps can't be started from here: jobs with "
+                               "setup and time_windows share a place.")
 
     def _start_windows(self, kind: int, jobs: Sequence[int]) -> list[Window | None]:
         """Return the window of each job of a route in which it starts."""

@@ -1,0 +1,1 @@
+"""VROOM's jobs and vehicles: planned by VROOM's objective and rules."""
