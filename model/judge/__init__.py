@@ -1,0 +1,1 @@
+"""What every plan is judged by, in plain Python: shares no code with what is judged."""

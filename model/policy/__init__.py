@@ -1,0 +1,1 @@
+"""What networks see of a problem and say of what comes next."""

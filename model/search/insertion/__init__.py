@@ -1,0 +1,1 @@
+"""Where a customer may be inserted, and what that costs."""

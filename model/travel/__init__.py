@@ -1,0 +1,1 @@
+"""From places, no-fly areas and wind to the legs between nodes."""
