@@ -196,14 +196,14 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
 def read_plan(world: World, searcher: Searcher) -> Solution:
     """Return the best plan found, each trip begun as late as costs nothing."""
     best = searcher.best
+    slots = np.flatnonzero(best.route["length"][: len(searcher.active)]).tolist()
+    for slot in slots:
+        finish_route(world, best, slot, searcher.acc)
     routes = []
     numbers = [0] * world.num_types
-    for slot in range(len(searcher.active)):
-        if best.route[slot].length > 0:
-            finish_route(world, best, slot, searcher.acc)
-            k = int(best.route[slot].type)
-            routes.append(Route(k, numbers[k], _trips(world, best, slot)))
-            numbers[k] += 1
+    for slot, row in zip(slots, read_rows(best.route[slots]), strict=True):
+        routes.append(Route(row.type, numbers[row.type], _trips(world, best, slot, row)))
+        numbers[row.type] += 1
     missing = searcher.best_missing[: searcher.count.best_missing]
     return Solution(tuple(routes), tuple(sorted(int(node) for node in missing)))
 
@@ -239,31 +239,30 @@ def sortie_ends(place: IntArray, columns: IntArray, nodes: IntArray, arrivals: I
     return ends, recovery_end(columns, begin)
 
 
-def _trips(world: World, fleet: Fleet, slot: int) -> tuple[Trip, ...]:
-    """Return the trips of a timed route."""
-    columns = fleet.route[slot]
-    kind = world.type[columns.type]
-    rows = fleet.stop[slot, : columns.length]
+def _trips(world: World, fleet: Fleet, slot: int, route: Any) -> tuple[Trip, ...]:
+    """Return the trips of a timed route, whose own row is given."""
+    rows, trips = fleet.stop[slot, : route.length], fleet.trip[slot, : route.trips]
     starts = service_starts(world.place, rows["node"].copy(), rows["arrival"].copy())
-    stops = read_rows(rows)
-    halts = [_stop(row, start) for row, start in zip(stops, starts.tolist(), strict=True)]
-    sorties = read_rows(fleet.sortie[slot, : columns.sorties])
-    trips = []
-    for first, last in fleet.trip[slot, : columns.trips][["first", "last"]].tolist():
-        flown = tuple(_sortie(world, kind, row, first) for row in sorties
-                      if first <= row.launch <= last)
-        trips.append(Trip(tuple(halts[first:last + 1]), flown))
-    return tuple(trips)
+    columns = (rows[name].tolist() for name in (
+        "node", "kind", "arrival", "release", "hold", "leave"))
+    halts = [_stop(*row) for row in zip(*columns, starts.tolist(), strict=True)]
+    sorties = read_rows(fleet.sortie[slot, : route.sorties]) if route.sorties > 0 else []
+    return tuple(
+        Trip(tuple(halts[first:last + 1]),
+             tuple(_sortie(world, world.type[route.type], row, first) for row in sorties
+                   if first <= row.launch <= last))
+        for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))
 
 
-def _stop(row: Any, start: int) -> Stop:
+def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: int,
+          start: int) -> Stop:
     """Return a timed stop; `start` is when service begins if it is a customer's."""
-    arrival = begin = row.arrival
-    if row.kind == START:
-        arrival = begin = max(arrival, row.release, row.hold)
-    elif row.kind == CUSTOMER:
+    begin = arrival
+    if kind == START:
+        arrival = begin = max(arrival, release, hold)
+    elif kind == CUSTOMER:
         begin = start
-    return Stop(row.node, arrival, begin, row.leave)
+    return Stop(node, arrival, begin, leave)
 
 
 def _sortie(world: World, kind: IntArray, row: Any, first: int) -> Sortie:
