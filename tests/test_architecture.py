@@ -54,20 +54,23 @@ COMPILED_FOLDERS = ("kernel", "simulation", "policy", "search")
 
 HOMES = {
     "kernel/start": {"TYPE_BEGUN", "TYPE_BUSY"},
-    "kernel/stop": {"NODE_EARLIEST", "NODE_LATEST", "NODE_LIMIT", "NODE_SERVICE"},
+    "kernel/stop": {".arrival_limit", ".service_duration", ".window_earliest", ".window_latest"},
     "kernel/flight": {"TYPE_DRONE_SERVICE", "TYPE_ENDURANCE", "TYPE_LAUNCH", "TYPE_RECOVERY",
                       "TYPE_WAITING_COUNTS", "UNREACHABLE"},
-    "kernel/load": {"NODE_DEMAND", "TYPE_CAPACITY", "TYPE_PAYLOAD"},
+    "kernel/load": {".demand", "TYPE_CAPACITY", "TYPE_PAYLOAD"},
     "kernel/clock": {"FULL_SPEED", "TYPE_PROFILE", "arrival_by_profile", "leave_by_profile"},
     "kernel/leg": {"LEG_DISTANCE", "LEG_DURATION"},
 }
-"""Where each rule stands in compiled code, and what nobody can apply it without."""
+"""Where each rule stands in compiled code, and what nobody can apply it without.
+
+With a dot: a field, which may be read as an attribute or by its name in quotes.
+"""
 DESCRIBING = {
     "kernel/instance": set.union(*HOMES.values()),
     "policy/tokens": set.union(*HOMES.values()),
-    "policy/features": {"NODE_DEMAND", "TYPE_CAPACITY", "TYPE_ENDURANCE"},
+    "policy/features": {".demand", "TYPE_CAPACITY", "TYPE_ENDURANCE"},
     "search/world": set.union(*HOMES.values()),
-    "search/beginning/translate": {"NODE_DEMAND", "TYPE_CAPACITY"},
+    "search/beginning/translate": {".demand", "TYPE_CAPACITY"},
 }
 """What states a limit but applies none: packs it, shows it to a network, ranks or makes room by it.
 """
@@ -207,11 +210,14 @@ def files_of_compiled_folders() -> dict[str, Path]:
 
 
 def names_in(tree: ast.AST) -> set[str]:
-    """Return the names that a file uses, imports or defines."""
+    """Return the names that a file uses, imports or defines; those of fields also with a dot."""
     found = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    found |= {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
-    return found | {alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)
-                    for alias in node.names}
+    found |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)
+              for alias in node.names}
+    fields = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    fields |= {node.value for node in ast.walk(tree)
+               if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+    return found | fields | {f".{field}" for field in fields}
 
 
 def tables_read(tree: ast.AST) -> set[str]:
@@ -238,7 +244,8 @@ def test_legs_are_read_in_one_file() -> None:
 
 
 @pytest.mark.parametrize("applied", [
-    "start = max(arrival, place[NODE_EARLIEST])", "flight <= columns[TYPE_ENDURANCE]",
+    "start = max(arrival, place.window_earliest)", 'late = node["window_latest"] < arrivals',
+    'node[["demand", "release"]]', "flight <= columns[TYPE_ENDURANCE]",
     "load <= columns[TYPE_CAPACITY + dimension]", "from model.kernel.clock import leave_by_profile",
     "world.leg[m, here, there, 0]", "onward[there, 1]", "setting.drive[here, there]",
 ])

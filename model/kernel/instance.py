@@ -5,12 +5,13 @@ integer tables are named by the constants below.
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from model.kernel.nearest import least_columns
 from model.kernel.pausing import Pause, go_on, matrix_blocks
+from model.kernel.records import Records, record
 from model.problem import (
     MS_PER_HOUR, UNLIMITED, BoolArray, Customer, FloatArray, IntArray, Problem, VehicleType,
 )
@@ -24,11 +25,11 @@ FAR = 2**58
 NONE = -FAR
 """Instants later, and earlier, than any that occurs."""
 
-NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE, NODE_RELEASE, NODE_LATEST, NODE_DEMAND = range(6)
-NODE_COLUMNS = NODE_DEMAND + MAX_DIMENSIONS
-"""Columns of a node, as many as fit a line of the processor's cache: when its window opens; the
-last arrival that is allowed, `FAR` where lateness only costs; service duration; release; the last
-arrival that is not late; demand by dimension."""
+NODE = record("window_earliest", "arrival_limit", "service_duration", "release", "window_latest",
+              demand=MAX_DIMENSIONS)
+"""A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
+that is allowed, `FAR` where lateness only costs; service duration; release; the last arrival that
+is not late; demand by dimension."""
 
 (TYPE_COUNT, TYPE_TRAVEL, TYPE_START, TYPE_END, TYPE_EARLIEST, TYPE_BUSY, TYPE_BEGUN, TYPE_LATEST,
  TYPE_MAX_WORKING,
@@ -52,7 +53,7 @@ class Instance(NamedTuple):
     """
 
     size: IntArray  # (problem, 4) depots, customers, vehicle types, dimensions
-    node: IntArray  # (problem, node, NODE_COLUMNS)
+    node: Records  # (problem, node) NODE
     late_early: FloatArray  # (problem, node, 2) cost per hour of lateness and of waiting
     type: IntArray  # (problem, type, TYPE_COLUMNS)
     rate: FloatArray  # (problem, type, 5)
@@ -87,7 +88,7 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
     instance = Instance(
         size=np.zeros((rows, 4), np.int64),
-        node=np.zeros((rows, nodes, NODE_COLUMNS), np.int64),
+        node=np.zeros((rows, nodes), NODE),
         late_early=np.zeros((rows, nodes, 2)),
         type=np.zeros((rows, types, TYPE_COLUMNS), np.int64),
         rate=np.zeros((rows, types, 5)),
@@ -101,7 +102,7 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
         unassigned_more=np.zeros((rows, nodes)),
         neighbour=np.full((rows, nodes, MAX_NEIGHBOURS), -1, np.int64),
     )
-    instance.node[:, :, NODE_LIMIT] = FAR
+    instance.node["arrival_limit"] = FAR
     for row, problem in enumerate(problems):
         _pack_row(instance, row, problem)
         _pack_travel(instance, row, problem, pause)
@@ -122,8 +123,8 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
     types = len(problem.vehicle_types)
     instance.size[row] = depots, problem.num_customers, types, dimensions
     if problem.customers:
-        instance.node[row, depots:nodes, : NODE_DEMAND + dimensions] = [
-            _customer_columns(customer) for customer in problem.customers]
+        instance.node[row, depots:nodes] = [
+            _customer_row(customer) for customer in problem.customers]
         instance.late_early[row, depots:nodes] = [
             (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
             for customer in problem.customers]
@@ -153,10 +154,15 @@ def _pack_travel(instance: Instance, row: int, problem: Problem, pause: Pause) -
             instance.distance[row, index, part, :nodes] = travel.distance[part]
 
 
-def _customer_columns(customer: Customer) -> tuple[int, ...]:
+def _customer_row(customer: Customer) -> tuple[Any, ...]:
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
-            customer.latest, *customer.demand)
+            customer.latest, _padded(customer.demand))
+
+
+def _padded(amount: Sequence[int]) -> tuple[int, ...]:
+    """Return an amount with zeros in the dimensions that the problem doesn't have."""
+    return (*amount, *(0,) * (MAX_DIMENSIONS - len(amount)))
 
 
 def _type_columns(kind: VehicleType) -> list[int]:
@@ -190,7 +196,7 @@ def _worked(kind: VehicleType) -> int:
 def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
     """Write which types may serve which customers, by truck and by drone. In place."""
     customers = slice(problem.num_depots, problem.num_nodes)
-    demand = instance.node[row, customers, NODE_DEMAND:]
+    demand = instance.node[row, customers]["demand"]
     by_truck = np.array([c.served_by != "drone" for c in problem.customers], np.bool_)
     by_drone = np.array([c.served_by != "truck" for c in problem.customers], np.bool_)
     asking: dict[frozenset[str], list[int]] = {}

@@ -1,7 +1,8 @@
 """What vehicles and drones hold: amounts, in all dimensions at once. Compiled."""
 
 from model.kernel.compiled import inlined
-from model.kernel.instance import NODE_DEMAND, TYPE_CAPACITY, TYPE_PAYLOAD
+from model.kernel.instance import TYPE_CAPACITY, TYPE_PAYLOAD
+from model.kernel.records import Record
 from model.problem import IntArray
 
 Amount = tuple[int, int, int]
@@ -11,9 +12,9 @@ NOTHING = (0, 0, 0)
 
 
 @inlined
-def demand_of(place: IntArray) -> Amount:
+def demand_of(place: Record) -> Amount:
     """Return what a customer's parcel takes."""
-    return place[NODE_DEMAND], place[NODE_DEMAND + 1], place[NODE_DEMAND + 2]
+    return place.demand[0], place.demand[1], place.demand[2]
 
 
 @inlined
@@ -59,7 +60,7 @@ def holds(columns: IntArray, load: Amount) -> bool:
 
 
 @inlined
-def fits(columns: IntArray, load: Amount, place: IntArray) -> bool:
+def fits(columns: IntArray, load: Amount, place: Record) -> bool:
     """Tell whether a vehicle of a type holds a customer's parcel on top of a load."""
     return holds(columns, plus(load, demand_of(place)))
 

@@ -1,7 +1,7 @@
 """What a window and a service mean at a customer: all instants of a stop. Compiled.
 
-`place` is a row of node columns, or the `Hours` taken from one for a loop. Callers state when
-somebody arrives, and never compare with a column themselves, so that what a window is can change
+`place` is a row of nodes, or the `Hours` taken from one for a loop. Callers state when
+somebody arrives, and never compare with a field themselves, so that what a window is can change
 here alone.
 
 Within a block of stops, times hang on the arrival `time` at its beginning: a pair (d, c) stands
@@ -11,43 +11,41 @@ for `max(time + d, c)`, and holds for arrivals in an interval (see `docs/search.
 from typing import NamedTuple
 
 from model.kernel.compiled import inlined
-from model.kernel.instance import (
-    NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE, NONE,
-)
-from model.problem import IntArray
+from model.kernel.instance import NONE
+from model.kernel.records import Record
 
 
 class Hours(NamedTuple):
-    """What a customer's row says of time, in the order of its columns, as numbers at hand."""
+    """What a customer's row says of time, as numbers at hand."""
 
-    earliest: int
-    limit: int
-    service: int
+    window_earliest: int
+    arrival_limit: int
+    service_duration: int
     release: int
-    latest: int
+    window_latest: int
 
 
-Place = IntArray | Hours
-"""Either can be asked for columns."""
+Place = Record | Hours
+"""Either has these fields."""
 
 
 @inlined
-def hours(place: IntArray) -> Hours:
+def hours(place: Record) -> Hours:
     """Take from a row what a loop asks for again and again."""
-    return Hours(place[NODE_EARLIEST], place[NODE_LIMIT], place[NODE_SERVICE], place[NODE_RELEASE],
-                 place[NODE_LATEST])
+    return Hours(place.window_earliest, place.arrival_limit, place.service_duration, place.release,
+                 place.window_latest)
 
 
 @inlined
 def opening(place: Place, arrival: int) -> int:
     """Return the beginning of the window in which whoever comes at `arrival` is served."""
-    return place[NODE_EARLIEST]
+    return place.window_earliest
 
 
 @inlined
 def closing(place: Place) -> int:
     """Return the last arrival that is not late."""
-    return place[NODE_LATEST]
+    return place.window_latest
 
 
 @inlined
@@ -59,7 +57,7 @@ def width(place: Place) -> int:
 @inlined
 def service_duration(place: Place) -> int:
     """Return how long a truck serves a customer."""
-    return place[NODE_SERVICE]
+    return place.service_duration
 
 
 @inlined
@@ -77,7 +75,7 @@ def end_of_service(place: Place, arrival: int) -> int:
 @inlined
 def too_late(place: Place, arrival: int) -> bool:
     """Tell whether a hard window forbids an arrival."""
-    return arrival > place[NODE_LIMIT]
+    return arrival > place.arrival_limit
 
 
 @inlined
@@ -101,7 +99,7 @@ def as_late(place: Place, arrival: int) -> int:
 @inlined
 def latest_arrival(place: Place, leave: int) -> int:
     """Return the last arrival that is allowed and lets a truck leave by `leave`."""
-    return min(place[NODE_LIMIT], leave - service_duration(place))
+    return min(place.arrival_limit, leave - service_duration(place))
 
 
 @inlined
@@ -122,4 +120,4 @@ def allowed_within(place: Place, time: int, d: int, c: int) -> tuple[int, int]:
 
     The first and the last. For where c itself is not `too_late`.
     """
-    return NONE, place[NODE_LIMIT] - d
+    return NONE, place.arrival_limit - d

@@ -9,10 +9,9 @@ import numpy as np
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import (
-    MAX_DIMENSIONS, NODE_DEMAND, NODE_RELEASE, RATE_DRONE_HOUR, RATE_DRONE_KM,
-    RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_END, TYPE_DRONE_TRAVEL,
-    TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
-    TYPE_TRAVEL, Instance,
+    MAX_DIMENSIONS, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY,
+    TYPE_COUNT, TYPE_END, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST,
+    TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_TRAVEL, Instance,
 )
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of
@@ -91,14 +90,14 @@ def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, veh
     window_cost = late * late_early[node, 0] + waiting * late_early[node, 1]
     feature[9] = ratio(window_cost / MS_PER_HOUR, unit.cost)
     for dimension in range(MAX_DIMENSIONS):
-        demand = columns[NODE_DEMAND + dimension]
+        demand = columns.demand[dimension]
         if demand > 0:
             feature[10] = max(feature[10], demand / vehicle[V_LOAD + dimension])
             feature[11] = max(feature[11], demand / setting.type[TYPE_CAPACITY + dimension])
     feature[12] = slack(setting.type[TYPE_LATEST], end, unit.time)
     departure = vehicle[V_DEPARTURE_BEST] if begun else vehicle[V_NEXT_START]
     feature[15] = slack(setting.type[TYPE_MAX_WORKING], end - departure, unit.time)
-    feature[19] = ratio(columns[NODE_RELEASE] - vehicle[V_NEXT_START], unit.time)
+    feature[19] = ratio(columns.release - vehicle[V_NEXT_START], unit.time)
 
 
 @inlined

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.kernel.instance import (
-    FAR, NODE_DEMAND, NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE,
-    RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT,
+    FAR, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT,
     TYPE_START, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_EARLIEST, TYPE_ENDURANCE, TYPE_LATEST,
     TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PAYLOAD, TYPE_PROFILE, TYPE_RELOAD,
     TYPE_TRAVEL, Instance,
@@ -61,7 +60,7 @@ def scales(instance: Instance) -> Scales:
         nearest = between.min(axis=1)
         near = float(nearest.mean()) if customers > 1 else result.time[b]
         result.near[b] = max(1.0, near)
-        limits = np.concatenate([instance.node[b, nodes, NODE_LATEST], kinds[:, TYPE_LATEST]])
+        limits = np.concatenate([instance.node[b, nodes]["window_latest"], kinds[:, TYPE_LATEST]])
         limits = limits[limits < UNLIMITED]
         result.horizon[b] = max(1, limits.max()) if len(limits) else 20 * result.time[b]
         driven = [instance.distance[b, kind[TYPE_TRAVEL], kind[TYPE_START], nodes].mean()
@@ -70,7 +69,7 @@ def scales(instance: Instance) -> Scales:
         cost = float(np.mean(rate[:, RATE_KM] * driven) / MM_PER_KM
                      + rate[:, RATE_HOUR].mean() * result.time[b] / MS_PER_HOUR)
         result.cost[b] = cost if cost > 0 else max(1e-9, float(rate[:, RATE_FIXED].mean()) or 1.0)
-        result.amount[b] = max(1, instance.node[b, nodes, NODE_DEMAND].sum())
+        result.amount[b] = max(1, instance.node[b, nodes]["demand"][:, 0].sum())
     return result
 
 
@@ -123,20 +122,20 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     is_depot = np.arange(columns.shape[1]) < instance.size[:, :1]
     capacity = np.maximum(instance.type[:, :, TYPE_CAPACITY:TYPE_PAYLOAD].max(axis=1), 1)[:, None]
     payload = instance.type[:, :, TYPE_PAYLOAD:].max(axis=1)[:, None]
-    demand = columns[:, :, NODE_DEMAND:]
+    demand = columns["demand"]
     types = np.maximum(instance.size[:, 2], 1)[:, None]
-    earliest, latest = columns[:, :, NODE_EARLIEST], columns[:, :, NODE_LATEST]
+    earliest, latest = columns["window_earliest"], columns["window_latest"]
     home = instance.duration[:, 0, 0, :]
     return np.stack([
         place[..., 0], place[..., 1], is_depot,
         np.minimum(earliest / horizon, 2), np.minimum(latest / horizon, 2),
         np.minimum((latest - earliest) / horizon, 2), latest >= UNLIMITED,
-        columns[:, :, NODE_LIMIT] < FAR,
+        columns["arrival_limit"] < FAR,
         squash(np.maximum(unbounded(latest) - home, 0) / time),
         np.minimum((demand / capacity).max(axis=2), 2), demand[..., 0] / scale.amount[:, None],
         (demand / np.maximum(demand + payload, 1)).max(axis=2),
-        squash(columns[:, :, NODE_SERVICE] / time),
-        np.minimum(columns[:, :, NODE_RELEASE] / horizon, 2),
+        squash(columns["service_duration"] / time),
+        np.minimum(columns["release"] / horizon, 2),
         squash(instance.late_early[..., 0] * hours), squash(instance.late_early[..., 1] * hours),
         instance.can_drive.sum(axis=1) / types, instance.can_fly.sum(axis=1) / types,
         squash(home / time), squash(home / scale.near[:, None] / 4),
@@ -155,9 +154,9 @@ def pair_features(instance: Instance, scale: Scales) -> Float32Array:
     leg = instance.duration[problem, instance.type[:, 0, TYPE_TRAVEL]].astype(np.float32)
     time = scale.time[:, None, None].astype(np.float32)
     near = scale.near[:, None, None].astype(np.float32)
-    columns = np.minimum(instance.node, 100 * scale.horizon[:, None, None]).astype(np.float32)
-    earliest, latest = columns[:, :, NODE_EARLIEST], columns[:, :, NODE_LATEST]
-    service = columns[:, :, NODE_SERVICE]
+    earliest, latest, service = (
+        np.minimum(instance.node[field], 100 * scale.horizon[:, None]).astype(np.float32)
+        for field in ("window_earliest", "window_latest", "service_duration"))
     slack = latest[:, None, :] - (earliest + service)[:, :, None] - leg
     waiting = earliest[:, None, :] - (latest + service)[:, :, None] - leg
     return np.stack([leg / (leg + time), near / (leg + near), np.clip(slack / time, -1, 3) / 2,

@@ -8,12 +8,12 @@ import numpy as np
 
 from model.kernel.alarm import silent
 from model.kernel.instance import (
-    FAR, NODE_EARLIEST, NODE_LATEST, NODE_LIMIT, NODE_RELEASE, NODE_SERVICE, NO_PROFILE, RATE_HOUR,
-    TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PROFILE, Instance,
+    FAR, NO_PROFILE, RATE_HOUR, TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
+    TYPE_PROFILE, Instance,
 )
 from model.kernel.nearest import least_columns
 from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
-from model.kernel.records import Record
+from model.kernel.records import Record, Records
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
@@ -146,15 +146,15 @@ def _symmetric(matrices: IntArray, pause: Pause) -> bool:
                for matrix in matrices for rows in row_blocks(len(matrix), ROWS, pause))
 
 
-def _modes(instance: Instance, columns: IntArray, place: IntArray) -> IntArray:
+def _modes(instance: Instance, columns: IntArray, place: Records) -> IntArray:
     rates = instance.rate[0]
     late, early = (instance.late_early[0] > 0).any(axis=0)
-    soft = bool((place[:, NODE_LIMIT] == FAR).any()) and bool(late)
+    soft = bool((place["arrival_limit"] == FAR).any()) and bool(late)
     timed = (rates[:, RATE_HOUR] > 0) | (columns[:, TYPE_MAX_WORKING] < UNLIMITED)
     profile = columns[:, TYPE_PROFILE] != NO_PROFILE
     settled = np.logical_or(early, profile & timed)
     priced = np.logical_or(soft, settled | profile)
-    release = bool((instance.node[0, :, NODE_RELEASE] > 0).any())
+    release = bool((place["release"] > 0).any())
     simple = ~(timed | priced)
     lean = (simple & ~(release | (columns[:, TYPE_MAX_DISTANCE] < UNLIMITED))
             & (columns[:, TYPE_MAX_TRIPS] == 1) & (columns[:, TYPE_DRONES] == 0))
@@ -210,7 +210,7 @@ def _near(problem: Problem, pause: Pause) -> IntArray:
     return near
 
 
-def _fit(problem: Problem, place: IntArray, near: IntArray, pause: Pause) -> IntArray:
+def _fit(problem: Problem, place: Records, near: IntArray, pause: Pause) -> IntArray:
     """Return those of each customer's neighbours whom a truck would best visit before or after.
 
     References
@@ -222,8 +222,8 @@ def _fit(problem: Problem, place: IntArray, near: IntArray, pause: Pause) -> Int
     ranks = min(NEAR_INSERTION, near.shape[1])
     fit = near[:, :ranks].copy()
     first, number = problem.num_depots, problem.num_customers
-    columns = place[:, [NODE_EARLIEST, NODE_SERVICE, NODE_LATEST]].astype(np.float64)
-    earliest, service, latest = columns.T
+    earliest, service, latest = (place[field].astype(np.float64) for field in (
+        "window_earliest", "service_duration", "window_latest"))
     if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
         return fit
     duration = problem.travel[problem.vehicle_types[0].travel].duration

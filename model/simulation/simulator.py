@@ -15,9 +15,8 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import copy_rows
 from model.kernel.flight import take_off, unreachable
 from model.kernel.instance import (
-    NODE_RELEASE, TYPE_COUNT, TYPE_END, TYPE_DRONES,
-    TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_TRAVEL,
-    Instance,
+    TYPE_COUNT, TYPE_END, TYPE_DRONES, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS,
+    TYPE_MAX_WORKING, TYPE_TRAVEL, Instance,
 )
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, within
@@ -76,7 +75,7 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
     place = setting.node[node]
     idle = vehicle[V_IDLE] == 1
     if idle:
-        leave = max(vehicle[V_NEXT_START], place[NODE_RELEASE])
+        leave = max(vehicle[V_NEXT_START], place.release)
         out = leaves_first(setting.type, leave)
         arrival = travel_arrival(setting, vehicle[V_NODE], node, out)
         free = arrival
@@ -211,7 +210,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
         if served[node] or not within(demand_of(setting.node[node]), load_left(vehicle)):
             continue
-        held = not idle and began < setting.node[node, NODE_RELEASE]
+        held = not idle and began < setting.node[node].release
         if can_drive[node] and lookup(legs, here, node) + lookup(legs, node, home) <= reach:
             verdict = UNSURE
             if not held:

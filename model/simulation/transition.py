@@ -7,8 +7,7 @@ import numpy as np
 from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import launch_begin, ready, recovery_end, take_off, unreachable
 from model.kernel.instance import (
-    NODE_RELEASE, TYPE_START, TYPE_DRONES,
-    TYPE_EARLIEST, TYPE_MAX_WORKING, TYPE_RELOAD, Instance,
+    TYPE_START, TYPE_DRONES, TYPE_EARLIEST, TYPE_MAX_WORKING, TYPE_RELOAD, Instance,
 )
 from model.kernel.leg import lookup
 from model.kernel.load import Amount, capacity_of, demand_of, minus
@@ -237,7 +236,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray
 
     Whether the vehicle could have left later is for `improve_departure`.
     """
-    release = setting.node[node, NODE_RELEASE]
+    release = setting.node[node].release
     if vehicle[V_IDLE]:
         begin_trip(setting, log, vehicle, release)
     elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
@@ -273,7 +272,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
     Whether the vehicle could have left later is for `improve_departure`.
     """
     is_customer = node >= num_depots
-    release = setting.node[node, NODE_RELEASE]
+    release = setting.node[node].release
     if vehicle[V_IDLE]:
         begin_trip(setting, log, vehicle, release)
     elif is_customer and not hold_trip(setting, num_depots, log, vehicle, drones, release):

@@ -17,6 +17,7 @@ from model.kernel.flight import (
 )
 from model.kernel.instance import TYPE_DRONE_TRAVEL, TYPE_RELOAD, TYPE_TRAVEL, Instance
 from model.kernel.leg import lookup, matrix_of
+from model.kernel.records import Record, Records
 from model.kernel.start import counted_from, leaves_first
 from model.kernel.stop import as_late, end_of_service, start_of_service, too_late
 from model.problem import IntArray
@@ -35,7 +36,7 @@ IN_FLIGHT = -1
 class Setting(NamedTuple):
     """What one vehicle type meets in one problem: views into an `Instance`."""
 
-    node: IntArray  # (node, NODE_COLUMNS)
+    node: Records  # (node,) NODE
     type: IntArray  # (TYPE_COLUMNS,)
     drive: IntArray  # (node, node) ms
     fly: IntArray  # (node, node) ms
@@ -87,7 +88,7 @@ def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
 
 
 @inlined
-def _arrival_allowed(place: IntArray, arrival: int, before: int, write: bool) -> bool:
+def _arrival_allowed(place: Record, arrival: int, before: int, write: bool) -> bool:
     """Check a window: when writing, that a hard one holds; else, that no lateness is added."""
     if write:
         return not too_late(place, arrival)

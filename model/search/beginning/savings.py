@@ -11,7 +11,6 @@ import numpy as np
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import (
     MAX_DIMENSIONS, TYPE_EARLIEST, TYPE_END, TYPE_LATEST, TYPE_START, TYPE_TRAVEL,
-    NODE_RELEASE,
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import Amount, demand_of, holds, plus
@@ -88,7 +87,7 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
         place, link = world.place[node], chain[node]
         link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
         set_chain_load(link, demand_of(place))
-        ready = max(leaves_first(columns, columns[TYPE_EARLIEST]), place[NODE_RELEASE])
+        ready = max(leaves_first(columns, columns[TYPE_EARLIEST]), place.release)
         link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
         leave = columns[TYPE_LATEST] - leg(legs, node, end).duration
         link.latest = latest_arrival(place, leave)

@@ -8,10 +8,9 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.flight import ready, recovery_end
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_MAX_TRIPS,
-    NODE_DEMAND, NONE,
+    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_MAX_TRIPS, NONE,
 )
-from model.kernel.records import Record, one, read_rows
+from model.kernel.records import Record, one, read_rows, Records
 from model.kernel.stop import start_of_service
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.savings import savings_routes
@@ -93,7 +92,7 @@ def first_plan(problem: Problem, world: World) -> Solution:
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
     columns, number = world.type, problem.num_customers
-    demand = np.sort(world.place[problem.num_depots:, NODE_DEMAND:], axis=0).cumsum(axis=0)
+    demand = np.sort(world.place[problem.num_depots:]["demand"], axis=0).cumsum(axis=0)
     most, fewest = 0, number
     for kind in columns:
         trips = min(int(kind[TYPE_MAX_TRIPS]), number)
@@ -220,7 +219,7 @@ def finish_route(world: World, fleet: Fleet, slot: int, acc: Record) -> None:
 
 
 @compiled
-def service_starts(place: IntArray, nodes: IntArray, arrivals: IntArray) -> IntArray:
+def service_starts(place: Records, nodes: IntArray, arrivals: IntArray) -> IntArray:
     """Return when service begins at customers."""
     starts = np.empty_like(nodes)
     for index in range(len(nodes)):
@@ -229,7 +228,7 @@ def service_starts(place: IntArray, nodes: IntArray, arrivals: IntArray) -> IntA
 
 
 @compiled
-def sortie_ends(place: IntArray, columns: IntArray, nodes: IntArray, arrivals: IntArray,
+def sortie_ends(place: Records, columns: IntArray, nodes: IntArray, arrivals: IntArray,
                 begin: int) -> tuple[IntArray, int]:
     """Return when a drone has served its customers, and when it is aboard, recovered from `begin`.
     """

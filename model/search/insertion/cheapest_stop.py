@@ -1,7 +1,7 @@
 """The cheapest stop for a customer where only the distance of the detour counts."""
 
 from model.kernel.compiled import inlined, pasted, spliced
-from model.kernel.instance import FAR, NODE_RELEASE, RATE_KM, TYPE_MAX_DISTANCE, TYPE_TRAVEL
+from model.kernel.instance import FAR, RATE_KM, TYPE_MAX_DISTANCE, TYPE_TRAVEL
 from model.kernel.leg import leg_at, legs_from, legs_to
 from model.kernel.load import fits
 from model.kernel.records import Record, Records
@@ -22,7 +22,7 @@ def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
 
 @spliced
 def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, last: int,
-               skipped: int, place: IntArray, spare: int, rate: float, best: float, blink: float,
+               skipped: int, place: Record, spare: int, rate: float, best: float, blink: float,
                rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
 
@@ -55,7 +55,7 @@ def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Record
                  blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
     chosen, own = -1, hours(world.place[node])
-    leave = world.place[node, NODE_RELEASE]
+    leave = world.place[node].release
     if leave > stops[start].latest:
         return best, chosen
     for p in range(start, last + 1):
@@ -87,7 +87,7 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     place = world.place[node]
     spare = world.type[k, TYPE_MAX_DISTANCE] - trip.distance
-    if place[NODE_RELEASE] > stops[trip.first].leave:
+    if place.release > stops[trip.first].leave:
         return scan_delayed(world, inward, onward, stops, trip.first, first, last, node, spare,
                             rate, best, blink, rng)
     return scan_stops(inward, onward, stops, first, last, -1, place, spare, rate, best, blink, rng)
@@ -112,7 +112,7 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
 
 
 @spliced
-def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: int, place: IntArray,
+def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: int, place: Record,
                     best: int) -> tuple[int, int]:
     """Return the shortest detour for a customer on a lean route, and the stop before it.
 

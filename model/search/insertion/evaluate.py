@@ -2,8 +2,7 @@
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE,
-    NONE, TYPE_START,
+    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NONE, TYPE_START,
 )
 from model.kernel.leg import leg, leg_at, legs_of, legs_to
 from model.kernel.records import Record, Records
@@ -201,7 +200,7 @@ def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record)
     trip = fleet.trip[slot, fleet.stop[slot, max(move.first, 0)].trip]
     if kind == ON_SORTIE:
         trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move.sortie].launch].trip]
-    release = world.place[node, NODE_RELEASE]
+    release = world.place[node].release
     alone = kind in (NEW_TRIP, FLIGHT_TRIP)
     held = not alone and release > trip.release
     first, last = part_of(fleet, slot, move, held)
@@ -224,7 +223,7 @@ def stands_alone(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bo
                                or fleet.route[slot].sorties > 0):
         return False
     return (stop.flying == 0
-            and world.place[node, NODE_RELEASE] <= fleet.trip[slot, stop.trip].release)
+            and world.place[node].release <= fleet.trip[slot, stop.trip].release)
 
 
 @inlined

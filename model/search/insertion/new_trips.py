@@ -2,8 +2,7 @@
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import (
-    TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE,
-    TYPE_RELOAD, TYPE_TRAVEL, FAR, NODE_RELEASE,
+    TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_RELOAD, TYPE_TRAVEL, FAR,
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds, plus
@@ -59,7 +58,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     first, last = trip.first, trip.last
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
-        release = world.place[stops[q].node, NODE_RELEASE] if q > first else 0
+        release = world.place[stops[q].node].release if q > first else 0
         if q <= p:
             front = max(front, release)
         else:
@@ -67,7 +66,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
             rear_length += stops[q].leg
         if q < p:
             front_length += stops[q].leg
-    release = world.place[node, NODE_RELEASE]
+    release = world.place[node].release
     if until:
         front = max(front, release)
     else:
@@ -102,7 +101,7 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     time = columns[TYPE_EARLIEST]
     if p >= 0:
         time = stops[p].leave + columns[TYPE_RELOAD]
-    time = max(time, world.place[node, NODE_RELEASE])
+    time = max(time, world.place[node].release)
     out, home = leg(legs, depot, node), leg(legs, node, depot)
     time = serve_at(world, node, time + out.duration) + home.duration
     if p + 1 < route.length and time + columns[TYPE_RELOAD] > stops[p + 1].latest:

@@ -95,7 +95,7 @@ def bound_arrival(acc: Record, first: int, last: int) -> None:
 
 
 @inlined
-def reach(place: IntArray, arrival: int, d: int, c: int, acc: Record) -> bool:
+def reach(place: Record, arrival: int, d: int, c: int, acc: Record) -> bool:
     """Bound the truck's arrival by the window of a customer reached at (d, c), at `arrival`.
 
     In place; False if that is too late however soon the truck arrives.
@@ -109,7 +109,7 @@ def reach(place: IntArray, arrival: int, d: int, c: int, acc: Record) -> bool:
 
 
 @inlined
-def fly_out(places: IntArray, legs: IntArray, columns: IntArray, sortie: Record, node: int,
+def fly_out(places: Records, legs: IntArray, columns: IntArray, sortie: Record, node: int,
             acc: Record) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
     d = take_off(columns, acc.free_d)
@@ -199,7 +199,7 @@ def next_operation(legs: IntArray, columns: IntArray, sorties: Records, count: i
 
 
 @inlined
-def operate(places: IntArray, legs: IntArray, columns: IntArray, sorties: Records, count: int,
+def operate(places: Records, legs: IntArray, columns: IntArray, sorties: Records, count: int,
             p: int, node: int, acc: Record) -> bool:
     """Launch and recover all that stop `p` asks for. In place; False if not allowed.
 
@@ -226,7 +226,7 @@ def operate(places: IntArray, legs: IntArray, columns: IntArray, sorties: Record
 
 
 @inlined
-def note_idle(places: IntArray, stops: Records, first: int, last: int) -> None:
+def note_idle(places: Records, stops: Records, first: int, last: int) -> None:
     """Write how long the truck waits for drones in a block, at all stops but the last. In place."""
     idle = stops[first].d
     for p in range(first, last + 1):

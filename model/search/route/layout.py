@@ -86,7 +86,7 @@ class World(NamedTuple):
     unassigned_cost: float  # of whoever it costs least to leave out
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
-    place: IntArray  # (node, NODE_COLUMNS)
+    place: Records  # (node,) NODE
     price: FloatArray  # (node, 2) cost per ms of lateness and of waiting
     type: IntArray  # (type, TYPE_COLUMNS)
     rate: FloatArray  # (type, 5) fixed, per mm, per ms, per mm and ms of drones

@@ -3,8 +3,8 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.flight import launch_duration, recovery_end
 from model.kernel.instance import (
-    FAR, NODE_RELEASE, NONE, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM,
-    TYPE_DRONE_TRAVEL, TYPE_EARLIEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_TRAVEL,
+    FAR, NONE, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL,
+    TYPE_EARLIEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_TRAVEL,
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds
@@ -20,7 +20,7 @@ from model.search.route.vehicles import add_load, load_of
 def carry(world: World, trip: Record, node: int) -> None:
     """Put a customer's parcel on a trip. In place."""
     place = world.place[node]
-    trip.release = max(trip.release, place[NODE_RELEASE])
+    trip.release = max(trip.release, place.release)
     add_load(trip, demand_of(place))
 
 

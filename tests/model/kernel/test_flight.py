@@ -10,13 +10,14 @@ from model.kernel.flight import (
     launch_begin, launch_duration, ready, recovery_end, take_off, unreachable, within_endurance,
 )
 from model.kernel.instance import pack
+from model.kernel.records import Record
 from model.problem import UNREACHABLE, DroneType, IntArray, Problem
 from model.solution import Solution
 from tests.model.tiny import MINUTE, draw_late, draw_tiny
 
 
 @compiled
-def flown(columns: IntArray, place: IntArray, begin: int, out: int,
+def flown(columns: IntArray, place: Record, begin: int, out: int,
           home: int) -> tuple[int, int, int, int]:
     takeoff = held_takeoff(columns, place, take_off(columns, begin), home)
     arrival = takeoff + out
@@ -30,7 +31,7 @@ def is_short_enough(columns: IntArray, takeoff: int, back: int, begin: int) -> b
 
 
 @compiled
-def lasts(columns: IntArray, place: IntArray, out: int, home: int) -> tuple[bool, bool]:
+def lasts(columns: IntArray, place: Record, out: int, home: int) -> tuple[bool, bool]:
     flight = out + drone_service(columns, place) + home
     return can_last(columns, flight), unreachable(out) or unreachable(home)
 

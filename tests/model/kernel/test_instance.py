@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from model.kernel.instance import (
-    FAR, NODE_DEMAND, NODE_LATEST, NODE_LIMIT, NO_PROFILE, TYPE_CAPACITY, TYPE_DRONES,
-    TYPE_MAX_WORKING, TYPE_PROFILE, pack,
+    FAR, NO_PROFILE, TYPE_CAPACITY, TYPE_DRONES, TYPE_MAX_WORKING, TYPE_PROFILE, pack,
 )
 from model.problem import UNLIMITED, Problem
 from tests.model.rollouts import random_problems
@@ -35,9 +34,9 @@ def test_columns_state_limits_windows_and_demands(tiny_problem, customers, truck
                            more_types=(replace(truck, max_working_duration=7, drones=drones),))
     instance = pack([problem])
     assert instance.size.tolist() == [[1, 2, 2, 1]]
-    assert instance.node[0, 1:, NODE_LATEST].tolist() == [5, UNLIMITED]
-    assert instance.node[0, 1:, NODE_LIMIT].tolist() == [FAR, UNLIMITED]
-    assert instance.node[0, 1:, NODE_DEMAND].tolist() == [1000, 1000]
+    assert instance.node[0, 1:]["window_latest"].tolist() == [5, UNLIMITED]
+    assert instance.node[0, 1:]["arrival_limit"].tolist() == [FAR, UNLIMITED]
+    assert instance.node[0, 1:]["demand"][:, 0].tolist() == [1000, 1000]
     assert instance.late_early[0, 1].tolist() == [2.0, 0.0]
     assert instance.type[0, :, TYPE_MAX_WORKING].tolist() == [UNLIMITED, 7]
     assert instance.type[0, :, TYPE_CAPACITY].tolist() == [10_000, 10_000]

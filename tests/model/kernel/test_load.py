@@ -9,12 +9,13 @@ from model.kernel.instance import MAX_DIMENSIONS, pack
 from model.kernel.load import (
     NOTHING, capacity_of, demand_of, fits, holds, lifts, minus, plus, total, within,
 )
+from model.kernel.records import Record, Records
 from model.problem import IntArray, Problem
 from tests.model.tiny import draw_tiny
 
 
 @compiled
-def judged(columns: IntArray, places: IntArray) -> tuple[bool, bool, bool]:
+def judged(columns: IntArray, places: Records) -> tuple[bool, bool, bool]:
     """Tell whether a vehicle holds all customers, holds the last on top, a drone lifts them."""
     load = NOTHING
     for index in range(len(places) - 1):
@@ -24,7 +25,7 @@ def judged(columns: IntArray, places: IntArray) -> tuple[bool, bool, bool]:
 
 
 @compiled
-def left(columns: IntArray, place: IntArray) -> tuple[bool, int, int]:
+def left(columns: IntArray, place: Record) -> tuple[bool, int, int]:
     """Tell whether a customer's demand is within a capacity, both amounts, and what is left."""
     capacity, demand = capacity_of(columns), demand_of(place)
     return within(demand, capacity), total(demand), total(minus(capacity, demand))

@@ -7,6 +7,7 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.compiled import compiled
 from model.kernel.instance import pack
+from model.kernel.records import Record
 from model.kernel.stop import (
     allowed_within, as_late, closing, end_of_service, hours, lateness, latest_arrival,
     latest_free_arrival, start_of_service, start_within, too_late, waiting, width,
@@ -17,33 +18,33 @@ from tests.model.tiny import MINUTE, draw_tiny
 
 
 @compiled
-def times(place: IntArray, arrival: int) -> tuple[int, int, int, int, bool]:
+def times(place: Record, arrival: int) -> tuple[int, int, int, int, bool]:
     return (start_of_service(place, arrival), end_of_service(place, arrival),
             waiting(place, arrival), lateness(place, arrival), too_late(place, arrival))
 
 
 @compiled
-def times_of_hours(place: IntArray, arrival: int) -> tuple[int, int, int, int, bool]:
+def times_of_hours(place: Record, arrival: int) -> tuple[int, int, int, int, bool]:
     own = hours(place)
     return (start_of_service(own, arrival), end_of_service(own, arrival), waiting(own, arrival),
             lateness(own, arrival), too_late(own, arrival))
 
 
 @compiled
-def last_arrivals(place: IntArray, arrival: int, leave: int) -> tuple[int, int, int]:
+def last_arrivals(place: Record, arrival: int, leave: int) -> tuple[int, int, int]:
     return (as_late(place, arrival), latest_arrival(place, leave),
             latest_free_arrival(place, arrival, leave))
 
 
 @compiled
-def within_block(place: IntArray, time: int, d: int, c: int) -> tuple[int, int, int, int]:
+def within_block(place: Record, time: int, d: int, c: int) -> tuple[int, int, int, int]:
     start_d, start_c = start_within(place, time, d, c)
     first, last = allowed_within(place, time, d, c)
     return start_d, start_c, first, last
 
 
 @compiled
-def extent(place: IntArray) -> tuple[int, int]:
+def extent(place: Record) -> tuple[int, int]:
     return closing(place), width(place)
 
 
@@ -66,7 +67,7 @@ def visit(problem: Problem, node: int, start: int) -> Route:
     return schedule(problem, RouteDecision(0, 0, (decision,)))
 
 
-def leaves_by(place: IntArray, arrival: int, leave: int) -> bool:
+def leaves_by(place: Record, arrival: int, leave: int) -> bool:
     """Tell whether an arrival is allowed and lets a truck leave by an instant."""
     _, end, _, _, forbidden = times(place, arrival)
     return end <= leave and not forbidden

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from model.kernel.compiled import compiled_on_arrays
-from model.kernel.instance import NODE_EARLIEST, NODE_LIMIT, NODE_SERVICE, TYPE_TRAVEL, pack
+from model.kernel.instance import TYPE_TRAVEL, pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
@@ -58,8 +58,8 @@ def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int
     for p in range(searcher.now.route[slot].length - 1):
         here, there = stops[p].node, stops[p + 1].node
         arrival = stops[p].leave + legs[here, node, 0]
-        leave = max(arrival, place[NODE_EARLIEST]) + place[NODE_SERVICE]
-        if arrival <= place[NODE_LIMIT] and leave + legs[node, there, 0] <= stops[p + 1].latest:
+        leave = max(arrival, place.window_earliest) + place.service_duration
+        if arrival <= place.arrival_limit and leave + legs[node, there, 0] <= stops[p + 1].latest:
             detours[p] = legs[here, node, 1] + legs[node, there, 1] - stops[p].leg
     return detours
 
