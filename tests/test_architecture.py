@@ -53,12 +53,12 @@ ASKING = {"kernel/warming", "planner"}
 COMPILED_FOLDERS = ("kernel", "simulation", "policy", "search")
 
 HOMES = {
-    "kernel/start": {"TYPE_BEGUN", "TYPE_BUSY"},
+    "kernel/start": {".begun", ".busy_until"},
     "kernel/stop": {".arrival_limit", ".service_duration", ".window_earliest", ".window_latest"},
-    "kernel/flight": {"TYPE_DRONE_SERVICE", "TYPE_ENDURANCE", "TYPE_LAUNCH", "TYPE_RECOVERY",
-                      "TYPE_WAITING_COUNTS", "UNREACHABLE"},
-    "kernel/load": {".demand", "TYPE_CAPACITY", "TYPE_PAYLOAD"},
-    "kernel/clock": {"FULL_SPEED", "TYPE_PROFILE", "arrival_by_profile", "leave_by_profile"},
+    "kernel/flight": {".drone_service_duration", ".endurance", ".launch_duration",
+                      ".recovery_duration", ".waiting_counts", "UNREACHABLE"},
+    "kernel/load": {".capacity", ".demand", ".payload"},
+    "kernel/clock": {".speed_changes", "FULL_SPEED", "arrival_by_profile", "leave_by_profile"},
     "kernel/leg": {"LEG_DISTANCE", "LEG_DURATION"},
 }
 """Where each rule stands in compiled code, and what nobody can apply it without.
@@ -68,9 +68,9 @@ With a dot: a field, which may be read as an attribute or by its name in quotes.
 DESCRIBING = {
     "kernel/instance": set.union(*HOMES.values()),
     "policy/tokens": set.union(*HOMES.values()),
-    "policy/features": {".demand", "TYPE_CAPACITY", "TYPE_ENDURANCE"},
+    "policy/features": {".capacity", ".demand", ".endurance"},
     "search/world": set.union(*HOMES.values()),
-    "search/beginning/translate": {".demand", "TYPE_CAPACITY"},
+    "search/beginning/translate": {".capacity", ".demand"},
 }
 """What states a limit but applies none: packs it, shows it to a network, ranks or makes room by it.
 """
@@ -245,8 +245,8 @@ def test_legs_are_read_in_one_file() -> None:
 
 @pytest.mark.parametrize("applied", [
     "start = max(arrival, place.window_earliest)", 'late = node["window_latest"] < arrivals',
-    'node[["demand", "release"]]', "flight <= columns[TYPE_ENDURANCE]",
-    "load <= columns[TYPE_CAPACITY + dimension]", "from model.kernel.clock import leave_by_profile",
+    'node[["demand", "release"]]', "flight <= world.type[k].endurance",
+    "load <= columns.capacity[dimension]", "from model.kernel.clock import leave_by_profile",
     "world.leg[m, here, there, 0]", "onward[there, 1]", "setting.drive[here, there]",
 ])
 def test_a_rule_applied_outside_its_home_is_found(applied: str) -> None:

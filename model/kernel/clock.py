@@ -5,14 +5,15 @@ changes count as the columns say.
 """
 
 from model.kernel.compiled import compiled, inlined
-from model.kernel.instance import NO_PROFILE, TYPE_PROFILE
+from model.kernel.instance import NO_PROFILE
+from model.kernel.records import Record
 from model.problem import FULL_SPEED, IntArray
 
 
 @inlined
-def is_steady(columns: IntArray) -> bool:
+def is_steady(columns: Record) -> bool:
     """Tell whether the speed is the same all day, so that legs last as long as tables say."""
-    return columns[TYPE_PROFILE] == NO_PROFILE
+    return columns.speed_changes == NO_PROFILE
 
 
 @inlined
@@ -63,18 +64,18 @@ def leave_by_profile(times: IntArray, factors: IntArray, changes: int, duration:
 
 
 @inlined
-def leg_end(columns: IntArray, times: IntArray, factors: IntArray, duration: int,
+def leg_end(columns: Record, times: IntArray, factors: IntArray, duration: int,
             leave: int) -> int:
     """Return when a leg of `duration` at full speed, begun at `leave`, is done."""
     if is_steady(columns):
         return leave + duration
-    return arrival_by_profile(times, factors, columns[TYPE_PROFILE], duration, leave)
+    return arrival_by_profile(times, factors, columns.speed_changes, duration, leave)
 
 
 @inlined
-def leg_start(columns: IntArray, times: IntArray, factors: IntArray, duration: int,
+def leg_start(columns: Record, times: IntArray, factors: IntArray, duration: int,
               arrival: int) -> int:
     """Return the latest departure whose leg of `duration` at full speed ends by `arrival`."""
     if is_steady(columns):
         return arrival - duration
-    return leave_by_profile(times, factors, columns[TYPE_PROFILE], duration, arrival)
+    return leave_by_profile(times, factors, columns.speed_changes, duration, arrival)

@@ -13,7 +13,8 @@ from model.kernel.nearest import least_columns
 from model.kernel.pausing import Pause, go_on, matrix_blocks
 from model.kernel.records import Records, record
 from model.problem import (
-    MS_PER_HOUR, UNLIMITED, BoolArray, Customer, FloatArray, IntArray, Problem, VehicleType,
+    MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray, IntArray, Problem,
+    VehicleType,
 )
 
 MAX_DIMENSIONS = 3
@@ -31,32 +32,30 @@ NODE = record("window_earliest", "arrival_limit", "service_duration", "release",
 that is allowed, `FAR` where lateness only costs; service duration; release; the last arrival that
 is not late; demand by dimension."""
 
-(TYPE_COUNT, TYPE_TRAVEL, TYPE_START, TYPE_END, TYPE_EARLIEST, TYPE_BUSY, TYPE_BEGUN, TYPE_LATEST,
- TYPE_MAX_WORKING,
- TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_PROFILE, TYPE_DRONES, TYPE_DRONE_TRAVEL,
- TYPE_ENDURANCE, TYPE_WAITING_COUNTS, TYPE_LAUNCH, TYPE_RECOVERY, TYPE_DRONE_SERVICE,
- TYPE_CAPACITY) = range(21)
-TYPE_PAYLOAD = TYPE_CAPACITY + MAX_DIMENSIONS
-TYPE_COLUMNS = TYPE_PAYLOAD + MAX_DIMENSIONS
+TYPE = record(
+    "count", "travel", "begins_at", "ends_at", "shift_earliest", "busy_until", "begun",
+    "shift_latest", "max_working_duration", "max_trip_distance", "max_trips", "reload_duration",
+    "speed_changes", "drones", "drone_travel", "endurance", "waiting_counts", "launch_duration",
+    "recovery_duration", "drone_service_duration", capacity=MAX_DIMENSIONS, payload=MAX_DIMENSIONS)
+"""A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
+customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
+its working duration, and costs as if it were fixed."""
 
 NO_PROFILE = -1
+NO_DRONES = (0,) * 7
 
-RATE_FIXED, RATE_KM, RATE_HOUR, RATE_DRONE_KM, RATE_DRONE_HOUR = range(5)
+RATE = record(fixed=float, distance=float, time=float, drone_distance=float, drone_time=float)
+"""What a vehicle costs, and what per km and per hour, its drones' apart."""
 
 
 class Instance(NamedTuple):
-    """Packed problems.
-
-    `TYPE_PROFILE` holds the number of speed changes or `NO_PROFILE`. What a vehicle carries beside
-    its customers' is taken from its capacity; what it has worked when it may begin (`TYPE_BEGUN`)
-    is taken from its working duration, and costs as if it were fixed.
-    """
+    """Packed problems."""
 
     size: IntArray  # (problem, 4) depots, customers, vehicle types, dimensions
     node: Records  # (problem, node) NODE
     late_early: FloatArray  # (problem, node, 2) cost per hour of lateness and of waiting
-    type: IntArray  # (problem, type, TYPE_COLUMNS)
-    rate: FloatArray  # (problem, type, 5)
+    type: Records  # (problem, type) TYPE
+    rate: Records  # (problem, type) RATE
     can_drive: BoolArray  # (problem, type, node) table, kind, skills and capacity allow a truck
     can_fly: BoolArray  # (problem, type, node) likewise for its drones
     profile_time: IntArray  # (problem, type, change)
@@ -90,8 +89,8 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
         size=np.zeros((rows, 4), np.int64),
         node=np.zeros((rows, nodes), NODE),
         late_early=np.zeros((rows, nodes, 2)),
-        type=np.zeros((rows, types, TYPE_COLUMNS), np.int64),
-        rate=np.zeros((rows, types, 5)),
+        type=np.zeros((rows, types), TYPE),
+        rate=np.zeros((rows, types), RATE),
         can_drive=np.zeros((rows, types, nodes), np.bool_),
         can_fly=np.zeros((rows, types, nodes), np.bool_),
         profile_time=np.zeros((rows, types, changes), np.int64),
@@ -132,7 +131,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
         instance.unassigned_cost[row] = costs.min()
         instance.unassigned_more[row, depots:nodes] = costs - costs.min()
     for index, kind in enumerate(problem.vehicle_types):
-        instance.type[row, index] = _type_columns(kind)
+        instance.type[row, index] = _type_row(kind)
         drones = kind.drones
         worked = _worked(kind) / MS_PER_HOUR * kind.cost_per_hour
         instance.rate[row, index] = (
@@ -165,27 +164,25 @@ def _padded(amount: Sequence[int]) -> tuple[int, ...]:
     return (*amount, *(0,) * (MAX_DIMENSIONS - len(amount)))
 
 
-def _type_columns(kind: VehicleType) -> list[int]:
+def _type_row(kind: VehicleType) -> tuple[Any, ...]:
     drones, worked = kind.drones, _worked(kind)
-    columns = [
+    load = kind.initial_load or (0,) * len(kind.capacity)
+    free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
+    return (
         kind.count, kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.busy_until,
         int(kind.works_since is not None), kind.latest,
         UNLIMITED if kind.max_working_duration is None else kind.max_working_duration - worked,
         UNLIMITED if kind.max_trip_distance is None else kind.max_trip_distance,
         kind.max_trips, kind.reload_duration,
-        NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times)]
-    if drones is None:
-        columns += [0] * (TYPE_CAPACITY - TYPE_DRONES)
-    else:
-        service = -1 if drones.service_duration is None else drones.service_duration
-        columns += [drones.count, drones.travel, drones.endurance,
-                    int(drones.endurance_includes_waiting), drones.launch_duration,
-                    drones.recovery_duration, service]
-    load = kind.initial_load or (0,) * len(kind.capacity)
-    free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
-    padding = [0] * (MAX_DIMENSIONS - len(kind.capacity))
-    payload = (0,) * MAX_DIMENSIONS if drones is None else (*drones.capacity, *padding)
-    return [*columns, *free, *padding, *payload]
+        NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
+        *(NO_DRONES if drones is None else _drones(drones)),
+        _padded(free), _padded(() if drones is None else drones.capacity))
+
+
+def _drones(drones: DroneType) -> tuple[int, ...]:
+    service = -1 if drones.service_duration is None else drones.service_duration
+    return (drones.count, drones.travel, drones.endurance, int(drones.endurance_includes_waiting),
+            drones.launch_duration, drones.recovery_duration, service)
 
 
 def _worked(kind: VehicleType) -> int:
@@ -204,7 +201,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
         if skills:
             asking.setdefault(skills, []).append(customer)
     for index, kind in enumerate(problem.vehicle_types):
-        fits = np.all(demand <= instance.type[row, index, TYPE_CAPACITY:TYPE_PAYLOAD], axis=1)
+        fits = np.all(demand <= instance.type[row, index].capacity, axis=1)
         for skills, customers_asking in asking.items():
             if not skills <= kind.skills:
                 fits[customers_asking] = False
@@ -212,7 +209,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
             fits &= problem.may_serve[index]
         instance.can_drive[row, index, customers] = fits & by_truck
         if kind.drones is not None:
-            payload = instance.type[row, index, TYPE_PAYLOAD:]
+            payload = instance.type[row, index].payload
             liftable = (demand <= payload).all(axis=1)
             instance.can_fly[row, index, customers] = fits & by_drone & liftable
 

@@ -1,9 +1,7 @@
 """What vehicles and drones hold: amounts, in all dimensions at once. Compiled."""
 
 from model.kernel.compiled import inlined
-from model.kernel.instance import TYPE_CAPACITY, TYPE_PAYLOAD
 from model.kernel.records import Record
-from model.problem import IntArray
 
 Amount = tuple[int, int, int]
 """By dimension, of which there are `MAX_DIMENSIONS`."""
@@ -18,15 +16,15 @@ def demand_of(place: Record) -> Amount:
 
 
 @inlined
-def capacity_of(columns: IntArray) -> Amount:
+def capacity_of(columns: Record) -> Amount:
     """Return what a vehicle of a type holds."""
-    return columns[TYPE_CAPACITY], columns[TYPE_CAPACITY + 1], columns[TYPE_CAPACITY + 2]
+    return columns.capacity[0], columns.capacity[1], columns.capacity[2]
 
 
 @inlined
-def payload_of(columns: IntArray) -> Amount:
+def payload_of(columns: Record) -> Amount:
     """Return what a type's drone lifts."""
-    return columns[TYPE_PAYLOAD], columns[TYPE_PAYLOAD + 1], columns[TYPE_PAYLOAD + 2]
+    return columns.payload[0], columns.payload[1], columns.payload[2]
 
 
 @inlined
@@ -54,18 +52,18 @@ def within(one: Amount, limit: Amount) -> bool:
 
 
 @inlined
-def holds(columns: IntArray, load: Amount) -> bool:
+def holds(columns: Record, load: Amount) -> bool:
     """Tell whether a vehicle of a type holds a load."""
     return within(load, capacity_of(columns))
 
 
 @inlined
-def fits(columns: IntArray, load: Amount, place: Record) -> bool:
+def fits(columns: Record, load: Amount, place: Record) -> bool:
     """Tell whether a vehicle of a type holds a customer's parcel on top of a load."""
     return holds(columns, plus(load, demand_of(place)))
 
 
 @inlined
-def lifts(columns: IntArray, payload: Amount) -> bool:
+def lifts(columns: Record, payload: Amount) -> bool:
     """Tell whether a type's drone lifts what a sortie carries."""
     return within(payload, payload_of(columns))

@@ -4,23 +4,22 @@
 """
 
 from model.kernel.compiled import inlined
-from model.kernel.instance import TYPE_BEGUN, TYPE_BUSY, TYPE_EARLIEST
-from model.problem import IntArray
+from model.kernel.records import Record
 
 
 @inlined
-def leaves_first(columns: IntArray, time: int) -> int:
+def leaves_first(columns: Record, time: int) -> int:
     """Return when a truck leaves its start at which its trip begins at `time`."""
-    return max(time, columns[TYPE_BUSY])
+    return max(time, columns.busy_until)
 
 
 @inlined
-def has_begun(columns: IntArray) -> bool:
+def has_begun(columns: Record) -> bool:
     """Tell whether work counts from before the vehicle leaves, however late it does."""
-    return columns[TYPE_BEGUN] == 1
+    return columns.begun == 1
 
 
 @inlined
-def counted_from(columns: IntArray, departure: int) -> int:
+def counted_from(columns: Record, departure: int) -> int:
     """Return from when work counts that begins with a departure, unless it has begun before."""
-    return columns[TYPE_EARLIEST] if has_begun(columns) else departure
+    return columns.shift_earliest if has_begun(columns) else departure

@@ -8,13 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.compiled import compiled, inlined
-from model.kernel.instance import (
-    MAX_DIMENSIONS, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY,
-    TYPE_COUNT, TYPE_END, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_ENDURANCE, TYPE_LATEST,
-    TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_TRAVEL, Instance,
-)
+from model.kernel.instance import MAX_DIMENSIONS, Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of
+from model.kernel.records import Record
 from model.kernel.stop import closing, lateness
 from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
 from model.policy.tokens import NUM_TYPE_FEATURES, Float32Array, Scales
@@ -93,10 +90,10 @@ def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, veh
         demand = columns.demand[dimension]
         if demand > 0:
             feature[10] = max(feature[10], demand / vehicle[V_LOAD + dimension])
-            feature[11] = max(feature[11], demand / setting.type[TYPE_CAPACITY + dimension])
-    feature[12] = slack(setting.type[TYPE_LATEST], end, unit.time)
+            feature[11] = max(feature[11], demand / setting.type.capacity[dimension])
+    feature[12] = slack(setting.type.shift_latest, end, unit.time)
     departure = vehicle[V_DEPARTURE_BEST] if begun else vehicle[V_NEXT_START]
-    feature[15] = slack(setting.type[TYPE_MAX_WORKING], end - departure, unit.time)
+    feature[15] = slack(setting.type.max_working_duration, end - departure, unit.time)
     feature[19] = ratio(columns.release - vehicle[V_NEXT_START], unit.time)
 
 
@@ -112,13 +109,13 @@ def _describe_leg(unit: Unit, duration: int, distance: int, km: float, hour: flo
 
 @inlined
 def _describe_flight(setting: Setting, unit: Unit, here: int, node: int, distance: int,
-                     rate: FloatArray, feature: Float32Array) -> None:
+                     rate: Record, feature: Float32Array) -> None:
     """Describe the flight to a customer, as if the drone came back here. In place."""
     there = lookup(setting.fly, here, node)
     back = min(lookup(setting.fly, node, here), 10 * there)
-    _describe_leg(unit, there, 2 * distance, rate[RATE_DRONE_KM], 2 * rate[RATE_DRONE_HOUR],
+    _describe_leg(unit, there, 2 * distance, rate.drone_distance, 2 * rate.drone_time,
                   feature)
-    feature[18] = _share(there + back, setting.type[TYPE_ENDURANCE])
+    feature[18] = _share(there + back, setting.type.endurance)
 
 
 @inlined
@@ -135,19 +132,19 @@ def _nearest_drive(drive: IntArray, here: int, actions: IntArray) -> int:
 def _describe_return(setting: Setting, vehicle: IntArray, trips: int,
                      feature: Float32Array) -> None:
     """Describe returning to the depot. In place."""
-    feature[10] = vehicle[V_LOAD] / max(1, setting.type[TYPE_CAPACITY])
-    feature[11] = min(setting.type[TYPE_MAX_TRIPS] - trips, 4) / 4
+    feature[10] = vehicle[V_LOAD] / max(1, setting.type.capacity[0])
+    feature[11] = min(setting.type.max_trips - trips, 4) / 4
 
 
 @inlined
-def _describe_open(columns: IntArray, fixed: float, used: int, unserved: float, unit: Unit,
+def _describe_open(columns: Record, fixed: float, used: int, unserved: float, unit: Unit,
                    feature: Float32Array) -> None:
     """Describe opening a vehicle of a type. In place."""
-    left = columns[TYPE_COUNT] - used
+    left = columns.count - used
     feature[6] = ratio(fixed, unit.cost)
     feature[10] = left / (left + 4.0)
-    feature[11] = min(columns[TYPE_CAPACITY] / max(1.0, unserved), 2.0)
-    feature[14] = columns[TYPE_DRONES] > 0
+    feature[11] = min(columns.capacity[0] / max(1.0, unserved), 2.0)
+    feature[14] = columns.drones > 0
 
 
 @inlined
@@ -172,23 +169,23 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     glob[:] = 0.0
     reserve = 0.0
     for kind in range(instance.size[b, 2]):
-        left = instance.type[b, kind, TYPE_COUNT] - state.used[r, kind]
-        reserve += (left * float(instance.type[b, kind, TYPE_MAX_TRIPS])
-                    * instance.type[b, kind, TYPE_CAPACITY])
+        left = instance.type[b, kind].count - state.used[r, kind]
+        reserve += (left * float(instance.type[b, kind].max_trips)
+                    * instance.type[b, kind].capacity[0])
     glob[0] = state.num_unserved[r] / max(1, instance.size[b, 1])
     glob[1] = unserved / scale.amount[b]
     if k == NO_VEHICLE:
         glob[2] = min(unserved / max(1.0, reserve), 2.0)
         return
     columns = instance.type[b, k]
-    capacity = max(1, columns[TYPE_CAPACITY])
-    trips_left = columns[TYPE_MAX_TRIPS] - state.log.count[r, COUNT_TRIPS]
+    capacity = max(1, columns.capacity[0])
+    trips_left = columns.max_trips - state.log.count[r, COUNT_TRIPS]
     reserve += float(trips_left) * capacity
     clock = vehicle[V_NEXT_START]
     if not vehicle[V_IDLE]:
         clock = max(vehicle[V_SERVICE_END], vehicle[V_FREE])
-        home = lookup(matrix_of(instance.duration, b, columns[TYPE_TRAVEL]), vehicle[V_NODE],
-                      columns[TYPE_END])
+        home = lookup(matrix_of(instance.duration, b, columns.travel), vehicle[V_NODE],
+                      columns.ends_at)
         glob[3] = min(home / scale.time[b], 5.0)
         reserve += vehicle[V_LOAD]
     glob[2] = min(unserved / max(1.0, reserve), 2.0)
@@ -197,11 +194,11 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     glob[6] = vehicle[V_LOAD] / capacity
     glob[7] = max(min((reserve - unserved) / capacity, 2.0), -2.0)
     glob[8] = min(trips_left, 4) / 4
-    glob[9] = slack(columns[TYPE_LATEST], clock, scale.time[b])
+    glob[9] = slack(columns.shift_latest, clock, scale.time[b])
     working = clock - vehicle[V_DEPARTURE_BEST] if state.log.count[r, COUNT_TRIPS] else 0
-    glob[10] = slack(columns[TYPE_MAX_WORKING], working, scale.time[b])
-    glob[11] = vehicle[V_FLYING] / max(1, columns[TYPE_DRONES])
-    glob[12] = columns[TYPE_DRONES] > vehicle[V_FLYING]
+    glob[10] = slack(columns.max_working_duration, working, scale.time[b])
+    glob[11] = vehicle[V_FLYING] / max(1, columns.drones)
+    glob[12] = columns.drones > vehicle[V_FLYING]
     glob[13] = min(vehicle[V_LOAD] / max(1.0, unserved), 2.0)
     for column in range(NUM_TYPE_FEATURES):
         glob[NUM_STATE_FEATURES + column] = type_token[b, k, column]
@@ -220,7 +217,7 @@ def _describe_opens(instance: Instance, scale: Scales, state: State, r: int, uns
             feature[:] = 0.0
             feature[OPEN] = 1.0
             seen.token[r, index] = instance.node.shape[1] + target
-            _describe_open(instance.type[b, target], instance.rate[b, target, RATE_FIXED],
+            _describe_open(instance.type[b, target], instance.rate[b, target].fixed,
                            state.used[r, target], unserved, unit, feature)
 
 
@@ -233,9 +230,9 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
     vehicle = state.vehicle[r]
     rate, late_early = instance.rate[b, k], instance.late_early[b]
     unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
-    home, here = setting.type[TYPE_END], vehicle[V_NODE]
-    distance = matrix_of(instance.distance, b, setting.type[TYPE_TRAVEL])
-    flown = matrix_of(instance.distance, b, setting.type[TYPE_DRONE_TRAVEL])
+    home, here = setting.type.ends_at, vehicle[V_NODE]
+    distance = matrix_of(instance.distance, b, setting.type.travel)
+    flown = matrix_of(instance.distance, b, setting.type.drone_travel)
     trips = state.log.count[r, COUNT_TRIPS]
     actions, features = seen.action[r, : seen.count[r]], seen.feature[r]
     nearest = _nearest_drive(setting.drive, here, actions)
@@ -251,7 +248,7 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
             _describe_flight(setting, unit, here, node, lookup(flown, here, node), rate, feature)
         else:
             _describe_leg(unit, lookup(setting.drive, here, node), lookup(distance, here, node),
-                          rate[RATE_KM], rate[RATE_HOUR], feature)
+                          rate.distance, rate.time, feature)
         if kind == RETURN:
             _describe_return(setting, vehicle, trips, feature)
             continue
@@ -259,7 +256,7 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
         feature[13] = min(way_home / unit.time, 5.0)
         if kind == DRIVE:
             used = vehicle[V_DISTANCE] + lookup(distance, here, node) + lookup(distance, node, home)
-            feature[14] = slack(setting.type[TYPE_MAX_DISTANCE], used, lookup(distance, home, node))
+            feature[14] = slack(setting.type.max_trip_distance, used, lookup(distance, home, node))
             detour = (way + way_home - lookup(setting.drive, here, home)) / unit.time
             feature[16] = max(min(detour, 5.0), -5.0)
             feature[17] = ratio(way - nearest, unit.near)

@@ -9,12 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.kernel.instance import (
-    FAR, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT,
-    TYPE_START, TYPE_DRONE_TRAVEL, TYPE_DRONES, TYPE_EARLIEST, TYPE_ENDURANCE, TYPE_LATEST,
-    TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING, TYPE_PAYLOAD, TYPE_PROFILE, TYPE_RELOAD,
-    TYPE_TRAVEL, Instance,
-)
+from model.kernel.instance import FAR, Instance
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 
 Float32Array = NDArray[np.float32]
@@ -53,22 +48,22 @@ def scales(instance: Instance) -> Scales:
             continue
         nodes = slice(depots, depots + customers)
         kinds = instance.type[b, :types]
-        legs = [instance.duration[b, kind[TYPE_TRAVEL], kind[TYPE_START], nodes] for kind in kinds]
+        legs = [instance.duration[b, kind.travel, kind.begins_at, nodes] for kind in kinds]
         result.time[b] = max(1.0, float(np.mean(legs)))
-        between = instance.duration[b, kinds[0, TYPE_TRAVEL], nodes, nodes].astype(np.float64)
+        between = instance.duration[b, kinds[0].travel, nodes, nodes].astype(np.float64)
         np.fill_diagonal(between, np.inf)
         nearest = between.min(axis=1)
         near = float(nearest.mean()) if customers > 1 else result.time[b]
         result.near[b] = max(1.0, near)
-        limits = np.concatenate([instance.node[b, nodes]["window_latest"], kinds[:, TYPE_LATEST]])
+        limits = np.concatenate([instance.node[b, nodes]["window_latest"], kinds["shift_latest"]])
         limits = limits[limits < UNLIMITED]
         result.horizon[b] = max(1, limits.max()) if len(limits) else 20 * result.time[b]
-        driven = [instance.distance[b, kind[TYPE_TRAVEL], kind[TYPE_START], nodes].mean()
+        driven = [instance.distance[b, kind.travel, kind.begins_at, nodes].mean()
                   for kind in kinds]
         rate = instance.rate[b, :types]
-        cost = float(np.mean(rate[:, RATE_KM] * driven) / MM_PER_KM
-                     + rate[:, RATE_HOUR].mean() * result.time[b] / MS_PER_HOUR)
-        result.cost[b] = cost if cost > 0 else max(1e-9, float(rate[:, RATE_FIXED].mean()) or 1.0)
+        cost = float(np.mean(rate["distance"] * driven) / MM_PER_KM
+                     + rate["time"].mean() * result.time[b] / MS_PER_HOUR)
+        result.cost[b] = cost if cost > 0 else max(1e-9, float(rate["fixed"].mean()) or 1.0)
         result.amount[b] = max(1, instance.node[b, nodes]["demand"][:, 0].sum())
     return result
 
@@ -120,8 +115,8 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     place = (coordinates - (low + high) / 2) / extent * 2
     columns = instance.node
     is_depot = np.arange(columns.shape[1]) < instance.size[:, :1]
-    capacity = np.maximum(instance.type[:, :, TYPE_CAPACITY:TYPE_PAYLOAD].max(axis=1), 1)[:, None]
-    payload = instance.type[:, :, TYPE_PAYLOAD:].max(axis=1)[:, None]
+    capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None]
+    payload = instance.type["payload"].max(axis=1)[:, None]
     demand = columns["demand"]
     types = np.maximum(instance.size[:, 2], 1)[:, None]
     earliest, latest = columns["window_earliest"], columns["window_latest"]
@@ -151,7 +146,7 @@ def pair_features(instance: Instance, scale: Scales) -> Float32Array:
     the least waiting at the second node after service at the first.
     """
     problem = np.arange(len(instance.size))
-    leg = instance.duration[problem, instance.type[:, 0, TYPE_TRAVEL]].astype(np.float32)
+    leg = instance.duration[problem, instance.type["travel"][:, 0]].astype(np.float32)
     time = scale.time[:, None, None].astype(np.float32)
     near = scale.near[:, None, None].astype(np.float32)
     earliest, latest, service = (
@@ -170,33 +165,33 @@ def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_])
     hours = time / MS_PER_HOUR
     customers = np.maximum(instance.size[:, 1], 1)[:, None]
     problem = np.arange(len(kind))[:, None]
-    leg = instance.duration[problem, kind[..., TYPE_TRAVEL], 0].sum(axis=2) / customers
-    driven = instance.distance[problem, kind[..., TYPE_TRAVEL], 0].sum(axis=2) / customers
-    flight = np.minimum(instance.duration[problem, kind[..., TYPE_DRONE_TRAVEL], 0],
+    leg = instance.duration[problem, kind["travel"], 0].sum(axis=2) / customers
+    driven = instance.distance[problem, kind["travel"], 0].sum(axis=2) / customers
+    flight = np.minimum(instance.duration[problem, kind["drone_travel"], 0],
                         10 * time[..., None]).sum(axis=2) / customers
     furthest = np.where(is_type, driven, 0).max(axis=1)[:, None, None]
-    flown = np.minimum(instance.distance[problem, kind[..., TYPE_DRONE_TRAVEL], 0],
+    flown = np.minimum(instance.distance[problem, kind["drone_travel"], 0],
                        10 * furthest + 1).sum(axis=2) / customers
-    capacity = kind[..., TYPE_CAPACITY]
+    capacity = kind["capacity"][..., 0]
     largest = np.maximum(capacity.max(axis=1, keepdims=True), 1)
-    drones = kind[..., TYPE_DRONES]
+    drones = kind["drones"]
     has_drones = drones > 0
     return np.stack([
         capacity / largest, np.minimum(capacity / scale.amount[:, None], 1),
-        squash(kind[..., TYPE_COUNT] * capacity / scale.amount[:, None]),
-        squash(kind[..., TYPE_COUNT] / 4), squash(rate[..., RATE_FIXED] / cost),
-        squash(rate[..., RATE_KM] * driven / MM_PER_KM / cost),
-        squash(rate[..., RATE_HOUR] * hours / cost), squash(leg / time),
-        np.minimum(kind[..., TYPE_EARLIEST] / horizon, 2),
-        np.minimum(kind[..., TYPE_LATEST] / horizon, 2),
-        squash(unbounded(kind[..., TYPE_MAX_WORKING]) / time / 8),
-        squash(unbounded(kind[..., TYPE_MAX_DISTANCE]) / np.maximum(driven, 1) / 8),
-        squash((kind[..., TYPE_MAX_TRIPS] - 1.0) / 2), squash(kind[..., TYPE_RELOAD] / time),
-        kind[..., TYPE_PROFILE] > 0, squash(drones / 2.0),
-        np.where(has_drones, squash(kind[..., TYPE_PAYLOAD] / np.maximum(capacity, 1) * 10), 0),
-        np.where(has_drones, squash(unbounded(kind[..., TYPE_ENDURANCE]) / time), 0),
+        squash(kind["count"] * capacity / scale.amount[:, None]),
+        squash(kind["count"] / 4), squash(rate["fixed"] / cost),
+        squash(rate["distance"] * driven / MM_PER_KM / cost),
+        squash(rate["time"] * hours / cost), squash(leg / time),
+        np.minimum(kind["shift_earliest"] / horizon, 2),
+        np.minimum(kind["shift_latest"] / horizon, 2),
+        squash(unbounded(kind["max_working_duration"]) / time / 8),
+        squash(unbounded(kind["max_trip_distance"]) / np.maximum(driven, 1) / 8),
+        squash((kind["max_trips"] - 1.0) / 2), squash(kind["reload_duration"] / time),
+        kind["speed_changes"] > 0, squash(drones / 2.0),
+        np.where(has_drones, squash(kind["payload"][..., 0] / np.maximum(capacity, 1) * 10), 0),
+        np.where(has_drones, squash(unbounded(kind["endurance"]) / time), 0),
         np.where(has_drones, squash(flight / time), 0),
-        np.where(has_drones, squash(rate[..., RATE_DRONE_KM] * flown / MM_PER_KM / cost
-                                    + rate[..., RATE_DRONE_HOUR] * hours / cost), 0),
+        np.where(has_drones, squash(rate["drone_distance"] * flown / MM_PER_KM / cost
+                                    + rate["drone_time"] * hours / cost), 0),
         instance.can_drive.sum(axis=2) / customers, instance.can_fly.sum(axis=2) / customers,
     ], axis=2)

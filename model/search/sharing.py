@@ -4,7 +4,6 @@ import numpy as np
 
 from model.kernel.compiled import compiled
 from model.kernel.copying import copy_some
-from model.kernel.instance import TYPE_COUNT
 from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
 from model.search.route.layout import ELSEWHERE, NOWHERE, World
@@ -65,7 +64,7 @@ class Crew:
         beside = whole.now.where["slot"][self._world.near[missing]]
         nearest = np.take_along_axis(beside, (beside >= 0).argmax(axis=1)[:, None], axis=1)[:, 0]
         heir = np.where(nearest >= 0, owner[nearest], 0)
-        spare = self._world.type[:, TYPE_COUNT] - whole.now.used
+        spare = self._world.type["count"] - whole.now.used
         routes = np.bincount(owner[whole.active[: whole.count.active]], minlength=threads)
         free = (len(whole.active) - routes.sum()) // threads
         self._parts = [room._replace(active=room.active[: routes[number] + free])
@@ -104,7 +103,7 @@ def make_rooms(world: World, whole: Searcher,
 def take_all(world: World, whole: Searcher, part: Searcher) -> None:
     """Go on from all routes as they are. In place."""
     take_part(world, whole, part, np.zeros(len(whole.active), np.int64), 0,
-              whole.missing[: whole.count.missing], world.type[:, TYPE_COUNT] - whole.now.used)
+              whole.missing[: whole.count.missing], world.type["count"] - whole.now.used)
 
 
 def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
@@ -182,7 +181,7 @@ def take_part(world: World, whole: Searcher, part: Searcher, owner: IntArray, nu
             now.cost[slot] = 0.0
         now.route[slot].stamp = count.stamp
     for k in range(world.num_types):
-        now.used[k] = world.type[k, TYPE_COUNT] - spare[k]
+        now.used[k] = world.type[k].count - spare[k]
     list_active(part)
     for node in missing:
         now.where[node].slot = NOWHERE

@@ -3,7 +3,6 @@
 import math
 from dataclasses import dataclass
 
-from model.kernel.instance import TYPE_DRONES
 from model.search.beginning.translate import leg_cost
 from model.search.route.layout import World
 from model.search.route.state import Searcher, missing_cost
@@ -48,8 +47,8 @@ class Heat:
         served = max(1, int(searcher.count.customers) - missing)
         cost = float(searcher.value.cost) - missing_cost(world, searcher)
         return cls(cost / served, leg_cost(world, searcher), world.num_types,
-                   bool((world.type[:, TYPE_DRONES] > 0).any()),
-                   bool((world.type[:, TYPE_DRONES] == 1).any()), from_trucks, hot, cold)
+                   bool((world.type["drones"] > 0).any()),
+                   bool((world.type["drones"] == 1).any()), from_trucks, hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:
         """Return the first and the last temperature.

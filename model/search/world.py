@@ -7,10 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.alarm import silent
-from model.kernel.instance import (
-    FAR, NO_PROFILE, RATE_HOUR, TYPE_DRONES, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_MAX_WORKING,
-    TYPE_PROFILE, Instance,
-)
+from model.kernel.instance import FAR, NO_PROFILE, Instance
 from model.kernel.nearest import least_columns
 from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Record, Records
@@ -95,13 +92,12 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     columns, rates, can_fly = instance.type[0], instance.rate[0], instance.can_fly[0]
     if not (moves.loops or moves.crossings):
         columns, can_fly = columns.copy(), np.zeros_like(can_fly)
-        columns[:, TYPE_DRONES] = 0
+        columns["drones"] = 0
     place = instance.node[0]
     visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
                        for kind in problem.vehicle_types], np.int64)
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
     most_visits = max(1, int(visits.max()))
-    rate = rates / np.array([1.0, MM_PER_KM, MS_PER_HOUR, MM_PER_KM, MS_PER_HOUR])
     mode = _modes(instance, columns, place)
     swap = _swaps(problem, mode)
     general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
@@ -121,7 +117,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         unassigned_more=instance.unassigned_more[0],
         must_serve=_must_serve(problem, instance),
         place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
-        type=columns, rate=rate, mode=mode, visits=visits,
+        type=columns, rate=_per_unit(rates), mode=mode, visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
         swap=swap, leg=ground.leg, back=ground.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
@@ -140,24 +136,33 @@ def _blink(num_customers: int, most_visits: int) -> float:
     return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / (most_visits * max(1, num_customers) ** 2)))
 
 
+def _per_unit(rates: Records) -> Records:
+    """Return rates per mm and per ms."""
+    rate = rates.copy()
+    for name, unit in (("distance", MM_PER_KM), ("time", MS_PER_HOUR)):
+        for field in (name, f"drone_{name}"):
+            rate[field] = rates[field] / unit
+    return rate
+
+
 def _symmetric(matrices: IntArray, pause: Pause) -> bool:
     """Tell whether all matrices (travel, node, node) are their own transposes."""
     return all(bool((matrix[rows] == matrix[:, rows].T).all())
                for matrix in matrices for rows in row_blocks(len(matrix), ROWS, pause))
 
 
-def _modes(instance: Instance, columns: IntArray, place: Records) -> IntArray:
+def _modes(instance: Instance, columns: Records, place: Records) -> IntArray:
     rates = instance.rate[0]
     late, early = (instance.late_early[0] > 0).any(axis=0)
     soft = bool((place["arrival_limit"] == FAR).any()) and bool(late)
-    timed = (rates[:, RATE_HOUR] > 0) | (columns[:, TYPE_MAX_WORKING] < UNLIMITED)
-    profile = columns[:, TYPE_PROFILE] != NO_PROFILE
+    timed = (rates["time"] > 0) | (columns["max_working_duration"] < UNLIMITED)
+    profile = columns["speed_changes"] != NO_PROFILE
     settled = np.logical_or(early, profile & timed)
     priced = np.logical_or(soft, settled | profile)
     release = bool((place["release"] > 0).any())
     simple = ~(timed | priced)
-    lean = (simple & ~(release | (columns[:, TYPE_MAX_DISTANCE] < UNLIMITED))
-            & (columns[:, TYPE_MAX_TRIPS] == 1) & (columns[:, TYPE_DRONES] == 0))
+    lean = (simple & ~(release | (columns["max_trip_distance"] < UNLIMITED))
+            & (columns["max_trips"] == 1) & (columns["drones"] == 0))
     mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
                       + MODE_PROFILE * profile + MODE_SIMPLE * simple
                       + MODE_LEAN * lean).astype(np.int64)

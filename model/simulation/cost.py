@@ -1,10 +1,7 @@
 """What a vehicle's log costs, compiled."""
 
 from model.kernel.compiled import compiled, inlined
-from model.kernel.instance import (
-    RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL, TYPE_TRAVEL,
-    Instance,
-)
+from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.stop import lateness
 from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray
@@ -32,8 +29,8 @@ def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: i
     """Add the cost of the vehicle in the log. In place."""
     rate = instance.rate[b, k]
     driven, flown, airborne = 0, 0, 0
-    legs = matrix_of(instance.distance, b, setting.type[TYPE_TRAVEL])
-    flights = matrix_of(instance.distance, b, setting.type[TYPE_DRONE_TRAVEL])
+    legs = matrix_of(instance.distance, b, setting.type.travel)
+    flights = matrix_of(instance.distance, b, setting.type.drone_travel)
     for index in range(1, log.count[COUNT_STOPS]):
         node = log.stop[index, STOP_NODE]
         driven += lookup(legs, log.stop[index - 1, STOP_NODE], node)
@@ -49,8 +46,8 @@ def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: i
         add_window_cost(instance, b, node, sortie[SORTIE_ARRIVAL], sortie[SORTIE_START], cost)
     end = log.stop[log.count[COUNT_STOPS] - 1, STOP_LEAVE]
     working = end - first_departure(setting, log, log.trip[0, TRIP_START])
-    cost[COST_FIXED] += rate[RATE_FIXED]
-    cost[COST_DISTANCE] += driven / MM_PER_KM * rate[RATE_KM]
-    cost[COST_DISTANCE] += flown / MM_PER_KM * rate[RATE_DRONE_KM]
-    cost[COST_TIME] += working / MS_PER_HOUR * rate[RATE_HOUR]
-    cost[COST_TIME] += airborne / MS_PER_HOUR * rate[RATE_DRONE_HOUR]
+    cost[COST_FIXED] += rate.fixed
+    cost[COST_DISTANCE] += driven / MM_PER_KM * rate.distance
+    cost[COST_DISTANCE] += flown / MM_PER_KM * rate.drone_distance
+    cost[COST_TIME] += working / MS_PER_HOUR * rate.time
+    cost[COST_TIME] += airborne / MS_PER_HOUR * rate.drone_time

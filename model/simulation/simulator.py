@@ -14,10 +14,7 @@ from model.kernel.clock import is_steady
 from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import copy_rows
 from model.kernel.flight import take_off, unreachable
-from model.kernel.instance import (
-    TYPE_COUNT, TYPE_END, TYPE_DRONES, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS,
-    TYPE_MAX_WORKING, TYPE_TRAVEL, Instance,
-)
+from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, within
 from model.kernel.start import counted_from, has_begun, leaves_first
@@ -58,9 +55,9 @@ def _judge_end(setting: Setting, end: int, departure: int, rigid: bool) -> int:
     """
     departure = counted_from(setting.type, departure)
     rigid = rigid or has_begun(setting.type)
-    if end > setting.type[TYPE_LATEST]:
+    if end > setting.type.shift_latest:
         return NO
-    if end - departure <= setting.type[TYPE_MAX_WORKING]:
+    if end - departure <= setting.type.max_working_duration:
         return YES
     return NO if rigid else UNSURE
 
@@ -88,7 +85,7 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
         return NO
     start = start_of_service(place, arrival)
     served = max(free, end_of_service(place, arrival))
-    end = travel_arrival(setting, node, setting.type[TYPE_END], served)
+    end = travel_arrival(setting, node, setting.type.ends_at, served)
     outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
     departure = leaves_first(setting.type, leave)
     if earliest >= 0:
@@ -113,7 +110,7 @@ def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departu
         return NO
     free = vehicle[V_FREE]
     drone = board(setting, vehicle, drones, 0, node, takeoff)
-    _, home, end = leave_for(setting, vehicle, drones, setting.type[TYPE_END])
+    _, home, end = leave_for(setting, vehicle, drones, setting.type.ends_at)
     drones[drone, DRONE_SORTIE] = IN_FLIGHT
     vehicle[V_FLYING] -= 1
     vehicle[V_FREE] = free
@@ -146,7 +143,7 @@ def _works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: I
     Cheaper than `improve_departure`: one start is tried, since all before one that costs nothing
     cost nothing.
     """
-    needed = vehicle[V_FREE] - setting.type[TYPE_MAX_WORKING]
+    needed = vehicle[V_FREE] - setting.type.max_working_duration
     if first_departure(setting, log, vehicle[V_START_BEST]) >= needed:
         return True
     if has_begun(setting.type):
@@ -166,14 +163,14 @@ def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind:
     num_depots = instance.size[b, 0]
     _copy_vehicle(state, r, scratch)
     vehicle, log = state.vehicle[scratch], log_of(state.log, scratch)
-    drones = state.drone[scratch, : setting.type[TYPE_DRONES]]
+    drones = state.drone[scratch, : setting.type.drones]
     if kind == LAUNCH:
         if not launch(setting, num_depots, log, vehicle, drones, node):
             return False
     elif not drive(setting, num_depots, log, vehicle, drones, node):
         return False
     here = log.count[COUNT_STOPS] - 1
-    if not drive(setting, num_depots, log, vehicle, drones, setting.type[TYPE_END]):
+    if not drive(setting, num_depots, log, vehicle, drones, setting.type.ends_at):
         return False
     arrival, start = log.stop[here, STOP_ARRIVAL], log.stop[here, STOP_START]
     if kind == LAUNCH:
@@ -181,7 +178,7 @@ def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind:
         arrival, start = sortie[SORTIE_ARRIVAL], sortie[SORTIE_START]
     end = vehicle[V_FREE]
     outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
-    return (end <= setting.type[TYPE_LATEST]
+    return (end <= setting.type.shift_latest
             and _works_within(setting, num_depots, log, vehicle))
 
 
@@ -194,14 +191,14 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     setting = setting_of(instance, b, k)
     trips = state.log.count[r, COUNT_TRIPS]
     idle = vehicle[V_IDLE] == 1
-    if idle and trips >= setting.type[TYPE_MAX_TRIPS]:
+    if idle and trips >= setting.type.max_trips:
         return 0
-    legs = matrix_of(instance.distance, b, setting.type[TYPE_TRAVEL])
-    here, home = vehicle[V_NODE], setting.type[TYPE_END]
-    reach = setting.type[TYPE_MAX_DISTANCE] - vehicle[V_DISTANCE]
+    legs = matrix_of(instance.distance, b, setting.type.travel)
+    here, home = vehicle[V_NODE], setting.type.ends_at
+    reach = setting.type.max_trip_distance - vehicle[V_DISTANCE]
     began = 0 if idle else state.log.trip[r, trips - 1, TRIP_START]
-    drones = state.drone[r, : setting.type[TYPE_DRONES]]
-    may_launch = vehicle[V_FLYING] < setting.type[TYPE_DRONES]
+    drones = state.drone[r, : setting.type.drones]
+    may_launch = vehicle[V_FLYING] < setting.type.drones
     can_drive, can_fly, served = instance.can_drive[b, k], instance.can_fly[b, k], state.served[r]
     earliest = -1
     if trips > 0:
@@ -235,7 +232,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
 def _open_legal(instance: Instance, state: State, r: int, k: int) -> bool:
     """Tell whether a vehicle of type `k` may open: one is left and has a customer to serve."""
     b = state.problem[r]
-    if state.used[r, k] >= instance.type[b, k, TYPE_COUNT]:
+    if state.used[r, k] >= instance.type[b, k].count:
         return False
     for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
         if state.fresh[b, k, node] and not state.served[r, node]:
@@ -258,7 +255,7 @@ def legal_actions(instance: Instance, state: State, r: int, scratch: int, action
     if vehicle[V_TYPE] != NO_VEHICLE:
         found = _legal_services(instance, state, r, scratch, actions, outlooks)
         if not vehicle[V_IDLE]:
-            home = instance.type[state.problem[r], vehicle[V_TYPE], TYPE_END]
+            home = instance.type[state.problem[r], vehicle[V_TYPE]].ends_at
             actions[found] = home * NUM_KINDS + RETURN
             return found + 1
         if state.log.count[r, COUNT_TRIPS] == 0:
@@ -282,11 +279,11 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
         return
     setting = setting_of(instance, b, k)
     vehicle, log = state.vehicle[r], log_of(state.log, r)
-    drones = state.drone[r, : setting.type[TYPE_DRONES]]
+    drones = state.drone[r, : setting.type.drones]
     if kind == LAUNCH:
         launch(setting, instance.size[b, 0], log, vehicle, drones, target)
     else:
-        legs = matrix_of(instance.distance, b, setting.type[TYPE_TRAVEL])
+        legs = matrix_of(instance.distance, b, setting.type.travel)
         vehicle[V_DISTANCE] += lookup(legs, vehicle[V_NODE], target)
         drive(setting, instance.size[b, 0], log, vehicle, drones, target)
     improve_departure(setting, instance.size[b, 0], log, vehicle)

@@ -6,9 +6,7 @@ import numpy as np
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import launch_begin, ready, recovery_end, take_off, unreachable
-from model.kernel.instance import (
-    TYPE_START, TYPE_DRONES, TYPE_EARLIEST, TYPE_MAX_WORKING, TYPE_RELOAD, Instance,
-)
+from model.kernel.instance import Instance
 from model.kernel.leg import lookup
 from model.kernel.load import Amount, capacity_of, demand_of, minus
 from model.kernel.start import leaves_first
@@ -52,7 +50,7 @@ def empty_state(instance: Instance, rows: int) -> State:
     """Allocate the state of `rows` rollouts, scratch included, before any vehicle opens."""
     num_problems, num_nodes = instance.node.shape[:2]
     num_types = instance.type.shape[1]
-    max_drones = max(1, int(instance.type[:, :, TYPE_DRONES].max()))
+    max_drones = max(1, int(instance.type["drones"].max()))
     state = State(
         problem=np.zeros(rows, np.int64),
         served=np.zeros((rows, num_nodes), np.bool_),
@@ -208,7 +206,7 @@ def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntAr
 def improve_departure(setting: Setting, num_depots: int, log: VehicleLog,
                       vehicle: IntArray) -> None:
     """Find how late the vehicle could have left without ending its last stop later. In place."""
-    if setting.type[TYPE_MAX_WORKING] < UNLIMITED:
+    if setting.type.max_working_duration < UNLIMITED:
         vehicle[V_START_BEST] = latest_start(setting, num_depots, log, 0, vehicle[V_START_BEST])
     vehicle[V_DEPARTURE_BEST] = first_departure(setting, log, vehicle[V_START_BEST])
 
@@ -299,7 +297,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray,
     if not is_customer:
         vehicle[V_IDLE] = 1
         vehicle[V_DISTANCE] = 0
-        vehicle[V_NEXT_START] = free + setting.type[TYPE_RELOAD]
+        vehicle[V_NEXT_START] = free + setting.type.reload_duration
         leave_load(vehicle, capacity_of(setting.type))
     return True
 
@@ -329,9 +327,9 @@ def open_vehicle(instance: Instance, state: State, r: int, k: int) -> None:
     vehicle = state.vehicle[r]
     vehicle[:] = 0
     vehicle[V_TYPE], vehicle[V_INDEX] = k, state.used[r, k]
-    vehicle[V_NODE] = instance.type[b, k, TYPE_START]
+    vehicle[V_NODE] = instance.type[b, k].begins_at
     vehicle[V_IDLE] = 1
-    vehicle[V_NEXT_START] = instance.type[b, k, TYPE_EARLIEST]
+    vehicle[V_NEXT_START] = instance.type[b, k].shift_earliest
     leave_load(vehicle, capacity_of(instance.type[b, k]))
     state.drone[r, :, DRONE_SORTIE] = IN_FLIGHT
     state.log.count[r] = 0

@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.clock import leg_end
-from model.kernel.compiled import compiled, inlined
+from model.kernel.compiled import compiled, inlined, pasted
 from model.kernel.flight import (
     held_takeoff, launch_begin, ready, recoveries_take_time, recovery_end, take_off,
     within_endurance,
 )
-from model.kernel.instance import TYPE_DRONE_TRAVEL, TYPE_RELOAD, TYPE_TRAVEL, Instance
+from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from, leaves_first
@@ -37,7 +37,7 @@ class Setting(NamedTuple):
     """What one vehicle type meets in one problem: views into an `Instance`."""
 
     node: Records  # (node,) NODE
-    type: IntArray  # (TYPE_COLUMNS,)
+    type: Record  # TYPE
     drive: IntArray  # (node, node) ms
     fly: IntArray  # (node, node) ms
     profile_time: IntArray  # (change,)
@@ -71,12 +71,12 @@ def log_of(logs: VehicleLog, r: int) -> VehicleLog:
     return VehicleLog(logs.count[r], logs.trip[r], logs.stop[r], logs.op[r], logs.sortie[r])
 
 
-@compiled
+@pasted
 def setting_of(instance: Instance, b: int, k: int) -> Setting:
     """Return what vehicle type `k` meets in problem `b`, as views."""
     columns = instance.type[b, k]
-    return Setting(instance.node[b], columns, matrix_of(instance.duration, b, columns[TYPE_TRAVEL]),
-                   matrix_of(instance.duration, b, columns[TYPE_DRONE_TRAVEL]),
+    return Setting(instance.node[b], columns, matrix_of(instance.duration, b, columns.travel),
+                   matrix_of(instance.duration, b, columns.drone_travel),
                    instance.profile_time[b, k], instance.profile_factor[b, k])
 
 
@@ -163,7 +163,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
         if trip + 1 < log.count[COUNT_TRIPS]:
             behind = log.trip[trip + 1, TRIP_FIRST_STOP]
         if trip > first_trip:
-            start = max(log.trip[trip, TRIP_RELEASE], leave + setting.type[TYPE_RELOAD])
+            start = max(log.trip[trip, TRIP_RELEASE], leave + setting.type.reload_duration)
         if write:
             log.trip[trip, TRIP_START] = start
         for index in range(first, behind):

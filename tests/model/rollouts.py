@@ -80,7 +80,7 @@ def roll(problems: Sequence[Problem], seed: int) -> Batch:
     rngs = [np.random.default_rng((seed, problem.num_customers)) for problem in problems]
     rollouts = [Rollout() for _ in problems]
     choice = np.zeros(rows, np.int64)
-    vehicles = int(instance.type[:, :, 0].sum(axis=1).max())
+    vehicles = int(instance.type["count"].sum(axis=1).max())
     for _ in range(2 * width + vehicles + 2):
         if not features.observe(instance, scale, state, tokens.type, 0, rows, rows, seen):
             break

@@ -9,9 +9,7 @@ points, Operations Research 12:568-581.
 import numpy as np
 
 from model.kernel.compiled import compiled, inlined
-from model.kernel.instance import (
-    MAX_DIMENSIONS, TYPE_EARLIEST, TYPE_END, TYPE_LATEST, TYPE_START, TYPE_TRAVEL,
-)
+from model.kernel.instance import MAX_DIMENSIONS
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import Amount, demand_of, holds, plus
 from model.kernel.records import Record, Records, record
@@ -38,8 +36,8 @@ def savings_routes(world: World, k: int) -> list[list[int]]:
     The customers of each route, in order.
     """
     first, nodes = world.num_depots, np.arange(world.num_depots, world.num_nodes)
-    distance = world.leg[world.type[k, TYPE_TRAVEL], :, :, 1]
-    start, end = int(world.type[k, TYPE_START]), int(world.type[k, TYPE_END])
+    distance = world.leg[world.type[k].travel, :, :, 1]
+    start, end = int(world.type[k].begins_at), int(world.type[k].ends_at)
     other = world.near[first:, :NEIGHBOURS]
     known = other >= 0
     one = np.broadcast_to(nodes[:, None], other.shape)[known]
@@ -81,15 +79,15 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
     In place: `chain` (node,) is set up here.
     """
     columns = world.type[k]
-    legs = legs_of(world.leg, columns[TYPE_TRAVEL])
-    start, end = columns[TYPE_START], columns[TYPE_END]
+    legs = legs_of(world.leg, columns.travel)
+    start, end = columns.begins_at, columns.ends_at
     for node in range(world.num_depots, world.num_nodes):
         place, link = world.place[node], chain[node]
         link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
         set_chain_load(link, demand_of(place))
-        ready = max(leaves_first(columns, columns[TYPE_EARLIEST]), place.release)
+        ready = max(leaves_first(columns, columns.shift_earliest), place.release)
         link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
-        leave = columns[TYPE_LATEST] - leg(legs, node, end).duration
+        leave = columns.shift_latest - leg(legs, node, end).duration
         link.latest = latest_arrival(place, leave)
     for index in range(len(one)):
         a, b = one[index], other[index]

@@ -7,9 +7,7 @@ import numpy as np
 from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.flight import ready, recovery_end
-from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_CAPACITY, TYPE_COUNT, TYPE_DRONES, TYPE_MAX_TRIPS, NONE,
-)
+from model.kernel.instance import NONE
 from model.kernel.records import Record, one, read_rows, Records
 from model.kernel.stop import start_of_service
 from model.problem import FloatArray, IntArray, Problem
@@ -79,7 +77,7 @@ def first_plan(problem: Problem, world: World) -> Solution:
     What flies is up to `world`, in which drones may be left aside. Routes have no times yet.
     """
     everyone = tuple(range(world.num_depots, world.num_nodes))
-    if world.num_types > 1 or world.type[0, TYPE_DRONES] > 0:
+    if world.num_types > 1 or world.type[0].drones > 0:
         return Solution((), everyone)
     kind, = problem.vehicle_types
     start, end = kind.begins_at, kind.ends_at
@@ -95,16 +93,16 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
     demand = np.sort(world.place[problem.num_depots:]["demand"], axis=0).cumsum(axis=0)
     most, fewest = 0, number
     for kind in columns:
-        trips = min(int(kind[TYPE_MAX_TRIPS]), number)
-        capacity = kind[TYPE_CAPACITY:TYPE_CAPACITY + 3] * trips
+        trips = min(int(kind.max_trips), number)
+        capacity = kind.capacity * trips
         most = max(most, int((demand <= capacity).all(axis=1).sum()))
         largest = np.maximum(capacity, 1)
         fewest = min(fewest, int(np.ceil(demand[-1] / largest).max()) if number else 0)
-    count = int(columns[:, TYPE_COUNT].sum())
+    count = int(columns["count"].sum())
     wanted = 2 * max(len(solution.routes), 2 * fewest) + SPARE_SLOTS
     if not solution.routes:
         wanted = number
-    trips = min(int(columns[:, TYPE_MAX_TRIPS].max()), max(1, most)) + 1
+    trips = min(int(columns["max_trips"].max()), max(1, most)) + 1
     flown = most if world.visits.any() else 0
     return (max(1, min(count, number, wanted), len(solution.routes)),
             most + 2 * trips + STOPS_OPENED, trips, flown + 1)
@@ -161,8 +159,8 @@ def leg_cost(world: World, searcher: Searcher) -> float:
         rate = world.rate[now.route[slot].type]
         for p in range(now.route[slot].length - 1):
             if now.stop[slot, p].kind == CUSTOMER and now.stop[slot, p + 1].kind == CUSTOMER:
-                cost += (now.stop[slot, p].leg * rate[RATE_KM]
-                         + now.stop[slot, p].gap * rate[RATE_HOUR])
+                cost += (now.stop[slot, p].leg * rate.distance
+                         + now.stop[slot, p].gap * rate.time)
                 legs += 1
     if cost > 0.0:
         return cost / legs
@@ -228,7 +226,7 @@ def service_starts(place: Records, nodes: IntArray, arrivals: IntArray) -> IntAr
 
 
 @compiled
-def sortie_ends(place: Records, columns: IntArray, nodes: IntArray, arrivals: IntArray,
+def sortie_ends(place: Records, columns: Record, nodes: IntArray, arrivals: IntArray,
                 begin: int) -> tuple[IntArray, int]:
     """Return when a drone has served its customers, and when it is aboard, recovered from `begin`.
     """
@@ -264,7 +262,7 @@ def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: in
     return Stop(node, arrival, begin, leave)
 
 
-def _sortie(world: World, kind: IntArray, row: Any, first: int) -> Sortie:
+def _sortie(world: World, kind: Record, row: Any, first: int) -> Sortie:
     nodes = np.array(row.nodes[: row.count], np.int64)
     arrivals = np.array(row.arrivals[: row.count], np.int64)
     starts = service_starts(world.place, nodes, arrivals)

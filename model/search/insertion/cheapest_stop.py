@@ -1,7 +1,7 @@
 """The cheapest stop for a customer where only the distance of the detour counts."""
 
 from model.kernel.compiled import inlined, pasted, spliced
-from model.kernel.instance import FAR, RATE_KM, TYPE_MAX_DISTANCE, TYPE_TRAVEL
+from model.kernel.instance import FAR
 from model.kernel.leg import leg_at, legs_from, legs_to
 from model.kernel.load import fits
 from model.kernel.records import Record, Records
@@ -83,10 +83,10 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
               rate: float, best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer on a trip. As `scan_stops`."""
     k, trip, stops = fleet.route[slot].type, fleet.trip[slot, index], fleet.stop[slot]
-    m = world.type[k, TYPE_TRAVEL]
+    m = world.type[k].travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     place = world.place[node]
-    spare = world.type[k, TYPE_MAX_DISTANCE] - trip.distance
+    spare = world.type[k].max_trip_distance - trip.distance
     if place.release > stops[trip.first].leave:
         return scan_delayed(world, inward, onward, stops, trip.first, first, last, node, spare,
                             rate, best, blink, rng)
@@ -144,7 +144,7 @@ def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, bes
     """
     stamp = fleet.route[slot].stamp
     if kept.stamp != stamp or (kept.stop < 0 and kept.detour * rate < best):
-        m = world.type[fleet.route[slot].type, TYPE_TRAVEL]
+        m = world.type[fleet.route[slot].type].travel
         most = FAR
         # Also where distance costs nothing, or a larger vehicle saves more than any detour costs.
         if abs(best) < FAR * rate:
@@ -174,7 +174,7 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
         by, base = serving_type(world, fleet, slot, 0, node, enlarge)
         if by < 0 or (by != k and base >= best):
             continue
-        rate = world.rate[by, RATE_KM]
+        rate = world.rate[by].distance
         skipped, changing = -1, not world.scan_all or fleet.route[slot].stamp == CHANGING
         cost, p = best, -1
         if not changing:
@@ -182,7 +182,7 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
             if p >= 0 and uniform(rng) < world.blink:
                 skipped, changing = p, True
         if changing:
-            m = world.type[k, TYPE_TRAVEL]
+            m = world.type[k].travel
             cost, p = scan_stops(
                 legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot], 0,
                 fleet.trip[slot, 0].last - 1, skipped, world.place[node], FAR, rate, best - base,
@@ -204,7 +204,7 @@ def scan_simple(world: World, fleet: Fleet, slot: int, node: int, enlarge: bool,
             continue
         cost, p = scan_trip(
             world, fleet, slot, trip, fleet.trip[slot, trip].first,
-            fleet.trip[slot, trip].last - 1, node, world.rate[by, RATE_KM],
+            fleet.trip[slot, trip].last - 1, node, world.rate[by].distance,
             bound.best - base, bound.blink, rng)
         if p >= 0:
             bound.best = cost + base
@@ -228,7 +228,7 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
         by, base = serving_type(world, fleet, slot, trip, node, enlarge)
         if by < 0 or (by != k and base >= best):
             continue
-        cost, p = scan_trip(world, fleet, slot, trip, p - 1, p, node, world.rate[by, RATE_KM],
+        cost, p = scan_trip(world, fleet, slot, trip, p - 1, p, node, world.rate[by].distance,
                             best - base, world.blink, rng)
         if p >= 0:
             best = cost + base
@@ -252,7 +252,7 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
         by, base = serving_type(world, fleet, slot, 0, node, enlarge)
         if by < 0 or (by != k and base >= best):
             continue
-        m, rate = world.type[k, TYPE_TRAVEL], world.rate[by, RATE_KM]
+        m, rate = world.type[k].travel, world.rate[by].distance
         inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
         stops = fleet.stop[slot]
         for p in (behind - 1, behind):

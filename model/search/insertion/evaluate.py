@@ -1,9 +1,7 @@
 """What an insertion costs: from the blocks around it, or by timing the whole route again."""
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import (
-    RATE_HOUR, RATE_KM, TYPE_END, TYPE_MAX_WORKING, TYPE_RELOAD, TYPE_TRAVEL, FAR, NONE, TYPE_START,
-)
+from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, leg_at, legs_of, legs_to
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from
@@ -76,7 +74,7 @@ def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: R
     route, stops, sorties = fleet.route[to], fleet.stop[to], fleet.sortie[to]
     old = fleet.stop[slot]
     k, length, count = route.type, route.length, route.sorties
-    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
+    legs = legs_of(world.leg, world.type[k].travel)
     time, cum = old[first].arrival, old[first].before
     depart = old[first - 1].depart if first > 0 else FAR
     make_ready(world, k, stops, sorties, count)
@@ -102,7 +100,7 @@ def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: R
         p = last + 1
         if p < length:
             if stops[last].kind == END:
-                gap = world.type[k, TYPE_RELOAD]
+                gap = world.type[k].reload_duration
             else:
                 way = leg(legs, stops[last].node, stops[p].node)
                 gap = way.duration
@@ -131,11 +129,11 @@ def price_part(world: World, fleet: Fleet, slot: int, first: int, last: int, to:
         cum += behind.rest
         end = max(arrival + behind.rest, behind.end)
     working = end - counted_from(world.type[k], min(depart, end - cum)) - route.offset
-    if working > world.type[k, TYPE_MAX_WORKING]:
+    if working > world.type[k].max_working_duration:
         return INFEASIBLE
     for p in range(first, last):
         driven -= old[p].leg
-    cost = driven * world.rate[k, RATE_KM] + (working - route.working) * world.rate[k, RATE_HOUR]
+    cost = driven * world.rate[k].distance + (working - route.working) * world.rate[k].time
     for s in range(fleet.route[to].sorties):
         cost += sortie_cost(world, k, fleet.stop[to], fleet.sortie[to, s])
     for s in range(route.sorties):
@@ -151,7 +149,7 @@ def serve_alone(world: World, fleet: Fleet, slot: int, k: int, node: int, by_dro
 
     Where it begins and ends at one place, a drone leaves from the start, and comes back there.
     """
-    start, end = world.type[k, TYPE_START], world.type[k, TYPE_END]
+    start, end = world.type[k].begins_at, world.type[k].ends_at
     first = FROM_START if by_drone else BY_TRUCK
     last = WAYS if by_drone and start != end else first
     best, chosen, done = INFEASIBLE, first, False
@@ -189,7 +187,7 @@ def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record)
     slot, to = move.slot, len(fleet.route) - 1
     route = fleet.route[slot]
     k = route.type
-    depot = world.type[k, TYPE_END]
+    depot = world.type[k].ends_at
     if world.mode[k] & MODE_PRICED:
         copy_part(fleet, slot, 0, route.length - 1, to)
         apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0)
@@ -260,13 +258,13 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     """
     route, stops, place = fleet.route[slot], fleet.stop[slot], world.place[node]
     k, here, behind = route.type, stops[p], stops[p + 1]
-    m = world.type[k, TYPE_TRAVEL]
+    m = world.type[k].travel
     out = leg_at(legs_to(world.back, m, node), here.node)
     on = leg(legs_of(world.leg, m), node, behind.node)
     time, cum = here.leave + out.duration, here.cum + out.duration
     if too_late(place, time):
         return INFEASIBLE
-    cost = (out.distance + on.distance - here.leg) * world.rate[k, RATE_KM]
+    cost = (out.distance + on.distance - here.leg) * world.rate[k].distance
     depart = min(here.depart, as_late(place, time) - cum)
     late = window_cost(world, node, time)
     time = end_of_service(place, time) + on.duration
@@ -280,6 +278,6 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
         depart = min(depart, behind.latest - cum)
         end, cum = max(time + behind.rest, behind.end), cum + behind.rest
     working = end - counted_from(world.type[k], min(depart, end - cum)) - route.offset
-    if working > world.type[k, TYPE_MAX_WORKING]:
+    if working > world.type[k].max_working_duration:
         return INFEASIBLE
-    return cost + (working - route.working) * world.rate[k, RATE_HOUR]
+    return cost + (working - route.working) * world.rate[k].time

@@ -1,9 +1,7 @@
 """Insertions that begin a trip more on a route, or split one, where distance alone costs."""
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import (
-    TYPE_END, TYPE_EARLIEST, TYPE_LATEST, TYPE_MAX_DISTANCE, TYPE_RELOAD, TYPE_TRAVEL, FAR,
-)
+from model.kernel.instance import FAR
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds, plus
 from model.kernel.records import Records
@@ -54,7 +52,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     """
     stops = fleet.stop[slot]
     columns, trip = world.type[fleet.route[slot].type], fleet.trip[slot, stops[p].trip]
-    legs, depot = legs_of(world.leg, columns[TYPE_TRAVEL]), columns[TYPE_END]
+    legs, depot = legs_of(world.leg, columns.travel), columns.ends_at
     first, last = trip.first, trip.last
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
@@ -79,9 +77,9 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
         here = node
     time += leg(legs, here, depot).duration
     front_length += leg(legs, here, depot).distance
-    if time > columns[TYPE_LATEST]:
+    if time > columns.shift_latest:
         return False
-    time = max(time + columns[TYPE_RELOAD], rear)
+    time = max(time + columns.reload_duration, rear)
     here = depot
     if not until:
         time = serve_at(world, node, time + leg(legs, depot, node).duration)
@@ -89,7 +87,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
         here = node
     rear_length += leg(legs, here, there).distance
     return (time + leg(legs, here, there).duration <= stops[p + 1].latest
-            and max(front_length, rear_length) <= columns[TYPE_MAX_DISTANCE])
+            and max(front_length, rear_length) <= columns.max_trip_distance)
 
 
 @spliced
@@ -97,17 +95,17 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     """Tell whether a customer can be served by a trip of its own behind stop `p`, or -1."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     columns = world.type[route.type]
-    legs, depot = legs_of(world.leg, columns[TYPE_TRAVEL]), columns[TYPE_END]
-    time = columns[TYPE_EARLIEST]
+    legs, depot = legs_of(world.leg, columns.travel), columns.ends_at
+    time = columns.shift_earliest
     if p >= 0:
-        time = stops[p].leave + columns[TYPE_RELOAD]
+        time = stops[p].leave + columns.reload_duration
     time = max(time, world.place[node].release)
     out, home = leg(legs, depot, node), leg(legs, node, depot)
     time = serve_at(world, node, time + out.duration) + home.duration
-    if p + 1 < route.length and time + columns[TYPE_RELOAD] > stops[p + 1].latest:
+    if p + 1 < route.length and time + columns.reload_duration > stops[p + 1].latest:
         return False
-    return (time <= columns[TYPE_LATEST]
-            and out.distance + home.distance <= columns[TYPE_MAX_DISTANCE])
+    return (time <= columns.shift_latest
+            and out.distance + home.distance <= columns.max_trip_distance)
 
 
 @spliced

@@ -5,10 +5,6 @@ from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.flight import (
     can_last, drone_service, earliest_back, recovery_end, take_off, unreachable, within_endurance,
 )
-from model.kernel.instance import (
-    RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_END, TYPE_DRONES, TYPE_DRONE_TRAVEL,
-    TYPE_MAX_DISTANCE, TYPE_TRAVEL,
-)
 from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
 from model.kernel.load import demand_of, fits, lifts, plus
 from model.kernel.records import Record, Records
@@ -55,12 +51,12 @@ def stop_costs(world: World, k: int, inward: IntArray, onward: IntArray, stops: 
     """
     place, here, there = world.place[node], stops[p].node, stops[p + 1].node
     out, on = leg_at(inward, here), leg_at(onward, there)
-    cost = (out.distance + on.distance - stops[p].leg) * world.rate[k, RATE_KM] - early
+    cost = (out.distance + on.distance - stops[p].leg) * world.rate[k].distance - early
     mode = world.mode[k]
     if mode & MODE_TIMED:
         # While drones fly, the truck may have time before they are back.
         longer = out.duration + on.duration + service_duration(place) - stops[p].gap
-        cost += max(0, longer - spare - stops[p].idle) * world.rate[k, RATE_HOUR]
+        cost += max(0, longer - spare - stops[p].idle) * world.rate[k].time
     if cost >= best:
         return best
     arrival = stops[p].leave + out.duration
@@ -82,10 +78,10 @@ def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: i
     """
     now, best = searcher.now, searcher.bound.best
     k, stops = now.route[slot].type, now.stop[slot]
-    m = world.type[k, TYPE_TRAVEL]
+    m = world.type[k].travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     spare, early = idle_time(now.route[slot]), now.early[slot]
-    room = world.type[k, TYPE_MAX_DISTANCE] - now.trip[slot, stops[first].trip].distance
+    room = world.type[k].max_trip_distance - now.trip[slot, stops[first].trip].distance
     for p in range(first, last + 1):
         cost = stop_costs(world, k, inward, onward, stops, p, node, spare, early, best)
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
@@ -101,7 +97,7 @@ def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int
     """
     sorties = fleet.sortie[slot]
     chosen, fewest = NOWHERE, 0
-    for drone in range(world.type[fleet.route[slot].type, TYPE_DRONES]):
+    for drone in range(world.type[fleet.route[slot].type].drones):
         free, beside = True, 0
         for s in range(fleet.route[slot].sorties):
             if sorties[s].drone == drone:
@@ -127,7 +123,7 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     now, best = searcher.now, searcher.bound.best
     k, stops = now.route[slot].type, now.stop[slot]
     columns = world.type[k]
-    m = columns[TYPE_DRONE_TRAVEL]
+    m = columns.drone_travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     out = leg_at(inward, stops[launch].node)
     place, left = world.place[node], stops[launch].leave
@@ -155,8 +151,8 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
                 continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         longer = max(0, begun + flight - stops[recovery].leave)
-        cost = ((out.distance + home.distance) * world.rate[k, RATE_DRONE_KM]
-                + longer * world.rate[k, RATE_HOUR] + late - now.early[slot])
+        cost = ((out.distance + home.distance) * world.rate[k].drone_distance
+                + longer * world.rate[k].time + late - now.early[slot])
         if cost < best and can_last(columns, flight):
             index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
                               slot, launch)
@@ -168,7 +164,7 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
     """List a customer on each sortie of a route. As `offer_stops`."""
     now = searcher.now
     k, stops, sorties = now.route[slot].type, now.stop[slot], now.sortie[slot]
-    flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
+    flights = legs_of(world.leg, world.type[k].drone_travel)
     for s in range(now.route[slot].sorties):
         sortie = sorties[s]
         trip = stops[sortie.launch].trip
@@ -184,7 +180,7 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
                 there = sortie.nodes[place]
             out, on, direct = (leg(flights, here, node), leg(flights, node, there),
                                leg(flights, here, there))
-            cost = ((out.distance + on.distance - direct.distance) * world.rate[k, RATE_DRONE_KM]
+            cost = ((out.distance + on.distance - direct.distance) * world.rate[k].drone_distance
                     - now.early[slot])
             here = there
             if cost < searcher.bound.best:
@@ -198,10 +194,10 @@ def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -
     """List trips that a drone flies alone to a customer. As `offer_stops`."""
     route, stops = searcher.now.route[slot], searcher.now.stop[slot]
     k = route.type
-    flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
-    depot = world.type[k, TYPE_END]
+    flights = legs_of(world.leg, world.type[k].drone_travel)
+    depot = world.type[k].ends_at
     out, home = leg(flights, depot, node), leg(flights, node, depot)
-    cost = (out.distance + home.distance) * world.rate[k, RATE_DRONE_KM] - searcher.now.early[slot]
+    cost = (out.distance + home.distance) * world.rate[k].drone_distance - searcher.now.early[slot]
     if (world.loops and not unreachable(max(out.duration, home.duration))
             and cost < searcher.bound.best):
         for p in range(-1, route.length):
@@ -216,7 +212,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
     now = searcher.now
     route, stops, best = now.route[slot], now.stop[slot], searcher.bound.best
     k = route.type
-    m, depot, rate = world.type[k, TYPE_TRAVEL], world.type[k, TYPE_END], world.rate[k, RATE_KM]
+    m, depot, rate = world.type[k].travel, world.type[k].ends_at, world.rate[k].distance
     legs, inward = legs_of(world.leg, m), legs_to(world.back, m, node)
     out, home = leg_at(inward, depot).distance, leg(legs, node, depot).distance
     for p in range(-1, route.length):

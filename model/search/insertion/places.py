@@ -3,7 +3,7 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import pasted
 from model.kernel.flight import held_until
-from model.kernel.instance import NONE, TYPE_COUNT, TYPE_MAX_TRIPS
+from model.kernel.instance import NONE
 from model.kernel.load import fits
 from model.kernel.stop import opening
 from model.search.insertion.cheapest_stop import (
@@ -32,7 +32,7 @@ def try_new_route(world: World, searcher: Searcher, node: int) -> float:
     """
     best = INFEASIBLE
     for k in range(world.num_types):
-        if searcher.now.used[k] >= world.type[k, TYPE_COUNT]:
+        if searcher.now.used[k] >= world.type[k].count:
             continue
         for by_drone in range(2 if world.loops else 1):
             cost = searcher.alone[k, by_drone, node]
@@ -154,7 +154,7 @@ def find_place(world: World, searcher: Searcher, node: int, enlarge: bool) -> fl
         for index in range(searcher.count.active):
             slot = searcher.active[index]
             k = now.route[slot].type
-            if now.route[slot].trips >= world.type[k, TYPE_MAX_TRIPS] or rung(world.stop):
+            if now.route[slot].trips >= world.type[k].max_trips or rung(world.stop):
                 continue
             if world.can[k, 0, node]:
                 offer_trips(world, searcher, slot, node)

@@ -3,10 +3,6 @@
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import (
-    RATE_FIXED, RATE_KM, TYPE_END,
-    TYPE_MAX_TRIPS, TYPE_START, TYPE_TRAVEL,
-)
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import NOTHING, demand_of, holds, plus
 from model.search.route.edit import put
@@ -34,7 +30,7 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
     By distance alone; infinite where a tail would be reached too late.
     """
     k, by = fleet.route[a].type, fleet.route[b].type
-    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
+    legs = legs_of(world.leg, world.type[k].travel)
     one, other = fleet.stop[a], fleet.stop[b]
     here, there = one[p].node, other[q].node
     after_here, after_there = one[p + 1].node, other[q + 1].node
@@ -42,7 +38,7 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
     if (one[p].leave + to_other.duration > other[q + 1].latest
             or other[q].leave + to_one.duration > one[p + 1].latest):
         return math.inf
-    rate, rate_by = world.rate[k, RATE_KM], world.rate[by, RATE_KM]
+    rate, rate_by = world.rate[k].distance, world.rate[by].distance
     cost = ((to_other.distance - one[p].leg) * rate
             + (to_one.distance - other[q].leg) * rate_by)
     if rate != rate_by:
@@ -75,11 +71,11 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
         if cost < best:
             chosen, place, best = b, q, cost
     if now.stop[a, p + 1].kind == CUSTOMER:
-        legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
-        start, end = world.type[k, TYPE_START], world.type[k, TYPE_END]
+        legs = legs_of(world.leg, world.type[k].travel)
+        start, end = world.type[k].begins_at, world.type[k].ends_at
         detour = (leg(legs, node, end).distance - now.stop[a, p].leg
                   + leg(legs, start, now.stop[a, p + 1].node).distance)
-        if world.rate[k, RATE_FIXED] + detour * world.rate[k, RATE_KM] < best:
+        if world.rate[k].fixed + detour * world.rate[k].distance < best:
             slot = free_slot(world, searcher, k)
             if slot >= 0:
                 return slot, 0
@@ -117,8 +113,8 @@ def swap_tails(world: World, searcher: Searcher, a: int, p: int, b: int, q: int)
     k = now.route[a].type
     if now.route[b].length == 0:
         now.route[b].type, now.route[b].length, now.route[b].sorties = k, 2, 0
-        put(now.stop[b], 0, world.type[k, TYPE_START], START)
-        put(now.stop[b], 1, world.type[k, TYPE_END], END)
+        put(now.stop[b], 0, world.type[k].begins_at, START)
+        put(now.stop[b], 1, world.type[k].ends_at, END)
         now.used[k] += 1
     keep_aside(now, a, one)
     keep_aside(now, b, two)
@@ -161,7 +157,7 @@ def too_long(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> bool
     """Tell whether route `a` up to stop `p`, then `b` behind stop `q`, has too many trips."""
     trips = fleet.stop[a, p].trip + fleet.route[b].trips - fleet.stop[b, q].trip
     sorties = fleet.route[a].sorties + fleet.route[b].sorties
-    return (trips > world.type[fleet.route[a].type, TYPE_MAX_TRIPS]
+    return (trips > world.type[fleet.route[a].type].max_trips
             or sorties > fleet.sortie.shape[1])
 
 

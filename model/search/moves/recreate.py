@@ -2,7 +2,6 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
-from model.kernel.instance import TYPE_END, TYPE_START, TYPE_TRAVEL
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, total
 from model.kernel.stop import closing, width
@@ -35,8 +34,8 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     if order == BY_DEMAND:
         return -float(total(demand_of(place)))
     if order in (BY_FAR, BY_CLOSE):
-        legs = legs_of(world.leg, world.type[0, TYPE_TRAVEL])
-        distance = float(leg(legs, world.type[0, TYPE_START], node).distance)
+        legs = legs_of(world.leg, world.type[0].travel)
+        distance = float(leg(legs, world.type[0].begins_at, node).distance)
         return -distance if order == BY_FAR else distance
     if order == BY_WIDTH:
         return float(width(place))
@@ -93,7 +92,7 @@ def insert(world: World, searcher: Searcher, node: int) -> bool:
         return True
     spare = len(now.route) - 2
     keep_aside(now, slot, spare)
-    depot = world.type[route.type, TYPE_END]
+    depot = world.type[route.type].ends_at
     apply(depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0)
     done = refresh(world, now, slot, searcher.acc)
     if not done:

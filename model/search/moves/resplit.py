@@ -7,7 +7,6 @@ split in two, or two become one, with the drones' share of each chosen anew at o
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import RATE_FIXED, TYPE_DRONES, TYPE_END, TYPE_START
 from model.kernel.load import NOTHING, demand_of, holds, plus
 from model.kernel.records import Record, Records
 from model.search.moves.exchange import append
@@ -103,7 +102,7 @@ def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first
             exact, idle = exact and whole, idle + idle_time(fleet.route[member])
             if exact:
                 measure(world, k, line[begin:], count)
-                before += present_cost(world, k, line[begin:], count) + world.rate[k, RATE_FIXED]
+                before += present_cost(world, k, line[begin:], count) + world.rate[k].fixed
             length = begin + count
         else:
             line[length].node = line[begin].node
@@ -132,7 +131,7 @@ def partner(world: World, searcher: Searcher, slot: int, node: int) -> int:
     near = world.near[node, below(searcher.rng, min(NEIGHBOURS, world.near.shape[1]))]
     # The end of the one route is the start of the other in a line.
     if (near < 0 or route.trips > 1 or ends_in_flight(now, slot)
-            or world.type[k, TYPE_START] != world.type[k, TYPE_END]):
+            or world.type[k].begins_at != world.type[k].ends_at):
         return NOWHERE
     other = now.where[near].slot
     if other == slot:
@@ -194,7 +193,7 @@ def split_all(world: World, searcher: Searcher, k: int, cut: int, length: int) -
             measure(world, k, line[begin:], count)
             if not split(world, k, line[begin:], cost[begin:], count):
                 return math.inf
-            total += cost[end] + world.rate[k, RATE_FIXED]
+            total += cost[end] + world.rate[k].fixed
         begin, end = end, length - 1
     return total
 
@@ -274,7 +273,7 @@ def resplit(world: World, searcher: Searcher, limit: float) -> bool:
     now, line, rng = searcher.now, searcher.line, searcher.rng
     node = any_customer(world, now, rng)
     slot = now.where[node].slot
-    if slot < 0 or world.type[now.route[slot].type, TYPE_DRONES] != 1:
+    if slot < 0 or world.type[now.route[slot].type].drones != 1:
         return False
     k, other = now.route[slot].type, NOWHERE
     if uniform(rng) < TOGETHER:

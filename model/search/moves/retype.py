@@ -3,7 +3,6 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined
-from model.kernel.instance import TYPE_COUNT, TYPE_DRONES, TYPE_END, TYPE_MAX_TRIPS, TYPE_START
 from model.kernel.load import holds, lifts
 from model.search.route.layout import CUSTOMER, MODE_LEAN, Fleet, World
 from model.search.route.randomness import below
@@ -42,7 +41,7 @@ def improve_types(world: World, searcher: Searcher) -> None:
         trip = now.trip[slot, 0]
         for k in range(world.num_types):
             if (world.swap[now.route[slot].type, k]
-                    and now.used[k] < world.type[k, TYPE_COUNT]
+                    and now.used[k] < world.type[k].count
                     and route_cost(world, k, trip.distance) < now.cost[slot] - 1e-9
                     and holds(world.type[k], load_of(trip))):
                 change_type(world, now, slot, k)
@@ -54,16 +53,16 @@ def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
     """Tell whether type `k` has the places, trips, drones and skills that a route needs."""
     route, stops, sorties = fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]
     former = world.type[route.type]
-    if (world.type[k, TYPE_START] != former[TYPE_START]
-            or world.type[k, TYPE_END] != former[TYPE_END]
-            or route.trips > world.type[k, TYPE_MAX_TRIPS]):
+    if (world.type[k].begins_at != former.begins_at
+            or world.type[k].ends_at != former.ends_at
+            or route.trips > world.type[k].max_trips):
         return False
     for p in range(route.length):
         if stops[p].kind == CUSTOMER and not world.can[k, 0, stops[p].node]:
             return False
     for s in range(route.sorties):
         sortie = sorties[s]
-        if (sortie.drone >= world.type[k, TYPE_DRONES] or sortie.count > world.visits[k]
+        if (sortie.drone >= world.type[k].drones or sortie.count > world.visits[k]
                 or not lifts(world.type[k], payload(world, sortie))):
             return False
         for visit in range(sortie.count):
@@ -80,7 +79,7 @@ def give_type(world: World, searcher: Searcher, slot: int, k: int, cheaper: bool
     """
     now = searcher.now
     former, cost = now.route[slot].type, now.cost[slot]
-    if (k == former or world.swap[former, k] or now.used[k] >= world.type[k, TYPE_COUNT]
+    if (k == former or world.swap[former, k] or now.used[k] >= world.type[k].count
             or not may_drive(world, now, slot, k)):
         return
     spare = len(now.route) - 2

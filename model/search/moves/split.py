@@ -15,9 +15,6 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.flight import (
     can_last, drone_service, handling_duration, launch_duration, within_endurance,
 )
-from model.kernel.instance import (
-    RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL, TYPE_TRAVEL,
-)
 from model.kernel.leg import leg, legs_of
 from model.kernel.records import Records, record
 from model.kernel.stop import service_duration
@@ -88,7 +85,7 @@ def shuffle(world: World, line: Records, length: int, rng: UIntArray) -> None:
 @spliced
 def measure(world: World, k: int, line: Records, length: int) -> None:
     """Write what a truck that served the whole line would drive. In place."""
-    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
+    legs = legs_of(world.leg, world.type[k].travel)
     line[0].drive = line[0].distance = line[0].grounded = 0
     for j in range(1, length):
         before, node = line[j - 1].node, line[j].node
@@ -120,40 +117,40 @@ def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: i
     distance = line[j].distance - line[i].distance - line[flown].spared_distance
     here, handled = service_duration(world.place[node]), handling_duration(columns)
     driven = drive - here + max(0, here - launch_duration(columns))
-    if (handled + driven) * rate[RATE_HOUR] + distance * rate[RATE_KM] >= most:
+    if (handled + driven) * rate.time + distance * rate.distance >= most:
         return math.inf
-    flights = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
+    flights = legs_of(world.leg, columns.drone_travel)
     service = drone_service(columns, world.place[customer])
     out, home = leg(flights, node, customer), leg(flights, customer, to)
     flight = out.duration + service + home.duration
     airborne = max(flight, driven)
     if not within_endurance(columns, 0, flight, airborne):
         return math.inf
-    return ((handled + airborne) * rate[RATE_HOUR] + distance * rate[RATE_KM]
-            + airborne * rate[RATE_DRONE_HOUR]
-            + (out.distance + home.distance) * rate[RATE_DRONE_KM])
+    return ((handled + airborne) * rate.time + distance * rate.distance
+            + airborne * rate.drone_time
+            + (out.distance + home.distance) * rate.drone_distance)
 
 
 @inlined
 def loop_cost(world: World, k: int, node: int, customer: int) -> float:
     """Return what a flight costs for which the truck waits at a stop."""
     columns, rate = world.type[k], world.rate[k]
-    flights = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
+    flights = legs_of(world.leg, columns.drone_travel)
     service = drone_service(columns, world.place[customer])
     out, home = leg(flights, node, customer), leg(flights, customer, node)
     airborne = out.duration + service + home.duration
     if not can_last(columns, airborne) or not world.loops:
         return math.inf
     handled = handling_duration(columns)
-    return ((airborne + handled) * rate[RATE_HOUR] + airborne * rate[RATE_DRONE_HOUR]
-            + (out.distance + home.distance) * rate[RATE_DRONE_KM])
+    return ((airborne + handled) * rate.time + airborne * rate.drone_time
+            + (out.distance + home.distance) * rate.drone_distance)
 
 
 @spliced
 def extend(world: World, k: int, line: Records, cost: FloatArray, length: int, i: int) -> None:
     """Try all operations that begin at place `i`. In place."""
     rate = world.rate[k]
-    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
+    legs = legs_of(world.leg, world.type[k].travel)
     here, loops = line[i].node, 0.0
     service = service_duration(world.place[here])
     for j in range(i + 1, min(length, i + LONGEST_OPERATION + 1)):
@@ -162,8 +159,8 @@ def extend(world: World, k: int, line: Records, cost: FloatArray, length: int, i
         grounded = line[j - 1].grounded - line[i].grounded
         if lands:
             way = leg(legs, here, to)
-            total = (cost[i] + loops + (way.duration + service) * rate[RATE_HOUR]
-                     + way.distance * rate[RATE_KM])
+            total = (cost[i] + loops + (way.duration + service) * rate.time
+                     + way.distance * rate.distance)
             if total < cost[j]:
                 cost[j], line[j].before, line[j].flight = total, i, NO_FLIGHT
         if lands and grounded <= 1 and world.crossings:
@@ -197,7 +194,7 @@ def split(world: World, k: int, line: Records, cost: FloatArray, length: int) ->
 @spliced
 def present_cost(world: World, k: int, line: Records, length: int) -> float:
     """Return what the operations that are noted in the line cost."""
-    rate, legs = world.rate[k], legs_of(world.leg, world.type[k, TYPE_TRAVEL])
+    rate, legs = world.rate[k], legs_of(world.leg, world.type[k].travel)
     cost, j = 0.0, length - 1
     while j > 0:
         i, flown = line[j].before, line[j].flight
@@ -206,7 +203,7 @@ def present_cost(world: World, k: int, line: Records, length: int) -> float:
         else:
             here = line[i].node
             way, service = leg(legs, here, line[j].node), service_duration(world.place[here])
-            cost += (way.duration + service) * rate[RATE_HOUR] + way.distance * rate[RATE_KM]
+            cost += (way.duration + service) * rate.time + way.distance * rate.distance
             for place in range(i + 1, j):
                 cost += loop_cost(world, k, here, line[place].node)
         j = i

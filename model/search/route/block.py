@@ -9,7 +9,7 @@ from model.kernel.flight import (
     counted_until, drone_service, earliest_back, enduring_within, held_until, launch_begin,
     recovery_end, take_off, unreachable,
 )
-from model.kernel.instance import FAR, NONE, TYPE_DRONE_TRAVEL, TYPE_LATEST, TYPE_TRAVEL
+from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
 from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
@@ -63,7 +63,7 @@ def plain_block(world: World, k: int, stop: Record, time: int) -> None:
         stop.lo, stop.hi = allowed_within(place, time, 0, NONE)
         stop.dep = as_late(place, time)
     elif stop.kind == END:
-        stop.hi = world.type[k, TYPE_LATEST]
+        stop.hi = world.type[k].shift_latest
 
 
 @inlined
@@ -73,7 +73,7 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
     And write how long each is held back: until windows let it be back within the endurance.
     """
     columns = world.type[k]
-    legs = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
+    legs = legs_of(world.leg, columns.drone_travel)
     for s in range(count):
         sortie = sorties[s]
         node = stops[sortie.recovery].node
@@ -109,7 +109,7 @@ def reach(place: Record, arrival: int, d: int, c: int, acc: Record) -> bool:
 
 
 @inlined
-def fly_out(places: Records, legs: IntArray, columns: IntArray, sortie: Record, node: int,
+def fly_out(places: Records, legs: IntArray, columns: Record, sortie: Record, node: int,
             acc: Record) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
     d = take_off(columns, acc.free_d)
@@ -137,7 +137,7 @@ def fly_out(places: Records, legs: IntArray, columns: IntArray, sortie: Record, 
 
 
 @inlined
-def bring_home(legs: IntArray, columns: IntArray, sortie: Record, node: int,
+def bring_home(legs: IntArray, columns: Record, sortie: Record, node: int,
                acc: Record) -> bool:
     """Recover a sortie at `node`. In place; False if endurance forbids it."""
     last = sortie.nodes[sortie.count - 1]
@@ -172,7 +172,7 @@ def is_aboard(sorties: Records, index: int, oldest: int) -> bool:
 
 
 @inlined
-def next_operation(legs: IntArray, columns: IntArray, sorties: Records, count: int, p: int,
+def next_operation(legs: IntArray, columns: Record, sorties: Records, count: int, p: int,
                    node: int, acc: Record) -> int:
     """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 
@@ -199,7 +199,7 @@ def next_operation(legs: IntArray, columns: IntArray, sorties: Records, count: i
 
 
 @inlined
-def operate(places: Records, legs: IntArray, columns: IntArray, sorties: Records, count: int,
+def operate(places: Records, legs: IntArray, columns: Record, sorties: Records, count: int,
             p: int, node: int, acc: Record) -> bool:
     """Launch and recover all that stop `p` asks for. In place; False if not allowed.
 
@@ -247,7 +247,7 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
     `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
     """
     columns = world.type[k]
-    flights = legs_of(world.leg, columns[TYPE_DRONE_TRAVEL])
+    flights = legs_of(world.leg, columns.drone_travel)
     d, c = origin(world, k, time)
     acc.time, acc.hi, acc.lo, acc.dep = time, FAR, NONE, FAR
     acc.oldest, acc.flying, p = oldest, 0, first
@@ -268,14 +268,14 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
         stop.leave, stop.flying = max(time + d, c), acc.flying
         stop.latest, stop.early = FAR, NONE
         if kind == END:
-            if c > columns[TYPE_LATEST]:
+            if c > columns.shift_latest:
                 return -1
-            acc.hi = min(acc.hi, columns[TYPE_LATEST] - d)
+            acc.hi = min(acc.hi, columns.shift_latest - d)
         if acc.flying == 0:
             break
         if kind == END or p + 1 >= length:
             return -1
-        legs = legs_of(world.leg, columns[TYPE_TRAVEL])
+        legs = legs_of(world.leg, columns.travel)
         stop.gap = leg(legs, node, stops[p + 1].node).duration
         d, c = travel(world, k, stop.gap, d, c)
         p += 1

@@ -88,8 +88,8 @@ class World(NamedTuple):
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
     place: Records  # (node,) NODE
     price: FloatArray  # (node, 2) cost per ms of lateness and of waiting
-    type: IntArray  # (type, TYPE_COLUMNS)
-    rate: FloatArray  # (type, 5) fixed, per mm, per ms, per mm and ms of drones
+    type: Records  # (type,) TYPE
+    rate: Records  # (type,) RATE, per mm and per ms
     mode: IntArray  # (type,) MODE_ flags
     visits: IntArray  # (type,) customers on a sortie
     can: BoolArray  # (type, 2, node) by truck, by drone

@@ -1,7 +1,6 @@
 """Routes of one trip where distance alone costs: only loads, departures and latest arrivals."""
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import RATE_FIXED, RATE_KM, TYPE_EARLIEST, TYPE_LATEST, TYPE_TRAVEL
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds
 from model.kernel.records import Records
@@ -17,10 +16,10 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     route, stops, trip = fleet.route[slot], fleet.stop[slot], fleet.trip[slot, 0]
     k, last = route.type, route.length - 1
     columns = world.type[k]
-    legs = legs_of(world.leg, columns[TYPE_TRAVEL])
+    legs = legs_of(world.leg, columns.travel)
     clear_trip(trip)
     route.trips, trip.last = 1, last
-    time, node = leaves_first(columns, columns[TYPE_EARLIEST]), stops[0].node
+    time, node = leaves_first(columns, columns.shift_earliest), stops[0].node
     stops[0].leave, stops[0].flying, stops[0].trip = time, 0, 0
     for p in range(1, last + 1):
         following = stops[p].node
@@ -39,14 +38,14 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     stops[last].leg = stops[last].gap = 0
     if not holds(columns, load_of(trip)):
         return False
-    latest = columns[TYPE_LATEST]
+    latest = columns.shift_latest
     stops[last].latest = latest
     for p in range(last - 1, 0, -1):
         latest = latest_arrival(world.place[stops[p].node], latest - stops[p].gap)
         stops[p].latest = latest
     stops[0].latest = latest - stops[0].gap
-    fleet.cost[slot] = world.rate[k, RATE_FIXED] + trip.distance * world.rate[k, RATE_KM]
-    return time <= columns[TYPE_LATEST]
+    fleet.cost[slot] = world.rate[k].fixed + trip.distance * world.rate[k].distance
+    return time <= columns.shift_latest
 
 
 @spliced
@@ -66,7 +65,7 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     shift_lean(fleet, slot, p + 1)
     stops, trip = fleet.stop[slot], fleet.trip[slot, 0]
     k = fleet.route[slot].type
-    legs = legs_of(world.leg, world.type[k, TYPE_TRAVEL])
+    legs = legs_of(world.leg, world.type[k].travel)
     new = stops[p + 1]
     new.node, new.kind, new.flying, new.trip = node, CUSTOMER, 0, 0
     where = fleet.where[node]
@@ -77,7 +76,7 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     new.gap, new.leg = on.duration, on.distance
     trip.last += 1
     trip.distance += detour
-    fleet.cost[slot] += detour * world.rate[k, RATE_KM]
+    fleet.cost[slot] += detour * world.rate[k].distance
     add_load(trip, demand_of(world.place[node]))
     spread(world, stops, trip.last, p + 1)
 

@@ -2,7 +2,7 @@
 
 from model.kernel.clock import leg_start
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import FAR, NONE, TYPE_MAX_WORKING
+from model.kernel.instance import FAR, NONE
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from, leaves_first
 from model.kernel.stop import latest_free_arrival
@@ -137,7 +137,7 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
             return False
         depart = settled_departure(world, route, stops, sorties)
     route.working = route.end - depart
-    if route.working > world.type[route.type, TYPE_MAX_WORKING]:
+    if route.working > world.type[route.type].max_working_duration:
         return False
     fleet.cost[slot], early = price_route(world, route, stops, trips, sorties)
     fleet.early[slot] = early if mode & MODE_SETTLED else 0.0

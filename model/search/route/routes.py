@@ -2,10 +2,7 @@
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.flight import launch_duration, recovery_end
-from model.kernel.instance import (
-    FAR, NONE, RATE_DRONE_HOUR, RATE_DRONE_KM, RATE_FIXED, RATE_HOUR, RATE_KM, TYPE_DRONE_TRAVEL,
-    TYPE_EARLIEST, TYPE_MAX_DISTANCE, TYPE_MAX_TRIPS, TYPE_RELOAD, TYPE_TRAVEL,
-)
+from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds
 from model.kernel.records import Record, Records
@@ -30,15 +27,15 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
     """Write loads, releases and distances of the trips. In place; False if one is too much."""
     k = route.type
     columns = world.type[k]
-    legs = legs_of(world.leg, columns[TYPE_TRAVEL])
+    legs = legs_of(world.leg, columns.travel)
     index, s = -1, 0
-    most_trips, most_distance = len(trips), columns[TYPE_MAX_DISTANCE]
+    most_trips, most_distance = len(trips), columns.max_trip_distance
     for p in range(route.length):
         stop = stops[p]
         kind = stop.kind
         if kind == START:
             index += 1
-            if index >= columns[TYPE_MAX_TRIPS] or index >= most_trips:
+            if index >= columns.max_trips or index >= most_trips:
                 return False
             clear_trip(trips[index])
             trips[index].first = p
@@ -55,7 +52,7 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
             stops[trip.first].release = trip.release
             if trip.distance > most_distance or not holds(columns, load_of(trip)):
                 return False
-            stop.leg, stop.gap = 0, columns[TYPE_RELOAD]
+            stop.leg, stop.gap = 0, columns.reload_duration
         else:
             way = leg(legs, stop.node, stops[p + 1].node)
             stop.gap, stop.leg = way.duration, way.distance
@@ -69,7 +66,7 @@ def drive_forward(world: World, route: Record, stops: Records, sorties: Records,
                   acc: Record) -> bool:
     """Write times as soon as possible, stop after stop. In place; False if a rule is broken."""
     k, length, count = route.type, route.length, route.sorties
-    time = world.type[k, TYPE_EARLIEST]
+    time = world.type[k].shift_earliest
     cum, depart = 0, FAR
     make_ready(world, k, stops, sorties, count)
     p = s = 0
@@ -176,7 +173,7 @@ def price_windows(world: World, route: Record, stops: Records,
 @inlined
 def sortie_cost(world: World, k: int, stops: Records, sortie: Record) -> float:
     """Return what the flight of a sortie costs."""
-    flights = legs_of(world.leg, world.type[k, TYPE_DRONE_TRAVEL])
+    flights = legs_of(world.leg, world.type[k].drone_travel)
     node, flown = stops[sortie.launch].node, 0
     for visit in range(sortie.count):
         following = sortie.nodes[visit]
@@ -184,7 +181,7 @@ def sortie_cost(world: World, k: int, stops: Records, sortie: Record) -> float:
         node = following
     flown += leg(flights, node, stops[sortie.recovery].node).distance
     airborne = recovery_end(world.type[k], sortie.begin) - sortie.takeoff
-    return flown * world.rate[k, RATE_DRONE_KM] + airborne * world.rate[k, RATE_DRONE_HOUR]
+    return flown * world.rate[k].drone_distance + airborne * world.rate[k].drone_time
 
 
 @inlined
@@ -203,10 +200,10 @@ def price_route(world: World, route: Record, stops: Records, trips: Records,
                 sorties: Records) -> tuple[float, float]:
     """Return the cost of a timed route, and what waiting for windows costs of it."""
     k = route.type
-    cost, early = world.rate[k, RATE_FIXED], 0.0
+    cost, early = world.rate[k].fixed, 0.0
     for index in range(route.trips):
-        cost += trips[index].distance * world.rate[k, RATE_KM]
-    cost += route.working * world.rate[k, RATE_HOUR]
+        cost += trips[index].distance * world.rate[k].distance
+    cost += route.working * world.rate[k].time
     for s in range(route.sorties):
         cost += sortie_cost(world, k, stops, sorties[s])
     if world.mode[k] & MODE_PRICED:

@@ -4,7 +4,6 @@ from typing import NamedTuple
 
 from model.kernel.compiled import compiled, inlined, spliced
 from model.kernel.copying import copy_row, copy_some, copy_records
-from model.kernel.instance import TYPE_COUNT
 from model.kernel.records import Record, Records, record
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
 from model.search.route.layout import CHANGING, NOWHERE, Fleet, World, copy_lean
@@ -99,7 +98,7 @@ def list_active(searcher: Searcher) -> None:
 def free_slot(world: World, searcher: Searcher, k: int) -> int:
     """Return an empty slot for a route more by type `k`; NOWHERE if there is none."""
     now = searcher.now
-    if now.used[k] < world.type[k, TYPE_COUNT]:
+    if now.used[k] < world.type[k].count:
         for slot in range(len(searcher.active)):
             if now.route[slot].length == 0:
                 return slot

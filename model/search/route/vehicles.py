@@ -3,7 +3,6 @@
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.instance import RATE_FIXED, RATE_KM, TYPE_COUNT
 from model.kernel.load import NOTHING, Amount, demand_of, fits, plus
 from model.kernel.records import Record
 from model.search.route.layout import NOWHERE, Fleet, World
@@ -12,7 +11,7 @@ from model.search.route.layout import NOWHERE, Fleet, World
 @spliced
 def route_cost(world: World, k: int, distance: int) -> float:
     """Return the cost of a lean route by a vehicle of type `k`."""
-    return world.rate[k, RATE_FIXED] + distance * world.rate[k, RATE_KM]
+    return world.rate[k].fixed + distance * world.rate[k].distance
 
 
 @inlined
@@ -46,7 +45,7 @@ def larger_type(world: World, fleet: Fleet, slot: int, node: int) -> int:
     chosen, best = NOWHERE, math.inf
     for other in range(world.num_types):
         if (not world.swap[k, other] or other == k or not world.can[other, 0, node]
-                or fleet.used[other] >= world.type[other, TYPE_COUNT]):
+                or fleet.used[other] >= world.type[other].count):
             continue
         cost = route_cost(world, other, trip.distance)
         if cost < best and fits(world.type[other], load_of(trip), world.place[node]):

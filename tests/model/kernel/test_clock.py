@@ -9,6 +9,7 @@ from model.judge import timing
 from model.kernel.clock import is_steady, leg_end, leg_start
 from model.kernel.compiled import compiled
 from model.kernel.instance import pack
+from model.kernel.records import Record
 from model.problem import FULL_SPEED, IntArray, SpeedProfile
 from tests.model.tiny import MINUTE, RUSH_HOUR
 
@@ -17,7 +18,7 @@ PROFILES = (None, RUSH_HOUR, SpeedProfile((), (FULL_SPEED // 7,)),
 
 
 @compiled
-def both(columns: IntArray, times: IntArray, factors: IntArray, duration: int,
+def both(columns: Record, times: IntArray, factors: IntArray, duration: int,
          time: int) -> tuple[int, int, bool]:
     return (leg_end(columns, times, factors, duration, time),
             leg_start(columns, times, factors, duration, time), is_steady(columns))

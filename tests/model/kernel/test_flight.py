@@ -11,13 +11,13 @@ from model.kernel.flight import (
 )
 from model.kernel.instance import pack
 from model.kernel.records import Record
-from model.problem import UNREACHABLE, DroneType, IntArray, Problem
+from model.problem import UNREACHABLE, DroneType, Problem
 from model.solution import Solution
 from tests.model.tiny import MINUTE, draw_late, draw_tiny
 
 
 @compiled
-def flown(columns: IntArray, place: Record, begin: int, out: int,
+def flown(columns: Record, place: Record, begin: int, out: int,
           home: int) -> tuple[int, int, int, int]:
     takeoff = held_takeoff(columns, place, take_off(columns, begin), home)
     arrival = takeoff + out
@@ -26,24 +26,24 @@ def flown(columns: IntArray, place: Record, begin: int, out: int,
 
 
 @compiled
-def is_short_enough(columns: IntArray, takeoff: int, back: int, begin: int) -> bool:
+def is_short_enough(columns: Record, takeoff: int, back: int, begin: int) -> bool:
     return within_endurance(columns, takeoff, back, begin)
 
 
 @compiled
-def lasts(columns: IntArray, place: Record, out: int, home: int) -> tuple[bool, bool]:
+def lasts(columns: Record, place: Record, out: int, home: int) -> tuple[bool, bool]:
     flight = out + drone_service(columns, place) + home
     return can_last(columns, flight), unreachable(out) or unreachable(home)
 
 
 @compiled
-def enduring(columns: IntArray, takeoff_d: int, takeoff_c: int, d: int,
+def enduring(columns: Record, takeoff_d: int, takeoff_c: int, d: int,
              c: int) -> tuple[int, int]:
     return enduring_within(columns, takeoff_d, takeoff_c, d, c)
 
 
 @compiled
-def handled(columns: IntArray, time: int) -> tuple[int, int, int, int]:
+def handled(columns: Record, time: int) -> tuple[int, int, int, int]:
     return (launch_begin(columns, take_off(columns, time)), launch_duration(columns),
             handling_duration(columns), counted_until(columns, time, time + 1))
 

@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.kernel.instance import (
-    FAR, NO_PROFILE, TYPE_CAPACITY, TYPE_DRONES, TYPE_MAX_WORKING, TYPE_PROFILE, pack,
-)
+from model.kernel.instance import FAR, NO_PROFILE, pack
 from model.problem import UNLIMITED, Problem
 from tests.model.rollouts import random_problems
 
@@ -38,10 +36,10 @@ def test_columns_state_limits_windows_and_demands(tiny_problem, customers, truck
     assert instance.node[0, 1:]["arrival_limit"].tolist() == [FAR, UNLIMITED]
     assert instance.node[0, 1:]["demand"][:, 0].tolist() == [1000, 1000]
     assert instance.late_early[0, 1].tolist() == [2.0, 0.0]
-    assert instance.type[0, :, TYPE_MAX_WORKING].tolist() == [UNLIMITED, 7]
-    assert instance.type[0, :, TYPE_CAPACITY].tolist() == [10_000, 10_000]
-    assert instance.type[0, :, TYPE_DRONES].tolist() == [0, 1]
-    assert (instance.type[0, :, TYPE_PROFILE] == NO_PROFILE).all()
+    assert instance.type[0]["max_working_duration"].tolist() == [UNLIMITED, 7]
+    assert instance.type[0]["capacity"][:, 0].tolist() == [10_000, 10_000]
+    assert instance.type[0]["drones"].tolist() == [0, 1]
+    assert (instance.type[0]["speed_changes"] == NO_PROFILE).all()
 
 
 def test_leaving_out_costs_so_much_and_some_customers_more(tiny_problem, customers, truck) -> None:

@@ -15,7 +15,7 @@ from tests.model.tiny import draw_tiny
 
 
 @compiled
-def judged(columns: IntArray, places: Records) -> tuple[bool, bool, bool]:
+def judged(columns: Record, places: Records) -> tuple[bool, bool, bool]:
     """Tell whether a vehicle holds all customers, holds the last on top, a drone lifts them."""
     load = NOTHING
     for index in range(len(places) - 1):
@@ -25,7 +25,7 @@ def judged(columns: IntArray, places: Records) -> tuple[bool, bool, bool]:
 
 
 @compiled
-def left(columns: IntArray, place: Record) -> tuple[bool, int, int]:
+def left(columns: Record, place: Record) -> tuple[bool, int, int]:
     """Tell whether a customer's demand is within a capacity, both amounts, and what is left."""
     capacity, demand = capacity_of(columns), demand_of(place)
     return within(demand, capacity), total(demand), total(minus(capacity, demand))

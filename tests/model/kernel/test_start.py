@@ -9,13 +9,13 @@ from model.judge.metrics import measure_route, measure_trip
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.compiled import compiled
 from model.kernel.instance import pack
+from model.kernel.records import Record
 from model.kernel.start import counted_from, has_begun, leaves_first
-from model.problem import IntArray
 from tests.model.tiny import draw_tiny, with_beginnings
 
 
 @compiled
-def begun(columns: IntArray, time: int) -> tuple[int, int, bool]:
+def begun(columns: Record, time: int) -> tuple[int, int, bool]:
     leave = leaves_first(columns, time)
     return leave, counted_from(columns, leave), has_begun(columns)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from model.kernel.compiled import compiled_on_arrays
-from model.kernel.instance import TYPE_TRAVEL, pack
+from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
@@ -53,7 +53,7 @@ def kept_places(world: World, searcher: Searcher) -> Iterator[tuple[int, int]]:
 def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int, int]:
     """Return the detour for a customer behind each stop of a route where no rule is broken."""
     stops = searcher.now.stop[slot]
-    legs = world.leg[world.type[searcher.now.route[slot].type, TYPE_TRAVEL]]
+    legs = world.leg[world.type[searcher.now.route[slot].type].travel]
     place, detours = world.place[node], {}
     for p in range(searcher.now.route[slot].length - 1):
         here, there = stops[p].node, stops[p + 1].node
