@@ -4,6 +4,7 @@ import numpy as np
 
 from model.policy.features import Observation
 from model.problem import FloatArray, IntArray
+from model.simulation.cost import by_term
 from model.simulation.simulator import DRIVE, LAUNCH, OPEN, RETURN
 from training.rollout import Batch, Simulation
 
@@ -32,4 +33,4 @@ def nearest_neighbour(batch: Batch) -> FloatArray:
         for row in np.flatnonzero(simulation.seen.count).tolist():
             choice[row] = nearest_choice(batch, simulation.seen, row, row)
     simulation.close()
-    return simulation.state.cost[: batch.num_problems].sum(axis=1)
+    return by_term(simulation.state.cost[: batch.num_problems]).sum(axis=1)

@@ -21,6 +21,7 @@ from torch.utils.tensorboard import SummaryWriter
 from tqdm import tqdm
 
 from model.policy.pointer import Critic
+from model.simulation.cost import by_term
 from training.config import TrainConfig
 from training.dataset import join
 from training.export import WEIGHTS
@@ -267,7 +268,7 @@ def validate(run: Run, batches: list[tuple[Batch, np.ndarray]]) -> dict[str, flo
         outcome = roll_out(run.policy, batch, 1, greedy, run.device,
                            run.num_threads)
         size = int(batch.instance.size[0, 1])
-        for name, cost, nearest in zip(batch.names, outcome.cost.sum(axis=1), reference,
+        for name, cost, nearest in zip(batch.names, by_term(outcome.cost).sum(axis=1), reference,
                                        strict=True):
             for key in (name, f"n{size}", "all"):
                 ratios.setdefault(key, []).append(max(float(cost), 1e-9) / max(nearest, 1e-9))

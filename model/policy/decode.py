@@ -20,6 +20,7 @@ from model.policy.rollouts import (
 )
 from model.policy.tokens import Float32Array, Scales, Tokens, scales, tokens
 from model.problem import BoolArray, IntArray, Problem
+from model.simulation.cost import by_term
 from model.simulation.simulator import max_steps, reset
 
 ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.InvalidGraph,
@@ -191,7 +192,7 @@ def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
         noise[warmth[:, 0] == 0.0] = 1.0
         disturbed(logits, np.where(warmth > 0.0, warmth, 1.0), noise).argmax(axis=1, out=choice)
         actions.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
-    cost = state.cost[:rows].sum(axis=1)
+    cost = by_term(state.cost[:rows]).sum(axis=1)
     best = int(cost.argmin())
     if cost[best] >= so_far.cost:
         return so_far

@@ -11,21 +11,17 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import MAX_DIMENSIONS, Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of
-from model.kernel.records import Record
+from model.kernel.records import Record, Records
 from model.kernel.stop import closing, lateness
 from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
 from model.policy.tokens import NUM_TYPE_FEATURES, Float32Array, Scales
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
-from model.simulation.meeting import (
-    NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE, V_LOAD, V_NEXT_START,
-    V_NODE, V_SERVICE_END, V_TYPE,
-)
+from model.simulation.meeting import NO_VEHICLE
 from model.simulation.simulator import (
-    DRIVE, LAUNCH, NUM_KINDS, OPEN, OUTLOOK_ARRIVAL, OUTLOOK_END, OUTLOOK_START, RETURN, apply,
-    finish, legal_actions,
+    DRIVE, LAUNCH, NUM_KINDS, OPEN, OUTLOOK, RETURN, apply, finish, legal_actions,
 )
 from model.simulation.transition import State
-from model.simulation.vehicle_log import COUNT_TRIPS, Setting, setting_of
+from model.simulation.vehicle_log import Setting, setting_of
 
 NUM_ACTION_FEATURES = 28
 NUM_STATE_FEATURES = 14
@@ -48,7 +44,7 @@ class Observation(NamedTuple):
     count: IntArray  # type: ignore[assignment]  # (rollout,)
     action: IntArray  # (rollout, candidate) codes
     token: IntArray  # (rollout, candidate) node, or number of nodes + type
-    outlook: IntArray  # (rollout, candidate, 3) of `legal_actions`
+    outlook: Records  # (rollout, candidate) OUTLOOK
     feature: Float32Array  # (rollout, candidate, NUM_ACTION_FEATURES)
     glob: Float32Array  # (rollout, NUM_GLOBAL_FEATURES) vehicle state, then its type's features
     here: IntArray  # (rollout,) token of the vehicle's place
@@ -61,7 +57,7 @@ def empty_observation(rows: int, num_nodes: int, num_types: int) -> Observation:
         count=np.zeros(rows, np.int64),
         action=np.zeros((rows, most), np.int64),
         token=np.zeros((rows, most), np.int64),
-        outlook=np.zeros((rows, most, 3), np.int64),
+        outlook=np.zeros((rows, most), OUTLOOK),
         feature=np.zeros((rows, most, NUM_ACTION_FEATURES), np.float32),
         glob=np.zeros((rows, NUM_GLOBAL_FEATURES), np.float32),
         here=np.zeros(rows, np.int64),
@@ -75,12 +71,12 @@ def _share(used: int, limit: int) -> float:
 
 
 @inlined
-def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, vehicle: IntArray,
-                       begun: bool, node: int, outlook: IntArray, feature: Float32Array) -> None:
+def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, vehicle: Record,
+                       begun: bool, node: int, outlook: Record, feature: Float32Array) -> None:
     """Describe what serving a customer next means, by truck or drone alike. In place."""
     columns = setting.node[node]
-    arrival, end = outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_END]
-    waiting = outlook[OUTLOOK_START] - arrival
+    arrival, end = outlook.arrival, outlook.end
+    waiting = outlook.start - arrival
     late = lateness(columns, arrival)
     feature[7] = ratio(waiting, unit.time)
     feature[8] = slack(closing(columns), arrival, unit.time)
@@ -89,12 +85,12 @@ def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, veh
     for dimension in range(MAX_DIMENSIONS):
         demand = columns.demand[dimension]
         if demand > 0:
-            feature[10] = max(feature[10], demand / vehicle[V_LOAD + dimension])
+            feature[10] = max(feature[10], demand / vehicle.load[dimension])
             feature[11] = max(feature[11], demand / setting.type.capacity[dimension])
     feature[12] = slack(setting.type.shift_latest, end, unit.time)
-    departure = vehicle[V_DEPARTURE_BEST] if begun else vehicle[V_NEXT_START]
+    departure = vehicle.departure_best if begun else vehicle.next_start
     feature[15] = slack(setting.type.max_working_duration, end - departure, unit.time)
-    feature[19] = ratio(columns.release - vehicle[V_NEXT_START], unit.time)
+    feature[19] = ratio(columns.release - vehicle.next_start, unit.time)
 
 
 @inlined
@@ -129,10 +125,10 @@ def _nearest_drive(drive: IntArray, here: int, actions: IntArray) -> int:
 
 
 @inlined
-def _describe_return(setting: Setting, vehicle: IntArray, trips: int,
+def _describe_return(setting: Setting, vehicle: Record, trips: int,
                      feature: Float32Array) -> None:
     """Describe returning to the depot. In place."""
-    feature[10] = vehicle[V_LOAD] / max(1, setting.type.capacity[0])
+    feature[10] = vehicle.load[0] / max(1, setting.type.capacity[0])
     feature[11] = min(setting.type.max_trips - trips, 4) / 4
 
 
@@ -165,7 +161,7 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     """Describe the open vehicle and what is left to do. In place."""
     b = state.problem[r]
     vehicle = state.vehicle[r]
-    k = vehicle[V_TYPE]
+    k = vehicle.type
     glob[:] = 0.0
     reserve = 0.0
     for kind in range(instance.size[b, 2]):
@@ -179,27 +175,27 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
         return
     columns = instance.type[b, k]
     capacity = max(1, columns.capacity[0])
-    trips_left = columns.max_trips - state.log.count[r, COUNT_TRIPS]
+    trips_left = columns.max_trips - state.log.count[r].trips
     reserve += float(trips_left) * capacity
-    clock = vehicle[V_NEXT_START]
-    if not vehicle[V_IDLE]:
-        clock = max(vehicle[V_SERVICE_END], vehicle[V_FREE])
-        home = lookup(matrix_of(instance.duration, b, columns.travel), vehicle[V_NODE],
+    clock = vehicle.next_start
+    if not vehicle.idle:
+        clock = max(vehicle.service_end, vehicle.free)
+        home = lookup(matrix_of(instance.duration, b, columns.travel), vehicle.node,
                       columns.ends_at)
         glob[3] = min(home / scale.time[b], 5.0)
-        reserve += vehicle[V_LOAD]
+        reserve += vehicle.load[0]
     glob[2] = min(unserved / max(1.0, reserve), 2.0)
-    glob[4] = vehicle[V_IDLE]
+    glob[4] = vehicle.idle
     glob[5] = min(clock / scale.horizon[b], 2.0)
-    glob[6] = vehicle[V_LOAD] / capacity
+    glob[6] = vehicle.load[0] / capacity
     glob[7] = max(min((reserve - unserved) / capacity, 2.0), -2.0)
     glob[8] = min(trips_left, 4) / 4
     glob[9] = slack(columns.shift_latest, clock, scale.time[b])
-    working = clock - vehicle[V_DEPARTURE_BEST] if state.log.count[r, COUNT_TRIPS] else 0
+    working = clock - vehicle.departure_best if state.log.count[r].trips else 0
     glob[10] = slack(columns.max_working_duration, working, scale.time[b])
-    glob[11] = vehicle[V_FLYING] / max(1, columns.drones)
-    glob[12] = columns.drones > vehicle[V_FLYING]
-    glob[13] = min(vehicle[V_LOAD] / max(1.0, unserved), 2.0)
+    glob[11] = vehicle.flying / max(1, columns.drones)
+    glob[12] = columns.drones > vehicle.flying
+    glob[13] = min(vehicle.load[0] / max(1.0, unserved), 2.0)
     for column in range(NUM_TYPE_FEATURES):
         glob[NUM_STATE_FEATURES + column] = type_token[b, k, column]
 
@@ -225,15 +221,15 @@ def _describe_opens(instance: Instance, scale: Scales, state: State, r: int, uns
 def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
                     seen: Observation) -> None:
     """Describe the drives, the launches and the return of the open vehicle. In place."""
-    b, k = state.problem[r], state.vehicle[r, V_TYPE]
+    b, k = state.problem[r], state.vehicle[r].type
     setting = setting_of(instance, b, k)
     vehicle = state.vehicle[r]
     rate, late_early = instance.rate[b, k], instance.late_early[b]
     unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
-    home, here = setting.type.ends_at, vehicle[V_NODE]
+    home, here = setting.type.ends_at, vehicle.node
     distance = matrix_of(instance.distance, b, setting.type.travel)
     flown = matrix_of(instance.distance, b, setting.type.drone_travel)
-    trips = state.log.count[r, COUNT_TRIPS]
+    trips = state.log.count[r].trips
     actions, features = seen.action[r, : seen.count[r]], seen.feature[r]
     nearest = _nearest_drive(setting.drive, here, actions)
     for index in range(len(actions)):
@@ -255,14 +251,14 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
         way, way_home = lookup(setting.drive, here, node), lookup(setting.drive, node, home)
         feature[13] = min(way_home / unit.time, 5.0)
         if kind == DRIVE:
-            used = vehicle[V_DISTANCE] + lookup(distance, here, node) + lookup(distance, node, home)
+            used = vehicle.distance + lookup(distance, here, node) + lookup(distance, node, home)
             feature[14] = slack(setting.type.max_trip_distance, used, lookup(distance, home, node))
             detour = (way + way_home - lookup(setting.drive, here, home)) / unit.time
             feature[16] = max(min(detour, 5.0), -5.0)
             feature[17] = ratio(way - nearest, unit.near)
         _describe_customer(setting, unit, late_early, vehicle, trips > 0, node,
                            seen.outlook[r, index], feature)
-        describe_neighbours(setting, instance.neighbour[b], state.served[r], vehicle[V_LOAD], here,
+        describe_neighbours(setting, instance.neighbour[b], state.served[r], vehicle.load[0], here,
                             node, seen.outlook[r, index], unit, kind == LAUNCH, feature)
 
 
@@ -284,11 +280,11 @@ def observe(instance: Instance, scale: Scales, state: State, type_token: Float32
             finish(instance, state, r)
             continue
         most = max(most, seen.count[r])
-        seen.here[r] = state.vehicle[r, V_NODE]
+        seen.here[r] = state.vehicle[r].node
         unserved = _unserved_demand(instance, state, r)
         _describe_state(instance, scale, state, type_token, r, unserved, seen.glob[r])
         _describe_opens(instance, scale, state, r, unserved, seen)
-        if state.vehicle[r, V_TYPE] != NO_VEHICLE:
+        if state.vehicle[r].type != NO_VEHICLE:
             _describe_moves(instance, scale, state, r, seen)
     return most
 

@@ -11,12 +11,12 @@ from model.kernel.flight import drone_service, unreachable
 from model.kernel.instance import NONE
 from model.kernel.leg import lookup
 from model.kernel.load import demand_of
+from model.kernel.records import Record
 from model.kernel.stop import (
     closing, end_of_service, lateness, service_duration, start_of_service, waiting,
 )
 from model.policy.tokens import Float32Array
 from model.problem import UNLIMITED, BoolArray, IntArray
-from model.simulation.simulator import OUTLOOK_ARRIVAL, OUTLOOK_START
 from model.simulation.vehicle_log import Setting
 
 NUM_COMPANY = 3
@@ -76,15 +76,15 @@ def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, 
 
 @inlined
 def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
-                    here: int, node: int, outlook: IntArray, unit: Unit,
+                    here: int, node: int, outlook: Record, unit: Unit,
                     feature: Float32Array) -> None:
     """Describe which neighbours could be driven to after `node`, and from which to it. In place.
 
     By fixed speeds, the first dimension of the `load` left, and without drones: a guess.
     """
     columns, drive, place = setting.node, setting.drive, setting.node[node]
-    arrival, way = outlook[OUTLOOK_ARRIVAL], lookup(setting.drive, here, node)
-    leave = outlook[OUTLOOK_START] + service_duration(place)
+    arrival, way = outlook.arrival, lookup(setting.drive, here, node)
+    leave = outlook.start + service_duration(place)
     left = load - demand_of(place)[0]
     soonest = tightest = detour = later = UNLIMITED
     seen = lost = 0
@@ -117,15 +117,15 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
 
 @inlined
 def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, here: int,
-                     node: int, outlook: IntArray, unit: Unit, feature: Float32Array) -> None:
+                     node: int, outlook: Record, unit: Unit, feature: Float32Array) -> None:
     """Describe at which neighbours the drone could meet the truck. In place.
 
     How soon, how long the truck would wait, and the least detour of the truck to serve `node`
     itself on its way to one.
     """
     drive, fly = setting.drive, setting.fly
-    takeoff = outlook[OUTLOOK_ARRIVAL] - lookup(fly, here, node)
-    ready = outlook[OUTLOOK_START] + drone_service(setting.type, setting.node[node])
+    takeoff = outlook.arrival - lookup(fly, here, node)
+    ready = outlook.start + drone_service(setting.type, setting.node[node])
     soonest = wait = detour = UNLIMITED
     seen = 0
     for rank in range(neighbours.shape[1]):
@@ -146,7 +146,7 @@ def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, 
 
 @inlined
 def describe_neighbours(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
-                        here: int, node: int, outlook: IntArray, unit: Unit, by_air: bool,
+                        here: int, node: int, outlook: Record, unit: Unit, by_air: bool,
                         feature: Float32Array) -> None:
     """Describe what serving `node` from `here` means for its unserved neighbours. In place.
 
@@ -165,7 +165,7 @@ def describe_neighbours(setting: Setting, neighbours: IntArray, served: BoolArra
     node
         The candidate.
     outlook
-        (3,) of `legal_actions`.
+        Of `legal_actions`.
     unit
         Of the problem.
     by_air

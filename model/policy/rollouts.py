@@ -20,6 +20,7 @@ from model.policy.features import (
 from model.policy.resampling import part_to_keep
 from model.policy.tokens import Float32Array, Scales
 from model.problem import IntArray
+from model.simulation.cost import by_term
 from model.simulation.simulator import apply, max_steps, reset
 from model.simulation.transition import State
 
@@ -372,7 +373,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
                           float(temperature), rng, len(kept), actions, flag)
         if count == GIVEN_UP:
             break
-        cost = float(state.cost[r].sum())
+        cost = float(by_term(state.cost[r : r + 1]).sum())
         if cost < so_far.cost:
             so_far = Rollout(actions[:count].copy(), cost)
     return so_far

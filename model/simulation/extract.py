@@ -1,19 +1,17 @@
 """From the actions of a rollout to the plan they make."""
 
+from typing import Any
 from collections.abc import Sequence
 
 import numpy as np
 
 from model.kernel.instance import Instance
+from model.kernel.records import read_rows
 from model.problem import IntArray, Problem
-from model.simulation.meeting import NO_VEHICLE, V_INDEX, V_TYPE
+from model.simulation.meeting import NO_VEHICLE
 from model.simulation.simulator import apply_route, reset
 from model.simulation.transition import State, close_vehicle
-from model.simulation.vehicle_log import (
-    COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, SORTIE_ARRIVAL, SORTIE_DRONE, SORTIE_LAUNCH_STOP,
-    SORTIE_NODE, SORTIE_READY, SORTIE_RECOVERY_END, SORTIE_RECOVERY_START, SORTIE_RECOVERY_STOP,
-    SORTIE_START, SORTIE_TAKEOFF, TRIP_FIRST_STOP, VehicleLog, log_of,
-)
+from model.simulation.vehicle_log import VehicleLog
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
 
@@ -44,35 +42,34 @@ def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntAr
 def _close(instance: Instance, state: State) -> list[Route]:
     """Close the open vehicle and return its route, if it has one."""
     vehicle = state.vehicle[0]
-    if vehicle[V_TYPE] == NO_VEHICLE or state.log.count[0, COUNT_TRIPS] == 0:
+    if vehicle.type == NO_VEHICLE or state.log.count[0].trips == 0:
         return []
     close_vehicle(instance, state, 0)
-    trips = _trips(log_of(state.log, 0))
-    return [Route(int(vehicle[V_TYPE]), int(vehicle[V_INDEX]), trips)]
+    trips = _trips(VehicleLog(*(records[0] for records in state.log)))
+    return [Route(int(vehicle.type), int(vehicle.index), trips)]
 
 
 def _trips(log: VehicleLog) -> tuple[Trip, ...]:
-    count = log.count.tolist()
-    firsts = log.trip[: count[COUNT_TRIPS], TRIP_FIRST_STOP].tolist()
-    stops = [Stop(*columns) for columns in log.stop[: count[COUNT_STOPS]].tolist()]
-    sorties = log.sortie[: count[COUNT_SORTIES]].tolist()
+    count = log.count
+    firsts = log.trip["first_stop"][: count.trips].tolist()
+    stops = [Stop(*row) for row in log.stop[: count.stops].tolist()]
+    sorties = read_rows(log.sortie[: count.sorties])
     trips = []
-    for first, behind in zip(firsts, [*firsts[1:], count[COUNT_STOPS]], strict=True):
-        flown = tuple(_sortie(columns, first) for columns in sorties
-                      if first <= columns[SORTIE_LAUNCH_STOP] < behind)
+    for first, behind in zip(firsts, [*firsts[1:], int(count.stops)], strict=True):
+        flown = tuple(_sortie(row, first) for row in sorties
+                      if first <= row.launch_stop < behind)
         trips.append(Trip(tuple(stops[first:behind]), flown))
     return tuple(trips)
 
 
-def _sortie(columns: list[int], first_stop: int) -> Sortie:
-    visit = Visit(columns[SORTIE_NODE], columns[SORTIE_ARRIVAL], columns[SORTIE_START],
-                  columns[SORTIE_READY])
+def _sortie(row: Any, first_stop: int) -> Sortie:
+    visit = Visit(row.node, row.arrival, row.start, row.ready)
     return Sortie(
-        drone=columns[SORTIE_DRONE],
-        launch_stop=columns[SORTIE_LAUNCH_STOP] - first_stop,
-        recovery_stop=columns[SORTIE_RECOVERY_STOP] - first_stop,
+        drone=row.drone,
+        launch_stop=row.launch_stop - first_stop,
+        recovery_stop=row.recovery_stop - first_stop,
         visits=(visit,),
-        launch_time=columns[SORTIE_TAKEOFF],
-        recovery_start=columns[SORTIE_RECOVERY_START],
-        recovery_time=columns[SORTIE_RECOVERY_END],
+        launch_time=row.takeoff,
+        recovery_start=row.recovery_start,
+        recovery_time=row.recovery_end,
     )

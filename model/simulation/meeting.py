@@ -13,23 +13,21 @@ from model.kernel.flight import (
 )
 from model.kernel.instance import MAX_DIMENSIONS
 from model.kernel.leg import lookup
+from model.kernel.records import Record, Records, record
 from model.kernel.stop import too_late
-from model.problem import IntArray
 from model.simulation.vehicle_log import IN_FLIGHT, Setting, travel_arrival
 
-(V_TYPE, V_INDEX, V_NODE, V_IDLE, V_SERVICE_END, V_CREW, V_FREE, V_DISTANCE, V_START_BEST,
- V_DEPARTURE_BEST, V_NEXT_START, V_FLYING, V_LOAD) = range(13)
-V_COLUMNS = V_LOAD + MAX_DIMENSIONS
-"""Columns of the open vehicle: type (`NO_VEHICLE` before the first opens), index within the type,
+VEHICLE = record(
+    "type", "index", "node", "idle", "service_end", "crew", "free", "distance", "start_best",
+    "departure_best", "next_start", "flying", load=MAX_DIMENSIONS)
+"""The open vehicle: type (`NO_VEHICLE` before the first opens), index within the type,
 node, idle (at the depot, no trip begun), end of service here, end of the recoveries here, end of
 the launches after them as if none was held back, distance of the trip, the latest known start of
 the first trip that costs nothing, the departure that follows from it, earliest start of the next
 trip, drones in flight, load left by dimension."""
 
-(DRONE_SORTIE, DRONE_PLACE, DRONE_NODE, DRONE_TAKEOFF, DRONE_READY, DRONE_BACK,
- DRONE_RECOVERY) = range(7)
-DRONE_COLUMNS = 7
-"""Columns of a drone: sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,
+DRONE = record("sortie", "place", "node", "takeoff", "ready", "back", "recovery")
+"""A drone: sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,
 take-off, end of service, arrival at the recovery stop, beginning of recovery. Those in flight were
 launched at the truck's stop; when and where they are recovered is for `leave_for` to say."""
 ABOARD, MEET, LOOP = range(3)
@@ -40,25 +38,25 @@ NOT_YET = -1
 
 
 @inlined
-def mark_place(setting: Setting, drone: IntArray, here: int, to: int) -> None:
+def mark_place(setting: Setting, drone: Record, here: int, to: int) -> None:
     """Mark where a drone is recovered: at `to` if it can fly there, else at `here`. In place."""
-    drone[DRONE_PLACE] = ABOARD
-    if drone[DRONE_SORTIE] != IN_FLIGHT:
-        node = drone[DRONE_NODE]
+    drone.place = ABOARD
+    if drone.sortie != IN_FLIGHT:
+        node = drone.node
         service = drone_service(setting.type, setting.node[node])
         flight = lookup(setting.fly, here, node) + service + lookup(setting.fly, node, to)
-        drone[DRONE_PLACE] = MEET if can_last(setting.type, flight) else LOOP
+        drone.place = MEET if can_last(setting.type, flight) else LOOP
 
 
 @inlined
-def next_launch(setting: Setting, drones: IntArray, here: int, to: int,
+def next_launch(setting: Setting, drones: Records, here: int, to: int,
                 free: int) -> tuple[int, int]:
     """Return the drone that can be launched first from `free` on, and its take-off; -1: none."""
     chosen, takeoff = -1, 0
     for d in range(len(drones)):
-        if drones[d, DRONE_PLACE] != ABOARD and drones[d, DRONE_TAKEOFF] == NOT_YET:
-            end = to if drones[d, DRONE_PLACE] == MEET else here
-            node = drones[d, DRONE_NODE]
+        if drones[d].place != ABOARD and drones[d].takeoff == NOT_YET:
+            end = to if drones[d].place == MEET else here
+            node = drones[d].node
             soonest = held_takeoff(setting.type, setting.node[node], take_off(setting.type, free),
                                    lookup(setting.fly, node, end))
             if chosen < 0 or soonest < takeoff:
@@ -67,59 +65,59 @@ def next_launch(setting: Setting, drones: IntArray, here: int, to: int,
 
 
 @inlined
-def fly(setting: Setting, drone: IntArray, here: int, to: int, takeoff: int) -> None:
+def fly(setting: Setting, drone: Record, here: int, to: int, takeoff: int) -> None:
     """Time the flight of a drone that takes off at `here`. In place."""
-    node = drone[DRONE_NODE]
+    node = drone.node
     arrival = takeoff + lookup(setting.fly, here, node)
-    end = to if drone[DRONE_PLACE] == MEET else here
-    drone[DRONE_TAKEOFF] = takeoff
-    drone[DRONE_READY] = ready(setting.type, setting.node[node], arrival)
-    drone[DRONE_BACK] = drone[DRONE_READY] + lookup(setting.fly, node, end)
+    end = to if drone.place == MEET else here
+    drone.takeoff = takeoff
+    drone.ready = ready(setting.type, setting.node[node], arrival)
+    drone.back = drone.ready + lookup(setting.fly, node, end)
 
 
 @inlined
-def next_back(drones: IntArray, place: int) -> int:
+def next_back(drones: Records, place: int) -> int:
     """Return the drone in the air that is first back at `place`; -1 if there is none."""
     chosen = -1
     for d in range(len(drones)):
-        if (drones[d, DRONE_PLACE] == place and drones[d, DRONE_TAKEOFF] != NOT_YET
-                and drones[d, DRONE_RECOVERY] == NOT_YET
-                and (chosen < 0 or drones[d, DRONE_BACK] < drones[chosen, DRONE_BACK])):
+        if (drones[d].place == place and drones[d].takeoff != NOT_YET
+                and drones[d].recovery == NOT_YET
+                and (chosen < 0 or drones[d].back < drones[chosen].back)):
             chosen = d
     return chosen
 
 
 @inlined
-def bring_aboard(setting: Setting, drone: IntArray, free: int) -> int:
+def bring_aboard(setting: Setting, drone: Record, free: int) -> int:
     """Recover a drone from `free` on; return the end, -1 if it isn't within its endurance.
 
     In place.
     """
-    begin = max(free, drone[DRONE_BACK])
-    if unreachable(drone[DRONE_BACK]) or not within_endurance(
-            setting.type, drone[DRONE_TAKEOFF], drone[DRONE_BACK], begin):
+    begin = max(free, drone.back)
+    if unreachable(drone.back) or not within_endurance(
+            setting.type, drone.takeoff, drone.back, begin):
         return -1
-    drone[DRONE_RECOVERY] = begin
+    drone.recovery = begin
     return recovery_end(setting.type, begin)
 
 
 @inlined
-def operate(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) -> int:
+def operate(setting: Setting, vehicle: Record, drones: Records, to: int) -> int:
     """Launch all drones in flight from this stop, and recover those that loop.
 
     In place; returns when all is done, -1 if a loop can't be recovered within its endurance. What
     can be launched first is; loops are recovered behind, or while a launch is held back.
     """
-    here, free = vehicle[V_NODE], vehicle[V_CREW]
-    waiting, looping = vehicle[V_FLYING], 0
+    here, free = vehicle.node, vehicle.crew
+    waiting, looping = vehicle.flying, 0
     for d in range(len(drones)):
-        drones[d, DRONE_TAKEOFF] = drones[d, DRONE_RECOVERY] = NOT_YET
+        drones[d].takeoff = drones[d].recovery = NOT_YET
     while waiting + looping > 0:
         launched, takeoff = next_launch(setting, drones, here, to, free)
         begin = launch_begin(setting.type, takeoff)
         landed = next_back(drones, LOOP) if looping > 0 else -1
         if landed >= 0 and (launched < 0 or (
-                begin > free and max(free, drones[landed, DRONE_BACK]) <= begin)):
+                begin > free and max(free, drones[landed].back) <= begin)):
             free = bring_aboard(setting, drones[landed], free)
             if free < 0:
                 return -1
@@ -128,13 +126,13 @@ def operate(setting: Setting, vehicle: IntArray, drones: IntArray, to: int) -> i
             fly(setting, drones[launched], here, to, takeoff)
             free = takeoff
             waiting -= 1
-            if drones[launched, DRONE_PLACE] == LOOP:
+            if drones[launched].place == LOOP:
                 looping += 1
     return free
 
 
 @inlined
-def meet(setting: Setting, drones: IntArray, arrival: int) -> int:
+def meet(setting: Setting, drones: Records, arrival: int) -> int:
     """Recover the drones that the truck meets where it arrives.
 
     In place; returns when all are recovered. Where one can't be within its endurance: -1, and in
@@ -147,24 +145,24 @@ def meet(setting: Setting, drones: IntArray, arrival: int) -> int:
             return free
         free = bring_aboard(setting, drones[landed], free)
         if free < 0:
-            drones[landed, DRONE_PLACE] = LOOP
+            drones[landed].place = LOOP
             return -1
 
 
 @inlined
-def any_late(setting: Setting, here: int, drones: IntArray) -> bool:
+def any_late(setting: Setting, here: int, drones: Records) -> bool:
     """Tell whether a drone in flight reaches its customer too late for a hard window."""
     late = False
     for d in range(len(drones)):
-        if drones[d, DRONE_PLACE] != ABOARD:
-            node = drones[d, DRONE_NODE]
-            arrival = drones[d, DRONE_TAKEOFF] + lookup(setting.fly, here, node)
+        if drones[d].place != ABOARD:
+            node = drones[d].node
+            arrival = drones[d].takeoff + lookup(setting.fly, here, node)
             late = late or too_late(setting.node[node], arrival)
     return late
 
 
 @inlined
-def leave_for(setting: Setting, vehicle: IntArray, drones: IntArray,
+def leave_for(setting: Setting, vehicle: Record, drones: Records,
               to: int) -> tuple[int, int, int]:
     """Decide what the sorties in flight do if the truck drives to `to` next.
 
@@ -172,17 +170,17 @@ def leave_for(setting: Setting, vehicle: IntArray, drones: IntArray,
     recoveries here, the truck's arrival at `to` and the end of the recoveries there; -1 each if
     some sortie can be recovered neither here nor there, or is launched too late.
     """
-    here = vehicle[V_NODE]
+    here = vehicle.node
     for d in range(len(drones)):
         mark_place(setting, drones[d], here, to)
     while True:
-        left = vehicle[V_FREE]
-        if vehicle[V_FLYING] > 0:
+        left = vehicle.free
+        if vehicle.flying > 0:
             left = operate(setting, vehicle, drones, to)
             if left < 0:
                 return -1, -1, -1
-        arrival = travel_arrival(setting, here, to, max(vehicle[V_SERVICE_END], left))
-        if vehicle[V_FLYING] == 0:
+        arrival = travel_arrival(setting, here, to, max(vehicle.service_end, left))
+        if vehicle.flying == 0:
             return left, arrival, arrival
         free = meet(setting, drones, arrival)
         if free >= 0:

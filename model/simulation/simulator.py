@@ -12,34 +12,32 @@ import numpy as np
 
 from model.kernel.clock import is_steady
 from model.kernel.compiled import compiled, inlined
-from model.kernel.copying import copy_rows
+from model.kernel.copying import copy_records
 from model.kernel.flight import take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, within
+from model.kernel.records import Record, Records, record
 from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
-from model.simulation.cost import COST_UNASSIGNED
-from model.simulation.meeting import (
-    DRONE_SORTIE, DRONE_TAKEOFF, NO_VEHICLE, V_DEPARTURE_BEST, V_DISTANCE, V_FLYING, V_FREE, V_IDLE,
-    V_NEXT_START, V_NODE, V_START_BEST, V_TYPE, leave_for,
-)
+from model.simulation.meeting import NO_VEHICLE, leave_for
 from model.simulation.transition import (
-    State, board, close_vehicle, drive, empty_state, improve_departure, launch, load_left,
-    open_vehicle,
+    State, board, clear_vehicle, close_vehicle, drive, empty_state, improve_departure, launch,
+    load_left, open_vehicle,
 )
 from model.simulation.vehicle_log import (
-    COUNT_OPS, COUNT_SORTIES, COUNT_STOPS, COUNT_TRIPS, IN_FLIGHT, SORTIE_ARRIVAL, SORTIE_START,
-    STOP_ARRIVAL, STOP_START, TRIP_START, Setting, VehicleLog, first_departure, log_of, replay,
-    setting_of, start_to_depart, travel_arrival,
+    IN_FLIGHT, Setting, VehicleLog, first_departure, log_of, replay, setting_of, start_to_depart,
+    travel_arrival,
 )
 
 DRIVE, LAUNCH, RETURN, OPEN = range(4)
 NUM_KINDS = 4
 
 NO, YES, UNSURE = range(3)
-OUTLOOK_ARRIVAL, OUTLOOK_START, OUTLOOK_END = range(3)
+OUTLOOK = record("arrival", "start", "end")
+"""What an action on a customer leads to: the arrival, the start of service, and the end of the trip
+if the vehicle went home afterwards."""
 
 
 def encode_action(kind: int, target: int) -> int:
@@ -63,21 +61,21 @@ def _judge_end(setting: Setting, end: int, departure: int, rigid: bool) -> int:
 
 
 @inlined
-def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest: int, node: int,
-                 outlook: IntArray) -> int:
+def _judge_drive(setting: Setting, vehicle: Record, drones: Records, earliest: int, node: int,
+                 outlook: Record) -> int:
     """Judge driving to a customer whose parcel the trip carries already. Writes `outlook`.
 
     `earliest` is the vehicle's earliest departure, -1 if it has none yet.
     """
     place = setting.node[node]
-    idle = vehicle[V_IDLE] == 1
+    idle = vehicle.idle == 1
     if idle:
-        leave = max(vehicle[V_NEXT_START], place.release)
+        leave = max(vehicle.next_start, place.release)
         out = leaves_first(setting.type, leave)
-        arrival = travel_arrival(setting, vehicle[V_NODE], node, out)
+        arrival = travel_arrival(setting, vehicle.node, node, out)
         free = arrival
     else:
-        leave = vehicle[V_NEXT_START]
+        leave = vehicle.next_start
         _, arrival, free = leave_for(setting, vehicle, drones, node)
         if arrival < 0:
             return NO
@@ -86,39 +84,39 @@ def _judge_drive(setting: Setting, vehicle: IntArray, drones: IntArray, earliest
     start = start_of_service(place, arrival)
     served = max(free, end_of_service(place, arrival))
     end = travel_arrival(setting, node, setting.type.ends_at, served)
-    outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
+    outlook.arrival, outlook.start, outlook.end = arrival, start, end
     departure = leaves_first(setting.type, leave)
     if earliest >= 0:
-        departure = vehicle[V_DEPARTURE_BEST] if vehicle[V_FLYING] == 0 else earliest
-    rigid = (start == arrival and vehicle[V_FLYING] == 0 and leave == vehicle[V_NEXT_START]
+        departure = vehicle.departure_best if vehicle.flying == 0 else earliest
+    rigid = (start == arrival and vehicle.flying == 0 and leave == vehicle.next_start
              and is_steady(setting.type))
     return _judge_end(setting, end, departure, rigid)
 
 
 @inlined
-def _judge_launch(setting: Setting, vehicle: IntArray, drones: IntArray, departure: int,
-                  node: int, outlook: IntArray) -> int:
+def _judge_launch(setting: Setting, vehicle: Record, drones: Records, departure: int,
+                  node: int, outlook: Record) -> int:
     """Judge a launch during a trip that carries the parcel already. Writes `outlook`.
 
     `departure` is the vehicle's earliest.
     """
     place = setting.node[node]
-    flight = lookup(setting.fly, vehicle[V_NODE], node)
-    takeoff = take_off(setting.type, vehicle[V_FREE])
+    flight = lookup(setting.fly, vehicle.node, node)
+    takeoff = take_off(setting.type, vehicle.free)
     arrival = takeoff + flight
     if unreachable(flight) or too_late(place, arrival):
         return NO
-    free = vehicle[V_FREE]
+    free = vehicle.free
     drone = board(setting, vehicle, drones, 0, node, takeoff)
     _, home, end = leave_for(setting, vehicle, drones, setting.type.ends_at)
-    drones[drone, DRONE_SORTIE] = IN_FLIGHT
-    vehicle[V_FLYING] -= 1
-    vehicle[V_FREE] = free
+    drones[drone].sortie = IN_FLIGHT
+    vehicle.flying -= 1
+    vehicle.free = free
     if home < 0:
         return NO
-    arrival = drones[drone, DRONE_TAKEOFF] + flight
-    outlook[OUTLOOK_ARRIVAL] = arrival
-    outlook[OUTLOOK_START], outlook[OUTLOOK_END] = start_of_service(place, arrival), end
+    arrival = drones[drone].takeoff + flight
+    outlook.arrival = arrival
+    outlook.start, outlook.end = start_of_service(place, arrival), end
     return _judge_end(setting, end, departure, False)
 
 
@@ -127,24 +125,23 @@ def _copy_vehicle(state: State, r: int, to: int) -> None:
     """Copy the open vehicle of one row to another. In place."""
     logs = state.log
     count = logs.count[r]
-    copy_rows(state.vehicle[r : r + 1], state.vehicle[to : to + 1], 1)
-    copy_rows(logs.count[r : r + 1], logs.count[to : to + 1], 1)
-    copy_rows(state.drone[r], state.drone[to], state.drone.shape[1])
-    copy_rows(logs.trip[r], logs.trip[to], count[COUNT_TRIPS])
-    copy_rows(logs.stop[r], logs.stop[to], count[COUNT_STOPS])
-    copy_rows(logs.op[r], logs.op[to], count[COUNT_OPS])
-    copy_rows(logs.sortie[r], logs.sortie[to], count[COUNT_SORTIES])
+    state.vehicle[to], logs.count[to] = state.vehicle[r], count
+    copy_records(state.drone[r], state.drone[to], state.drone.shape[1])
+    copy_records(logs.trip[r], logs.trip[to], count.trips)
+    copy_records(logs.stop[r], logs.stop[to], count.stops)
+    copy_records(logs.op[r], logs.op[to], count.ops)
+    copy_records(logs.sortie[r], logs.sortie[to], count.sorties)
 
 
 @inlined
-def _works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: IntArray) -> bool:
+def _works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record) -> bool:
     """Tell whether a vehicle come home could have left so late as to keep its working duration.
 
     Cheaper than `improve_departure`: one start is tried, since all before one that costs nothing
     cost nothing.
     """
-    needed = vehicle[V_FREE] - setting.type.max_working_duration
-    if first_departure(setting, log, vehicle[V_START_BEST]) >= needed:
+    needed = vehicle.free - setting.type.max_working_duration
+    if first_departure(setting, log, vehicle.start_best) >= needed:
         return True
     if has_begun(setting.type):
         return False
@@ -153,12 +150,12 @@ def _works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: I
 
 @compiled
 def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind: int, node: int,
-                   outlook: IntArray) -> bool:
+                   outlook: Record) -> bool:
     """Tell whether an action on a customer is legal by doing it and the return home on scratch.
 
     Exact for every customer that the load, the kind and the number of trips allow.
     """
-    b, k = state.problem[r], state.vehicle[r, V_TYPE]
+    b, k = state.problem[r], state.vehicle[r].type
     setting = setting_of(instance, b, k)
     num_depots = instance.size[b, 0]
     _copy_vehicle(state, r, scratch)
@@ -169,40 +166,40 @@ def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind:
             return False
     elif not drive(setting, num_depots, log, vehicle, drones, node):
         return False
-    here = log.count[COUNT_STOPS] - 1
+    here = log.count.stops - 1
     if not drive(setting, num_depots, log, vehicle, drones, setting.type.ends_at):
         return False
-    arrival, start = log.stop[here, STOP_ARRIVAL], log.stop[here, STOP_START]
+    arrival, start = log.stop[here].arrival, log.stop[here].start
     if kind == LAUNCH:
-        sortie = log.sortie[log.count[COUNT_SORTIES] - 1]
-        arrival, start = sortie[SORTIE_ARRIVAL], sortie[SORTIE_START]
-    end = vehicle[V_FREE]
-    outlook[OUTLOOK_ARRIVAL], outlook[OUTLOOK_START], outlook[OUTLOOK_END] = arrival, start, end
+        sortie = log.sortie[log.count.sorties - 1]
+        arrival, start = sortie.arrival, sortie.start
+    end = vehicle.free
+    outlook.arrival, outlook.start, outlook.end = arrival, start, end
     return (end <= setting.type.shift_latest
             and _works_within(setting, num_depots, log, vehicle))
 
 
 @compiled
 def _legal_services(instance: Instance, state: State, r: int, scratch: int, actions: IntArray,
-                    outlooks: IntArray) -> int:
+                    outlooks: Records) -> int:
     """Write the legal drives and launches of one rollout with an open vehicle; return how many."""
-    b, k = state.problem[r], state.vehicle[r, V_TYPE]
+    b, k = state.problem[r], state.vehicle[r].type
     vehicle = state.vehicle[r]
     setting = setting_of(instance, b, k)
-    trips = state.log.count[r, COUNT_TRIPS]
-    idle = vehicle[V_IDLE] == 1
+    trips = state.log.count[r].trips
+    idle = vehicle.idle == 1
     if idle and trips >= setting.type.max_trips:
         return 0
     legs = matrix_of(instance.distance, b, setting.type.travel)
-    here, home = vehicle[V_NODE], setting.type.ends_at
-    reach = setting.type.max_trip_distance - vehicle[V_DISTANCE]
-    began = 0 if idle else state.log.trip[r, trips - 1, TRIP_START]
+    here, home = vehicle.node, setting.type.ends_at
+    reach = setting.type.max_trip_distance - vehicle.distance
+    began = 0 if idle else state.log.trip[r, trips - 1].start
     drones = state.drone[r, : setting.type.drones]
-    may_launch = vehicle[V_FLYING] < setting.type.drones
+    may_launch = vehicle.flying < setting.type.drones
     can_drive, can_fly, served = instance.can_drive[b, k], instance.can_fly[b, k], state.served[r]
     earliest = -1
     if trips > 0:
-        earliest = first_departure(setting, log_of(state.log, r), state.log.trip[r, 0, TRIP_START])
+        earliest = first_departure(setting, log_of(state.log, r), state.log.trip[r, 0].start)
     found = 0
     for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
         if served[node] or not within(demand_of(setting.node[node]), load_left(vehicle)):
@@ -242,23 +239,22 @@ def _open_legal(instance: Instance, state: State, r: int, k: int) -> bool:
 
 @compiled
 def legal_actions(instance: Instance, state: State, r: int, scratch: int, actions: IntArray,
-                  outlooks: IntArray) -> int:
+                  outlooks: Records) -> int:
     """Write the codes of the legal actions of one rollout and what each leads to.
 
-    In place; returns how many. `outlooks` (action, 3): for customers, the arrival, the start of
-    service, and the end of the trip if the vehicle went home afterwards.
+    In place; returns how many. `outlooks` (action,) OUTLOOK is written for customers alone.
     """
     found = 0
     if state.done[r]:
         return 0
     vehicle = state.vehicle[r]
-    if vehicle[V_TYPE] != NO_VEHICLE:
+    if vehicle.type != NO_VEHICLE:
         found = _legal_services(instance, state, r, scratch, actions, outlooks)
-        if not vehicle[V_IDLE]:
-            home = instance.type[state.problem[r], vehicle[V_TYPE]].ends_at
+        if not vehicle.idle:
+            home = instance.type[state.problem[r], vehicle.type].ends_at
             actions[found] = home * NUM_KINDS + RETURN
             return found + 1
-        if state.log.count[r, COUNT_TRIPS] == 0:
+        if state.log.count[r].trips == 0:
             return found
     for k in range(instance.size[state.problem[r], 2]):
         if _open_legal(instance, state, r, k):
@@ -271,7 +267,7 @@ def legal_actions(instance: Instance, state: State, r: int, scratch: int, action
 def apply(instance: Instance, state: State, r: int, action: int) -> None:
     """Do one legal action of one rollout. In place."""
     kind, target = action % NUM_KINDS, action // NUM_KINDS
-    b, k = state.problem[r], state.vehicle[r, V_TYPE]
+    b, k = state.problem[r], state.vehicle[r].type
     if kind == OPEN:
         if k != NO_VEHICLE:
             close_vehicle(instance, state, r)
@@ -284,7 +280,7 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
         launch(setting, instance.size[b, 0], log, vehicle, drones, target)
     else:
         legs = matrix_of(instance.distance, b, setting.type.travel)
-        vehicle[V_DISTANCE] += lookup(legs, vehicle[V_NODE], target)
+        vehicle.distance += lookup(legs, vehicle.node, target)
         drive(setting, instance.size[b, 0], log, vehicle, drones, target)
     improve_departure(setting, instance.size[b, 0], log, vehicle)
     if kind != RETURN:
@@ -312,14 +308,14 @@ def finish(instance: Instance, state: State, r: int) -> None:
 
     In place.
     """
-    if state.vehicle[r, V_TYPE] != NO_VEHICLE:
+    if state.vehicle[r].type != NO_VEHICLE:
         close_vehicle(instance, state, r)
     b = state.problem[r]
-    state.cost[r, COST_UNASSIGNED] += state.num_unserved[r] * instance.unassigned_cost[b]
+    state.cost[r].unassigned += state.num_unserved[r] * instance.unassigned_cost[b]
     if state.num_unserved[r] > 0:
         for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
             if not state.served[r, node]:
-                state.cost[r, COST_UNASSIGNED] += instance.unassigned_more[b, node]
+                state.cost[r].unassigned += instance.unassigned_more[b, node]
     state.done[r] = True
 
 
@@ -330,14 +326,13 @@ def _mark_fresh(instance: Instance, state: State, scratch: int) -> None:
     for b in range(instance.size.shape[0]):
         state.problem[row] = b
         actions = np.zeros(2 * instance.size[b, 1] + 1, np.int64)
-        outlooks = np.zeros((len(actions), 3), np.int64)
+        outlooks = np.zeros(len(actions), OUTLOOK)
         for k in range(instance.size[b, 2]):
             open_vehicle(instance, state, row, k)
             for index in range(_legal_services(instance, state, row, scratch, actions, outlooks)):
                 state.fresh[b, k, actions[index] // NUM_KINDS] = True
     state.used[row] = 0
-    state.vehicle[row] = 0
-    state.vehicle[row, V_TYPE] = NO_VEHICLE
+    clear_vehicle(state.vehicle[row])
 
 
 def max_steps(instance: Instance) -> int:

@@ -17,18 +17,20 @@ from model.kernel.flight import (
 )
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
-from model.kernel.records import Record, Records
+from model.kernel.records import Record, Records, record
 from model.kernel.start import counted_from, leaves_first
 from model.kernel.stop import as_late, end_of_service, start_of_service, too_late
 from model.problem import IntArray
 
-STOP_NODE, STOP_ARRIVAL, STOP_START, STOP_LEAVE = range(4)
-TRIP_FIRST_STOP, TRIP_FIRST_OP, TRIP_RELEASE, TRIP_START = range(4)
-OP_STOP, OP_SORTIE, OP_IS_RECOVERY = range(3)
-(SORTIE_DRONE, SORTIE_NODE, SORTIE_LAUNCH_STOP, SORTIE_RECOVERY_STOP, SORTIE_TAKEOFF,
- SORTIE_ARRIVAL, SORTIE_START, SORTIE_READY, SORTIE_RECOVERY_START, SORTIE_RECOVERY_END,
- TRIAL_TAKEOFF, TRIAL_READY) = range(12)
-COUNT_TRIPS, COUNT_STOPS, COUNT_OPS, COUNT_SORTIES = range(4)
+LOGGED_STOP = record("node", "arrival", "start", "leave")
+LOGGED_TRIP = record("first_stop", "first_op", "release", "start")
+OPERATION = record("stop", "sortie", "is_recovery")
+LOGGED_SORTIE = record(
+    "drone", "node", "launch_stop", "recovery_stop", "takeoff", "arrival", "start", "ready",
+    "recovery_start", "recovery_end", "trial_takeoff", "trial_ready")
+"""Its recovery stop is IN_FLIGHT until it is recovered."""
+LENGTHS = record("trips", "stops", "ops", "sorties")
+"""How many of each there are."""
 
 IN_FLIGHT = -1
 
@@ -47,25 +49,25 @@ class Setting(NamedTuple):
 class VehicleLog(NamedTuple):
     """What a vehicle does, in order; in a `State`, with a leading axis of rollouts."""
 
-    count: IntArray  # type: ignore[assignment]  # (4,) trips, stops, ops, sorties
-    trip: IntArray  # (trip, 4)
-    stop: IntArray  # (stop, 4)
-    op: IntArray  # (op, 3)
-    sortie: IntArray  # (sortie, 12); SORTIE_RECOVERY_STOP is IN_FLIGHT until recovered
+    count: Record  # LENGTHS
+    trip: Records  # (trip,) LOGGED_TRIP
+    stop: Records  # (stop,) LOGGED_STOP
+    op: Records  # (op,) OPERATION
+    sortie: Records  # (sortie,) LOGGED_SORTIE
 
 
 def empty_logs(rows: int, num_customers: int) -> VehicleLog:
     """Allocate logs, one a rollout, for vehicles that may serve every customer."""
     return VehicleLog(
-        count=np.zeros((rows, 4), np.int64),
-        trip=np.zeros((rows, num_customers + 1, 4), np.int64),
-        stop=np.zeros((rows, 3 * num_customers + 2, 4), np.int64),
-        op=np.zeros((rows, 2 * num_customers, 3), np.int64),
-        sortie=np.zeros((rows, num_customers, 12), np.int64),
+        count=np.zeros(rows, LENGTHS),
+        trip=np.zeros((rows, num_customers + 1), LOGGED_TRIP),
+        stop=np.zeros((rows, 3 * num_customers + 2), LOGGED_STOP),
+        op=np.zeros((rows, 2 * num_customers), OPERATION),
+        sortie=np.zeros((rows, num_customers), LOGGED_SORTIE),
     )
 
 
-@compiled
+@pasted
 def log_of(logs: VehicleLog, r: int) -> VehicleLog:
     """Return the log of one rollout, as views."""
     return VehicleLog(logs.count[r], logs.trip[r], logs.stop[r], logs.op[r], logs.sortie[r])
@@ -96,51 +98,51 @@ def _arrival_allowed(place: Record, arrival: int, before: int, write: bool) -> b
 
 
 @inlined
-def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: IntArray, free: int) -> int:
+def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int) -> int:
     """Return when a sortie takes off whose launch may begin at `free`.
 
     It is held back for the customer's window once it is known where it is recovered.
     """
     takeoff = take_off(setting.type, free)
-    if sortie[SORTIE_RECOVERY_STOP] != IN_FLIGHT:
-        customer, to = sortie[SORTIE_NODE], log.stop[sortie[SORTIE_RECOVERY_STOP], STOP_NODE]
+    if sortie.recovery_stop != IN_FLIGHT:
+        customer, to = sortie.node, log.stop[sortie.recovery_stop].node
         takeoff = held_takeoff(setting.type, setting.node[customer], takeoff,
                                lookup(setting.fly, customer, to))
     return takeoff
 
 
 @inlined
-def _replay_launch(setting: Setting, log: VehicleLog, sortie: IntArray, node: int, free: int,
+def _replay_launch(setting: Setting, log: VehicleLog, sortie: Record, node: int, free: int,
                    write: bool) -> int:
     """Time one launch begun at `free`; return the take-off, -1 if it is not allowed."""
-    customer = sortie[SORTIE_NODE]
+    customer = sortie.node
     place = setting.node[customer]
     takeoff = sortie_takeoff(setting, log, sortie, free)
     arrival = takeoff + lookup(setting.fly, node, customer)
-    if not _arrival_allowed(place, arrival, sortie[SORTIE_ARRIVAL], write):
+    if not _arrival_allowed(place, arrival, sortie.arrival, write):
         return -1
     served = ready(setting.type, place, arrival)
-    sortie[TRIAL_TAKEOFF], sortie[TRIAL_READY] = takeoff, served
+    sortie.trial_takeoff, sortie.trial_ready = takeoff, served
     if write:
-        sortie[SORTIE_TAKEOFF], sortie[SORTIE_ARRIVAL] = takeoff, arrival
-        sortie[SORTIE_START], sortie[SORTIE_READY] = start_of_service(place, arrival), served
-    elif sortie[SORTIE_RECOVERY_STOP] == IN_FLIGHT and served > sortie[SORTIE_READY]:
+        sortie.takeoff, sortie.arrival = takeoff, arrival
+        sortie.start, sortie.ready = start_of_service(place, arrival), served
+    elif sortie.recovery_stop == IN_FLIGHT and served > sortie.ready:
         return -1
     return takeoff
 
 
 @inlined
-def _replay_recovery(setting: Setting, sortie: IntArray, node: int, free: int, write: bool) -> int:
+def _replay_recovery(setting: Setting, sortie: Record, node: int, free: int, write: bool) -> int:
     """Time one recovery begun at `free` or later; return its end, -1 if it is not allowed."""
-    takeoff = sortie[TRIAL_TAKEOFF]
-    back = sortie[TRIAL_READY] + lookup(setting.fly, sortie[SORTIE_NODE], node)
+    takeoff = sortie.trial_takeoff
+    back = sortie.trial_ready + lookup(setting.fly, sortie.node, node)
     begin = max(free, back)
     end = recovery_end(setting.type, begin)
     if write:
         if not within_endurance(setting.type, takeoff, back, begin):
             return -1
-        sortie[SORTIE_RECOVERY_START], sortie[SORTIE_RECOVERY_END] = begin, end
-    elif begin - takeoff > sortie[SORTIE_RECOVERY_START] - sortie[SORTIE_TAKEOFF]:
+        sortie.recovery_start, sortie.recovery_end = begin, end
+    elif begin - takeoff > sortie.recovery_start - sortie.takeoff:
         return -1
     return end
 
@@ -155,32 +157,32 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
     whether the later start costs nothing, that is, no more lateness, no longer sortie, no later
     end than in the log.
     """
-    op = log.trip[first_trip, TRIP_FIRST_OP]
+    op = log.trip[first_trip].first_op
     leave = start
-    for trip in range(first_trip, log.count[COUNT_TRIPS]):
-        first = log.trip[trip, TRIP_FIRST_STOP]
-        behind = log.count[COUNT_STOPS]
-        if trip + 1 < log.count[COUNT_TRIPS]:
-            behind = log.trip[trip + 1, TRIP_FIRST_STOP]
+    for trip in range(first_trip, log.count.trips):
+        first = log.trip[trip].first_stop
+        behind = log.count.stops
+        if trip + 1 < log.count.trips:
+            behind = log.trip[trip + 1].first_stop
         if trip > first_trip:
-            start = max(log.trip[trip, TRIP_RELEASE], leave + setting.type.reload_duration)
+            start = max(log.trip[trip].release, leave + setting.type.reload_duration)
         if write:
-            log.trip[trip, TRIP_START] = start
+            log.trip[trip].start = start
         for index in range(first, behind):
-            node = log.stop[index, STOP_NODE]
+            node = log.stop[index].node
             arrival = start if index == first else travel_arrival(
-                setting, log.stop[index - 1, STOP_NODE], node, leave)
+                setting, log.stop[index - 1].node, node, leave)
             service_start = free = launched = arrival
             leave = leaves_first(setting.type, arrival) if index == first else arrival
             if node >= num_depots:
                 place = setting.node[node]
-                if not _arrival_allowed(place, arrival, log.stop[index, STOP_ARRIVAL], write):
+                if not _arrival_allowed(place, arrival, log.stop[index].arrival, write):
                     return False
                 service_start = start_of_service(place, arrival)
                 leave = end_of_service(place, arrival)
-            while op < log.count[COUNT_OPS] and log.op[op, OP_STOP] == index:
-                sortie = log.sortie[log.op[op, OP_SORTIE]]
-                if log.op[op, OP_IS_RECOVERY]:
+            while op < log.count.ops and log.op[op].stop == index:
+                sortie = log.sortie[log.op[op].sortie]
+                if log.op[op].is_recovery:
                     # Recoveries that take no time never hold up one another.
                     begin = free if recoveries_take_time(setting.type) else launched
                     end = _replay_recovery(setting, sortie, node, begin, write)
@@ -192,9 +194,9 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                 op += 1
             leave = max(leave, free)
             if write:
-                log.stop[index, STOP_ARRIVAL], log.stop[index, STOP_START] = arrival, service_start
-                log.stop[index, STOP_LEAVE] = leave
-    return write or leave <= log.stop[log.count[COUNT_STOPS] - 1, STOP_LEAVE]
+                log.stop[index].arrival, log.stop[index].start = arrival, service_start
+                log.stop[index].leave = leave
+    return write or leave <= log.stop[log.count.stops - 1].leave
 
 
 @inlined
@@ -203,7 +205,7 @@ def latest_start(setting: Setting, num_depots: int, log: VehicleLog, trip: int, 
     if not replay(setting, num_depots, log, trip, known + 1, False):
         return known
     low = known + 1
-    high = log.stop[log.count[COUNT_STOPS] - 1, STOP_LEAVE] + 1
+    high = log.stop[log.count.stops - 1].leave + 1
     while high - low > 1:
         middle = (low + high) // 2
         if replay(setting, num_depots, log, trip, middle, False):
@@ -220,14 +222,14 @@ def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
     If its work counts from an instant, however late it leaves: that instant.
     """
     departure = leaves_first(setting.type, start)
-    if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
-        departure = sortie_takeoff(setting, log, log.sortie[log.op[0, OP_SORTIE]], start)
+    if log.count.ops > 0 and log.op[0].stop == 0:
+        departure = sortie_takeoff(setting, log, log.sortie[log.op[0].sortie], start)
     return counted_from(setting.type, departure)
 
 
 @compiled
 def start_to_depart(setting: Setting, log: VehicleLog, departure: int) -> int:
     """Return the start of the first trip by which none leaves the depot before `departure`."""
-    if log.count[COUNT_OPS] > 0 and log.op[0, OP_STOP] == 0:
+    if log.count.ops > 0 and log.op[0].stop == 0:
         return launch_begin(setting.type, departure)
     return departure

@@ -13,7 +13,8 @@ from model.problem import (
     UNLIMITED, UNREACHABLE, Customer, DroneType, FloatArray, Problem, SpeedProfile, Travel,
     VehicleType,
 )
-from model.simulation.simulator import NUM_KINDS, RETURN, legal_actions, reset
+from model.simulation.cost import by_term
+from model.simulation.simulator import NUM_KINDS, OUTLOOK, RETURN, legal_actions, reset
 from model.simulation.transition import State
 from training.instances import VARIANTS, generate
 
@@ -95,14 +96,14 @@ def roll(problems: Sequence[Problem], seed: int) -> Batch:
     else:
         raise RuntimeError("a rollout does not end")
     for row in range(rows):
-        rollouts[row].cost = state.cost[row].copy()
+        rollouts[row].cost = by_term(state.cost)[row].copy()
     return Batch(problems, instance, tokens, rollouts, state)
 
 
 def legal(problem: Problem, instance: Instance, state: State) -> list[int]:
     """Return the legal actions of the only rollout of a state."""
     most = 2 * problem.num_nodes + 1 + len(problem.vehicle_types)
-    actions, outlooks = np.zeros(most, np.int64), np.zeros((most, 3), np.int64)
+    actions, outlooks = np.zeros(most, np.int64), np.zeros(most, OUTLOOK)
     count = legal_actions(instance, state, 0, 1, actions, outlooks)
     return actions[:count].tolist()
 
@@ -114,7 +115,7 @@ def record(problems: Sequence[Problem], path: Path) -> None:
     np.savez(path, codes=np.concatenate([step.codes for step in steps]),
              choice=[step.choice for step in steps], glob=np.stack([step.glob for step in steps]),
              feature=np.concatenate([step.feature for step in steps]), served=batch.state.served,
-             cost=batch.state.cost, used=batch.state.used, fresh=batch.state.fresh)
+             cost=by_term(batch.state.cost), used=batch.state.used, fresh=batch.state.fresh)
 
 
 def random_problems(seed: int, count: int, largest: int = 25) -> list[Problem]:

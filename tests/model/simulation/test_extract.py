@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from model.kernel.instance import pack
+from model.simulation.cost import by_term
 from model.simulation.extract import extract
 from model.simulation.simulator import (
     DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, finish, reset,
@@ -66,4 +67,4 @@ def test_a_vehicle_that_is_opened_but_never_leaves_has_no_route_and_no_cost(
     state = reset(instance, np.zeros(1, np.int64))
     apply(instance, state, 0, encode_action(OPEN, 0))
     finish(instance, state, 0)
-    assert state.cost[0].tolist() == [0, 0, 0, 0, 0, 4000]
+    assert by_term(state.cost)[0].tolist() == [0, 0, 0, 0, 0, 4000]
