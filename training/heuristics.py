@@ -2,26 +2,24 @@
 
 import numpy as np
 
-from model.policy.features import Observation
+from model.policy.observation import Observation
 from model.problem import FloatArray, IntArray
 from model.simulation.cost import by_term
 from model.simulation.simulator import DRIVE, LAUNCH, OPEN, RETURN
 from training.rollout import Batch, Simulation
 
-DURATION_FEATURE = 4
-
 
 def nearest_choice(batch: Batch, seen: Observation, row: int, problem: int) -> int:
     """Choose the nearest feasible customer; drones fly to customers that no truck may serve."""
     count = int(seen.count[row])
-    feature = seen.feature[row, :count]
+    kind, duration = (seen.described[name][row, :count] for name in ("kind", "duration"))
     token = seen.token[row, :count]
     by_truck = batch.instance.can_drive[problem].any(axis=0)
     customer = np.minimum(token, len(by_truck) - 1)
     score = np.select(
-        [feature[:, DRIVE] > 0, (feature[:, LAUNCH] > 0) & ~by_truck[customer],
-         feature[:, RETURN] > 0, feature[:, OPEN] > 0],
-        [feature[:, DURATION_FEATURE], feature[:, DURATION_FEATURE], 100.0, 200.0], 300.0)
+        [kind[:, DRIVE] > 0, (kind[:, LAUNCH] > 0) & ~by_truck[customer],
+         kind[:, RETURN] > 0, kind[:, OPEN] > 0],
+        [duration, duration, 100.0, 200.0], 300.0)
     return int(score.argmin())
 
 

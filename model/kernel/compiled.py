@@ -27,7 +27,8 @@ SOURCES = (
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (
         "vehicle_log", "cost", "meeting", "transition", "simulator")),
-    *(f"policy/{part}" for part in ("tokens", "lookahead", "features", "resampling", "rollouts")),
+    *(f"policy/{part}" for part in (
+        "tokens", "observation", "lookahead", "features", "resampling", "rollouts")),
     *(f"search/route/{part}" for part in (
         "layout", "randomness", "block", "routes", "lean", "refresh", "edit", "state",
         "vehicles")),

@@ -28,6 +28,19 @@ def record(*names: str, **others: int | type) -> np.dtype[np.record]:
     return cast("np.dtype[np.record]", np.dtype((np.record, np.dtype(fields, align=True))))
 
 
+def row_of_floats(*fields: str | tuple[str, int]) -> np.dtype[np.record]:
+    """Return the type of a row of 32-bit floats, which is an array of them as well.
+
+    Parameters
+    ----------
+    fields
+        Names, with a number where there are several floats.
+    """
+    row: list[Any] = [(field, np.float32) if isinstance(field, str)
+                      else (field[0], np.float32, field[1:]) for field in fields]
+    return cast("np.dtype[np.record]", np.dtype((np.record, np.dtype(row))))
+
+
 def one(kind: np.dtype[np.record]) -> Record:
     """Return a row of zeros that stands alone."""
     return np.zeros(1, kind)[0]

@@ -14,7 +14,8 @@ from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
 from model.kernel.alarm import silent
 from model.kernel.instance import Instance
-from model.policy.features import Observation, empty_observation, step
+from model.policy.features import step
+from model.policy.observation import Observation, empty_observation
 from model.policy.rollouts import (
     NOTHING, STEP_WEIGHTS, Rollout, StepWeights, read_weights, roll_out,
 )

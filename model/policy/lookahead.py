@@ -15,7 +15,6 @@ from model.kernel.records import Record
 from model.kernel.stop import (
     closing, end_of_service, lateness, service_duration, start_of_service, waiting,
 )
-from model.policy.tokens import Float32Array
 from model.problem import UNLIMITED, BoolArray, IntArray
 from model.simulation.vehicle_log import Setting
 
@@ -23,9 +22,6 @@ NUM_COMPANY = 3
 """How many unserved neighbours of a candidate are looked at for how near they are."""
 NUM_PROSPECTS = 8
 """How many unserved neighbours of a candidate are timed."""
-
-(NEXT_WAY, THIRD_WAY, NEXT_EXCESS, NEXT_DURATION, NEXT_SLACK, LOST, DETOUR_BEFORE,
- LATER_DURATION) = range(20, 28)
 
 
 class Unit(NamedTuple):
@@ -56,10 +52,10 @@ def excess(value: int, scale: float) -> float:
 
 @inlined
 def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, here: int,
-                      node: int, unit: Unit, feature: Float32Array) -> None:
+                      node: int, unit: Unit, feature: Record) -> None:
     """Describe how close a candidate's unserved neighbours are. In place."""
     found = 0
-    feature[NEXT_WAY] = feature[THIRD_WAY] = feature[NEXT_EXCESS] = 1.0
+    feature.next_way = feature.third_way = feature.next_excess = 1.0
     for rank in range(neighbours.shape[1]):
         other = neighbours[node, rank]
         if other < 0 or found == NUM_COMPANY:
@@ -68,16 +64,16 @@ def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, 
             continue
         found += 1
         way = lookup(drive, node, other)
-        feature[THIRD_WAY] = ratio(way, unit.near)
+        feature.third_way = ratio(way, unit.near)
         if found == 1:
-            feature[NEXT_WAY] = feature[THIRD_WAY]
-            feature[NEXT_EXCESS] = excess(way - lookup(drive, here, node), unit.near)
+            feature.next_way = feature.third_way
+            feature.next_excess = excess(way - lookup(drive, here, node), unit.near)
 
 
 @inlined
 def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
                     here: int, node: int, outlook: Record, unit: Unit,
-                    feature: Float32Array) -> None:
+                    feature: Record) -> None:
     """Describe which neighbours could be driven to after `node`, and from which to it. In place.
 
     By fixed speeds, the first dimension of the `load` left, and without drones: a guess.
@@ -108,16 +104,16 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
             lost += 1
         if directly <= latest and lateness(place, end_of_service(there, directly) + back) == 0:
             detour = min(detour, past + back - way)
-    feature[NEXT_DURATION] = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
-    feature[NEXT_SLACK] = slack(tightest, 0, unit.time)
-    feature[LOST] = lost / max(1, seen)
-    feature[DETOUR_BEFORE] = excess(detour, unit.near)
-    feature[LATER_DURATION] = 1.0 if later >= UNLIMITED else ratio(float(later), unit.near)
+    feature.next_duration = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
+    feature.next_slack = slack(tightest, 0, unit.time)
+    feature.lost = lost / max(1, seen)
+    feature.detour_before = excess(detour, unit.near)
+    feature.later_duration = 1.0 if later >= UNLIMITED else ratio(float(later), unit.near)
 
 
 @inlined
 def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, here: int,
-                     node: int, outlook: Record, unit: Unit, feature: Float32Array) -> None:
+                     node: int, outlook: Record, unit: Unit, feature: Record) -> None:
     """Describe at which neighbours the drone could meet the truck. In place.
 
     How soon, how long the truck would wait, and the least detour of the truck to serve `node`
@@ -139,15 +135,15 @@ def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, 
         soonest = min(soonest, max(drone, truck))
         wait = min(wait, max(0, drone - truck))
         detour = min(detour, lookup(drive, here, node) + lookup(drive, node, other) - truck)
-    feature[NEXT_DURATION] = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
-    feature[NEXT_SLACK] = 1.0 if wait >= UNLIMITED else ratio(float(wait), unit.near)
-    feature[DETOUR_BEFORE] = excess(detour, unit.near)
+    feature.next_duration = 1.0 if soonest >= UNLIMITED else ratio(float(soonest), unit.near)
+    feature.next_slack = 1.0 if wait >= UNLIMITED else ratio(float(wait), unit.near)
+    feature.detour_before = excess(detour, unit.near)
 
 
 @inlined
 def describe_neighbours(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
                         here: int, node: int, outlook: Record, unit: Unit, by_air: bool,
-                        feature: Float32Array) -> None:
+                        feature: Record) -> None:
     """Describe what serving `node` from `here` means for its unserved neighbours. In place.
 
     Parameters
@@ -171,7 +167,7 @@ def describe_neighbours(setting: Setting, neighbours: IntArray, served: BoolArra
     by_air
         A drone serves the candidate.
     feature
-        (NUM_ACTION_FEATURES,) of the candidate.
+        ACTION of the candidate.
     """
     _describe_company(setting.drive, neighbours, served, here, node, unit, feature)
     if by_air:

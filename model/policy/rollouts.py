@@ -14,8 +14,9 @@ import numpy as np
 from model.kernel.alarm import rung, silent
 from model.kernel.compiled import compiled, inlined, inlined_arithmetic
 from model.kernel.instance import Instance
-from model.policy.features import (
-    NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, empty_observation, step,
+from model.policy.features import step
+from model.policy.observation import (
+    NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, empty_observation,
 )
 from model.policy.resampling import part_to_keep
 from model.policy.tokens import Float32Array, Scales

@@ -9,6 +9,7 @@ import numpy as np
 from model.kernel.instance import Instance, pack
 from model.policy import features
 from model.policy import tokens as token_module
+from model.policy.observation import empty_observation
 from model.problem import (
     UNLIMITED, UNREACHABLE, Customer, DroneType, FloatArray, Problem, SpeedProfile, Travel,
     VehicleType,
@@ -77,7 +78,7 @@ def roll(problems: Sequence[Problem], seed: int) -> Batch:
         coordinates[row, : problem.num_nodes] = problem.coordinates
     tokens = token_module.tokens(instance, scale, coordinates)
     state = reset(instance, np.arange(rows))
-    seen = features.empty_observation(rows, width, instance.type.shape[1])
+    seen = empty_observation(rows, width, instance.type.shape[1])
     rngs = [np.random.default_rng((seed, problem.num_customers)) for problem in problems]
     rollouts = [Rollout() for _ in problems]
     choice = np.zeros(rows, np.int64)

@@ -10,7 +10,7 @@ import onnxruntime as ort
 import pytest
 import torch
 
-from model.policy.features import Observation
+from model.policy.observation import empty_observation
 from model.policy.rollouts import (
     ACTION_WIDTH, CLIP, SHAPES, SHARE, STEP_WEIGHTS, candidate_scores, read_weights,
 )
@@ -81,8 +81,8 @@ def test_compiled_step_of_attention_agrees_with_its_graph(
     logits, _ = session.run(None, dict(zip(
         ("memory", *STEP_INPUTS), (memory, here, candidate, feature, everyone, glob, hidden),
         strict=True)))
-    seen = Observation(np.full(3, candidates), candidate, candidate, np.zeros((3, 1, 3), np.int64),
-                       feature, glob, here)
+    seen = empty_observation(3, nodes, types)._replace(
+        count=np.full(3, candidates), token=candidate, feature=feature, glob=glob, here=here)
     weights = read_weights(folder / STEP_WEIGHTS)
     for r in range(3):
         clipped = CLIP * np.tanh(candidate_scores(weights, memory, seen, r) * 2 / CLIP)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from model.kernel.compiled import compiled
-from model.kernel.records import Record, Records, one, read_rows, record
+from model.kernel.records import Record, Records, one, read_rows, record, row_of_floats
 
 PARCEL = record("node", "count", load=3, cost=float)
 
@@ -34,3 +34,16 @@ def test_rows_are_read_as_numbers_of_python() -> None:
     row = read_rows(parcels)[1]
     assert (row.node, row.count, row.cost) == (0, 5, 0.0)
     assert type(row.count) is int
+
+
+@compiled
+def describe(row: Record) -> None:
+    """Write by name. In place."""
+    row.kind[1] = row.slack = 0.5
+
+
+def test_floats_by_name_and_by_number_are_the_same() -> None:
+    named = row_of_floats(("kind", 2), "slack")
+    table = np.zeros((2, 3), np.float32)
+    describe(table.view(named)[1, 0])
+    assert table.tolist() == [[0, 0, 0], [0, 0.5, 0.5]]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from model.kernel.instance import pack
 from model.policy import features
+from model.policy.observation import NUM_ACTION_FEATURES, empty_observation
 from model.policy.tokens import scales, tokens
 from model.problem import Problem
 from model.simulation.simulator import DRIVE, OPEN, apply, encode_action, reset
@@ -49,7 +50,7 @@ def test_features_are_finite_and_bounded(alone: list[Batch]) -> None:
 
 def test_every_action_feature_tells_actions_apart(alone: list[Batch]) -> None:
     action = np.concatenate([step.feature for batch in alone for step in batch.rollouts[0].steps])
-    assert action.shape[1] == features.NUM_ACTION_FEATURES
+    assert action.shape[1] == NUM_ACTION_FEATURES
     assert (action.std(axis=0) > 0.01).all()
 
 
@@ -109,12 +110,13 @@ def test_company_is_the_unserved_customers_nearby(tiny_problem, customers, truck
     scale = scales(instance)
     assert scale.near[0] == 2 * 2 * MINUTE  # neighbours are 1, 1, 2, 4 km away, 2 minutes a km
     state = reset(instance, np.zeros(1, np.int64))
-    seen = features.empty_observation(1, problem.num_nodes, 1)
+    seen = empty_observation(1, problem.num_nodes, 1)
     types = tokens(instance, scale, problem.coordinates[None]).type
     for action in (encode_action(OPEN, 0), encode_action(DRIVE, 2)):
         apply(instance, state, 0, action)
     features.observe(instance, scale, state, types, 0, 1, 1, seen)
-    of_node = {int(code) // 4: seen.feature[0, index, 20:23] for index, code
+    names = ("next_way", "third_way", "next_excess")
+    of_node = {int(code) // 4: [seen.described[name][0, index] for name in names] for index, code
                in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == DRIVE}
     # From 2 km: customer 1 has 4 km (3 away) next and nobody third but 8 km (7 away).
     np.testing.assert_allclose(of_node[1], [3 / 5, 7 / 9, (3 - 1) / 2 / 3], rtol=1e-6)

@@ -7,13 +7,13 @@ import pytest
 
 from model.kernel.instance import pack
 from model.policy import features
-from model.policy.lookahead import DETOUR_BEFORE, LATER_DURATION, LOST, NEXT_DURATION, NEXT_SLACK
+from model.policy.observation import empty_observation
 from model.policy.tokens import scales, tokens
 from model.problem import Problem
 from model.simulation.simulator import DRIVE, LAUNCH, OPEN, apply, encode_action, reset
 from tests.conftest import MINUTE
 
-TIMED = [NEXT_DURATION, NEXT_SLACK, LOST, DETOUR_BEFORE, LATER_DURATION]
+TIMED = ["next_duration", "next_slack", "lost", "detour_before", "later_duration"]
 PLACES = (0.0, 1.0, 2.0, 4.0, 8.0)
 
 
@@ -23,12 +23,12 @@ def prospects(problem: Problem, *actions: int) -> dict[int, np.ndarray]:
     scale = scales(instance)
     assert scale.near[0] == 4 * MINUTE  # neighbours are 1, 1, 2, 4 km away, 2 minutes a km
     state = reset(instance, np.zeros(1, np.int64))
-    seen = features.empty_observation(1, problem.num_nodes, 1)
+    seen = empty_observation(1, problem.num_nodes, 1)
     types = tokens(instance, scale, problem.coordinates[None]).type
     for action in actions:
         apply(instance, state, 0, action)
     features.observe(instance, scale, state, types, 0, 1, 1, seen)
-    return {int(code): seen.feature[0, index, TIMED] for index, code
+    return {int(code): np.array([seen.described[name][0, index] for name in TIMED]) for index, code
             in enumerate(seen.action[0, :seen.count[0]])}
 
 
