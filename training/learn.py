@@ -38,7 +38,7 @@ def training_costs(batch: Batch, outcome: Outcome, num_rollouts: int,
     weight = np.ones(1, COST)
     weight["unassigned"] = unassigned_weight
     cost = (by_term(outcome.cost) * by_term(weight)).sum(axis=1).reshape(-1, num_rollouts)
-    unit = batch.scale.cost * np.maximum(batch.instance.size[:, 1], 1)
+    unit = batch.scale.cost * np.maximum(batch.instance.size["customers"], 1)
     return cost / unit[:, None]
 
 

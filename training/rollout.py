@@ -11,9 +11,10 @@ from torch import Tensor
 from model.kernel.instance import Instance, pack
 from model.policy.features import step
 from model.policy.network import PolicyNetwork
+from model.kernel.records import Records
 from model.policy.observation import Observation, empty_observation
 from model.policy.tokens import Scales, Tokens, scales, tokens
-from model.problem import FloatArray, IntArray, Problem
+from model.problem import IntArray, Problem
 from model.simulation.simulator import max_steps, reset
 from training.dataset import Decisions
 
@@ -46,7 +47,7 @@ class Batch:
 class Outcome:
     """Where rollouts ended."""
 
-    cost: FloatArray  # (rollout, 6) by term
+    cost: Records  # (rollout,) COST
     num_unserved: IntArray  # (rollout,)
     record: list[Decisions]  # step by step
 

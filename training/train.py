@@ -183,7 +183,7 @@ class Run:
         norm = self.move(world)
         self.step += 1
         ended = time.monotonic()
-        return {"customers": int(batch.instance.size[0, 1]), "problems": batch.num_problems,
+        return {"customers": int(batch.instance.size[0].customers), "problems": batch.num_problems,
                 "cost": float(costs.mean()), "unserved": float(outcome.num_unserved.mean()),
                 "policy_loss": loss.policy, "critic_loss": critic_loss, "entropy": loss.entropy,
                 "gradient_norm": norm, "problems_per_second":
@@ -267,7 +267,7 @@ def validate(run: Run, batches: list[tuple[Batch, np.ndarray]]) -> dict[str, flo
     for batch, reference in batches:
         outcome = roll_out(run.policy, batch, 1, greedy, run.device,
                            run.num_threads)
-        size = int(batch.instance.size[0, 1])
+        size = int(batch.instance.size[0].customers)
         for name, cost, nearest in zip(batch.names, by_term(outcome.cost).sum(axis=1), reference,
                                        strict=True):
             for key in (name, f"n{size}", "all"):

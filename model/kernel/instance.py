@@ -26,11 +26,17 @@ FAR = 2**58
 NONE = -FAR
 """Instants later, and earlier, than any that occurs."""
 
+SIZE = record("depots", "customers", "types", "dimensions")
+"""How many of each a problem has."""
+
 NODE = record("window_earliest", "arrival_limit", "service_duration", "release", "window_latest",
               demand=MAX_DIMENSIONS)
 """A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
 that is allowed, `FAR` where lateness only costs; service duration; release; the last arrival that
 is not late; demand by dimension."""
+
+PRICE = record(lateness=float, waiting=float)
+"""What lateness and waiting at a node cost per hour."""
 
 TYPE = record(
     "count", "travel", "begins_at", "ends_at", "shift_earliest", "busy_until", "begun",
@@ -51,9 +57,9 @@ RATE = record(fixed=float, distance=float, time=float, drone_distance=float, dro
 class Instance(NamedTuple):
     """Packed problems."""
 
-    size: IntArray  # (problem, 4) depots, customers, vehicle types, dimensions
+    size: Records  # (problem,) SIZE
     node: Records  # (problem, node) NODE
-    late_early: FloatArray  # (problem, node, 2) cost per hour of lateness and of waiting
+    price: Records  # (problem, node) PRICE
     type: Records  # (problem, type) TYPE
     rate: Records  # (problem, type) RATE
     can_drive: BoolArray  # (problem, type, node) table, kind, skills and capacity allow a truck
@@ -86,9 +92,9 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
     travels = max(len(problem.travel) for problem in problems)
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
     instance = Instance(
-        size=np.zeros((rows, 4), np.int64),
+        size=np.zeros(rows, SIZE),
         node=np.zeros((rows, nodes), NODE),
-        late_early=np.zeros((rows, nodes, 2)),
+        price=np.zeros((rows, nodes), PRICE),
         type=np.zeros((rows, types), TYPE),
         rate=np.zeros((rows, types), RATE),
         can_drive=np.zeros((rows, types, nodes), np.bool_),
@@ -124,7 +130,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
     if problem.customers:
         instance.node[row, depots:nodes] = [
             _customer_row(customer) for customer in problem.customers]
-        instance.late_early[row, depots:nodes] = [
+        instance.price[row, depots:nodes] = [
             (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
             for customer in problem.customers]
         costs = np.array([problem.cost_of_leaving_out(customer) for customer in problem.customers])

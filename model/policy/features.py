@@ -7,12 +7,12 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import MAX_DIMENSIONS, Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of
-from model.kernel.records import Record
+from model.kernel.records import Record, Records
 from model.kernel.stop import closing, lateness
 from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
 from model.policy.observation import Observation
 from model.policy.tokens import NUM_TYPE_FEATURES, Float32Array, Scales
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, IntArray
 from model.simulation.meeting import NO_VEHICLE
 from model.simulation.simulator import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, finish, legal_actions,
@@ -28,7 +28,7 @@ def _share(used: int, limit: int) -> float:
 
 
 @inlined
-def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, vehicle: Record,
+def _describe_customer(setting: Setting, unit: Unit, prices: Records, vehicle: Record,
                        begun: bool, node: int, outlook: Record, feature: Record) -> None:
     """Describe what serving a customer next means, by truck or drone alike. In place."""
     columns = setting.node[node]
@@ -37,7 +37,7 @@ def _describe_customer(setting: Setting, unit: Unit, late_early: FloatArray, veh
     late = lateness(columns, arrival)
     feature.waiting = ratio(waiting, unit.time)
     feature.window_slack = slack(closing(columns), arrival, unit.time)
-    window_cost = late * late_early[node, 0] + waiting * late_early[node, 1]
+    window_cost = late * prices[node].lateness + waiting * prices[node].waiting
     feature.lateness = ratio(window_cost / MS_PER_HOUR, unit.cost)
     for dimension in range(MAX_DIMENSIONS):
         demand = columns.demand[dimension]
@@ -107,7 +107,8 @@ def _unserved_demand(instance: Instance, state: State, r: int) -> float:
     b = state.problem[r]
     nodes, served = instance.node[b], state.served[r]
     total = 0.0
-    for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
+    size = instance.size[b]
+    for node in range(size.depots, size.depots + size.customers):
         if not served[node]:
             total += demand_of(nodes[node])[0]
     return total
@@ -121,11 +122,11 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     vehicle = state.vehicle[r]
     k = vehicle.type
     reserve = 0.0
-    for kind in range(instance.size[b, 2]):
+    for kind in range(instance.size[b].types):
         left = instance.type[b, kind].count - state.used[r, kind]
         reserve += (left * float(instance.type[b, kind].max_trips)
                     * instance.type[b, kind].capacity[0])
-    seen.unserved = state.num_unserved[r] / max(1, instance.size[b, 1])
+    seen.unserved = state.num_unserved[r] / max(1, instance.size[b].customers)
     seen.unserved_demand = unserved / scale.amount[b]
     if k == NO_VEHICLE:
         seen.demand_by_reserve = min(unserved / max(1.0, reserve), 2.0)
@@ -181,7 +182,7 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
     b, k = state.problem[r], state.vehicle[r].type
     setting = setting_of(instance, b, k)
     vehicle = state.vehicle[r]
-    rate, late_early = instance.rate[b, k], instance.late_early[b]
+    rate, prices = instance.rate[b, k], instance.price[b]
     unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
     home, here = setting.type.ends_at, vehicle.node
     distance = matrix_of(instance.distance, b, setting.type.travel)
@@ -214,7 +215,7 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
             detour = (way + way_home - lookup(setting.drive, here, home)) / unit.time
             feature.detour = max(min(detour, 5.0), -5.0)
             feature.excess = ratio(way - nearest, unit.near)
-        _describe_customer(setting, unit, late_early, vehicle, trips > 0, node,
+        _describe_customer(setting, unit, prices, vehicle, trips > 0, node,
                            seen.outlook[r, index], feature)
         describe_neighbours(setting, instance.neighbour[b], state.served[r], vehicle.load[0], here,
                             node, seen.outlook[r, index], unit, kind == LAUNCH, feature)

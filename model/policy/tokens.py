@@ -43,7 +43,7 @@ def scales(instance: Instance) -> Scales:
     rows = len(instance.size)
     result = Scales(*(np.ones(rows) for _ in Scales._fields))
     for b in range(rows):
-        depots, customers, types = instance.size[b, :3].tolist()
+        depots, customers, types, _ = instance.size[b].tolist()
         if customers == 0:
             continue
         nodes = slice(depots, depots + customers)
@@ -92,8 +92,8 @@ def tokens(instance: Instance, scale: Scales, coordinates: FloatArray) -> Tokens
     """
     num_nodes, num_types = instance.node.shape[1], instance.type.shape[1]
     index = np.arange(num_nodes)
-    is_node = index < (instance.size[:, 0] + instance.size[:, 1])[:, None]
-    is_type = np.arange(num_types) < instance.size[:, 2:3]
+    is_node = index < (instance.size["depots"] + instance.size["customers"])[:, None]
+    is_type = np.arange(num_types) < instance.size["types"][:, None]
     node = node_features(instance, scale, coordinates, is_node)
     kind = type_features(instance, scale, is_type)
     return Tokens(
@@ -114,11 +114,11 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     extent = np.maximum((high - low).max(axis=2, keepdims=True), 1e-9)
     place = (coordinates - (low + high) / 2) / extent * 2
     columns = instance.node
-    is_depot = np.arange(columns.shape[1]) < instance.size[:, :1]
+    is_depot = np.arange(columns.shape[1]) < instance.size["depots"][:, None]
     capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None]
     payload = instance.type["payload"].max(axis=1)[:, None]
     demand = columns["demand"]
-    types = np.maximum(instance.size[:, 2], 1)[:, None]
+    types = np.maximum(instance.size["types"], 1)[:, None]
     earliest, latest = columns["window_earliest"], columns["window_latest"]
     home = instance.duration[:, 0, 0, :]
     return np.stack([
@@ -131,7 +131,7 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
         (demand / np.maximum(demand + payload, 1)).max(axis=2),
         squash(columns["service_duration"] / time),
         np.minimum(columns["release"] / horizon, 2),
-        squash(instance.late_early[..., 0] * hours), squash(instance.late_early[..., 1] * hours),
+        squash(instance.price["lateness"] * hours), squash(instance.price["waiting"] * hours),
         instance.can_drive.sum(axis=1) / types, instance.can_fly.sum(axis=1) / types,
         squash(home / time), squash(home / scale.near[:, None] / 4),
     ], axis=2)
@@ -163,7 +163,7 @@ def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_])
     kind, rate = instance.type, instance.rate
     time, horizon, cost = scale.time[:, None], scale.horizon[:, None], scale.cost[:, None]
     hours = time / MS_PER_HOUR
-    customers = np.maximum(instance.size[:, 1], 1)[:, None]
+    customers = np.maximum(instance.size["customers"], 1)[:, None]
     problem = np.arange(len(kind))[:, None]
     leg = instance.duration[problem, kind["travel"], 0].sum(axis=2) / customers
     driven = instance.distance[problem, kind["travel"], 0].sum(axis=2) / customers

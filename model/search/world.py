@@ -116,7 +116,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_more=instance.unassigned_more[0],
         must_serve=_must_serve(problem, instance),
-        place=place, price=np.ascontiguousarray(instance.late_early[0] / MS_PER_HOUR),
+        place=place, price=_per_ms(instance.price[0]),
         type=columns, rate=_per_unit(rates), mode=mode, visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
         swap=swap, leg=ground.leg, back=ground.back,
@@ -145,6 +145,14 @@ def _per_unit(rates: Records) -> Records:
     return rate
 
 
+def _per_ms(prices: Records) -> Records:
+    """Return prices per ms."""
+    price = prices.copy()
+    for field in ("lateness", "waiting"):
+        price[field] = prices[field] / MS_PER_HOUR
+    return price
+
+
 def _symmetric(matrices: IntArray, pause: Pause) -> bool:
     """Tell whether all matrices (travel, node, node) are their own transposes."""
     return all(bool((matrix[rows] == matrix[:, rows].T).all())
@@ -153,8 +161,8 @@ def _symmetric(matrices: IntArray, pause: Pause) -> bool:
 
 def _modes(instance: Instance, columns: Records, place: Records) -> IntArray:
     rates = instance.rate[0]
-    late, early = (instance.late_early[0] > 0).any(axis=0)
-    soft = bool((place["arrival_limit"] == FAR).any()) and bool(late)
+    late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
+    soft = bool((place["arrival_limit"] == FAR).any()) and late
     timed = (rates["time"] > 0) | (columns["max_working_duration"] < UNLIMITED)
     profile = columns["speed_changes"] != NO_PROFILE
     settled = np.logical_or(early, profile & timed)

@@ -20,8 +20,8 @@ def add_window_cost(instance: Instance, b: int, node: int, arrival: int, start: 
                     cost: Record) -> None:
     """Add what lateness and earliness at a customer cost. In place."""
     late = lateness(instance.node[b, node], arrival)
-    cost.lateness += late / MS_PER_HOUR * instance.late_early[b, node, 0]
-    cost.earliness += (start - arrival) / MS_PER_HOUR * instance.late_early[b, node, 1]
+    cost.lateness += late / MS_PER_HOUR * instance.price[b, node].lateness
+    cost.earliness += (start - arrival) / MS_PER_HOUR * instance.price[b, node].waiting
 
 
 @compiled
@@ -35,7 +35,7 @@ def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: i
     for index in range(1, log.count.stops):
         node = log.stop[index].node
         driven += lookup(legs, log.stop[index - 1].node, node)
-        if node >= instance.size[b, 0]:
+        if node >= instance.size[b].depots:
             add_window_cost(instance, b, node, log.stop[index].arrival,
                             log.stop[index].start, cost)
     for index in range(log.count.sorties):

@@ -157,7 +157,7 @@ def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind:
     """
     b, k = state.problem[r], state.vehicle[r].type
     setting = setting_of(instance, b, k)
-    num_depots = instance.size[b, 0]
+    num_depots = instance.size[b].depots
     _copy_vehicle(state, r, scratch)
     vehicle, log = state.vehicle[scratch], log_of(state.log, scratch)
     drones = state.drone[scratch, : setting.type.drones]
@@ -200,8 +200,8 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     earliest = -1
     if trips > 0:
         earliest = first_departure(setting, log_of(state.log, r), state.log.trip[r, 0].start)
-    found = 0
-    for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
+    found, size = 0, instance.size[b]
+    for node in range(size.depots, size.depots + size.customers):
         if served[node] or not within(demand_of(setting.node[node]), load_left(vehicle)):
             continue
         held = not idle and began < setting.node[node].release
@@ -231,7 +231,8 @@ def _open_legal(instance: Instance, state: State, r: int, k: int) -> bool:
     b = state.problem[r]
     if state.used[r, k] >= instance.type[b, k].count:
         return False
-    for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
+    size = instance.size[b]
+    for node in range(size.depots, size.depots + size.customers):
         if state.fresh[b, k, node] and not state.served[r, node]:
             return True
     return False
@@ -256,7 +257,7 @@ def legal_actions(instance: Instance, state: State, r: int, scratch: int, action
             return found + 1
         if state.log.count[r].trips == 0:
             return found
-    for k in range(instance.size[state.problem[r], 2]):
+    for k in range(instance.size[state.problem[r]].types):
         if _open_legal(instance, state, r, k):
             actions[found] = k * NUM_KINDS + OPEN
             found += 1
@@ -277,12 +278,12 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
     vehicle, log = state.vehicle[r], log_of(state.log, r)
     drones = state.drone[r, : setting.type.drones]
     if kind == LAUNCH:
-        launch(setting, instance.size[b, 0], log, vehicle, drones, target)
+        launch(setting, instance.size[b].depots, log, vehicle, drones, target)
     else:
         legs = matrix_of(instance.distance, b, setting.type.travel)
         vehicle.distance += lookup(legs, vehicle.node, target)
-        drive(setting, instance.size[b, 0], log, vehicle, drones, target)
-    improve_departure(setting, instance.size[b, 0], log, vehicle)
+        drive(setting, instance.size[b].depots, log, vehicle, drones, target)
+    improve_departure(setting, instance.size[b].depots, log, vehicle)
     if kind != RETURN:
         state.served[r, target] = True
         state.num_unserved[r] -= 1
@@ -313,7 +314,8 @@ def finish(instance: Instance, state: State, r: int) -> None:
     b = state.problem[r]
     state.cost[r].unassigned += state.num_unserved[r] * instance.unassigned_cost[b]
     if state.num_unserved[r] > 0:
-        for node in range(instance.size[b, 0], instance.size[b, 0] + instance.size[b, 1]):
+        size = instance.size[b]
+        for node in range(size.depots, size.depots + size.customers):
             if not state.served[r, node]:
                 state.cost[r].unassigned += instance.unassigned_more[b, node]
     state.done[r] = True
@@ -325,9 +327,9 @@ def _mark_fresh(instance: Instance, state: State, scratch: int) -> None:
     row = scratch - 1
     for b in range(instance.size.shape[0]):
         state.problem[row] = b
-        actions = np.zeros(2 * instance.size[b, 1] + 1, np.int64)
+        actions = np.zeros(2 * instance.size[b].customers + 1, np.int64)
         outlooks = np.zeros(len(actions), OUTLOOK)
-        for k in range(instance.size[b, 2]):
+        for k in range(instance.size[b].types):
             open_vehicle(instance, state, row, k)
             for index in range(_legal_services(instance, state, row, scratch, actions, outlooks)):
                 state.fresh[b, k, actions[index] // NUM_KINDS] = True
@@ -341,7 +343,7 @@ def max_steps(instance: Instance) -> int:
     Each step serves a customer, opens a vehicle or returns, and neither trip nor vehicle stays
     empty; the observation after the last step finds nothing to do.
     """
-    return 3 * int(instance.size[:, 1].max()) + 2
+    return 3 * int(instance.size["customers"].max()) + 2
 
 
 def reset(instance: Instance, rollouts: IntArray, num_scratch: int = 1) -> State:
@@ -360,5 +362,5 @@ def reset(instance: Instance, rollouts: IntArray, num_scratch: int = 1) -> State
     state = empty_state(instance, count + num_scratch)
     _mark_fresh(instance, state, count)
     state.problem[:count] = rollouts
-    state.num_unserved[:count] = instance.size[rollouts, 1]
+    state.num_unserved[:count] = instance.size["customers"][rollouts]
     return state

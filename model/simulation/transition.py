@@ -51,7 +51,7 @@ def empty_state(instance: Instance, rows: int) -> State:
         done=np.zeros(rows, np.bool_),
         vehicle=np.zeros(rows, VEHICLE),
         drone=np.zeros((rows, max_drones), DRONE),
-        log=empty_logs(rows, int(instance.size[:, 1].max())),
+        log=empty_logs(rows, int(instance.size["customers"].max())),
         cost=np.zeros(rows, COST),
         fresh=np.zeros((num_problems, num_types, num_nodes), np.bool_),
     )
@@ -349,7 +349,7 @@ def close_vehicle(instance: Instance, state: State, r: int) -> None:
     k = state.vehicle[r].type
     setting = setting_of(instance, b, k)
     log = log_of(state.log, r)
-    num_depots = instance.size[b, 0]
+    num_depots = instance.size[b].depots
     for trip in range(log.count.trips):
         known = log.trip[trip].start
         if trip == 0:

@@ -193,5 +193,5 @@ def test_customers_left_out_weigh_less_in_training(batch: Batch) -> None:
     cost = np.zeros((batch.num_problems, 6))
     cost[:, 1], cost[:, 5] = 2.0, 10.0
     outcome = Outcome(cost, np.ones(batch.num_problems, np.int64), None)  # type: ignore[arg-type]
-    unit = batch.scale.cost * batch.instance.size[:, 1]
+    unit = batch.scale.cost * batch.instance.size["customers"]
     np.testing.assert_allclose(training_costs(batch, outcome, 1, 0.2)[:, 0] * unit, 4.0)

@@ -87,7 +87,7 @@ class World(NamedTuple):
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
     place: Records  # (node,) NODE
-    price: FloatArray  # (node, 2) cost per ms of lateness and of waiting
+    price: Records  # (node,) PRICE, per ms
     type: Records  # (type,) TYPE
     rate: Records  # (type,) RATE, per mm and per ms
     mode: IntArray  # (type,) MODE_ flags

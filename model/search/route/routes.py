@@ -137,13 +137,13 @@ def open_up(route: Record, stops: Records) -> None:
 @spliced
 def lateness_cost(world: World, node: int, arrival: int) -> float:
     """Return what being late at a customer costs; nothing at a depot."""
-    return lateness(world.place[node], arrival) * world.price[node, 0]
+    return lateness(world.place[node], arrival) * world.price[node].lateness
 
 
 @spliced
 def waiting_cost(world: World, node: int, arrival: int) -> float:
     """Return what being early at a customer costs."""
-    return waiting(world.place[node], arrival) * world.price[node, 1]
+    return waiting(world.place[node], arrival) * world.price[node].waiting
 
 
 @spliced
