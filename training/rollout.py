@@ -9,9 +9,9 @@ import torch
 from torch import Tensor
 
 from model.kernel.instance import Instance, pack
+from model.kernel.records import Records
 from model.policy.features import step
 from model.policy.network import PolicyNetwork
-from model.kernel.records import Records
 from model.policy.observation import Observation, empty_observation
 from model.policy.tokens import Scales, Tokens, scales, tokens
 from model.problem import IntArray, Problem

@@ -41,21 +41,20 @@ def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntAr
 
 def _close(instance: Instance, state: State) -> list[Route]:
     """Close the open vehicle and return its route, if it has one."""
-    vehicle = state.vehicle[0]
-    if vehicle.type == NO_VEHICLE or state.log.count[0].trips == 0:
+    vehicle, = read_rows(state.vehicle[:1])
+    if vehicle.type == NO_VEHICLE or state.log.count["trips"][0] == 0:
         return []
     close_vehicle(instance, state, 0)
-    trips = _trips(VehicleLog(*(records[0] for records in state.log)))
-    return [Route(int(vehicle.type), int(vehicle.index), trips)]
+    return [Route(vehicle.type, vehicle.index, _trips(state.log))]
 
 
-def _trips(log: VehicleLog) -> tuple[Trip, ...]:
-    count = log.count
-    firsts = log.trip["first_stop"][: count.trips].tolist()
-    stops = [Stop(*row) for row in log.stop[: count.stops].tolist()]
-    sorties = read_rows(log.sortie[: count.sorties])
+def _trips(logs: VehicleLog) -> tuple[Trip, ...]:
+    count, = read_rows(logs.count[:1])
+    firsts = logs.trip["first_stop"][0, : count.trips].tolist()
+    stops = [Stop(*row) for row in logs.stop[0, : count.stops].tolist()]
+    sorties = read_rows(logs.sortie[0, : count.sorties])
     trips = []
-    for first, behind in zip(firsts, [*firsts[1:], int(count.stops)], strict=True):
+    for first, behind in zip(firsts, [*firsts[1:], count.stops], strict=True):
         flown = tuple(_sortie(row, first) for row in sorties
                       if first <= row.launch_stop < behind)
         trips.append(Trip(tuple(stops[first:behind]), flown))
