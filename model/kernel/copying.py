@@ -13,14 +13,6 @@ def copy_row(source: IntArray, target: IntArray) -> None:
 
 
 @inlined
-def copy_rows(source: IntArray, target: IntArray, count: int) -> None:
-    """Copy the first `count` rows of a table. In place."""
-    for row in range(count):
-        for column in range(target.shape[1]):
-            target[row, column] = source[row, column]
-
-
-@inlined
 def copy_records(source: Records, target: Records, count: int) -> None:
     """Copy the first `count` records. In place."""
     for row in range(count):
