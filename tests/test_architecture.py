@@ -246,7 +246,7 @@ def test_legs_are_read_in_one_file() -> None:
 @pytest.mark.parametrize("applied", [
     "start = max(arrival, place.window_earliest)", 'late = node["window_latest"] < arrivals',
     'node[["demand", "release"]]', "flight <= world.type[k].endurance",
-    "load <= columns.capacity[dimension]", "from model.kernel.clock import leave_by_profile",
+    "load <= kind.capacity[dimension]", "from model.kernel.clock import leave_by_profile",
     "world.leg[m, here, there, 0]", "onward[there, 1]", "setting.drive[here, there]",
 ])
 def test_a_rule_applied_outside_its_home_is_found(applied: str) -> None:

@@ -1,7 +1,7 @@
 """When a leg is done, and when it has to begin, by speeds that change by time of day. Compiled.
 
-`columns` are those of the vehicle type, `times` and `factors` its profile, of which as many
-changes count as the columns say.
+`kind` is the row of the vehicle type, `times` and `factors` its profile, of which as many changes
+count as the row says.
 """
 
 from model.kernel.compiled import compiled, inlined
@@ -11,9 +11,9 @@ from model.problem import FULL_SPEED, IntArray
 
 
 @inlined
-def is_steady(columns: Record) -> bool:
+def is_steady(kind: Record) -> bool:
     """Tell whether the speed is the same all day, so that legs last as long as tables say."""
-    return columns.speed_changes == NO_PROFILE
+    return kind.speed_changes == NO_PROFILE
 
 
 @inlined
@@ -64,18 +64,18 @@ def leave_by_profile(times: IntArray, factors: IntArray, changes: int, duration:
 
 
 @inlined
-def leg_end(columns: Record, times: IntArray, factors: IntArray, duration: int,
+def leg_end(kind: Record, times: IntArray, factors: IntArray, duration: int,
             leave: int) -> int:
     """Return when a leg of `duration` at full speed, begun at `leave`, is done."""
-    if is_steady(columns):
+    if is_steady(kind):
         return leave + duration
-    return arrival_by_profile(times, factors, columns.speed_changes, duration, leave)
+    return arrival_by_profile(times, factors, kind.speed_changes, duration, leave)
 
 
 @inlined
-def leg_start(columns: Record, times: IntArray, factors: IntArray, duration: int,
+def leg_start(kind: Record, times: IntArray, factors: IntArray, duration: int,
               arrival: int) -> int:
     """Return the latest departure whose leg of `duration` at full speed ends by `arrival`."""
-    if is_steady(columns):
+    if is_steady(kind):
         return arrival - duration
-    return leave_by_profile(times, factors, columns.speed_changes, duration, arrival)
+    return leave_by_profile(times, factors, kind.speed_changes, duration, arrival)

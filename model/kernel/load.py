@@ -16,15 +16,15 @@ def demand_of(place: Record) -> Amount:
 
 
 @inlined
-def capacity_of(columns: Record) -> Amount:
+def capacity_of(kind: Record) -> Amount:
     """Return what a vehicle of a type holds."""
-    return columns.capacity[0], columns.capacity[1], columns.capacity[2]
+    return kind.capacity[0], kind.capacity[1], kind.capacity[2]
 
 
 @inlined
-def payload_of(columns: Record) -> Amount:
+def payload_of(kind: Record) -> Amount:
     """Return what a type's drone lifts."""
-    return columns.payload[0], columns.payload[1], columns.payload[2]
+    return kind.payload[0], kind.payload[1], kind.payload[2]
 
 
 @inlined
@@ -52,18 +52,18 @@ def within(one: Amount, limit: Amount) -> bool:
 
 
 @inlined
-def holds(columns: Record, load: Amount) -> bool:
+def holds(kind: Record, load: Amount) -> bool:
     """Tell whether a vehicle of a type holds a load."""
-    return within(load, capacity_of(columns))
+    return within(load, capacity_of(kind))
 
 
 @inlined
-def fits(columns: Record, load: Amount, place: Record) -> bool:
+def fits(kind: Record, load: Amount, place: Record) -> bool:
     """Tell whether a vehicle of a type holds a customer's parcel on top of a load."""
-    return holds(columns, plus(load, demand_of(place)))
+    return holds(kind, plus(load, demand_of(place)))
 
 
 @inlined
-def lifts(columns: Record, payload: Amount) -> bool:
+def lifts(kind: Record, payload: Amount) -> bool:
     """Tell whether a type's drone lifts what a sortie carries."""
-    return within(payload, payload_of(columns))
+    return within(payload, payload_of(kind))

@@ -31,16 +31,16 @@ def _share(used: int, limit: int) -> float:
 def _describe_customer(setting: Setting, unit: Unit, prices: Records, vehicle: Record,
                        begun: bool, node: int, outlook: Record, feature: Record) -> None:
     """Describe what serving a customer next means, by truck or drone alike. In place."""
-    columns = setting.node[node]
+    place = setting.node[node]
     arrival, end = outlook.arrival, outlook.end
     waiting = outlook.start - arrival
-    late = lateness(columns, arrival)
+    late = lateness(place, arrival)
     feature.waiting = ratio(waiting, unit.time)
-    feature.window_slack = slack(closing(columns), arrival, unit.time)
+    feature.window_slack = slack(closing(place), arrival, unit.time)
     window_cost = late * prices[node].lateness + waiting * prices[node].waiting
     feature.lateness = ratio(window_cost / MS_PER_HOUR, unit.cost)
     for dimension in range(MAX_DIMENSIONS):
-        demand = columns.demand[dimension]
+        demand = place.demand[dimension]
         if demand > 0:
             capacity = setting.type.capacity[dimension]
             feature.load_share = max(feature.load_share, demand / vehicle.load[dimension])
@@ -48,7 +48,7 @@ def _describe_customer(setting: Setting, unit: Unit, prices: Records, vehicle: R
     feature.shift_slack = slack(setting.type.shift_latest, end, unit.time)
     departure = vehicle.departure_best if begun else vehicle.next_start
     feature.working_slack = slack(setting.type.max_working_duration, end - departure, unit.time)
-    feature.release_delay = ratio(columns.release - vehicle.next_start, unit.time)
+    feature.release_delay = ratio(place.release - vehicle.next_start, unit.time)
 
 
 @inlined
@@ -91,14 +91,14 @@ def _describe_return(setting: Setting, vehicle: Record, trips: int,
 
 
 @inlined
-def _describe_open(columns: Record, fixed: float, used: int, unserved: float, unit: Unit,
+def _describe_open(kind: Record, fixed: float, used: int, unserved: float, unit: Unit,
                    feature: Record) -> None:
     """Describe opening a vehicle of a type. In place."""
-    left = columns.count - used
+    left = kind.count - used
     feature.cost = ratio(fixed, unit.cost)
     feature.load_share = left / (left + 4.0)
-    feature.capacity_share = min(columns.capacity[0] / max(1.0, unserved), 2.0)
-    feature.distance_slack = columns.drones > 0
+    feature.capacity_share = min(kind.capacity[0] / max(1.0, unserved), 2.0)
+    feature.distance_slack = kind.drones > 0
 
 
 @inlined
@@ -122,24 +122,24 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     vehicle = state.vehicle[r]
     k = vehicle.type
     reserve = 0.0
-    for kind in range(instance.size[b].types):
-        left = instance.type[b, kind].count - state.used[r, kind]
-        reserve += (left * float(instance.type[b, kind].max_trips)
-                    * instance.type[b, kind].capacity[0])
+    for other in range(instance.size[b].types):
+        left = instance.type[b, other].count - state.used[r, other]
+        reserve += (left * float(instance.type[b, other].max_trips)
+                    * instance.type[b, other].capacity[0])
     seen.unserved = state.num_unserved[r] / max(1, instance.size[b].customers)
     seen.unserved_demand = unserved / scale.amount[b]
     if k == NO_VEHICLE:
         seen.demand_by_reserve = min(unserved / max(1.0, reserve), 2.0)
         return
-    columns = instance.type[b, k]
-    capacity = max(1, columns.capacity[0])
-    trips_left = columns.max_trips - state.log.count[r].trips
+    kind = instance.type[b, k]
+    capacity = max(1, kind.capacity[0])
+    trips_left = kind.max_trips - state.log.count[r].trips
     reserve += float(trips_left) * capacity
     clock = vehicle.next_start
     if not vehicle.idle:
         clock = max(vehicle.service_end, vehicle.free)
-        home = lookup(matrix_of(instance.duration, b, columns.travel), vehicle.node,
-                      columns.ends_at)
+        home = lookup(matrix_of(instance.duration, b, kind.travel), vehicle.node,
+                      kind.ends_at)
         seen.way_home = min(home / scale.time[b], 5.0)
         reserve += vehicle.load[0]
     seen.demand_by_reserve = min(unserved / max(1.0, reserve), 2.0)
@@ -148,11 +148,11 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
     seen.load_left = vehicle.load[0] / capacity
     seen.spare_reserve = max(min((reserve - unserved) / capacity, 2.0), -2.0)
     seen.trips_left = min(trips_left, 4) / 4
-    seen.shift_slack = slack(columns.shift_latest, clock, scale.time[b])
+    seen.shift_slack = slack(kind.shift_latest, clock, scale.time[b])
     working = clock - vehicle.departure_best if state.log.count[r].trips else 0
-    seen.working_slack = slack(columns.max_working_duration, working, scale.time[b])
-    seen.flying = vehicle.flying / max(1, columns.drones)
-    seen.drone_aboard = columns.drones > vehicle.flying
+    seen.working_slack = slack(kind.max_working_duration, working, scale.time[b])
+    seen.flying = vehicle.flying / max(1, kind.drones)
+    seen.drone_aboard = kind.drones > vehicle.flying
     seen.load_by_demand = min(vehicle.load[0] / max(1.0, unserved), 2.0)
     for column in range(NUM_TYPE_FEATURES):
         seen.type[column] = type_token[b, k, column]

@@ -78,7 +78,7 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
 
     By fixed speeds, the first dimension of the `load` left, and without drones: a guess.
     """
-    columns, drive, place = setting.node, setting.drive, setting.node[node]
+    nodes, drive, place = setting.node, setting.drive, setting.node[node]
     arrival, way = outlook.arrival, lookup(setting.drive, here, node)
     leave = outlook.start + service_duration(place)
     left = load - demand_of(place)[0]
@@ -91,7 +91,7 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
         if served[other]:
             continue
         seen += 1
-        there, latest = columns[other], closing(columns[other])
+        there, latest = nodes[other], closing(nodes[other])
         past, back = lookup(drive, here, other), lookup(drive, other, node)
         then, directly = leave + lookup(drive, node, other), arrival - way + past
         if lateness(place, end_of_service(there, NONE) + back) == 0:

@@ -113,24 +113,24 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     high = np.where(is_node[..., None], coordinates, -np.inf).max(axis=1, keepdims=True)
     extent = np.maximum((high - low).max(axis=2, keepdims=True), 1e-9)
     place = (coordinates - (low + high) / 2) / extent * 2
-    columns = instance.node
-    is_depot = np.arange(columns.shape[1]) < instance.size["depots"][:, None]
+    nodes = instance.node
+    is_depot = np.arange(nodes.shape[1]) < instance.size["depots"][:, None]
     capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None]
     payload = instance.type["payload"].max(axis=1)[:, None]
-    demand = columns["demand"]
+    demand = nodes["demand"]
     types = np.maximum(instance.size["types"], 1)[:, None]
-    earliest, latest = columns["window_earliest"], columns["window_latest"]
+    earliest, latest = nodes["window_earliest"], nodes["window_latest"]
     home = instance.duration[:, 0, 0, :]
     return np.stack([
         place[..., 0], place[..., 1], is_depot,
         np.minimum(earliest / horizon, 2), np.minimum(latest / horizon, 2),
         np.minimum((latest - earliest) / horizon, 2), latest >= UNLIMITED,
-        columns["arrival_limit"] < FAR,
+        nodes["arrival_limit"] < FAR,
         squash(np.maximum(unbounded(latest) - home, 0) / time),
         np.minimum((demand / capacity).max(axis=2), 2), demand[..., 0] / scale.amount[:, None],
         (demand / np.maximum(demand + payload, 1)).max(axis=2),
-        squash(columns["service_duration"] / time),
-        np.minimum(columns["release"] / horizon, 2),
+        squash(nodes["service_duration"] / time),
+        np.minimum(nodes["release"] / horizon, 2),
         squash(instance.price["lateness"] * hours), squash(instance.price["waiting"] * hours),
         instance.can_drive.sum(axis=1) / types, instance.can_fly.sum(axis=1) / types,
         squash(home / time), squash(home / scale.near[:, None] / 4),

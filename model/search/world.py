@@ -89,16 +89,16 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     `ground` is that of the same problem, if it is there already; `stop` an alarm's flag.
     """
     ground = lay_ground(problem, instance) if ground is None else ground
-    columns, rates, can_fly = instance.type[0], instance.rate[0], instance.can_fly[0]
+    types, rates, can_fly = instance.type[0], instance.rate[0], instance.can_fly[0]
     if not (moves.loops or moves.crossings):
-        columns, can_fly = columns.copy(), np.zeros_like(can_fly)
-        columns["drones"] = 0
+        types, can_fly = types.copy(), np.zeros_like(can_fly)
+        types["drones"] = 0
     place = instance.node[0]
     visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
                        for kind in problem.vehicle_types], np.int64)
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
     most_visits = max(1, int(visits.max()))
-    mode = _modes(instance, columns, place)
+    mode = _modes(instance, types, place)
     swap = _swaps(problem, mode)
     general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
     blink = _blink(problem.num_customers, most_visits)
@@ -117,7 +117,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         unassigned_more=instance.unassigned_more[0],
         must_serve=_must_serve(problem, instance),
         place=place, price=_per_ms(instance.price[0]),
-        type=columns, rate=_per_unit(rates), mode=mode, visits=visits,
+        type=types, rate=_per_unit(rates), mode=mode, visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
         swap=swap, leg=ground.leg, back=ground.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
@@ -159,18 +159,18 @@ def _symmetric(matrices: IntArray, pause: Pause) -> bool:
                for matrix in matrices for rows in row_blocks(len(matrix), ROWS, pause))
 
 
-def _modes(instance: Instance, columns: Records, place: Records) -> IntArray:
+def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     rates = instance.rate[0]
     late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
     soft = bool((place["arrival_limit"] == FAR).any()) and late
-    timed = (rates["time"] > 0) | (columns["max_working_duration"] < UNLIMITED)
-    profile = columns["speed_changes"] != NO_PROFILE
+    timed = (rates["time"] > 0) | (types["max_working_duration"] < UNLIMITED)
+    profile = types["speed_changes"] != NO_PROFILE
     settled = np.logical_or(early, profile & timed)
     priced = np.logical_or(soft, settled | profile)
     release = bool((place["release"] > 0).any())
     simple = ~(timed | priced)
-    lean = (simple & ~(release | (columns["max_trip_distance"] < UNLIMITED))
-            & (columns["max_trips"] == 1) & (columns["drones"] == 0))
+    lean = (simple & ~(release | (types["max_trip_distance"] < UNLIMITED))
+            & (types["max_trips"] == 1) & (types["drones"] == 0))
     mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
                       + MODE_PROFILE * profile + MODE_SIMPLE * simple
                       + MODE_LEAN * lean).astype(np.int64)

@@ -76,9 +76,9 @@ def log_of(logs: VehicleLog, r: int) -> VehicleLog:
 @pasted
 def setting_of(instance: Instance, b: int, k: int) -> Setting:
     """Return what vehicle type `k` meets in problem `b`, as views."""
-    columns = instance.type[b, k]
-    return Setting(instance.node[b], columns, matrix_of(instance.duration, b, columns.travel),
-                   matrix_of(instance.duration, b, columns.drone_travel),
+    kind = instance.type[b, k]
+    return Setting(instance.node[b], kind, matrix_of(instance.duration, b, kind.travel),
+                   matrix_of(instance.duration, b, kind.drone_travel),
                    instance.profile_time[b, k], instance.profile_factor[b, k])
 
 

@@ -78,16 +78,16 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
 
     In place: `chain` (node,) is set up here.
     """
-    columns = world.type[k]
-    legs = legs_of(world.leg, columns.travel)
-    start, end = columns.begins_at, columns.ends_at
+    kind = world.type[k]
+    legs = legs_of(world.leg, kind.travel)
+    start, end = kind.begins_at, kind.ends_at
     for node in range(world.num_depots, world.num_nodes):
         place, link = world.place[node], chain[node]
         link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
         set_chain_load(link, demand_of(place))
-        ready = max(leaves_first(columns, columns.shift_earliest), place.release)
+        ready = max(leaves_first(kind, kind.shift_earliest), place.release)
         link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
-        leave = columns.shift_latest - leg(legs, node, end).duration
+        leave = kind.shift_latest - leg(legs, node, end).duration
         link.latest = latest_arrival(place, leave)
     for index in range(len(one)):
         a, b = one[index], other[index]
@@ -97,7 +97,7 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
             continue
         head, tail = chain[a].route, chain[b].last
         load = plus(chain_load(chain[head]), chain_load(chain[b]))
-        if head != b and holds(columns, load):
+        if head != b and holds(kind, load):
             link_up(world, legs, chain, a, b, head, tail)
             set_chain_load(chain[head], load)
 

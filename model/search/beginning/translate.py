@@ -89,20 +89,20 @@ def first_plan(problem: Problem, world: World) -> Solution:
 
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
-    columns, number = world.type, problem.num_customers
+    types, number = world.type, problem.num_customers
     demand = np.sort(world.place[problem.num_depots:]["demand"], axis=0).cumsum(axis=0)
     most, fewest = 0, number
-    for kind in columns:
+    for kind in types:
         trips = min(int(kind.max_trips), number)
         capacity = kind.capacity * trips
         most = max(most, int((demand <= capacity).all(axis=1).sum()))
         largest = np.maximum(capacity, 1)
         fewest = min(fewest, int(np.ceil(demand[-1] / largest).max()) if number else 0)
-    count = int(columns["count"].sum())
+    count = int(types["count"].sum())
     wanted = 2 * max(len(solution.routes), 2 * fewest) + SPARE_SLOTS
     if not solution.routes:
         wanted = number
-    trips = min(int(columns["max_trips"].max()), max(1, most)) + 1
+    trips = min(int(types["max_trips"].max()), max(1, most)) + 1
     flown = most if world.visits.any() else 0
     return (max(1, min(count, number, wanted), len(solution.routes)),
             most + 2 * trips + STOPS_OPENED, trips, flown + 1)
@@ -226,14 +226,14 @@ def service_starts(place: Records, nodes: IntArray, arrivals: IntArray) -> IntAr
 
 
 @compiled
-def sortie_ends(place: Records, columns: Record, nodes: IntArray, arrivals: IntArray,
+def sortie_ends(place: Records, kind: Record, nodes: IntArray, arrivals: IntArray,
                 begin: int) -> tuple[IntArray, int]:
     """Return when a drone has served its customers, and when it is aboard, recovered from `begin`.
     """
     ends = np.empty_like(nodes)
     for index in range(len(nodes)):
-        ends[index] = ready(columns, place[nodes[index]], arrivals[index])
-    return ends, recovery_end(columns, begin)
+        ends[index] = ready(kind, place[nodes[index]], arrivals[index])
+    return ends, recovery_end(kind, begin)
 
 
 def _trips(world: World, fleet: Fleet, slot: int, route: Any) -> tuple[Trip, ...]:

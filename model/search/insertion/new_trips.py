@@ -51,8 +51,8 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     `until`: before. Loads are not looked at.
     """
     stops = fleet.stop[slot]
-    columns, trip = world.type[fleet.route[slot].type], fleet.trip[slot, stops[p].trip]
-    legs, depot = legs_of(world.leg, columns.travel), columns.ends_at
+    kind, trip = world.type[fleet.route[slot].type], fleet.trip[slot, stops[p].trip]
+    legs, depot = legs_of(world.leg, kind.travel), kind.ends_at
     first, last = trip.first, trip.last
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
@@ -77,9 +77,9 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
         here = node
     time += leg(legs, here, depot).duration
     front_length += leg(legs, here, depot).distance
-    if time > columns.shift_latest:
+    if time > kind.shift_latest:
         return False
-    time = max(time + columns.reload_duration, rear)
+    time = max(time + kind.reload_duration, rear)
     here = depot
     if not until:
         time = serve_at(world, node, time + leg(legs, depot, node).duration)
@@ -87,25 +87,25 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
         here = node
     rear_length += leg(legs, here, there).distance
     return (time + leg(legs, here, there).duration <= stops[p + 1].latest
-            and max(front_length, rear_length) <= columns.max_trip_distance)
+            and max(front_length, rear_length) <= kind.max_trip_distance)
 
 
 @spliced
 def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     """Tell whether a customer can be served by a trip of its own behind stop `p`, or -1."""
     route, stops = fleet.route[slot], fleet.stop[slot]
-    columns = world.type[route.type]
-    legs, depot = legs_of(world.leg, columns.travel), columns.ends_at
-    time = columns.shift_earliest
+    kind = world.type[route.type]
+    legs, depot = legs_of(world.leg, kind.travel), kind.ends_at
+    time = kind.shift_earliest
     if p >= 0:
-        time = stops[p].leave + columns.reload_duration
+        time = stops[p].leave + kind.reload_duration
     time = max(time, world.place[node].release)
     out, home = leg(legs, depot, node), leg(legs, node, depot)
     time = serve_at(world, node, time + out.duration) + home.duration
-    if p + 1 < route.length and time + columns.reload_duration > stops[p + 1].latest:
+    if p + 1 < route.length and time + kind.reload_duration > stops[p + 1].latest:
         return False
-    return (time <= columns.shift_latest
-            and out.distance + home.distance <= columns.max_trip_distance)
+    return (time <= kind.shift_latest
+            and out.distance + home.distance <= kind.max_trip_distance)
 
 
 @spliced

@@ -122,19 +122,19 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     """List sorties to a customer from stop `launch`. As `offer_stops`."""
     now, best = searcher.now, searcher.bound.best
     k, stops = now.route[slot].type, now.stop[slot]
-    columns = world.type[k]
-    m = columns.drone_travel
+    kind = world.type[k]
+    m = kind.drone_travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     out = leg_at(inward, stops[launch].node)
     place, left = world.place[node], stops[launch].leave
     begun = stops[launch].arrival
     if launch > 0:
-        begun = take_off(columns, begun)
-    service = drone_service(columns, place)
+        begun = take_off(kind, begun)
+    service = drone_service(kind, place)
     late = 0.0
     if world.mode[k] & MODE_PRICED:
         late = lateness_cost(world, node, begun + out.duration)
-    begun = recovery_end(columns, begun) - idle_time(now.route[slot])
+    begun = recovery_end(kind, begun) - idle_time(now.route[slot])
     first = launch if world.loops else launch + 1
     last = launch
     if world.crossings:
@@ -143,17 +143,17 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         home = leg_at(onward, stops[recovery].node)
         met = stops[recovery].arrival
         flight = out.duration + service + home.duration
-        if not within_endurance(columns, left, left, met):
+        if not within_endurance(kind, left, left, met):
             # Held back for the window, the truck leaves later and may wait less on its way.
-            if earliest_back(columns, place, 0) <= left:
+            if earliest_back(kind, place, 0) <= left:
                 break
-            if met > earliest_back(columns, place, home.duration):
+            if met > earliest_back(kind, place, home.duration):
                 continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         longer = max(0, begun + flight - stops[recovery].leave)
         cost = ((out.distance + home.distance) * world.rate[k].drone_distance
                 + longer * world.rate[k].time + late - now.early[slot])
-        if cost < best and can_last(columns, flight):
+        if cost < best and can_last(kind, flight):
             index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
                               slot, launch)
             searcher.offer[index].last = recovery

@@ -111,20 +111,20 @@ def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: i
 
     Infinite if that can't be, or if what the truck does alone costs `most` or more.
     """
-    columns, rate = world.type[k], world.rate[k]
+    kind, rate = world.type[k], world.rate[k]
     node, customer, to = line[i].node, line[flown].node, line[j].node
     drive = line[j].drive - line[i].drive - line[flown].spared_drive
     distance = line[j].distance - line[i].distance - line[flown].spared_distance
-    here, handled = service_duration(world.place[node]), handling_duration(columns)
-    driven = drive - here + max(0, here - launch_duration(columns))
+    here, handled = service_duration(world.place[node]), handling_duration(kind)
+    driven = drive - here + max(0, here - launch_duration(kind))
     if (handled + driven) * rate.time + distance * rate.distance >= most:
         return math.inf
-    flights = legs_of(world.leg, columns.drone_travel)
-    service = drone_service(columns, world.place[customer])
+    flights = legs_of(world.leg, kind.drone_travel)
+    service = drone_service(kind, world.place[customer])
     out, home = leg(flights, node, customer), leg(flights, customer, to)
     flight = out.duration + service + home.duration
     airborne = max(flight, driven)
-    if not within_endurance(columns, 0, flight, airborne):
+    if not within_endurance(kind, 0, flight, airborne):
         return math.inf
     return ((handled + airborne) * rate.time + distance * rate.distance
             + airborne * rate.drone_time
@@ -134,14 +134,14 @@ def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: i
 @inlined
 def loop_cost(world: World, k: int, node: int, customer: int) -> float:
     """Return what a flight costs for which the truck waits at a stop."""
-    columns, rate = world.type[k], world.rate[k]
-    flights = legs_of(world.leg, columns.drone_travel)
-    service = drone_service(columns, world.place[customer])
+    kind, rate = world.type[k], world.rate[k]
+    flights = legs_of(world.leg, kind.drone_travel)
+    service = drone_service(kind, world.place[customer])
     out, home = leg(flights, node, customer), leg(flights, customer, node)
     airborne = out.duration + service + home.duration
-    if not can_last(columns, airborne) or not world.loops:
+    if not can_last(kind, airborne) or not world.loops:
         return math.inf
-    handled = handling_duration(columns)
+    handled = handling_duration(kind)
     return ((airborne + handled) * rate.time + airborne * rate.drone_time
             + (out.distance + home.distance) * rate.drone_distance)
 

@@ -72,8 +72,8 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
 
     And write how long each is held back: until windows let it be back within the endurance.
     """
-    columns = world.type[k]
-    legs = legs_of(world.leg, columns.drone_travel)
+    kind = world.type[k]
+    legs = legs_of(world.leg, kind.drone_travel)
     for s in range(count):
         sortie = sorties[s]
         node = stops[sortie.recovery].node
@@ -82,10 +82,10 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
             customer = sortie.nodes[index]
             place = world.place[customer]
             home += leg(legs, customer, node).duration
-            back = max(back, earliest_back(columns, place, home))
-            home += drone_service(columns, place)
+            back = max(back, earliest_back(kind, place, home))
+            home += drone_service(kind, place)
             node = customer
-        sortie.state, sortie.held = WAITING, held_until(columns, back)
+        sortie.state, sortie.held = WAITING, held_until(kind, back)
 
 
 @inlined
@@ -109,11 +109,11 @@ def reach(place: Record, arrival: int, d: int, c: int, acc: Record) -> bool:
 
 
 @inlined
-def fly_out(places: Records, legs: IntArray, columns: Record, sortie: Record, node: int,
+def fly_out(places: Records, legs: IntArray, kind: Record, sortie: Record, node: int,
             acc: Record) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
-    d = take_off(columns, acc.free_d)
-    c = max(take_off(columns, acc.free_c), sortie.held)
+    d = take_off(kind, acc.free_d)
+    c = max(take_off(kind, acc.free_c), sortie.held)
     acc.free_d, acc.free_c = d, c
     sortie.takeoff_d, sortie.takeoff_c = d, c
     sortie.takeoff = max(acc.time + d, c)
@@ -127,7 +127,7 @@ def fly_out(places: Records, legs: IntArray, columns: Record, sortie: Record, no
             return False
         sortie.arrivals[index] = arrival
         d, c = start_within(place, acc.time, d, c)
-        service = drone_service(columns, place)
+        service = drone_service(kind, place)
         d, c = d + service, c + service
         node = customer
     sortie.ready_d, sortie.ready_c = d, c
@@ -137,7 +137,7 @@ def fly_out(places: Records, legs: IntArray, columns: Record, sortie: Record, no
 
 
 @inlined
-def bring_home(legs: IntArray, columns: Record, sortie: Record, node: int,
+def bring_home(legs: IntArray, kind: Record, sortie: Record, node: int,
                acc: Record) -> bool:
     """Recover a sortie at `node`. In place; False if endurance forbids it."""
     last = sortie.nodes[sortie.count - 1]
@@ -146,17 +146,17 @@ def bring_home(legs: IntArray, columns: Record, sortie: Record, node: int,
     begin_d, begin_c = max(acc.free_d, back_d), max(acc.free_c, back_c)
     if unreachable(flight):
         return False
-    first, last = enduring_within(columns, sortie.takeoff_d, sortie.takeoff_c,
-                                  counted_until(columns, back_d, begin_d),
-                                  counted_until(columns, back_c, begin_c))
+    first, last = enduring_within(kind, sortie.takeoff_d, sortie.takeoff_c,
+                                  counted_until(kind, back_d, begin_d),
+                                  counted_until(kind, back_c, begin_c))
     bound_arrival(acc, first, last)
     begin = max(acc.time + begin_d, begin_c)
     sortie.begin = begin
     slack = begin - begin_d
     if sortie.takeoff - sortie.takeoff_d > slack:
         acc.dep = min(acc.dep, slack)
-    acc.free_d = recovery_end(columns, begin_d)
-    acc.free_c = recovery_end(columns, begin_c)
+    acc.free_d = recovery_end(kind, begin_d)
+    acc.free_c = recovery_end(kind, begin_c)
     sortie.state = DONE
     acc.flying -= 1
     return acc.lo <= acc.hi
@@ -172,7 +172,7 @@ def is_aboard(sorties: Records, index: int, oldest: int) -> bool:
 
 
 @inlined
-def next_operation(legs: IntArray, columns: Record, sorties: Records, count: int, p: int,
+def next_operation(legs: IntArray, kind: Record, sorties: Records, count: int, p: int,
                    node: int, acc: Record) -> int:
     """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 
@@ -192,28 +192,28 @@ def next_operation(legs: IntArray, columns: Record, sorties: Records, count: int
                                                sorties[index].ready_c) + flight))
         elif (sorties[index].state == WAITING and sorties[index].launch == p
               and is_aboard(sorties, index, acc.oldest)):
-            begin = 2 * max(free, launch_begin(columns, sorties[index].held)) + 1
+            begin = 2 * max(free, launch_begin(kind, sorties[index].held)) + 1
         if begin < earliest:
             chosen, earliest = index, begin
     return chosen
 
 
 @inlined
-def operate(places: Records, legs: IntArray, columns: Record, sorties: Records, count: int,
+def operate(places: Records, legs: IntArray, kind: Record, sorties: Records, count: int,
             p: int, node: int, acc: Record) -> bool:
     """Launch and recover all that stop `p` asks for. In place; False if not allowed.
 
-    `legs` (origin, to, 2) are flown; `columns` are those of the vehicle type.
+    `legs` (origin, to, 2) are flown; `kind` is the row of the vehicle type.
     """
     # The whole world would be copied at each call.
     while True:
-        index = next_operation(legs, columns, sorties, count, p, node, acc)
+        index = next_operation(legs, kind, sorties, count, p, node, acc)
         if index < 0:
             break
         if sorties[index].state == FLYING:
-            if not bring_home(legs, columns, sorties[index], node, acc):
+            if not bring_home(legs, kind, sorties[index], node, acc):
                 return False
-        elif not fly_out(places, legs, columns, sorties[index], node, acc):
+        elif not fly_out(places, legs, kind, sorties[index], node, acc):
             return False
     for index in range(acc.oldest, count):
         if sorties[index].launch > p:
@@ -246,8 +246,8 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
 
     `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
     """
-    columns = world.type[k]
-    flights = legs_of(world.leg, columns.drone_travel)
+    vehicle_type = world.type[k]
+    flights = legs_of(world.leg, vehicle_type.drone_travel)
     d, c = origin(world, k, time)
     acc.time, acc.hi, acc.lo, acc.dep = time, FAR, NONE, FAR
     acc.oldest, acc.flying, p = oldest, 0, first
@@ -262,20 +262,20 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
             c = max(c, max(stop.release, stop.hold))
         acc.free_d, acc.free_c = d, c
         d, c = serve(world, k, stop, time, d, c)
-        if not operate(world.place, flights, columns, sorties, count, p, node, acc):
+        if not operate(world.place, flights, vehicle_type, sorties, count, p, node, acc):
             return -1
         d, c = max(d, acc.free_d), max(c, acc.free_c)
         stop.leave, stop.flying = max(time + d, c), acc.flying
         stop.latest, stop.early = FAR, NONE
         if kind == END:
-            if c > columns.shift_latest:
+            if c > vehicle_type.shift_latest:
                 return -1
-            acc.hi = min(acc.hi, columns.shift_latest - d)
+            acc.hi = min(acc.hi, vehicle_type.shift_latest - d)
         if acc.flying == 0:
             break
         if kind == END or p + 1 >= length:
             return -1
-        legs = legs_of(world.leg, columns.travel)
+        legs = legs_of(world.leg, vehicle_type.travel)
         stop.gap = leg(legs, node, stops[p + 1].node).duration
         d, c = travel(world, k, stop.gap, d, c)
         p += 1

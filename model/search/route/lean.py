@@ -15,11 +15,11 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     """Write what a lean route needs. In place; False if it breaks a rule."""
     route, stops, trip = fleet.route[slot], fleet.stop[slot], fleet.trip[slot, 0]
     k, last = route.type, route.length - 1
-    columns = world.type[k]
-    legs = legs_of(world.leg, columns.travel)
+    kind = world.type[k]
+    legs = legs_of(world.leg, kind.travel)
     clear_trip(trip)
     route.trips, trip.last = 1, last
-    time, node = leaves_first(columns, columns.shift_earliest), stops[0].node
+    time, node = leaves_first(kind, kind.shift_earliest), stops[0].node
     stops[0].leave, stops[0].flying, stops[0].trip = time, 0, 0
     for p in range(1, last + 1):
         following = stops[p].node
@@ -36,16 +36,16 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
             add_load(trip, demand_of(place))
         stops[p].leave, stops[p].flying, stops[p].trip = time, 0, 0
     stops[last].leg = stops[last].gap = 0
-    if not holds(columns, load_of(trip)):
+    if not holds(kind, load_of(trip)):
         return False
-    latest = columns.shift_latest
+    latest = kind.shift_latest
     stops[last].latest = latest
     for p in range(last - 1, 0, -1):
         latest = latest_arrival(world.place[stops[p].node], latest - stops[p].gap)
         stops[p].latest = latest
     stops[0].latest = latest - stops[0].gap
     fleet.cost[slot] = world.rate[k].fixed + trip.distance * world.rate[k].distance
-    return time <= columns.shift_latest
+    return time <= kind.shift_latest
 
 
 @spliced

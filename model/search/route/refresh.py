@@ -108,14 +108,14 @@ def settle(world: World, route: Record, stops: Records, trips: Records, sorties:
 @inlined
 def settled_departure(world: World, route: Record, stops: Records, sorties: Records) -> int:
     """Return when truck or drone first leaves the depot on a settled route."""
-    depart, columns = FAR, world.type[route.type]
+    depart, kind = FAR, world.type[route.type]
     for s in range(route.sorties):
         if sorties[s].launch == 0:
             depart = min(depart, sorties[s].takeoff)
     if depart == FAR:
         depart = max(stops[0].arrival, max(stops[0].release, stops[0].hold))
-        depart = leaves_first(columns, depart)
-    return counted_from(columns, depart)
+        depart = leaves_first(kind, depart)
+    return counted_from(kind, depart)
 
 
 @inlined

@@ -26,16 +26,16 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
                sorties: Records) -> bool:
     """Write loads, releases and distances of the trips. In place; False if one is too much."""
     k = route.type
-    columns = world.type[k]
-    legs = legs_of(world.leg, columns.travel)
+    vehicle_type = world.type[k]
+    legs = legs_of(world.leg, vehicle_type.travel)
     index, s = -1, 0
-    most_trips, most_distance = len(trips), columns.max_trip_distance
+    most_trips, most_distance = len(trips), vehicle_type.max_trip_distance
     for p in range(route.length):
         stop = stops[p]
         kind = stop.kind
         if kind == START:
             index += 1
-            if index >= columns.max_trips or index >= most_trips:
+            if index >= vehicle_type.max_trips or index >= most_trips:
                 return False
             clear_trip(trips[index])
             trips[index].first = p
@@ -50,9 +50,9 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
         if kind == END:
             trip.last = p
             stops[trip.first].release = trip.release
-            if trip.distance > most_distance or not holds(columns, load_of(trip)):
+            if trip.distance > most_distance or not holds(vehicle_type, load_of(trip)):
                 return False
-            stop.leg, stop.gap = 0, columns.reload_duration
+            stop.leg, stop.gap = 0, vehicle_type.reload_duration
         else:
             way = leg(legs, stop.node, stops[p + 1].node)
             stop.gap, stop.leg = way.duration, way.distance
@@ -188,11 +188,11 @@ def sortie_cost(world: World, k: int, stops: Records, sortie: Record) -> float:
 def first_departure(world: World, route: Record, stops: Records, sorties: Records) -> int:
     """Return when truck or drone first leaves the depot, as late as costs nothing."""
     depart = min(stops[route.length - 1].depart, route.end - route.cum)
-    offset, columns = 0, world.type[route.type]
-    if route.sorties > 0 and sorties[0].launch == 0 and not has_begun(columns):
-        offset = launch_duration(columns)
+    offset, kind = 0, world.type[route.type]
+    if route.sorties > 0 and sorties[0].launch == 0 and not has_begun(kind):
+        offset = launch_duration(kind)
     route.offset = offset
-    return counted_from(columns, depart + offset)
+    return counted_from(kind, depart + offset)
 
 
 @inlined

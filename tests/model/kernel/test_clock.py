@@ -18,22 +18,22 @@ PROFILES = (None, RUSH_HOUR, SpeedProfile((), (FULL_SPEED // 7,)),
 
 
 @compiled
-def both(columns: Record, times: IntArray, factors: IntArray, duration: int,
+def both(kind: Record, times: IntArray, factors: IntArray, duration: int,
          time: int) -> tuple[int, int, bool]:
-    return (leg_end(columns, times, factors, duration, time),
-            leg_start(columns, times, factors, duration, time), is_steady(columns))
+    return (leg_end(kind, times, factors, duration, time),
+            leg_start(kind, times, factors, duration, time), is_steady(kind))
 
 
 @pytest.mark.parametrize("profile", PROFILES)
 def test_legs_end_and_begin_when_the_judge_says(tiny_problem, customers, truck, profile) -> None:
     instance = pack([tiny_problem(*customers, truck=replace(truck, speed_profile=profile))])
-    columns = instance.type[0, 0]
+    kind = instance.type[0, 0]
     times, factors = instance.profile_time[0, 0], instance.profile_factor[0, 0]
     rng = np.random.default_rng(3)
     changes = () if profile is None else profile.times
     for time in [0, *changes, *rng.integers(0, 20 * MINUTE, 300).tolist()]:
         duration = int(rng.integers(0, 15 * MINUTE))
-        end, start, steady = both(columns, times, factors, duration, time)
+        end, start, steady = both(kind, times, factors, duration, time)
         assert end == timing.leg_end(time, duration, profile)
         assert start == timing.leg_start(time, duration, profile)
         assert steady == (profile is None)

@@ -17,35 +17,35 @@ from tests.model.tiny import MINUTE, draw_late, draw_tiny
 
 
 @compiled
-def flown(columns: Record, place: Record, begin: int, out: int,
+def flown(kind: Record, place: Record, begin: int, out: int,
           home: int) -> tuple[int, int, int, int]:
-    takeoff = held_takeoff(columns, place, take_off(columns, begin), home)
+    takeoff = held_takeoff(kind, place, take_off(kind, begin), home)
     arrival = takeoff + out
-    back = ready(columns, place, arrival) + home
-    return takeoff, arrival, back, recovery_end(columns, back)
+    back = ready(kind, place, arrival) + home
+    return takeoff, arrival, back, recovery_end(kind, back)
 
 
 @compiled
-def is_short_enough(columns: Record, takeoff: int, back: int, begin: int) -> bool:
-    return within_endurance(columns, takeoff, back, begin)
+def is_short_enough(kind: Record, takeoff: int, back: int, begin: int) -> bool:
+    return within_endurance(kind, takeoff, back, begin)
 
 
 @compiled
-def lasts(columns: Record, place: Record, out: int, home: int) -> tuple[bool, bool]:
-    flight = out + drone_service(columns, place) + home
-    return can_last(columns, flight), unreachable(out) or unreachable(home)
+def lasts(kind: Record, place: Record, out: int, home: int) -> tuple[bool, bool]:
+    flight = out + drone_service(kind, place) + home
+    return can_last(kind, flight), unreachable(out) or unreachable(home)
 
 
 @compiled
-def enduring(columns: Record, takeoff_d: int, takeoff_c: int, d: int,
+def enduring(kind: Record, takeoff_d: int, takeoff_c: int, d: int,
              c: int) -> tuple[int, int]:
-    return enduring_within(columns, takeoff_d, takeoff_c, d, c)
+    return enduring_within(kind, takeoff_d, takeoff_c, d, c)
 
 
 @compiled
-def handled(columns: Record, time: int) -> tuple[int, int, int, int]:
-    return (launch_begin(columns, take_off(columns, time)), launch_duration(columns),
-            handling_duration(columns), counted_until(columns, time, time + 1))
+def handled(kind: Record, time: int) -> tuple[int, int, int, int]:
+    return (launch_begin(kind, take_off(kind, time)), launch_duration(kind),
+            handling_duration(kind), counted_until(kind, time, time + 1))
 
 
 def drawn(seed: int, count: int = 200) -> list[tuple[Problem, DroneType, int, int]]:
@@ -72,19 +72,19 @@ def test_a_sortie_is_timed_and_allowed_as_the_judge_says() -> None:
         route = schedule(problem, RouteDecision(0, 0, (decision,)))
         sortie, = route.trips[0].sorties
         instance = pack([problem])
-        columns, place = instance.type[0, 0], instance.node[0, node]
+        kind, place = instance.type[0, 0], instance.node[0, node]
         if held_until(problem, drones, decision, decision.sorties[0]) == 0 and (
-                not lasts(columns, place, out, home)[0]):
+                not lasts(kind, place, out, home)[0]):
             too_long += 1
             continue
-        takeoff, arrival, back, end = flown(columns, place, start, out, home)
+        takeoff, arrival, back, end = flown(kind, place, start, out, home)
         assert (takeoff, arrival, end) == (sortie.launch_time, sortie.visits[0].arrival,
                                            sortie.recovery_time)
         assert back == sortie.visits[0].departure + home == sortie.recovery_start
         others = tuple(other for other in range(problem.num_depots, problem.num_nodes)
                        if other != node)
         codes = {v.code for v in check(problem, Solution((route,), others)).violations}
-        assert is_short_enough(columns, takeoff, back, back) == ("ENDURANCE" not in codes)
+        assert is_short_enough(kind, takeoff, back, back) == ("ENDURANCE" not in codes)
         fine, held = fine + ("ENDURANCE" not in codes), held + (
             takeoff > start + drones.launch_duration)
     assert min(too_long, fine, held) > 5
@@ -92,20 +92,20 @@ def test_a_sortie_is_timed_and_allowed_as_the_judge_says() -> None:
 
 def test_waiting_for_the_recovery_counts_where_it_is_said_to() -> None:
     for problem, drones, _, takeoff in drawn(seed=12):
-        columns = pack([problem]).type[0, 0]
+        kind = pack([problem]).type[0, 0]
         back = takeoff + drones.endurance
-        assert is_short_enough(columns, takeoff, back, back)
-        assert not is_short_enough(columns, takeoff, back + 1, back + 1)
-        assert (is_short_enough(columns, takeoff, back, back + 1)
+        assert is_short_enough(kind, takeoff, back, back)
+        assert not is_short_enough(kind, takeoff, back + 1, back + 1)
+        assert (is_short_enough(kind, takeoff, back, back + 1)
                 != drones.endurance_includes_waiting)
 
 
 def test_a_flight_that_nobody_can_fly_never_lasts() -> None:
     for problem, _, node, _ in drawn(seed=13, count=40):
         instance = pack([problem])
-        columns, place = instance.type[0, 0], instance.node[0, node]
+        kind, place = instance.type[0, 0], instance.node[0, node]
         for out, home in ((UNREACHABLE, 0), (0, UNREACHABLE)):
-            assert lasts(columns, place, out, home) == (False, True)
+            assert lasts(kind, place, out, home) == (False, True)
 
 
 def test_launch_and_recovery_take_what_the_drone_says() -> None:
@@ -120,11 +120,11 @@ def test_endurance_allows_an_interval_of_arrivals_at_the_beginning_of_a_block() 
     rng = np.random.default_rng(15)
     empty = bounded = 0
     for problem, drones, _, _ in drawn(seed=15):
-        columns = pack([problem]).type[0, 0]
+        kind = pack([problem]).type[0, 0]
         takeoff_d, takeoff_c = (int(value) * MINUTE for value in rng.integers(0, 30, 2))
         d, c = (value + int(more) * MINUTE for value, more in zip(
             (takeoff_d, takeoff_c), rng.integers(0, 30, 2), strict=True))
-        first, last = enduring(columns, takeoff_d, takeoff_c, d, c)
+        first, last = enduring(kind, takeoff_d, takeoff_c, d, c)
         for time in range(0, 60 * MINUTE, MINUTE):
             airborne = max(time + d, c) - max(time + takeoff_d, takeoff_c)
             assert (first <= time <= last) == (airborne <= drones.endurance)

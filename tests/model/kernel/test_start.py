@@ -15,9 +15,9 @@ from tests.model.tiny import draw_tiny, with_beginnings
 
 
 @compiled
-def begun(columns: Record, time: int) -> tuple[int, int, bool]:
-    leave = leaves_first(columns, time)
-    return leave, counted_from(columns, leave), has_begun(columns)
+def begun(kind: Record, time: int) -> tuple[int, int, bool]:
+    leave = leaves_first(kind, time)
+    return leave, counted_from(kind, leave), has_begun(kind)
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -39,5 +39,5 @@ def test_a_vehicle_leaves_and_works_when_the_judge_says(seed: int) -> None:
 def test_a_truck_without_a_beginning_of_its_own_leaves_as_its_trip_begins() -> None:
     problem = draw_tiny(np.random.default_rng(3))
     plain = replace(problem.vehicle_types[0], busy_until=0, works_since=None)
-    columns = pack([replace(problem, vehicle_types=(plain,))]).type[0, 0]
-    assert begun(columns, 7) == (7, 7, False)
+    kind = pack([replace(problem, vehicle_types=(plain,))]).type[0, 0]
+    assert begun(kind, 7) == (7, 7, False)
