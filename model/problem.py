@@ -76,6 +76,8 @@ class Customer:
     skills: frozenset[str] = frozenset()
     release_time: int = 0  # parcel is at the depot from then on
     unassigned_cost: float | None = None  # of leaving it out; None: the problem's
+    gaps: tuple[tuple[int, int], ...] = ()
+    """Between several windows: last arrival in one, first start of service in the next."""
 
     def __post_init__(self) -> None:
         for amount in self.demand:
@@ -85,11 +87,21 @@ class Customer:
         _require_quantity(f"customer {self.id} earliest", self.earliest)
         _require(self.earliest <= self.latest, f"customer {self.id} latest", self.latest)
         _require(self.latest <= UNLIMITED, f"customer {self.id} latest", self.latest)
+        opens = self.earliest
+        for closes, reopens in self.gaps:
+            _require(opens <= closes < reopens, f"customer {self.id} gaps", self.gaps)
+            opens = reopens
+        _require(opens <= self.latest, f"customer {self.id} gaps", self.gaps)
         _require_rate(f"customer {self.id} early_cost_per_hour", self.early_cost_per_hour)
         if self.late_cost_per_hour is not None:
             _require_rate(f"customer {self.id} late_cost_per_hour", self.late_cost_per_hour)
         if self.unassigned_cost is not None:
             _require_rate(f"customer {self.id} unassigned_cost", self.unassigned_cost)
+
+    @property
+    def openings(self) -> tuple[int, ...]:
+        """When each window opens."""
+        return (self.earliest, *(reopens for _, reopens in self.gaps))
 
 
 @dataclass(frozen=True)

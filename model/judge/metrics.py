@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from model.judge.timing import opening
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
 from model.solution import Cost, Route, Sortie, Stop, Trip, Visit
 
@@ -115,8 +116,8 @@ def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
         for halt in halts:
             customer = customers[halt.node - first]
             arrival = halt.arrival
-            if arrival < customer.earliest:
-                waiting = customer.earliest - arrival
+            waiting = opening(customer, arrival) - arrival
+            if waiting > 0:
                 earliness += waiting * customer.early_cost_per_hour / MS_PER_HOUR
             elif arrival > customer.latest and customer.late_cost_per_hour is not None:
                 late = arrival - customer.latest

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from model.judge.past import KnownStop, KnownTrip
-from model.problem import FULL_SPEED, DroneType, Problem, SpeedProfile, VehicleType
+from model.problem import FULL_SPEED, Customer, DroneType, Problem, SpeedProfile, VehicleType
 from model.solution import Route, Sortie, Stop, Trip, Visit
 
 
@@ -147,6 +147,20 @@ def read_decision(trip: Trip, launch_duration: int) -> TripDecision:
     return TripDecision(nodes, tuple(sorties), operations, start)
 
 
+def opening(customer: Customer, arrival: int) -> int:
+    """Return the beginning of the window in which whoever comes at `arrival` is served."""
+    opens = customer.earliest
+    for closes, reopens in customer.gaps:
+        if arrival > closes:
+            opens = reopens
+    return opens
+
+
+def service_start(customer: Customer, arrival: int) -> int:
+    """Return when service begins; whoever is early, or comes between two windows, waits."""
+    return max(arrival, opening(customer, arrival))
+
+
 def latest_release(problem: Problem, decision: TripDecision) -> int:
     """Return when the last parcel of a trip is at the depot."""
     customers, first = problem.customers, len(problem.depots)
@@ -168,7 +182,7 @@ def _fly(problem: Problem, drones: DroneType, decision: TripDecision, sortie: So
     for following in sortie.nodes:
         customer = problem.customers[following - first]
         arrival = time + duration.item(node, following)
-        start = max(arrival, customer.earliest)
+        start = service_start(customer, arrival)
         service = drones.service_duration
         time = start + (customer.service_duration if service is None else service)
         visits.append(Visit(following, arrival, start, time))
@@ -187,24 +201,36 @@ def _flight(problem: Problem, drones: DroneType, decision: TripDecision, sortie:
     return _Flight(launch_time, visits, time + home)
 
 
-def held_until(problem: Problem, drones: DroneType, decision: TripDecision,
-               sortie: SortieDecision) -> int:
-    """Return the earliest take-off after which windows let a drone be back within its endurance.
+def held_takeoff(problem: Problem, drones: DroneType, decision: TripDecision,
+                 sortie: SortieDecision, soonest: int) -> int:
+    """Return when a drone takes off that can from `soonest` on.
 
-    0 where the flight is too long in any case, since holding it back wouldn't help.
+    As early as the windows that it then meets let it be back within its endurance; at once where
+    the flight is too long in any case, since holding it back wouldn't help.
     """
+    takeoff, held = soonest, _held_until(problem, drones, decision, sortie, soonest)
+    while held > takeoff:
+        takeoff, held = held, _held_until(problem, drones, decision, sortie, held)
+    return takeoff
+
+
+def _held_until(problem: Problem, drones: DroneType, decision: TripDecision,
+                sortie: SortieDecision, takeoff: int) -> int:
+    """Return when the windows met from `takeoff` on let a drone be back within its endurance."""
     duration, first = problem.travel[drones.travel].duration, len(problem.depots)
-    place = decision.nodes[sortie.recovery_stop]
+    node, time = decision.nodes[sortie.launch_stop], takeoff
     to_fly = back = 0
-    for node in reversed(sortie.nodes):
-        customer = problem.customers[node - first]
-        service = drones.service_duration
-        to_fly += duration.item(node, place) + (
-            customer.service_duration if service is None else service)
-        back = max(back, customer.earliest + to_fly)
-        place = node
-    to_fly += duration.item(decision.nodes[sortie.launch_stop], place)
-    return back - drones.endurance if to_fly <= drones.endurance else 0
+    for following in sortie.nodes:
+        customer, leg = problem.customers[following - first], duration.item(node, following)
+        own = drones.service_duration
+        service = customer.service_duration if own is None else own
+        opens = opening(customer, time + leg)
+        time = max(time + leg, opens) + service
+        back = max(back + leg, opens) + service
+        to_fly += leg + service
+        node = following
+    home = duration.item(node, decision.nodes[sortie.recovery_stop])
+    return back + home - drones.endurance if to_fly + home <= drones.endurance else takeoff
 
 
 def _by_arrival(
@@ -255,8 +281,8 @@ def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: 
             time = fact.launch_time
             flights[index] = _flight(problem, drones, decision, sortie, time, fact.visits)
         elif is_launch:
-            time = max(max(time, earliest) + drones.launch_duration,
-                       held_until(problem, drones, decision, sortie))
+            time = held_takeoff(problem, drones, decision, sortie,
+                                max(time, earliest) + drones.launch_duration)
             flights[index] = _fly(problem, drones, decision, sortie, time)
         else:
             flight = flights[index]
@@ -295,17 +321,17 @@ def schedule_trip(
         if index:
             arrival = leg_end(departure, duration.item(node, following), profile)
         node = following
-        service_start = departure = arrival
+        start = departure = arrival
         if index == 0:
             departure = max(arrival, vehicle_type.busy_until)
         if 0 < index < last:
             customer = customers[node - first]
-            service_start = max(arrival, customer.earliest)
-            departure = service_start + customer.service_duration
+            start = service_start(customer, arrival)
+            departure = start + customer.service_duration
         if drones is not None and decision.sorties:
             departure = max(departure,
                             _operate(problem, drones, decision, index, arrival, flights))
-        stops.append(Stop(node, arrival, service_start, departure))
+        stops.append(Stop(node, arrival, start, departure))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
     return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
@@ -329,14 +355,14 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
         else:
             leg = duration.item(stops[-1].node, node)
             arrival = max(now, leg_end(stops[-1].departure, leg, vehicle_type.speed_profile))
-        service_start, departure = _resume_service(problem, node, arrival, fact, now)
+        start, departure = _resume_service(problem, node, arrival, fact, now)
         if drones is not None and decision.sorties:
             departure = max(departure, _operate(problem, drones, decision, index, arrival, flights,
                                                 known, now))
         departure = max(departure, now)
         if fact is not None and fact.departure is not None:
             departure = fact.departure
-        stops.append(Stop(node, arrival, service_start, departure))
+        stops.append(Stop(node, arrival, start, departure))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
     return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
@@ -349,7 +375,7 @@ def _resume_service(problem: Problem, node: int, arrival: int, fact: KnownStop |
         return arrival, arrival
     customer = problem.customer_at(node)
     begun = None if fact is None else fact.service_start
-    start = max(arrival, customer.earliest, now) if begun is None else begun
+    start = service_start(customer, max(arrival, now)) if begun is None else begun
     return start, start + customer.service_duration
 
 

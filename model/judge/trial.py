@@ -83,16 +83,23 @@ def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:
             if attempt.codes & HOPELESS:
                 return
     if customer.served_by != "truck" and drones is not None:
-        loop = _try_loop(small, drones)
-        yield loop
-        if not loop.codes & {*HOPELESS, "PAYLOAD"}:
+        loops = [_try_loop(small, drones, opens) for opens in customer.openings]
+        yield from loops
+        if not loops[0].codes & {*HOPELESS, "PAYLOAD"}:
             for place in _launch_places(problem, kind, drones, node):
                 small = small_problem(problem, kind, [place, node])
-                yield _try_loop_from_customer(small, drones)
+                for opens in customer.openings:
+                    yield _try_loop_from_customer(small, drones, opens)
 
 
 def try_truck(problem: Problem) -> Iterator[Attempt]:
-    """Yield trips that don't wait for the window to open where a later start avoids that.
+    """Yield trips that don't wait for a window to open where a later start avoids that."""
+    for opens in problem.customers[0].openings:
+        yield from _try_truck_at(problem, opens)
+
+
+def _try_truck_at(problem: Problem, opens: int) -> Iterator[Attempt]:
+    """Yield trips to a customer as one of its windows opens.
 
     Other starts matter only for the working duration, when the speed changes: it is shortest
     when a leg begins or ends at a change.
@@ -102,7 +109,7 @@ def try_truck(problem: Problem) -> Iterator[Attempt]:
     node, end = problem.num_depots, vehicle_type.ends_at
     outward, homeward = duration.item(0, node), duration.item(node, end)
     earliest = max(vehicle_type.earliest, customer.release_time)
-    start = max(earliest, leg_start(customer.earliest, outward, profile))
+    start = max(earliest, leg_start(opens, outward, profile))
     first = _judge(problem, TripDecision((0, node, end), start=start))
     yield first
     if profile is None or first.codes != {"WORKING_DURATION"}:
@@ -121,21 +128,21 @@ def try_truck(problem: Problem) -> Iterator[Attempt]:
         )
 
 
-def _try_loop(problem: Problem, drones: DroneType) -> Attempt:
-    """Return a flight from the depot and back."""
+def _try_loop(problem: Problem, drones: DroneType, opens: int) -> Attempt:
+    """Return a flight from the depot and back, to a customer as one of its windows opens."""
     customer, node, end = problem.customers[0], problem.num_depots, problem.vehicle_types[0].ends_at
     flight = problem.travel[1].duration.item(0, node)
     start = max(problem.vehicle_types[0].earliest, customer.release_time,
-                customer.earliest - flight - drones.launch_duration)
+                opens - flight - drones.launch_duration)
     return _judge(problem, TripDecision((0, end), (SortieDecision((node,), 0, 0),), start=start))
 
 
-def _try_loop_from_customer(problem: Problem, drones: DroneType) -> Attempt:
-    """Return a trip to the first customer with a loop to the second from there."""
+def _try_loop_from_customer(problem: Problem, drones: DroneType, opens: int) -> Attempt:
+    """Return a trip to the first customer with a loop to the second, as its window opens."""
     vehicle_type, (host, customer) = problem.vehicle_types[0], problem.customers
     there, node = problem.num_depots, problem.num_depots + 1
     approach = drones.launch_duration + problem.travel[1].duration.item(there, node)
-    arrival = min(max(host.earliest, customer.earliest - approach), host.latest,
+    arrival = min(max(host.earliest, opens - approach), host.latest,
                   customer.latest - approach)
     outward = problem.travel[0].duration.item(0, there)
     start = max(vehicle_type.earliest, host.release_time, customer.release_time,

@@ -5,8 +5,8 @@
 
 from model.kernel.compiled import inlined
 from model.kernel.instance import FAR, NONE
-from model.kernel.records import Record
-from model.kernel.stop import Place, opening, service_duration, start_of_service
+from model.kernel.records import Record, Records
+from model.kernel.stop import opening, service_duration, start_of_service
 from model.problem import UNREACHABLE
 
 
@@ -17,14 +17,14 @@ def unreachable(duration: int) -> bool:
 
 
 @inlined
-def drone_service(kind: Record, place: Place) -> int:
+def drone_service(kind: Record, place: Records) -> int:
     """Return how long a drone serves a customer: as its type says, else as the customer."""
     own = kind.drone_service_duration
     return own if own >= 0 else service_duration(place)
 
 
 @inlined
-def ready(kind: Record, place: Place, arrival: int) -> int:
+def ready(kind: Record, place: Records, arrival: int) -> int:
     """Return when a drone has served."""
     return start_of_service(place, arrival) + drone_service(kind, place)
 
@@ -66,9 +66,12 @@ def recoveries_take_time(kind: Record) -> bool:
 
 
 @inlined
-def earliest_back(kind: Record, place: Place, home: int) -> int:
-    """Return when a drone that is at a customer as the window opens is where `home` leads to."""
-    return opening(place, NONE) + drone_service(kind, place) + home
+def earliest_back(kind: Record, place: Records, arrival: int, home: int) -> int:
+    """Return when a drone is where `home` leads to that is at a customer as the window opens.
+
+    The window in which whoever comes at `arrival` is served.
+    """
+    return opening(place, arrival) + drone_service(kind, place) + home
 
 
 @inlined
@@ -81,9 +84,16 @@ def held_until(kind: Record, back: int) -> int:
 
 
 @inlined
-def held_takeoff(kind: Record, place: Place, takeoff: int, home: int) -> int:
-    """Return when a drone takes off to one customer that can at `takeoff`: then, or held back."""
-    return max(takeoff, held_until(kind, earliest_back(kind, place, home)))
+def held_takeoff(kind: Record, place: Records, takeoff: int, out: int, home: int) -> int:
+    """Return when a drone takes off to one customer that can at `takeoff`: then, or held back.
+
+    `out` and `home` are the durations of its legs.
+    """
+    held = held_until(kind, earliest_back(kind, place, takeoff + out, home))
+    while held > takeoff:
+        takeoff = held
+        held = held_until(kind, earliest_back(kind, place, takeoff + out, home))
+    return takeoff
 
 
 @inlined

@@ -33,7 +33,11 @@ NODE = record("window_earliest", "arrival_limit", "service_duration", "release",
               demand=MAX_DIMENSIONS)
 """A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
 that is allowed, `FAR` where lateness only costs; service duration; release; the last arrival that
-is not late; demand by dimension."""
+is not late; demand by dimension.
+
+Where somebody has several windows, each node has more rows, one for each gap between two: its
+`window_latest` closes the window before, `FAR` behind the last, and its `window_earliest` opens the
+next."""
 
 PRICE = record(lateness=float, waiting=float)
 """What lateness and waiting at a node cost per hour."""
@@ -58,7 +62,7 @@ class Instance(NamedTuple):
     """Packed problems."""
 
     size: Records  # (problem,) SIZE
-    node: Records  # (problem, node) NODE
+    node: Records  # (problem, node, 1 + gaps) NODE
     price: Records  # (problem, node) PRICE
     type: Records  # (problem, type) TYPE
     rate: Records  # (problem, type) RATE
@@ -91,9 +95,10 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
     types = max(len(problem.vehicle_types) for problem in problems)
     travels = max(len(problem.travel) for problem in problems)
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
+    gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
     instance = Instance(
         size=np.zeros(rows, SIZE),
-        node=np.zeros((rows, nodes), NODE),
+        node=np.zeros((rows, nodes, 1 + gaps), NODE),
         price=np.zeros((rows, nodes), PRICE),
         type=np.zeros((rows, types), TYPE),
         rate=np.zeros((rows, types), RATE),
@@ -108,6 +113,7 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
         neighbour=np.full((rows, nodes, MAX_NEIGHBOURS), -1, np.int64),
     )
     instance.node["arrival_limit"] = FAR
+    instance.node[..., 1:]["window_latest"] = FAR
     for row, problem in enumerate(problems):
         _pack_row(instance, row, problem)
         _pack_travel(instance, row, problem, pause)
@@ -128,8 +134,9 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
     types = len(problem.vehicle_types)
     instance.size[row] = depots, problem.num_customers, types, dimensions
     if problem.customers:
-        instance.node[row, depots:nodes] = [
+        instance.node[row, depots:nodes, 0] = [
             _customer_row(customer) for customer in problem.customers]
+        _pack_gaps(instance.node[row, depots:nodes, 1:], problem.customers)
         instance.price[row, depots:nodes] = [
             (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
             for customer in problem.customers]
@@ -148,6 +155,13 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
     _pack_compatibility(instance, row, problem)
+
+
+def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
+    """Write what lies between windows, (customer, gap). In place."""
+    for row, customer in zip(rows, customers, strict=True):
+        for gap, (closes, opens) in enumerate(customer.gaps):
+            row[gap].window_latest, row[gap].window_earliest = closes, opens
 
 
 def _pack_travel(instance: Instance, row: int, problem: Problem, pause: Pause) -> None:
@@ -199,7 +213,7 @@ def _worked(kind: VehicleType) -> int:
 def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
     """Write which types may serve which customers, by truck and by drone. In place."""
     customers = slice(problem.num_depots, problem.num_nodes)
-    demand = instance.node[row, customers]["demand"]
+    demand = instance.node[row, customers, 0]["demand"]
     by_truck = np.array([c.served_by != "drone" for c in problem.customers], np.bool_)
     by_drone = np.array([c.served_by != "truck" for c in problem.customers], np.bool_)
     asking: dict[frozenset[str], list[int]] = {}

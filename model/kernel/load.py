@@ -1,7 +1,7 @@
 """What vehicles and drones hold: amounts, in all dimensions at once. Compiled."""
 
 from model.kernel.compiled import inlined
-from model.kernel.records import Record
+from model.kernel.records import Record, Records
 
 Amount = tuple[int, int, int]
 """By dimension, of which there are `MAX_DIMENSIONS`."""
@@ -10,9 +10,15 @@ NOTHING = (0, 0, 0)
 
 
 @inlined
-def demand_of(place: Record) -> Amount:
+def release_of(place: Records) -> int:
+    """Return when a customer's parcel is at the depot."""
+    return place[0].release
+
+
+@inlined
+def demand_of(place: Records) -> Amount:
     """Return what a customer's parcel takes."""
-    return place.demand[0], place.demand[1], place.demand[2]
+    return place[0].demand[0], place[0].demand[1], place[0].demand[2]
 
 
 @inlined
@@ -58,7 +64,7 @@ def holds(kind: Record, load: Amount) -> bool:
 
 
 @inlined
-def fits(kind: Record, load: Amount, place: Record) -> bool:
+def fits(kind: Record, load: Amount, place: Records) -> bool:
     """Tell whether a vehicle of a type holds a customer's parcel on top of a load."""
     return holds(kind, plus(load, demand_of(place)))
 

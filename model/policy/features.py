@@ -6,7 +6,7 @@ Like the tokens, all numbers are free of units. Training and decoding share this
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import MAX_DIMENSIONS, Instance
 from model.kernel.leg import lookup, matrix_of
-from model.kernel.load import demand_of
+from model.kernel.load import demand_of, release_of
 from model.kernel.records import Record, Records
 from model.kernel.stop import closing, lateness
 from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
@@ -40,7 +40,7 @@ def _describe_customer(setting: Setting, unit: Unit, prices: Records, vehicle: R
     window_cost = late * prices[node].lateness + waiting * prices[node].waiting
     feature.lateness = ratio(window_cost / MS_PER_HOUR, unit.cost)
     for dimension in range(MAX_DIMENSIONS):
-        demand = place.demand[dimension]
+        demand = place[0].demand[dimension]
         if demand > 0:
             capacity = setting.type.capacity[dimension]
             feature.load_share = max(feature.load_share, demand / vehicle.load[dimension])
@@ -48,7 +48,7 @@ def _describe_customer(setting: Setting, unit: Unit, prices: Records, vehicle: R
     feature.shift_slack = slack(setting.type.shift_latest, end, unit.time)
     departure = vehicle.departure_best if begun else vehicle.next_start
     feature.working_slack = slack(setting.type.max_working_duration, end - departure, unit.time)
-    feature.release_delay = ratio(place.release - vehicle.next_start, unit.time)
+    feature.release_delay = ratio(release_of(place) - vehicle.next_start, unit.time)
 
 
 @inlined

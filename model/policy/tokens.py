@@ -55,7 +55,8 @@ def scales(instance: Instance) -> Scales:
         nearest = between.min(axis=1)
         near = float(nearest.mean()) if customers > 1 else result.time[b]
         result.near[b] = max(1.0, near)
-        limits = np.concatenate([instance.node[b, nodes]["window_latest"], kinds["shift_latest"]])
+        closing = instance.node[b, nodes, 0]["window_latest"]
+        limits = np.concatenate([closing, kinds["shift_latest"]])
         limits = limits[limits < UNLIMITED]
         result.horizon[b] = max(1, limits.max()) if len(limits) else 20 * result.time[b]
         driven = [instance.distance[b, kind.travel, kind.begins_at, nodes].mean()
@@ -64,7 +65,7 @@ def scales(instance: Instance) -> Scales:
         cost = float(np.mean(rate["distance"] * driven) / MM_PER_KM
                      + rate["time"].mean() * result.time[b] / MS_PER_HOUR)
         result.cost[b] = cost if cost > 0 else max(1e-9, float(rate["fixed"].mean()) or 1.0)
-        result.amount[b] = max(1, instance.node[b, nodes]["demand"][:, 0].sum())
+        result.amount[b] = max(1, instance.node[b, nodes, 0]["demand"][:, 0].sum())
     return result
 
 
@@ -113,7 +114,7 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     high = np.where(is_node[..., None], coordinates, -np.inf).max(axis=1, keepdims=True)
     extent = np.maximum((high - low).max(axis=2, keepdims=True), 1e-9)
     place = (coordinates - (low + high) / 2) / extent * 2
-    nodes = instance.node
+    nodes = instance.node[..., 0]
     is_depot = np.arange(nodes.shape[1]) < instance.size["depots"][:, None]
     capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None]
     payload = instance.type["payload"].max(axis=1)[:, None]
@@ -150,7 +151,7 @@ def pair_features(instance: Instance, scale: Scales) -> Float32Array:
     time = scale.time[:, None, None].astype(np.float32)
     near = scale.near[:, None, None].astype(np.float32)
     earliest, latest, service = (
-        np.minimum(instance.node[field], 100 * scale.horizon[:, None]).astype(np.float32)
+        np.minimum(instance.node[..., 0][field], 100 * scale.horizon[:, None]).astype(np.float32)
         for field in ("window_earliest", "window_latest", "service_duration"))
     slack = latest[:, None, :] - (earliest + service)[:, :, None] - leg
     waiting = earliest[:, None, :] - (latest + service)[:, :, None] - leg

@@ -15,7 +15,7 @@ from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
 from model.search.route.layout import (
-    MODE_LEAN, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED, World, MOST_VISITS,
+    MODE_LEAN, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED, World, MOST_VISITS,
 )
 
 NEAR_RUIN = 128
@@ -79,7 +79,7 @@ def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on) -> Gr
             for rows in matrix_blocks(leg.shape[1], pause):
                 back[travel, rows] = leg[travel, :, rows].transpose(1, 0, 2)
     near = _near(problem, pause)
-    return Ground(leg, back, near, _fit(problem, instance.node[0], near, pause))
+    return Ground(leg, back, near, _fit(problem, instance.node[0, :, 0], near, pause))
 
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
@@ -111,7 +111,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         traded=moves.types and bool(swap.any()),
         mixed=moves.types and len(problem.vehicle_types) > 1 and general,
         scan_all=scan_all,
-        adds_up=not bool((mode & (MODE_SETTLED | MODE_PROFILE)).any()),
+        adds_up=not bool((mode & (MODE_SETTLED | MODE_RETIMED)).any()),
         keeps=scan_all and (not general or blink <= LEAST_BLINK),
         blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_more=instance.unassigned_more[0],
@@ -164,15 +164,18 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
     soft = bool((place["arrival_limit"] == FAR).any()) and late
     timed = (rates["time"] > 0) | (types["max_working_duration"] < UNLIMITED)
-    profile = types["speed_changes"] != NO_PROFILE
-    settled = np.logical_or(early, profile & timed)
-    priced = np.logical_or(soft, settled | profile)
+    retimed = types["speed_changes"] != NO_PROFILE
+    if place.shape[1] > 1:
+        # What is known of later arrivals holds within the windows that they are served in.
+        retimed = retimed | timed | soft | early | (types["drones"] > 0)
+    settled = np.logical_or(early, retimed & timed)
+    priced = np.logical_or(soft, settled | retimed)
     release = bool((place["release"] > 0).any())
     simple = ~(timed | priced)
     lean = (simple & ~(release | (types["max_trip_distance"] < UNLIMITED))
             & (types["max_trips"] == 1) & (types["drones"] == 0))
     mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
-                      + MODE_PROFILE * profile + MODE_SIMPLE * simple
+                      + MODE_RETIMED * retimed + MODE_SIMPLE * simple
                       + MODE_LEAN * lean).astype(np.int64)
     return mode
 

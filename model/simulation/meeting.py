@@ -58,6 +58,7 @@ def next_launch(setting: Setting, drones: Records, here: int, to: int,
             end = to if drones[d].place == MEET else here
             node = drones[d].node
             soonest = held_takeoff(setting.type, setting.node[node], take_off(setting.type, free),
+                                   lookup(setting.fly, here, node),
                                    lookup(setting.fly, node, end))
             if chosen < 0 or soonest < takeoff:
                 chosen, takeoff = d, soonest

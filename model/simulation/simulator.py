@@ -16,7 +16,7 @@ from model.kernel.copying import copy_records
 from model.kernel.flight import take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
-from model.kernel.load import demand_of, within
+from model.kernel.load import demand_of, release_of, within
 from model.kernel.records import Record, Records, record
 from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
@@ -70,7 +70,7 @@ def _judge_drive(setting: Setting, vehicle: Record, drones: Records, earliest: i
     place = setting.node[node]
     idle = vehicle.idle == 1
     if idle:
-        leave = max(vehicle.next_start, place.release)
+        leave = max(vehicle.next_start, release_of(place))
         out = leaves_first(setting.type, leave)
         arrival = travel_arrival(setting, vehicle.node, node, out)
         free = arrival
@@ -204,7 +204,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     for node in range(size.depots, size.depots + size.customers):
         if served[node] or not within(demand_of(setting.node[node]), load_left(vehicle)):
             continue
-        held = not idle and began < setting.node[node].release
+        held = not idle and began < release_of(setting.node[node])
         if can_drive[node] and lookup(legs, here, node) + lookup(legs, node, home) <= reach:
             verdict = UNSURE
             if not held:

@@ -8,7 +8,7 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import launch_begin, ready, recovery_end, take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup
-from model.kernel.load import NOTHING, Amount, capacity_of, demand_of, minus
+from model.kernel.load import NOTHING, Amount, capacity_of, demand_of, minus, release_of
 from model.kernel.records import Record, Records
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, service_duration, start_of_service, too_late
@@ -224,7 +224,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
 
     Whether the vehicle could have left later is for `improve_departure`.
     """
-    release = setting.node[node].release
+    release = release_of(setting.node[node])
     if vehicle.idle:
         begin_trip(setting, log, vehicle, release)
     elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
@@ -260,7 +260,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
     Whether the vehicle could have left later is for `improve_departure`.
     """
     is_customer = node >= num_depots
-    release = setting.node[node].release
+    release = release_of(setting.node[node])
     if vehicle.idle:
         begin_trip(setting, log, vehicle, release)
     elif is_customer and not hold_trip(setting, num_depots, log, vehicle, drones, release):

@@ -19,7 +19,7 @@ from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.records import Record, Records, record
 from model.kernel.start import counted_from, leaves_first
-from model.kernel.stop import as_late, end_of_service, start_of_service, too_late
+from model.kernel.stop import as_late, end_of_service, in_same_window, start_of_service, too_late
 from model.problem import IntArray
 
 LOGGED_STOP = record("node", "arrival", "start", "leave")
@@ -90,10 +90,17 @@ def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
 
 
 @inlined
-def _arrival_allowed(place: Record, arrival: int, before: int, write: bool) -> bool:
-    """Check a window: when writing, that a hard one holds; else, that no lateness is added."""
+def _arrival_allowed(log: VehicleLog, place: Records, arrival: int, before: int,
+                     write: bool) -> bool:
+    """Check a window: when writing, that a hard one holds; else, that no lateness is added.
+
+    With drones, also that it is the same window: who has to wait for another may then be met
+    sooner, so that a start might cost nothing though an earlier one does.
+    """
     if write:
         return not too_late(place, arrival)
+    if log.count.sorties > 0:
+        return arrival <= in_same_window(place, before)
     return arrival <= as_late(place, before)
 
 
@@ -105,8 +112,10 @@ def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int)
     """
     takeoff = take_off(setting.type, free)
     if sortie.recovery_stop != IN_FLIGHT:
-        customer, to = sortie.node, log.stop[sortie.recovery_stop].node
+        customer = sortie.node
+        here, to = log.stop[sortie.launch_stop].node, log.stop[sortie.recovery_stop].node
         takeoff = held_takeoff(setting.type, setting.node[customer], takeoff,
+                               lookup(setting.fly, here, customer),
                                lookup(setting.fly, customer, to))
     return takeoff
 
@@ -119,7 +128,7 @@ def _replay_launch(setting: Setting, log: VehicleLog, sortie: Record, node: int,
     place = setting.node[customer]
     takeoff = sortie_takeoff(setting, log, sortie, free)
     arrival = takeoff + lookup(setting.fly, node, customer)
-    if not _arrival_allowed(place, arrival, sortie.arrival, write):
+    if not _arrival_allowed(log, place, arrival, sortie.arrival, write):
         return -1
     served = ready(setting.type, place, arrival)
     sortie.trial_takeoff, sortie.trial_ready = takeoff, served
@@ -176,7 +185,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
             leave = leaves_first(setting.type, arrival) if index == first else arrival
             if node >= num_depots:
                 place = setting.node[node]
-                if not _arrival_allowed(place, arrival, log.stop[index].arrival, write):
+                if not _arrival_allowed(log, place, arrival, log.stop[index].arrival, write):
                     return False
                 service_start = start_of_service(place, arrival)
                 leave = end_of_service(place, arrival)

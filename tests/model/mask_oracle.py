@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 from model.judge.check import Evaluation, check
 from model.judge.rules import airborne_duration
 from model.judge.timing import (
-    Operation, RouteDecision, SortieDecision, TripDecision, held_until, schedule,
+    Operation, RouteDecision, SortieDecision, TripDecision, held_takeoff, opening, schedule,
 )
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
-from model.solution import Route, Solution, Trip
+from model.solution import Route, Solution, Stop, Trip, Visit
 
 MINUTE = 60_000
 
@@ -102,8 +102,8 @@ def _at_this_stop(problem: Problem, drones: DroneType, recovered: OpenTrip,
     """
     decision, order, back = recovered.decision(), list(arrived), dict[int, int]()
     while launches or back:
-        take_off = {index: max(crew + drones.launch_duration, held_until(
-            problem, drones, decision, decision.sorties[index])) for index in launches}
+        take_off = {index: held_takeoff(problem, drones, decision, decision.sorties[index],
+                                        crew + drones.launch_duration) for index in launches}
         launch = min(launches, key=lambda index: (take_off[index], index), default=None)
         loop = min(back, key=lambda index: (back[index], index), default=None)
         begin = 0 if launch is None else take_off[launch] - drones.launch_duration
@@ -125,7 +125,7 @@ def _back(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, take_
     flight, legs = trip.flights[index], problem.travel[drones.travel].duration
     place, customer = trip.nodes[flight.launch_stop], problem.customer_at(flight.customer)
     arrival = take_off + legs.item(place, flight.customer)
-    waiting = max(0, customer.earliest - arrival)
+    waiting = max(0, opening(customer, arrival) - arrival)
     return take_off + waiting + _flight(problem, drones, trip, index, place)
 
 
@@ -206,14 +206,23 @@ def judge(problem: Problem, vehicle: Vehicle, start: int | None) -> tuple[Route,
 
 
 def costs_nothing(problem: Problem, soon: Route, later: Route) -> bool:
-    """Tell whether a later start adds no lateness, lengthens no sortie and ends no later."""
+    """Tell whether a later start adds no lateness, lengthens no sortie and ends no later.
+
+    With drones, nobody may be served in another window either.
+    """
+    has_drones = any(trip.sorties for trip in soon.trips)
+
+    def may_be(halt: Stop | Visit, same: Stop | Visit) -> bool:
+        customer = problem.customer_at(halt.node)
+        if has_drones and opening(customer, halt.arrival) != opening(customer, same.arrival):
+            return False
+        return same.arrival <= max(halt.arrival, customer.latest)
+
     for early, late in zip(soon.trips, later.trips, strict=True):
-        for stop, same in zip(early.stops[1:-1], late.stops[1:-1], strict=True):
-            if same.arrival > max(stop.arrival, problem.customer_at(stop.node).latest):
-                return False
+        if not all(map(may_be, early.stops[1:-1], late.stops[1:-1])):
+            return False
         for sortie, flown in zip(early.sorties, late.sorties, strict=True):
-            visit, again = sortie.visits[0], flown.visits[0]
-            if again.arrival > max(visit.arrival, problem.customer_at(visit.node).latest):
+            if not may_be(sortie.visits[0], flown.visits[0]):
                 return False
             if (flown.recovery_start - flown.launch_time
                     > sortie.recovery_start - sortie.launch_time):

@@ -151,6 +151,7 @@ class Units:
             customer, demand=self.amounts(customer.demand),
             service_duration=self.time * customer.service_duration,
             earliest=self.time * customer.earliest, latest=self.limit(customer.latest),
+            gaps=tuple((self.time * closes, self.time * opens) for closes, opens in customer.gaps),
             release_time=self.time * customer.release_time,
             late_cost_per_hour=None if late is None else late * self.money / self.time,
             early_cost_per_hour=early * self.money / self.time)

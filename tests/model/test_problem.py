@@ -13,6 +13,14 @@ def test_a_table_has_a_row_a_type_and_a_column_a_customer(tiny_problem, customer
             replace(problem, may_serve=table)
 
 
+@pytest.mark.parametrize("gaps", [((4, 6),), ((6, 6),), ((7, 6),), ((6, 11),), ((6, 8), (7, 9))])
+def test_several_windows_come_one_after_another(gaps, customers):
+    fine = replace(customers[0], earliest=5, gaps=((5, 6), (7, 8)), latest=10)
+    assert fine.openings == (5, 6, 8)
+    with pytest.raises(ValueError, match="customer a gaps"):
+        replace(fine, gaps=gaps)
+
+
 @pytest.mark.parametrize("cost", [-1.0, float("nan"), float("inf")])
 def test_leaving_a_customer_out_costs_no_less_than_nothing(cost, customers):
     with pytest.raises(ValueError, match="customer a unassigned_cost"):

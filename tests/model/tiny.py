@@ -103,6 +103,22 @@ def with_own_costs(rng: np.random.Generator, problem: Problem) -> Problem:
         if rng.random() < 0.6 else customer for customer in problem.customers))
 
 
+def with_gaps(rng: np.random.Generator, problem: Problem, share: float = 0.7) -> Problem:
+    """Return a problem in which a share of the customers has two to four windows."""
+    def several(customer: Customer) -> Customer:
+        gaps, opens = [], customer.earliest
+        for _ in range(int(rng.integers(1, 4))):
+            closes = opens + _draw(rng, 0, 8)
+            opens = closes + _draw(rng, 1, 15)
+            gaps.append((closes, opens))
+        width = _maybe(rng, 0.7, 0, 20)
+        return replace(customer, gaps=tuple(gaps),
+                       latest=UNLIMITED if width is None else opens + width)
+
+    return replace(problem, customers=tuple(
+        several(customer) if rng.random() < share else customer for customer in problem.customers))
+
+
 def with_table(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem in which not every type of vehicle may serve everyone."""
     size = (len(problem.vehicle_types), problem.num_customers)

@@ -5,12 +5,11 @@ from math import isqrt
 
 import numpy as np
 
-from model.dialects.vroom.alternatives import choose_windows
 from model.dialects.vroom.drives import Drive, Drives
 from model.dialects.vroom.errors import RefusedError, TooLargeError
 from model.dialects.vroom.kinds import Loads, find_kinds, find_loads
 from model.dialects.vroom.models import Model
-from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes, Slots
+from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.request import Request, Window
 from model.dialects.vroom.timing import TIME_SCALE
@@ -49,8 +48,8 @@ class Converter:
         self._origin = self._find_origin()
         self._shifts = {kind.stated.time_window for kind in self.kinds}
 
-    def model(self, slots: Slots, preparing: Preparing = UNHURRIED) -> Model:
-        """Return the problem of serving jobs, at least one, each in one of its windows.
+    def model(self, jobs: Sequence[int], preparing: Preparing = UNHURRIED) -> Model:
+        """Return the problem of serving jobs, at least one.
 
         Where both it and a relaxed one are more than there is time for, it stands alone.
 
@@ -61,10 +60,10 @@ class Converter:
         Exception
             If the work on it is to end, what `preparing` raises.
         """
-        nodes = Nodes.of(self._places, self.kinds, slots)
+        nodes = Nodes.of(self._places, self.kinds, jobs)
         number = len(nodes.sites)
         if number**2 > self._max_legs.legs:
-            raise TooLargeError("Too many starts and ends of vehicles and windows of jobs "
+            raise TooLargeError("Too many starts and ends of vehicles and jobs "
                                 f"({number}), maximum is {isqrt(self._max_legs.legs)} "
                                 f"({self._max_legs.setting})")
         drives = self._drives(nodes, relaxed=False, pause=preparing.pause)
@@ -81,8 +80,8 @@ class Converter:
         relaxed: tuple[Problem, ...] = ()
         if relaxes:
             looser = self._drives(nodes, relaxed=True, pause=preparing.pause)
-            relaxed = (choose_windows(self._problem(nodes, looser), nodes),)
-        return Model(choose_windows(problem, nodes), nodes, len(self.kinds), relaxed,
+            relaxed = (self._problem(nodes, looser),)
+        return Model(problem, nodes, relaxed,
                      None if surplus is None or not relaxes
                      else tuple(surplus[list(nodes.jobs)].tolist()),
                      has_longest=self._has_longest())
@@ -95,7 +94,7 @@ class Converter:
         """Refuse more matrices than are held at a time."""
         if ways * nodes**2 > self._max_legs.legs:
             raise TooLargeError("Too many vehicles that drive unlike each other for so many jobs: "
-                                f"{ways} ways to travel between {nodes} places and windows, "
+                                f"{ways} ways to travel between {nodes} places, "
                                 f"maximum is {self._max_legs.legs} legs "
                                 f"({self._max_legs.setting}).")
 
@@ -109,15 +108,15 @@ class Converter:
             for number, (kind, drive) in enumerate(zip(self.kinds, driven, strict=True)))
         services = drives.actions.common if self._is_timed else np.zeros(len(nodes.jobs), np.int64)
         customers = tuple(
-            self._customer(job, int(service), window, loads)
-            for job, service, window in zip(nodes.jobs, services, nodes.windows, strict=True))
+            self._customer(job, int(service), loads)
+            for job, service in zip(nodes.jobs, services, strict=True))
         travels = tuple(drives.travels)
         return Problem(
             depots=tuple(Depot(str(node)) for node in range(len(depots))), customers=customers,
             vehicle_types=vehicle_types, travel=travels,
             coordinates=self._coordinates(nodes, travels),
             unassigned_cost=dearest_plan(vehicle_types, travels, len(depots), drives.pause),
-            may_serve=self._startable(nodes.windows))
+            may_serve=self._startable(nodes.jobs))
 
     def _has_longest(self) -> bool:
         """Tell whether some legs are longer than the planner can count."""
@@ -162,25 +161,31 @@ class Converter:
             max_working_duration=drive.max_working, max_trip_distance=drive.max_distance,
             skills=frozenset(map(str, kind.stated.skills)))
 
-    def _customer(self, job: int, service: int, window: Window | None,
-                  loads: Loads) -> Customer:
+    def _customer(self, job: int, service: int, loads: Loads) -> Customer:
         stated = self._request.jobs[job]
         demand = tuple(loads.demand[job].tolist())
         skills = frozenset(map(str, stated.skills))
         name = str(stated.id)
-        if window is None:
+        windows = self._reachable(job)
+        if not windows:
             return Customer(name, demand, service * PARTS, skills=skills)
-        if not self.may_start(window):
-            return Customer(name, demand, service * PARTS, skills=skills)
-        return Customer(name, demand, service * PARTS, self._instant(window[0]),
-                        self._last_instant(window[1]), skills=skills)
+        begins = [self._instant(begin) for begin, _ in windows]
+        ends = [self._last_instant(end) for _, end in windows]
+        return Customer(name, demand, service * PARTS, begins[0], ends[-1], skills=skills,
+                        gaps=tuple(zip(ends[:-1], begins[1:], strict=True)))
 
-    def _startable(self, windows: Sequence[Window | None]) -> BoolArray:
-        """Return (kind, node) that nobody serves a job in a window in which nobody works."""
-        startable = [window is None or self.may_start(window) for window in windows]
+    def _startable(self, jobs: Sequence[int]) -> BoolArray:
+        """Return (kind, node) that nobody serves a job in whose windows nobody works."""
+        startable = [self._request.jobs[job].time_windows is None or bool(self._reachable(job))
+                     for job in jobs]
         return np.tile(np.array(startable, np.bool_), (len(self.kinds), 1))
 
-    def may_start(self, window: Window) -> bool:
+    def _reachable(self, job: int) -> list[Window]:
+        """Return the windows of a job in which any vehicle works, in order."""
+        stated = self._request.jobs[job].time_windows or ()
+        return [window for window in sorted(stated) if self._may_start(window)]
+
+    def _may_start(self, window: Window) -> bool:
         """Tell whether any vehicle works within a time window."""
         return any(shift is None or (shift[0] <= window[1] and window[0] <= shift[1])
                    for shift in self._shifts)

@@ -132,7 +132,7 @@ class Drives:
         """Return what no route exceeds: the longest leg to each job and to an end."""
         if id(matrix) not in self._longest:
             spread, depots = self._nodes.spread(matrix), len(self._nodes.depots)
-            to_jobs = spread[:, depots:].max(axis=0)[self._nodes.first_of_each_job()]
+            to_jobs = spread[:, depots:].max(axis=0)
             self._longest[id(matrix)] = int(to_jobs.sum() + spread[:, :depots].max())
         return self._longest[id(matrix)]
 

@@ -1,34 +1,25 @@
 """Problems for the planner, and its plans as routes of jobs."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from model.dialects.vroom.nodes import Nodes, Slots
-from model.dialects.vroom.request import Window
+from model.dialects.vroom.nodes import Nodes
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import MAX_QUANTITY, BoolArray, IntArray, Problem
+from model.problem import MAX_QUANTITY, UNLIMITED, BoolArray, Customer, IntArray, Problem
 from model.solution import Route, Solution
 
 Routes = Mapping[int, Sequence[Sequence[int]]]
 """Jobs of each route, by the index of the kind that drives it."""
 
-StartWindows = Callable[[int, Sequence[int]], Sequence[Window | None]]
-"""Tells of a route of a kind of vehicle in which of its windows each job starts."""
-
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A problem for the planner, and what its parts stand for.
-
-    Its first kinds of vehicles are the request's. Then comes one for each job with several windows,
-    which takes all but one of them for nothing.
-    """
+    """A problem for the planner, and what its parts stand for."""
 
     problem: Problem
     nodes: Nodes
-    num_kinds: int  # of vehicles that exist
     relaxed: tuple[Problem, ...] = ()
     """Where `problem` is stricter or costs otherwise than it should: the same by true costs, whose
     plans may break rules. At most one."""
@@ -39,79 +30,50 @@ class Model:
     @property
     def is_loose(self) -> bool:
         """Whether its plans may break a rule of the request."""
-        return (bool(self.relaxed) or self.has_longest
-                or len(set(self.nodes.jobs)) < len(self.nodes.jobs))
+        return bool(self.relaxed) or self.has_longest
 
     def routes(self, solution: Solution) -> Routes:
-        """Return the routes of vehicles that exist, each job on the first one only."""
+        """Return the routes of a plan."""
         routes: dict[int, list[list[int]]] = {}
-        seen: set[int] = set()
+        first = self.problem.num_depots
         for route in solution.routes:
-            if route.vehicle_type >= self.num_kinds:
-                continue
-            jobs = []
-            for stop in route.trips[0].stops[1:-1]:
-                job = self.nodes.jobs[stop.node - self.problem.num_depots]
-                if job not in seen:
-                    seen.add(job)
-                    jobs.append(job)
-            if jobs:
-                routes.setdefault(route.vehicle_type, []).append(jobs)
+            routes.setdefault(route.vehicle_type, []).append(
+                [self.nodes.jobs[stop.node - first] for stop in route.trips[0].stops[1:-1]])
         return routes
 
-    def solution(self, routes: Routes, starts: StartWindows) -> Solution:
+    def solution(self, routes: Routes) -> Solution:
         """Return the plan that consists of routes; jobs that the problem lacks are skipped."""
-        nodes_of = self.nodes.of_job()
-        first = self.problem.num_depots
+        node_of = self.nodes.of_job()
         writer = _Writer(self.problem)
         for kind, its_routes in routes.items():
             for jobs in its_routes:
-                nodes = []
-                for job, window in zip(jobs, starts(kind, jobs), strict=True):
-                    copies = nodes_of.get(job, [])
-                    for node in copies:
-                        if self.nodes.windows[node - first] == window:
-                            nodes.append(node)
-                            copies.remove(node)
-                            break
-                writer.add(kind, nodes)
-        several = self.num_kinds
-        for job, copies in self.nodes.of_job().items():
-            left = nodes_of[job]
-            # Of a job left out, one node is, and the others are taken all the same.
-            for node in left[1:] if len(left) == len(copies) else left:
-                writer.add(several, [node])
-            several += len(copies) > 1
+                writer.add(kind, [node_of[job] for job in jobs if job in node_of])
         return writer.solution()
 
-    def servable(self) -> Slots:
-        """Return the windows of jobs in which some vehicle might serve them.
+    def servable(self) -> list[int]:
+        """Return the jobs that some vehicle might serve.
 
         The way through other jobs may be shorter than the direct one, so that only the shortest
         legs to and from a job count.
         """
         problem = self.relaxed[0] if self.relaxed else self.problem
         customers, first = problem.customers, problem.num_depots
-        earliest = np.array([customer.earliest for customer in customers], np.int64)
         latest = np.array([customer.latest for customer in customers], np.int64)
         service = np.array([customer.service_duration for customer in customers], np.int64)
         demand = np.array([customer.demand for customer in customers], np.int64)
         servable: BoolArray = np.zeros(len(customers), np.bool_)
         shortest = {travel: _shortest_legs(problem.travel[travel].duration, first)
-                    for travel in {kind.travel
-                                   for kind in problem.vehicle_types[: self.num_kinds]}}
-        for number, kind in enumerate(problem.vehicle_types[: self.num_kinds]):
+                    for travel in {kind.travel for kind in problem.vehicle_types}}
+        openings = _Openings(customers)
+        for number, kind in enumerate(problem.vehicle_types):
             to, back = shortest[kind.travel]
             arrival = kind.earliest + to
-            end = np.maximum(arrival, earliest) + service + back
+            end = np.maximum(arrival, openings.at(arrival)) + service + back
             servable |= ((demand <= np.array(kind.capacity)).all(axis=1) & (arrival <= latest)
                          & (end <= kind.latest)
                          & [customer.skills <= kind.skills for customer in customers]
                          & (True if problem.may_serve is None else problem.may_serve[number]))
-        slots: dict[int, list[Window | None]] = {}
-        for index in np.flatnonzero(servable):
-            slots.setdefault(self.nodes.jobs[index], []).append(self.nodes.windows[index])
-        return slots
+        return [self.nodes.jobs[index] for index in np.flatnonzero(servable)]
 
 
 def _shortest_legs(duration: IntArray, first: int) -> tuple[IntArray, IntArray]:
@@ -119,6 +81,26 @@ def _shortest_legs(duration: IntArray, first: int) -> tuple[IntArray, IntArray]:
     legs = duration.copy()
     np.fill_diagonal(legs, MAX_QUANTITY)
     return legs[:, first:].min(axis=0), legs[first:].min(axis=1)
+
+
+class _Openings:
+    """When the windows of all customers open."""
+
+    def __init__(self, customers: Sequence[Customer]) -> None:
+        most = max(len(customer.gaps) for customer in customers)
+        self._first = np.array([customer.earliest for customer in customers], np.int64)
+        self._gaps = np.full((len(customers), most, 2), UNLIMITED, np.int64)
+        for row, customer in enumerate(customers):
+            if customer.gaps:
+                self._gaps[row, : len(customer.gaps)] = customer.gaps
+
+    def at(self, arrival: IntArray) -> IntArray:
+        """Return for each customer the beginning of the window that serves an arrival."""
+        opens = self._first
+        for gap in range(self._gaps.shape[1]):
+            closes, reopens = self._gaps[:, gap].T
+            opens = np.where(arrival > closes, reopens, opens)
+        return opens
 
 
 class _Writer:

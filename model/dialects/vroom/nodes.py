@@ -1,13 +1,12 @@
-"""The planner's nodes: starts and ends of vehicles, and jobs in their time windows."""
+"""The planner's nodes: starts and ends of vehicles, and jobs."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from model.dialects.vroom.kinds import Kind
 from model.dialects.vroom.places import NOWHERE, Places
-from model.dialects.vroom.request import Window
 from model.problem import MAX_QUANTITY, BoolArray, IntArray
 
 PARTS = 1000
@@ -16,38 +15,25 @@ PARTS = 1000
 LONGEST = MAX_QUANTITY // PARTS
 """Seconds, metres and costs of a leg above this count as this; it is longer than any plan."""
 
-Slots = Mapping[int, Sequence[Window | None]]
-"""Time windows by the index of the job, in order; None: any time."""
-
 
 @dataclass(frozen=True, eq=False)
 class Nodes:
-    """Starts and ends of vehicles, the planner's depots; then jobs, each in all its windows."""
+    """Starts and ends of vehicles, the planner's depots; then jobs."""
 
     depots: tuple[int, ...]  # sites, perhaps NOWHERE
     jobs: tuple[int, ...]  # index into the request's jobs
-    windows: tuple[Window | None, ...]  # of each of these
     sites: IntArray  # (node,) site or NOWHERE
 
     @classmethod
-    def of(cls, places: Places, kinds: Sequence[Kind], slots: Slots) -> "Nodes":
+    def of(cls, places: Places, kinds: Sequence[Kind], jobs: Sequence[int]) -> "Nodes":
         """Return the nodes for vehicles and jobs."""
         depots = tuple(dict.fromkeys(site for kind in kinds for site in (kind.start, kind.end)))
-        chosen = [(job, window) for job, windows in slots.items() for window in windows]
-        jobs = tuple(job for job, _ in chosen)
         sites = np.concatenate([np.array(depots, np.int64), places.jobs[list(jobs)]])
-        return cls(depots, jobs, tuple(window for _, window in chosen), sites)
+        return cls(depots, tuple(jobs), sites)
 
-    def of_job(self) -> dict[int, list[int]]:
-        """Return the nodes of each job, one for each of its windows."""
-        nodes: dict[int, list[int]] = {}
-        for node, job in enumerate(self.jobs, start=len(self.depots)):
-            nodes.setdefault(job, []).append(node)
-        return nodes
-
-    def first_of_each_job(self) -> IntArray:
-        """Return indices into `jobs` that name each job once."""
-        return np.unique(np.array(self.jobs, np.int64), return_index=True)[1]
+    def of_job(self) -> dict[int, int]:
+        """Return the node of each job."""
+        return {job: node for node, job in enumerate(self.jobs, start=len(self.depots))}
 
     def spread(self, matrix: IntArray) -> IntArray:
         """Return a matrix of sites with a row and a column for each node, 0 from and to nowhere."""

@@ -6,22 +6,17 @@ The planner knows not all of VROOM's rules, so that some plans are judged before
 """
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from operator import attrgetter
-
-import numpy as np
 
 from model.dialects.vroom.alternatives import bring_first, leave_out_by_priority
 from model.dialects.vroom.checking import drive, route_faults
 from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.errors import RefusedError
 from model.dialects.vroom.models import Model, Routes
-from model.dialects.vroom.nodes import Slots
 from model.dialects.vroom.places import Places
-from model.dialects.vroom.request import Job, Request, Window
-from model.dialects.vroom.timing import Driver
-from model.dialects.vroom.windows import MOST_BESIDE, are_few, choose_few, hulls
+from model.dialects.vroom.request import Request
 from model.dialects.vroom.work import UNHURRIED, LegLimit, Preparing, attempt_seconds, model_seconds
 from model.judge.check import check
 from model.planner import PlanCheckError, PlanOptions, PlanResult, Progress
@@ -45,18 +40,6 @@ SPARE = 3.0
 
 PRICES = 6
 """How many prices are tried for what makes relaxed plans break rules."""
-
-THROUGH_GAPS = 0.3
-"""Share of the time for routes that don't heed gaps between windows, where these are many."""
-
-MENDING = 0.5
-"""Most of the rest for making these routes heed them."""
-
-ROUNDS = 6
-"""How often windows are chosen among then."""
-
-LEAST_FILLING = 0.1
-"""Seconds at least for putting jobs left out into routes one by one."""
 
 LEAST_PRICE, DEARER, CHEAPER = 0.05, 2.5, 0.6
 """The first price above none, and what it is multiplied by where a plan breaks or keeps rules."""
@@ -105,102 +88,15 @@ class Planning:
         start
             Feasible routes to begin with; may be empty.
         """
-        slots = {index: self._reachable(job) for index, job in enumerate(self._request.jobs)}
-        if not are_few(slots):
-            return self._find_in_rounds(slots, deadline, start)
-        model = self._converter.model(slots, self._preparing)
+        jobs = range(len(self._request.jobs))
+        model = self._converter.model(jobs, self._preparing)
         if start:
             self._require_start(model, start)
-        return self._find_by(model, slots, deadline, start)
-
-    def _find_in_rounds(self, slots: Slots, deadline: float, start: Routes) -> Found:
-        """Return the best plan found by a few windows of each job at a time."""
-        rng = np.random.default_rng(0)
-        best = self._judged(start)
-        hull = self._converter.model(hulls(slots), self._preparing)
-        seconds = max(LEAST_SECONDS, THROUGH_GAPS * self._left(deadline))
-        options = replace(self._options, time_limit=seconds)
-        given = hull.solution({}, self._start_windows)
-        routes = hull.routes(self._plan(hull.problem, options, given, _tell_nobody).solution)
-        left = max(LEAST_FILLING, MENDING * self._left(deadline))
-        mended = self._mended(routes, time.perf_counter() + left)
-        best = max(best, self._filled(mended, slots, deadline), key=attrgetter("value"))
-        share = max(LEAST_SECONDS, self._left(deadline) / ROUNDS)
-        for number in range(ROUNDS):
-            # Whoever is left out gets a chance, even if that takes a little longer.
-            late = LEAST_FILLING if number == 0 and len(best.served) < len(slots) else 0.0
-            if self._left(deadline) + late <= self._price(hull, MOST_BESIDE):
-                break
-            starts = {job: window for kind, its_routes in best.routes.items()
-                      for jobs in its_routes
-                      for job, window in zip(jobs, self._start_windows(kind, jobs), strict=True)}
-            few = choose_few(slots, starts, rng)
-            until = min(deadline, time.perf_counter() + share)
-            found = self._find_by(self._converter.model(few), few, until, best.routes)
-            best = max(best, self._filled(found.routes, slots, deadline), key=attrgetter("value"))
-        return best
-
-    def _filled(self, routes: Routes, slots: Slots, deadline: float) -> Found:
-        """Return routes with jobs that they lack where these cost least, as far as time allows."""
-        until = max(deadline, time.perf_counter() + LEAST_FILLING)
-        filled = {kind: list(its_routes) for kind, its_routes in routes.items()}
-        planned = {job for its_routes in routes.values() for jobs in its_routes for job in jobs}
-        left_out = [job for job in slots if job not in planned]
-        for job in sorted(left_out, key=self._priorities.__getitem__, reverse=True):
-            cheapest = min(self._insertions(filled, job, until), default=None)
-            if cheapest is not None:
-                _, kind, number, jobs = cheapest
-                filled.setdefault(kind, [])[number:number + 1] = [jobs]
-        return self._judged(filled)
-
-    def _insertions(self, routes: Routes, job: int,
-                    until: float) -> Iterator[tuple[int, int, int, tuple[int, ...]]]:
-        """Yield what a job costs in each place that keeps all rules, with the route there."""
-        for kind, alike in enumerate(self.kinds):
-            its_routes = routes.get(kind, [])
-            new = [()] if len(its_routes) < len(alike.vehicles) else []
-            for number, jobs in enumerate([*its_routes, *new]):
-                before = self._route_cost(kind, tuple(jobs)) if jobs else 0
-                for place in range(len(jobs) + 1):
-                    if time.perf_counter() > until:
-                        return
-                    longer = (*jobs[:place], job, *jobs[place:])
-                    cost = self._route_cost(kind, longer)
-                    if cost is not None and before is not None:
-                        yield cost - before, kind, number, longer
-
-    def _mended(self, routes: Routes, until: float) -> Routes:
-        """Return routes without the jobs that keep them from being driven.
-
-        After `until`, on `time.perf_counter`, those that haven't been looked at are left out, too.
-        """
-        mended = {kind: [kept for jobs in its_routes if (kept := self._drivable(kind, jobs, until))]
-                  for kind, its_routes in routes.items()}
-        return {kind: its_routes for kind, its_routes in mended.items() if its_routes}
-
-    def _drivable(self, kind: int, jobs: Sequence[int], until: float) -> list[int]:
-        """Return a route without those jobs at which it fails first."""
-        kept: list[int] = []
-        rest, step = list(jobs), len(jobs)
-        while rest and time.perf_counter() <= until:
-            # However it goes on, a route fails that fails until then.
-            if self._route_cost(kind, (*kept, *rest[:step])) is not None:
-                kept += rest[:step]
-                del rest[:step]
-                step *= 2
-            elif step > 1:
-                step = max(1, min(step, len(rest)) // 2)
-            else:
-                del rest[0]
-        return kept
-
-    def _find_by(self, model: Model, slots: Slots, deadline: float, start: Routes) -> Found:
-        """Return the best plan found by a model of some windows of jobs."""
         servable = model.servable()
         if not servable:
             return self._judged({})
         price = self._price(model)
-        if servable != slots and self._left(deadline) > SPARE * price:
+        if len(servable) < len(model.nodes.jobs) and self._left(deadline) > SPARE * price:
             model = self._converter.model(servable)
         if len({self._priorities[job] for job in servable}) == 1:
             return self._improve(model, self._left(deadline), start)
@@ -213,44 +109,25 @@ class Planning:
             found = self._improve(everyone, CHOOSING_JOBS * self._left(deadline), found.routes)
             if not found.served or self._left(deadline) < price:
                 return found
-            model = self._converter.model(
-                {job: windows for job, windows in servable.items() if job in found.served})
+            model = self._converter.model(sorted(found.served))
         return self._improve(model, self._left(deadline), found.routes)
 
     def _left(self, deadline: float) -> float:
         """Return the seconds left, none once nobody waits for more."""
         return 0.0 if self._preparing.should_stop() else deadline - time.perf_counter()
 
-    def _price(self, model: Model, more: int = 0) -> float:
-        """Return about how long it takes to build a model again and to plan it, without search.
-
-        The model may be built with `more` nodes then.
-        """
-        nodes, each = model.problem.num_nodes + more, len(model.problem.travel)
+    def _price(self, model: Model) -> float:
+        """Return about how long it takes to build a model again and to plan it, without search."""
+        nodes, each = model.problem.num_nodes, len(model.problem.travel)
         return ((1 + len(model.relaxed)) * model_seconds(nodes, each)
                 + attempt_seconds(nodes, each))
-
-    def _reachable(self, job: Job) -> list[Window | None]:
-        """Return the windows of a job in which any vehicle works."""
-        if job.time_windows is None:
-            return [None]
-        within: list[Window | None] = [window for window in sorted(job.time_windows)
-                                       if self._converter.may_start(window)]
-        return within or [job.time_windows[0]]
 
     def _require_start(self, model: Model, start: Routes) -> None:
         """Refuse routes to start from that break a rule as the planner sees them."""
         loosest = replace(model, problem=model.relaxed[0]) if model.relaxed else model
-        if check(loosest.problem, loosest.solution(start, self._start_windows)).violations:
+        if check(loosest.problem, loosest.solution(start)).violations:
             raise RefusedError("The routes in steps can't be started from here: jobs with "
                                "setup and time_windows share a place.")
-
-    def _start_windows(self, kind: int, jobs: Sequence[int]) -> list[Window | None]:
-        """Return the window of each job of a route in which it starts."""
-        slots = Driver(self._request, self._places, self.kinds[kind].vehicles[0]).slots(jobs)
-        stated = [self._request.jobs[job].time_windows for job in jobs]
-        return [None if windows is None else sorted(windows)[slot]
-                for windows, slot in zip(stated, slots, strict=True)]
 
     def _improve(self, model: Model, seconds: float, start: Routes) -> Found:
         """Plan a problem, after relaxed ones if there are any; return no worse than `start`."""
@@ -303,10 +180,10 @@ class Planning:
 
         With nothing the search begins by insertion, not by the policy.
         """
-        given = model.solution(start, self._start_windows)
+        given = model.solution(start)
         # What keeps the true rules may break those of a stricter problem.
         if model.is_loose and check(model.problem, given).violations:
-            return model.solution({}, self._start_windows)
+            return model.solution({})
         return given
 
     def _judged(self, routes: Routes) -> Found:
@@ -349,7 +226,3 @@ class Planning:
 
 def _price_of(problem: Problem) -> float:
     return attempt_seconds(problem.num_nodes, len(problem.travel))
-
-
-def _tell_nobody(progress: Progress) -> None:
-    """Let a plan on the way pass."""

@@ -120,20 +120,6 @@ class Driver:
                           tuple(accumulate(times)), tuple(accumulate(self._leg_distances(jobs))),
                           travel, cost)
 
-    def slots(self, jobs: Sequence[int]) -> list[int]:
-        """Return in which of its windows each job starts, the last one where that is missed."""
-        time = _scaled(self._stated.time_window)[0]
-        slots = []
-        for job, travel, action in zip(jobs, self._leg_times(jobs), self._actions(jobs),
-                                       strict=False):
-            windows = _windows(self.request.jobs[job])
-            time += travel
-            slot = next((number for number, (_, end) in enumerate(windows) if time <= end),
-                        len(windows) - 1)
-            slots.append(slot)
-            time = max(time, windows[slot][0]) + sum(action)
-        return slots
-
     @property
     def rates(self) -> Rates:
         """What the vehicle makes of its matrices."""

@@ -11,7 +11,7 @@ import numpy as np
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import MAX_DIMENSIONS
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import Amount, demand_of, holds, plus
+from model.kernel.load import Amount, demand_of, holds, plus, release_of
 from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival
@@ -85,7 +85,7 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
         place, link = world.place[node], chain[node]
         link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
         set_chain_load(link, demand_of(place))
-        ready = max(leaves_first(kind, kind.shift_earliest), place.release)
+        ready = max(leaves_first(kind, kind.shift_earliest), release_of(place))
         link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
         leave = kind.shift_latest - leg(legs, node, end).duration
         link.latest = latest_arrival(place, leave)

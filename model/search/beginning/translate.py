@@ -90,7 +90,7 @@ def first_plan(problem: Problem, world: World) -> Solution:
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
     types, number = world.type, problem.num_customers
-    demand = np.sort(world.place[problem.num_depots:]["demand"], axis=0).cumsum(axis=0)
+    demand = np.sort(world.place[problem.num_depots:, 0]["demand"], axis=0).cumsum(axis=0)
     most, fewest = 0, number
     for kind in types:
         trips = min(int(kind.max_trips), number)

@@ -3,9 +3,9 @@
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import FAR
 from model.kernel.leg import leg_at, legs_from, legs_to
-from model.kernel.load import fits
+from model.kernel.load import fits, release_of
 from model.kernel.records import Record, Records
-from model.kernel.stop import end_of_service, hours, too_late
+from model.kernel.stop import end_of_service, too_late
 from model.problem import IntArray, UIntArray
 from model.search.route.edit import AT_STOP
 from model.search.route.layout import CHANGING, MODE_SIMPLE, NOWHERE, Fleet, World
@@ -31,7 +31,6 @@ def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, l
     probability `blink`. Returns its cost and the stop, or `best` and -1 if none costs less.
     """
     chosen = -1
-    own = hours(place)
     for p in range(first, last + 1):
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
@@ -39,11 +38,11 @@ def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, l
         if cost >= best or detour > spare or p == skipped:
             continue
         arrival = stops[p].leave + out.duration
-        if too_late(own, arrival):
-            if too_late(own, stops[p].leave):
+        if too_late(place, arrival):
+            if too_late(place, stops[p].leave):
                 break
             continue
-        arrival = end_of_service(own, arrival) + on.duration
+        arrival = end_of_service(place, arrival) + on.duration
         if arrival <= stops[p + 1].latest and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
@@ -54,8 +53,8 @@ def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Record
                  first: int, last: int, node: int, spare: int, rate: float, best: float,
                  blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
-    chosen, own = -1, hours(world.place[node])
-    leave = world.place[node].release
+    chosen, place = -1, world.place[node]
+    leave = release_of(place)
     if leave > stops[start].latest:
         return best, chosen
     for p in range(start, last + 1):
@@ -64,15 +63,15 @@ def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Record
             if arrival > stops[p].latest:
                 break
             leave = end_of_service(world.place[stops[p].node], arrival)
-        if too_late(own, leave):
+        if too_late(place, leave):
             break
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
         arrival = leave + out.duration
-        if p < first or cost >= best or detour > spare or too_late(own, arrival):
+        if p < first or cost >= best or detour > spare or too_late(place, arrival):
             continue
-        arrival = end_of_service(own, arrival) + on.duration
+        arrival = end_of_service(place, arrival) + on.duration
         if arrival <= stops[p + 1].latest and uniform(rng) >= blink:
             chosen, best = p, cost
     return best, chosen
@@ -87,7 +86,7 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     place = world.place[node]
     spare = world.type[k].max_trip_distance - trip.distance
-    if place.release > stops[trip.first].leave:
+    if release_of(place) > stops[trip.first].leave:
         return scan_delayed(world, inward, onward, stops, trip.first, first, last, node, spare,
                             rate, best, blink, rng)
     return scan_stops(inward, onward, stops, first, last, -1, place, spare, rate, best, blink, rng)
@@ -118,18 +117,18 @@ def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: in
 
     Or `best` and -1 if there is none shorter.
     """
-    chosen, own = -1, hours(place)
+    chosen = -1
     for p in range(last):
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
         if detour >= best:
             continue
         arrival = stops[p].leave + out.duration
-        if too_late(own, arrival):
-            if too_late(own, stops[p].leave):
+        if too_late(place, arrival):
+            if too_late(place, stops[p].leave):
                 break
             continue
-        arrival = end_of_service(own, arrival) + on.duration
+        arrival = end_of_service(place, arrival) + on.duration
         if arrival <= stops[p + 1].latest:
             chosen, best = p, detour
     return best, chosen
@@ -240,7 +239,7 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
 def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
                      move: Record, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where all routes are lean. As `scan_lean`."""
-    own = hours(world.place[node])
+    place = world.place[node]
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
         slot, behind = fleet.where[other].slot, fleet.where[other].position
@@ -259,8 +258,8 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
             out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
             cost = (out.distance + on.distance - stops[p].leg) * rate + base
             arrival = stops[p].leave + out.duration
-            following = end_of_service(own, arrival) + on.duration
-            if (cost < best and not too_late(own, arrival) and following <= stops[p + 1].latest
+            following = end_of_service(place, arrival) + on.duration
+            if (cost < best and not too_late(place, arrival) and following <= stops[p + 1].latest
                     and uniform(rng) >= world.blink):
                 best = cost
                 move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by

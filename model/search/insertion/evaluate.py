@@ -3,6 +3,7 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, leg_at, legs_of, legs_to
+from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from
 from model.kernel.stop import as_late, end_of_service, service_duration, too_late
@@ -11,7 +12,7 @@ from model.search.route.edit import (
     BY_SORTIE, BY_TRUCK, FLIGHT_TRIP, FROM_START, NEW_TRIP, ON_SORTIE, WAYS, apply, begin_route,
 )
 from model.search.route.layout import (
-    CUSTOMER, END, MODE_PRICED, MODE_PROFILE, MODE_SETTLED, START, Fleet, World, copy_sequence,
+    CUSTOMER, END, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, START, Fleet, World, copy_sequence,
 )
 from model.search.route.refresh import refresh
 from model.search.route.routes import sortie_cost, window_cost
@@ -198,7 +199,7 @@ def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record)
     trip = fleet.trip[slot, fleet.stop[slot, max(move.first, 0)].trip]
     if kind == ON_SORTIE:
         trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move.sortie].launch].trip]
-    release = world.place[node].release
+    release = release_of(world.place[node])
     alone = kind in (NEW_TRIP, FLIGHT_TRIP)
     held = not alone and release > trip.release
     first, last = part_of(fleet, slot, move, held)
@@ -217,11 +218,11 @@ def stands_alone(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bo
     """
     mode = world.mode[fleet.route[slot].type]
     stop = fleet.stop[slot, p]
-    if mode & MODE_PRICED and (mode & (MODE_SETTLED | MODE_PROFILE)
+    if mode & MODE_PRICED and (mode & (MODE_SETTLED | MODE_RETIMED)
                                or fleet.route[slot].sorties > 0):
         return False
     return (stop.flying == 0
-            and world.place[node].release <= fleet.trip[slot, stop.trip].release)
+            and release_of(world.place[node]) <= fleet.trip[slot, stop.trip].release)
 
 
 @inlined

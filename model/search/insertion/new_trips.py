@@ -3,7 +3,7 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import FAR
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import demand_of, holds, plus
+from model.kernel.load import demand_of, holds, plus, release_of
 from model.kernel.records import Records
 from model.kernel.stop import end_of_service, too_late
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
@@ -56,7 +56,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     first, last = trip.first, trip.last
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
-        release = world.place[stops[q].node].release if q > first else 0
+        release = release_of(world.place[stops[q].node]) if q > first else 0
         if q <= p:
             front = max(front, release)
         else:
@@ -64,7 +64,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
             rear_length += stops[q].leg
         if q < p:
             front_length += stops[q].leg
-    release = world.place[node].release
+    release = release_of(world.place[node])
     if until:
         front = max(front, release)
     else:
@@ -99,7 +99,7 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     time = kind.shift_earliest
     if p >= 0:
         time = stops[p].leave + kind.reload_duration
-    time = max(time, world.place[node].release)
+    time = max(time, release_of(world.place[node]))
     out, home = leg(legs, depot, node), leg(legs, node, depot)
     time = serve_at(world, node, time + out.duration) + home.duration
     if p + 1 < route.length and time + kind.reload_duration > stops[p + 1].latest:

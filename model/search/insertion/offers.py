@@ -145,9 +145,9 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         flight = out.duration + service + home.duration
         if not within_endurance(kind, left, left, met):
             # Held back for the window, the truck leaves later and may wait less on its way.
-            if earliest_back(kind, place, 0) <= left:
+            if earliest_back(kind, place, left + out.duration, 0) <= left:
                 break
-            if met > earliest_back(kind, place, home.duration):
+            if met > earliest_back(kind, place, left + out.duration, home.duration):
                 continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         longer = max(0, begun + flight - stops[recovery].leave)

@@ -3,7 +3,6 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import pasted
 from model.kernel.flight import held_until
-from model.kernel.instance import NONE
 from model.kernel.load import fits
 from model.kernel.stop import opening
 from model.search.insertion.cheapest_stop import (
@@ -65,9 +64,10 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
         if by_drone:
             for p in range(first, last):
                 offer_sorties(world, searcher, slot, p, node)
+            leave = now.stop[slot, first].leave
             # Who would have to wait for a flight from the depot may fly when the trip is over.
-            soonest = held_until(world.type[k], opening(world.place[node], NONE))
-            if now.stop[slot, first].leave < soonest:
+            soonest = held_until(world.type[k], opening(world.place[node], leave))
+            if leave < soonest:
                 offer_sorties(world, searcher, slot, last, node)
     if world.visits[k] > 1 and by_drone:
         offer_joining(world, searcher, slot, node)

@@ -6,14 +6,17 @@ By pairs `(d, c)`, which docs/search.md derives under "Times on a route".
 from model.kernel.clock import is_steady, leg_end
 from model.kernel.compiled import inlined
 from model.kernel.flight import (
-    counted_until, drone_service, earliest_back, enduring_within, held_until, launch_begin,
+    counted_until, drone_service, earliest_back, enduring_within, held_until, launch_begin, ready,
     recovery_end, take_off, unreachable,
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
 from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
-from model.kernel.stop import allowed_within, as_late, service_duration, start_within, too_late
+from model.kernel.stop import (
+    allowed_within, are_single, in_same_window, latest_allowed, service_duration, start_within,
+    too_late,
+)
 from model.problem import IntArray
 from model.search.route.layout import CUSTOMER, DONE, END, FLYING, START, WAITING, World
 
@@ -60,8 +63,8 @@ def plain_block(world: World, k: int, stop: Record, time: int) -> None:
     stop.lo, stop.hi, stop.dep = NONE, FAR, FAR
     if stop.kind == CUSTOMER:
         place = world.place[stop.node]
-        stop.lo, stop.hi = allowed_within(place, time, 0, NONE)
-        stop.dep = as_late(place, time)
+        stop.hi = latest_allowed(place)
+        stop.dep = in_same_window(place, time)
     elif stop.kind == END:
         stop.hi = world.type[k].shift_latest
 
@@ -70,22 +73,55 @@ def plain_block(world: World, k: int, stop: Record, time: int) -> None:
 def make_ready(world: World, k: int, stops: Records, sorties: Records, count: int) -> None:
     """Have the sorties of a route wait for their launches. In place.
 
-    And write how long each is held back: until windows let it be back within the endurance.
+    And write how long each is held back: until windows let it be back within the endurance. Where
+    some have several, that hangs on when it could begin, and is for `soonest_takeoff`.
     """
-    kind = world.type[k]
+    kind, single = world.type[k], are_single(world.place)
     legs = legs_of(world.leg, kind.drone_travel)
     for s in range(count):
         sortie = sorties[s]
-        node = stops[sortie.recovery].node
+        node = sortie.home = stops[sortie.recovery].node
+        sortie.state, sortie.held = WAITING, NONE
+        if not single:
+            continue
         back = home = 0
         for index in range(sortie.count - 1, -1, -1):
             customer = sortie.nodes[index]
             place = world.place[customer]
             home += leg(legs, customer, node).duration
-            back = max(back, earliest_back(kind, place, home))
+            back = max(back, earliest_back(kind, place, NONE, home))
             home += drone_service(kind, place)
             node = customer
-        sortie.state, sortie.held = WAITING, held_until(kind, back)
+        sortie.held = held_until(kind, back)
+
+
+@inlined
+def held_by_windows(places: Records, legs: IntArray, kind: Record, sortie: Record, node: int,
+                    takeoff: int) -> int:
+    """Return until when the windows hold a sortie back that it meets if it leaves at `takeoff`."""
+    time, back, here = takeoff, NONE, node
+    for index in range(sortie.count):
+        customer = sortie.nodes[index]
+        place, flight = places[customer], leg(legs, here, customer).duration
+        back = max(back + flight + drone_service(kind, place),
+                   earliest_back(kind, place, time + flight, 0))
+        time = ready(kind, place, time + flight)
+        here = customer
+    return held_until(kind, back + leg(legs, here, sortie.home).duration)
+
+
+@inlined
+def soonest_takeoff(places: Records, legs: IntArray, kind: Record, sortie: Record, node: int,
+                    takeoff: int) -> int:
+    """Return when a sortie takes off at `node` that can at `takeoff`: then, or held back."""
+    takeoff = max(takeoff, sortie.held)
+    if are_single(places):
+        return takeoff
+    held = held_by_windows(places, legs, kind, sortie, node, takeoff)
+    while held > takeoff:
+        takeoff = held
+        held = held_by_windows(places, legs, kind, sortie, node, takeoff)
+    return takeoff
 
 
 @inlined
@@ -104,7 +140,7 @@ def reach(place: Record, arrival: int, d: int, c: int, acc: Record) -> bool:
         return False
     first, last = allowed_within(place, acc.time, d, c)
     bound_arrival(acc, first, last)
-    acc.dep = min(acc.dep, as_late(place, arrival) - d)
+    acc.dep = min(acc.dep, in_same_window(place, arrival) - d)
     return True
 
 
@@ -113,7 +149,11 @@ def fly_out(places: Records, legs: IntArray, kind: Record, sortie: Record, node:
             acc: Record) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
     d = take_off(kind, acc.free_d)
-    c = max(take_off(kind, acc.free_c), sortie.held)
+    c = take_off(kind, acc.free_c)
+    takeoff = max(acc.time + d, c)
+    held = soonest_takeoff(places, legs, kind, sortie, node, takeoff)
+    if held > takeoff:
+        c = held
     acc.free_d, acc.free_c = d, c
     sortie.takeoff_d, sortie.takeoff_c = d, c
     sortie.takeoff = max(acc.time + d, c)
@@ -172,8 +212,8 @@ def is_aboard(sorties: Records, index: int, oldest: int) -> bool:
 
 
 @inlined
-def next_operation(legs: IntArray, kind: Record, sorties: Records, count: int, p: int,
-                   node: int, acc: Record) -> int:
+def next_operation(places: Records, legs: IntArray, kind: Record, sorties: Records,
+                   count: int, p: int, node: int, acc: Record) -> int:
     """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 
     A drone that is there is recovered before another is launched.
@@ -192,7 +232,8 @@ def next_operation(legs: IntArray, kind: Record, sorties: Records, count: int, p
                                                sorties[index].ready_c) + flight))
         elif (sorties[index].state == WAITING and sorties[index].launch == p
               and is_aboard(sorties, index, acc.oldest)):
-            begin = 2 * max(free, launch_begin(kind, sorties[index].held)) + 1
+            begin = 2 * launch_begin(kind, soonest_takeoff(
+                places, legs, kind, sorties[index], node, take_off(kind, free))) + 1
         if begin < earliest:
             chosen, earliest = index, begin
     return chosen
@@ -207,7 +248,7 @@ def operate(places: Records, legs: IntArray, kind: Record, sorties: Records, cou
     """
     # The whole world would be copied at each call.
     while True:
-        index = next_operation(legs, kind, sorties, count, p, node, acc)
+        index = next_operation(places, legs, kind, sorties, count, p, node, acc)
         if index < 0:
             break
         if sorties[index].state == FLYING:

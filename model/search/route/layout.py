@@ -37,7 +37,8 @@ CUSTOMER, START, END = range(3)
 
 SORTIE = record(
     "launch", "recovery", "drone", "count", "state", "takeoff_d", "takeoff_c", "ready_d", "ready_c",
-    "takeoff", "begin", "held", nodes=MOST_VISITS, arrivals=MOST_VISITS)
+    "takeoff", "begin", "held", "home",
+    nodes=MOST_VISITS, arrivals=MOST_VISITS)
 """Where it begins and ends; its customers, and when it reaches them; what `block` knows of it."""
 WAITING, FLYING, DONE = range(3)
 
@@ -59,9 +60,10 @@ PLACE = record("slot", "position", "sortie")
 NOWHERE, ELSEWHERE = -1, -2
 """Slot of a customer who is left out; of one whom another thread deals with."""
 
-MODE_TIMED, MODE_PRICED, MODE_SETTLED, MODE_PROFILE, MODE_SIMPLE, MODE_LEAN = 1, 2, 4, 8, 16, 32
-"""Flags of a type: working time costs or is limited; lateness or waiting cost, or speed changes;
-trips must be held back to know the cost; speed changes; an insertion's cost is that of its distance
+MODE_TIMED, MODE_PRICED, MODE_SETTLED, MODE_RETIMED, MODE_SIMPLE, MODE_LEAN = 1, 2, 4, 8, 16, 32
+"""Flags of a type: working time costs or is limited; lateness or waiting cost, or all is retimed;
+trips must be held back to know the cost; all behind a change is timed again, since speed changes,
+or who comes later may have to wait for another window; an insertion's cost is that of its distance
 alone; as that, with one trip of any distance, no releases and no drones."""
 
 

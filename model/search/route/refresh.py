@@ -8,7 +8,7 @@ from model.kernel.start import counted_from, leaves_first
 from model.kernel.stop import latest_free_arrival
 from model.problem import UIntArray
 from model.search.route.layout import (
-    CUSTOMER, ELSEWHERE, MODE_LEAN, MODE_PROFILE,
+    CUSTOMER, ELSEWHERE, MODE_LEAN, MODE_RETIMED,
     MODE_SETTLED, NOWHERE, START, Fleet, World,
 )
 from model.search.route.lean import refresh_lean
@@ -29,7 +29,7 @@ def latest_hold(world: World, route: Record, stops: Records, sorties: Records,
     Where speed changes with time, no later than keeps all blocks with sorties as they are.
     """
     k, length = route.type, route.length
-    if not world.mode[k] & MODE_PROFILE:
+    if not world.mode[k] & MODE_RETIMED:
         base = stops[first].before
         hold = route.end - (route.cum - base)
         p = first
@@ -144,7 +144,7 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     if mode & MODE_SETTLED:
         clear_holds(route, stops, trips)
         drive_forward(world, route, stops, sorties, acc)
-    if mode & MODE_PROFILE:
+    if mode & MODE_RETIMED:
         open_up(route, stops)
     else:
         look_back(world, route, stops)

@@ -4,10 +4,10 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.flight import launch_duration, recovery_end
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import demand_of, holds
+from model.kernel.load import demand_of, holds, release_of
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from, has_begun
-from model.kernel.stop import lateness, waiting
+from model.kernel.stop import are_single, latest_arrival, lateness, waiting
 from model.search.route.block import make_ready, plain_block, time_block, travel
 from model.search.route.layout import CUSTOMER, END, MODE_PRICED, START, World, clear_trip
 from model.search.route.vehicles import add_load, load_of
@@ -17,7 +17,7 @@ from model.search.route.vehicles import add_load, load_of
 def carry(world: World, trip: Record, node: int) -> None:
     """Put a customer's parcel on a trip. In place."""
     place = world.place[node]
-    trip.release = max(trip.release, place.release)
+    trip.release = max(trip.release, release_of(place))
     add_load(trip, demand_of(place))
 
 
@@ -108,6 +108,7 @@ def look_back(world: World, route: Record, stops: Records) -> None:
     As docs/search.md derives under "Times on a route".
     """
     latest, earliest, rest, end = FAR, NONE, 0, NONE
+    single = are_single(world.place)
     q = route.length - 1
     gap = 0
     while q >= 0:
@@ -119,7 +120,11 @@ def look_back(world: World, route: Record, stops: Records) -> None:
         early = stop.lo
         if c < earliest - gap:
             early = max(early, earliest - gap - d)
-        latest = min(stop.hi, latest - gap - d)
+        leave = latest - gap
+        latest = min(stop.hi, leave - d)
+        if stop.kind == CUSTOMER and not single:
+            # No drone flies, or the route would be retimed.
+            latest = latest_arrival(world.place[stop.node], leave)
         earliest = early
         end = max(c + gap + rest, end)
         rest += d + gap

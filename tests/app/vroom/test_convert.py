@@ -2,7 +2,6 @@
 
 import json
 import random
-from collections.abc import Sequence
 from typing import Any
 
 import pytest
@@ -16,7 +15,6 @@ from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.errors import RefusedError, TooLargeError
 from model.dialects.vroom.models import Model, Routes
 from model.dialects.vroom.places import Places
-from model.dialects.vroom.request import Window
 from model.dialects.vroom.timing import COST_SCALE, Driver
 from model.dialects.vroom.work import LegLimit
 from model.judge.check import check
@@ -33,18 +31,10 @@ class Case:
         self.request = translate(stated)
         self.places: Places = find_places(stated, {"car": 36.0})
         self.converter = Converter(self.request, self.places, LegLimit(max_legs, "MOST"))
-        self.model: Model = self.converter.model({
-            index: [None] if job.time_windows is None else sorted(job.time_windows)
-            for index, job in enumerate(self.request.jobs)})
+        self.model: Model = self.converter.model(range(len(self.request.jobs)))
 
     def vehicle(self, kind: int) -> int:
         return self.converter.kinds[kind].vehicles[0]
-
-    def starts(self, kind: int, jobs: Sequence[int]) -> list[Window | None]:
-        slots = Driver(self.request, self.places, self.vehicle(kind)).slots(jobs)
-        stated = [self.request.jobs[job].time_windows for job in jobs]
-        return [None if windows is None else sorted(windows)[slot]
-                for windows, slot in zip(stated, slots, strict=True)]
 
     def keeps_rules(self, routes: Routes) -> bool:
         return not any(
@@ -75,13 +65,13 @@ def test_plans_that_pass_the_planners_check_keep_vrooms_rules_at_vrooms_cost(see
     case = Case(sample_request(draw))
     for _ in range(10):
         routes = draw_routes(draw, case)
-        solution = case.model.solution(routes, case.starts)
+        solution = case.model.solution(routes)
         evaluation = check(case.model.problem, solution)
         if evaluation.violations:
             continue
         assert case.keeps_rules(routes)
         assert case.model.routes(solution) == routes
-        if not case.model.relaxed and max(map(len, case.model.nodes.of_job().values())) == 1:
+        if not case.model.relaxed:
             cost = evaluation.cost.total - evaluation.cost.unassigned
             assert cost == pytest.approx(case.cost(routes), abs=0.01)
 
@@ -99,7 +89,7 @@ def test_plans_that_keep_vrooms_rules_pass_the_planners_check(seed: int) -> None
     for _ in range(10):
         routes = draw_routes(draw, case)
         if case.keeps_rules(routes):
-            assert check(problem, case.model.solution(routes, case.starts)).violations == ()
+            assert check(problem, case.model.solution(routes)).violations == ()
 
 
 @pytest.fixture
@@ -169,7 +159,7 @@ def test_jobs_out_of_reach_are_not_servable(street: Data) -> None:
     for vehicle in street["vehicles"]:
         vehicle |= {"time_window": [200, 1500], "capacity": [2]}
     street["jobs"][2]["delivery"] = [3]
-    assert Case(street).model.servable() == {1: [(1000, 2000)], 3: [None]}
+    assert Case(street).model.servable() == [1, 3]
 
 
 def test_timestamps_are_as_good_as_seconds_from_now(street: Data) -> None:
@@ -188,12 +178,18 @@ def test_windows_generations_apart_are_refused(street: Data) -> None:
         Case(street)
 
 
-def test_too_many_windows_are_too_large(street: Data) -> None:
-    windows = [[10 * number, 10 * number + 5] for number in range(100)]
-    street["jobs"] = [{"id": number, "location_index": 1, "time_windows": windows}
-                      for number in range(40)]
-    with pytest.raises(TooLargeError, match=r"4001.*3999 \(MOST\)"):
-        Case(street, max_legs=15_999_999)
+def test_a_job_is_one_customer_whatever_its_windows(street: Data) -> None:
+    street["jobs"][0]["time_windows"] = [[300, 400], [50, 60], [100, 100]]
+    street["vehicles"][0]["time_window"] = street["vehicles"][1]["time_window"] = [80, 5000]
+    first, *others = Case(street).model.problem.customers
+    assert len(others) == 3
+    assert (first.earliest, first.gaps, first.latest) == (20_000, ((20_000, 220_000),), 320_000)
+
+
+def test_too_many_jobs_are_too_large(street: Data) -> None:
+    street["jobs"] = [{"id": number, "location_index": 1} for number in range(40)]
+    with pytest.raises(TooLargeError, match=r"41.*40 \(MOST\)"):
+        Case(street, max_legs=41**2 - 1)
 
 
 def test_too_many_unlike_vehicles_are_too_large(street: Data) -> None:

@@ -1,11 +1,9 @@
 """The time limit of `POST /vroom` holds for large requests, and what can't keep it is refused."""
 
 import json
-import math
 import random
 import time
-from collections.abc import Callable, Iterator, Sequence
-from types import SimpleNamespace
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -22,8 +20,6 @@ from app.vroom.translate import translate
 from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.drives import Drives
 from model.dialects.vroom.places import Places
-from model.dialects.vroom.planning import Planning
-from model.dialects.vroom.request import Request
 from model.dialects.vroom.work import LegLimit
 from model.planner import ALONE, Listener, PlanOptions, PlanResult
 from model.problem import Problem
@@ -96,8 +92,7 @@ def converted(request: Data, preparing: Preparing) -> int:
     read = VroomRequest.model_validate_json(json.dumps(request))
     places: Places = find_places(read, SPEEDS)
     converter = Converter(translate(read), places, LIMIT)
-    slots = {index: [(0, 40_000)] for index in range(len(read.jobs))}
-    return len(converter.model(slots, preparing).problem.travel)
+    return len(converter.model(range(len(read.jobs)), preparing).problem.travel)
 
 
 def test_matrices_are_no_longer_built_once_the_client_has_left() -> None:
@@ -151,41 +146,3 @@ def test_stages_that_there_is_no_time_for_are_left_out(
     assert len(planner.given) <= most
     if seconds < 0.3:
         assert len(planner.given) > 7
-
-
-@pytest.mark.parametrize(("seconds", "most"), [(1e-9, 100), (2.0, 1)])
-def test_windows_are_not_chosen_again_where_there_is_no_time(
-        monkeypatch: pytest.MonkeyPatch, seconds: float, most: int) -> None:
-    monkeypatch.setattr("model.dialects.vroom.planning.attempt_seconds", lambda *_: seconds)
-    request = crowd(3, l=1.5)
-    for job in request["jobs"]:
-        job |= {"priority": 0, "skills": [7],
-                "time_windows": [[1000 * begin, 1000 * begin + 500] for begin in range(20)]}
-    request["vehicles"].append({"id": 7, "start": [10.0, 54.0], "skills": [7], "capacity": [1]})
-    planner = NotingPlanner()
-    asked(request, planner)
-    assert len(planner.given) <= most
-    if seconds < 1.0:
-        assert len(planner.given) > 1
-
-
-@pytest.mark.parametrize("every", [1, 2, 3, 50, 1000])
-def test_jobs_that_fail_are_taken_from_a_route_in_few_looks(
-        monkeypatch: pytest.MonkeyPatch, every: int) -> None:
-    looks: list[Sequence[int]] = []
-
-    def faults(request: Request, places: Places, vehicle: int,
-               jobs: Sequence[int]) -> Iterator[str]:
-        looks.append(jobs)
-        yield from ("late" for job in jobs if job % every == 0)
-
-    monkeypatch.setattr("model.dialects.vroom.planning.route_faults", faults)
-    monkeypatch.setattr("model.dialects.vroom.planning.drive", lambda *_: SimpleNamespace(cost=1))
-    read = VroomRequest.model_validate_json(json.dumps(crowd(300)))
-    planning = Planning(translate(read), find_places(read, SPEEDS),
-                        plan=None,  # type: ignore[arg-type]
-                        options=PlanOptions("none"), max_legs=LIMIT)
-    sound = [job for job in range(300) if job % every]
-    assert planning._mended({0: [range(300)]}, math.inf) == ({0: [sound]} if sound else {})
-    assert len(looks) <= 20 + 3 * min(300, 6 * (300 // every + 1))
-    assert planning._mended({0: [range(300)]}, -math.inf) == {}

@@ -206,3 +206,17 @@ def test_who_is_left_out_after_the_time_is_told_so_for_each_type(tiny_problem, c
     assert "on truck" in reasons[0].message
     assert "on van" in reasons[1].message
     assert reasons is explain(problem, Solution((), (2, 3, 4, 5)), 4, until=0.0)
+
+
+def test_a_later_window_counts_if_it_fits(tiny_problem, customers, truck, drones):
+    *others, d = customers
+    several = replace(d, gaps=((7 * MINUTE, 40 * MINUTE),), latest=50 * MINUTE)
+    hours = replace(truck, max_working_duration=21 * MINUTE)
+    assert reason_for_d(tiny_problem(*others, several, truck=hours)).code == "SEARCH"
+    short = replace(hours, latest=60 * MINUTE)
+    assert reason_for_d(tiny_problem(*others, several, truck=short)).code == "SEARCH"
+    assert reason_for_d(tiny_problem(*others, several, truck=replace(
+        hours, latest=48 * MINUTE))).code == "SHIFT"
+    flown = replace(several, served_by="drone")
+    assert reason_for_d(tiny_problem(*others, flown, truck=replace(
+        truck, drones=replace(drones, endurance=14 * MINUTE)))).code == "SEARCH"

@@ -86,6 +86,12 @@ def test_soft_windows_cost(tiny_problem, customers, truck, drones):
     assert evaluation.cost == Cost(lateness=3.0 + 6.0, earliness=1.0)
 
 
+def test_waiting_between_two_windows_costs(tiny_problem, customers, truck):
+    a = replace(customers[0], gaps=((MINUTE, 6 * MINUTE),), early_cost_per_hour=30.0)
+    problem = tiny_problem(a, truck=truck)  # reached at 2, waits 4
+    assert check(problem, plan(problem, TripDecision((0, 1, 0)))).cost == Cost(earliness=2.0)
+
+
 def test_metrics_of_a_route(tiny_problem, customers, truck, drones):
     problem = tiny_problem(*customers[:3], truck=replace(
         truck, drones=drones, max_working_duration=36 * MINUTE))

@@ -92,6 +92,27 @@ def test_truck_waits_for_the_window_and_serves(tiny_problem, customers, truck):
                           stop_at(0, 26, 26, 26))
 
 
+@pytest.mark.parametrize(("start", "served"), [(0, 5), (3, 5), (4, 6), (5, 20), (18, 20), (19, 21)])
+def test_who_comes_between_two_windows_waits_for_the_next(
+        start, served, tiny_problem, customers, truck):
+    a = replace(customers[0], earliest=5 * MINUTE, gaps=(minutes(6, 20),), latest=30 * MINUTE)
+    trip = one_trip(tiny_problem(a, truck=truck),
+                    TripDecision((0, 1, 0), start=start * MINUTE))
+    assert trip.stops[1] == stop_at(1, start + 2, served, served + 5)
+
+
+@pytest.mark.parametrize(("closes", "takeoff"), [(4, 1), (3, 48)])
+def test_launch_is_held_back_for_the_window_that_is_met(
+        closes, takeoff, tiny_problem, customers, truck, drones):
+    c = replace(customers[2], gaps=(minutes(closes, 60),))
+    problem = tiny_problem(*customers[:2], c, truck=replace(
+        truck, drones=replace(drones, endurance=20 * MINUTE)))
+    trip = one_trip(problem, TripDecision((0, 0), (SortieDecision((3,), 0, 0),)))
+    sortie, = trip.sorties
+    assert sortie.launch_time == takeoff * MINUTE
+    assert sortie.visits[0].service_start == (4 if takeoff == 1 else 60) * MINUTE
+
+
 def test_trip_begins_on_shift_and_after_release(tiny_problem, customers, truck):
     problem = tiny_problem(replace(customers[0], release_time=3 * MINUTE),
                            truck=replace(truck, earliest=2 * MINUTE))

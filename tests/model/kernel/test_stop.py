@@ -7,53 +7,53 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.compiled import compiled
 from model.kernel.instance import pack
-from model.kernel.records import Record
+from model.kernel.records import Records
 from model.kernel.stop import (
-    allowed_within, as_late, closing, end_of_service, hours, lateness, latest_arrival,
-    latest_free_arrival, start_of_service, start_within, too_late, waiting, width,
+    allowed_within, as_late, closing, end_of_service, in_same_window, lateness, latest_arrival,
+    latest_free_arrival, opening, start_of_service, start_within, too_late, waiting, width,
 )
-from model.problem import MS_PER_HOUR, UNLIMITED, IntArray, Problem
+from model.problem import MS_PER_HOUR, UNLIMITED, Problem
 from model.solution import Route, Solution
-from tests.model.tiny import MINUTE, draw_tiny
+from tests.model.tiny import MINUTE, draw_tiny, with_gaps
 
 
 @compiled
-def times(place: Record, arrival: int) -> tuple[int, int, int, int, bool]:
+def times(place: Records, arrival: int) -> tuple[int, int, int, int, bool]:
     return (start_of_service(place, arrival), end_of_service(place, arrival),
             waiting(place, arrival), lateness(place, arrival), too_late(place, arrival))
 
 
 @compiled
-def times_of_hours(place: Record, arrival: int) -> tuple[int, int, int, int, bool]:
-    own = hours(place)
-    return (start_of_service(own, arrival), end_of_service(own, arrival), waiting(own, arrival),
-            lateness(own, arrival), too_late(own, arrival))
-
-
-@compiled
-def last_arrivals(place: Record, arrival: int, leave: int) -> tuple[int, int, int]:
+def last_arrivals(place: Records, arrival: int, leave: int) -> tuple[int, int, int, int]:
     return (as_late(place, arrival), latest_arrival(place, leave),
-            latest_free_arrival(place, arrival, leave))
+            latest_free_arrival(place, arrival, leave), in_same_window(place, arrival))
 
 
 @compiled
-def within_block(place: Record, time: int, d: int, c: int) -> tuple[int, int, int, int]:
+def within_block(place: Records, time: int, d: int, c: int) -> tuple[int, int, int, int]:
     start_d, start_c = start_within(place, time, d, c)
     first, last = allowed_within(place, time, d, c)
     return start_d, start_c, first, last
 
 
 @compiled
-def extent(place: Record) -> tuple[int, int]:
+def window(place: Records, arrival: int) -> int:
+    return opening(place, arrival)
+
+
+@compiled
+def extent(place: Records) -> tuple[int, int]:
     return closing(place), width(place)
 
 
-def drawn(seed: int, count: int = 150) -> list[tuple[Problem, int, IntArray, int]]:
-    """Return problems, one customer's node and row in each, and an instant."""
+def drawn(seed: int, count: int = 150) -> list[tuple[Problem, int, Records, int]]:
+    """Return problems, one customer's node and rows in each, and an instant."""
     rng = np.random.default_rng(seed)
-    found = []
+    found: list[tuple[Problem, int, Records, int]] = []
     for _ in range(count):
         problem = draw_tiny(rng)
+        if len(found) % 2:
+            problem = with_gaps(rng, problem)
         node = int(rng.integers(problem.num_depots, problem.num_nodes))
         found.append((problem, node, pack([problem]).node[0, node],
                       int(rng.integers(0, 70)) * MINUTE))
@@ -67,7 +67,7 @@ def visit(problem: Problem, node: int, start: int) -> Route:
     return schedule(problem, RouteDecision(0, 0, (decision,)))
 
 
-def leaves_by(place: Record, arrival: int, leave: int) -> bool:
+def leaves_by(place: Records, arrival: int, leave: int) -> bool:
     """Tell whether an arrival is allowed and lets a truck leave by an instant."""
     _, end, _, _, forbidden = times(place, arrival)
     return end <= leave and not forbidden
@@ -97,21 +97,21 @@ def test_an_arrival_is_late_or_too_late_when_the_judge_says() -> None:
     assert hard > 10 < soft
 
 
-def test_what_a_loop_takes_along_says_the_same_as_the_row() -> None:
-    for _, _, place, arrival in drawn(seed=3):
-        assert times(place, arrival) == times_of_hours(place, arrival)
-
-
 def test_last_arrivals_are_the_last_ones_that_will_do() -> None:
     for _, _, place, arrival in drawn(seed=4):
         leave = arrival + 5 * MINUTE
-        late, latest, free = last_arrivals(place, arrival, leave)
+        late, latest, free, same = last_arrivals(place, arrival, leave)
         allowed = times(place, arrival)[3]
         assert times(place, late)[3] <= allowed < times(place, late + 1)[3]
         if times(place, 0)[1] <= leave:
             assert leaves_by(place, latest, leave)
             assert not leaves_by(place, latest + 1, leave)
-        assert free == min(late, leave - (times(place, 0)[1] - times(place, 0)[0]))
+            assert free == min(late, latest) or times(place, free)[4]
+        windows = {times(place, other)[0]
+                   for other in range(arrival, min(same, 120 * MINUTE) + 1, MINUTE)
+                   if times(place, other)[2] > 0}
+        assert len(windows) <= 1
+        assert same == late or times(place, same + 1)[2] > 0
 
 
 def test_a_pair_stands_for_all_arrivals_at_the_beginning_of_a_block() -> None:
@@ -121,15 +121,19 @@ def test_a_pair_stands_for_all_arrivals_at_the_beginning_of_a_block() -> None:
         if times(place, c)[4]:
             continue
         start_d, start_c, first, last = within_block(place, time, d, c)
+        serving = window(place, max(time + d, c))
         for other in range(0, 80 * MINUTE, 5 * MINUTE):
             arrival = max(other + d, c)
             begin, _, _, _, forbidden = times(place, arrival)
-            assert max(other + start_d, start_c) == begin
-            assert (first <= other <= last) == (not forbidden)
+            allowed = not forbidden and window(place, arrival) == serving
+            assert (first <= other <= last) == allowed
+            if allowed:
+                assert max(other + start_d, start_c) == begin
 
 
-def test_a_window_is_as_wide_as_it_is_stated() -> None:
+def test_windows_are_as_wide_as_they_are_stated() -> None:
     for problem, node, place, _ in drawn(seed=6):
         customer = problem.customer_at(node)
-        assert extent(place) == (customer.latest, customer.latest - customer.earliest)
+        between = sum(opens - closes for closes, opens in customer.gaps)
+        assert extent(place) == (customer.latest, customer.latest - customer.earliest - between)
     assert UNLIMITED in {extent(place)[0] for _, _, place, _ in drawn(seed=6)}

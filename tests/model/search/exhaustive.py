@@ -11,7 +11,9 @@ from functools import cache
 from itertools import combinations, pairwise, permutations
 
 from model.judge.check import check
-from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
+from model.judge.timing import (
+    RouteDecision, SortieDecision, TripDecision, opening, schedule,
+)
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, IntArray, Problem, VehicleType
 from model.solution import Route, Solution, Stop, Visit
 
@@ -112,9 +114,17 @@ def _cost_begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> 
 
 
 def _costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
-    """Tell whether a later start adds no lateness, lengthens no sortie and ends no later."""
+    """Tell whether a later start adds no lateness, lengthens no sortie and ends no later.
+
+    With drones, nobody may be served in another window either.
+    """
+    has_drones = any(trip.sorties for trip in soon.trips)
+
     def may_be(halt: Stop | Visit, later: Stop | Visit) -> bool:
-        return later.arrival <= max(halt.arrival, problem.customer_at(halt.node).latest)
+        customer = problem.customer_at(halt.node)
+        if has_drones and opening(customer, halt.arrival) != opening(customer, later.arrival):
+            return False
+        return later.arrival <= max(halt.arrival, customer.latest)
 
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):

@@ -58,8 +58,9 @@ def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int
     for p in range(searcher.now.route[slot].length - 1):
         here, there = stops[p].node, stops[p + 1].node
         arrival = stops[p].leave + legs[here, node, 0]
-        leave = max(arrival, place.window_earliest) + place.service_duration
-        if arrival <= place.arrival_limit and leave + legs[node, there, 0] <= stops[p + 1].latest:
+        leave = max(arrival, place[0].window_earliest) + place[0].service_duration
+        behind = leave + legs[node, there, 0]
+        if arrival <= place[0].arrival_limit and behind <= stops[p + 1].latest:
             detours[p] = legs[here, node, 1] + legs[node, there, 1] - stops[p].leg
     return detours
 

@@ -15,7 +15,7 @@ from model.problem import (
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
-from tests.model.tiny import draw_tiny, with_beginnings, with_places
+from tests.model.tiny import draw_tiny, with_beginnings, with_gaps, with_places
 
 MINUTE = 60_000
 TURNS = 6_000
@@ -194,6 +194,10 @@ def all_rules_begun(rng: np.random.Generator) -> Problem:
     return with_beginnings(rng, with_places(rng, all_rules(rng)))
 
 
+def all_rules_several_windows(rng: np.random.Generator) -> Problem:
+    return with_gaps(rng, all_rules(rng))
+
+
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     assert missed_seeds(draw, range(4)) == []
@@ -212,8 +216,9 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 
 
 @pytest.mark.parametrize("first", range(0, 60, SHARE))
-@pytest.mark.parametrize("draw", [all_rules_elsewhere, all_rules_begun],
-                         ids=lambda draw: draw.__name__)
-def test_search_finds_the_cheapest_plan_however_vehicles_begin(
+@pytest.mark.parametrize("draw", [
+    all_rules_elsewhere, all_rules_begun, all_rules_several_windows],
+    ids=lambda draw: draw.__name__)
+def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem], first: int) -> None:
     assert missed_seeds(draw, range(first, first + SHARE)) == []
