@@ -1,6 +1,6 @@
 """Bringing a route up to date after its sequence has changed."""
 
-from model.kernel.clock import leg_start
+from model.kernel.clock import is_steady, leg_start
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import FAR, NONE
 from model.kernel.records import Record, Records
@@ -26,18 +26,21 @@ def latest_hold(world: World, route: Record, stops: Records, sorties: Records,
                 first: int) -> int:
     """Return the latest start of the trip that begins at stop `first` which costs nothing.
 
-    Where speed changes with time, no later than keeps all blocks with sorties as they are.
+    If all is retimed, either by moving the whole trip within the windows that are met, or stop by
+    stop, which may reach others but leaves blocks with sorties as they are.
     """
     k, length = route.type, route.length
-    if not world.mode[k] & MODE_RETIMED:
+    hold = NONE
+    if is_steady(world.type[k]):
         base = stops[first].before
         hold = route.end - (route.cum - base)
         p = first
         while p < length:
             hold = min(hold, stops[p].dep - (stops[p].before - base))
             p = stops[p].last + 1
-        return hold
-    return latest_by_profile(world, route, stops, sorties, first)
+    if world.mode[k] & MODE_RETIMED:
+        hold = max(hold, latest_by_stops(world, route, stops, sorties, first))
+    return hold
 
 
 @inlined
@@ -50,9 +53,9 @@ def has_sortie(route: Record, sorties: Records, p: int) -> bool:
 
 
 @inlined
-def latest_by_profile(world: World, route: Record, stops: Records, sorties: Records,
+def latest_by_stops(world: World, route: Record, stops: Records, sorties: Records,
                       first: int) -> int:
-    """Return the latest start of a trip that costs nothing where speed changes. See above."""
+    """Return the latest start of a trip that costs nothing, by each stop's last arrival."""
     k, length = route.type, route.length
     leave = FAR
     p = length - 1
