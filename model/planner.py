@@ -289,8 +289,8 @@ def _nobody(problem: Problem) -> Solution:
 
 
 def _pause(listener: Listener, deadline: float | None, start: Solution | None) -> Pause:
-    """Return what ends the work before a search; without a plan, a late one is better than none."""
-    latest = math.inf if deadline is None or start is None else deadline
+    """Return what ends the work before a search; if no route is given, a late one beats none."""
+    latest = math.inf if deadline is None or start is None or not start.routes else deadline
     return pausing(listener.should_stop, latest, GRACE)
 
 

@@ -12,8 +12,12 @@ SHARE = 0.9
 PATIENCE = 0.05
 """Seconds in which work is done even if nobody waits for it: what is nearly ready is answered."""
 
-SHORTEST = 0.1
-"""Seconds that are there at least, as replies may be so late."""
+LEAST_WORK = 0.1
+"""Seconds of work that are always allowed, as replies may be so late."""
+
+LEAST_TIME = 0.5
+"""Seconds that may always pass before the search: a machine that is busy for a moment answers small
+requests late, and doesn't refuse them."""
 
 
 class StoppedError(RequestError):
@@ -61,26 +65,32 @@ class Preparing:
         spent = time.perf_counter() - self.began
         if spent > PATIENCE and self.should_stop():
             raise StoppedError("The work was stopped before there was a plan: try again.")
-        if spent > self._allowed:
-            raise self._refusal(f"took {spent:.1f} s so far")
+        if spent > self._latest:
+            raise self._refusal(f"took {spent:.1f} s so far", self._latest)
 
     def expect(self, seconds: float) -> None:
         """Go on, if there is time enough for what comes next; raises as `pause` does."""
         self.pause()
+        if seconds > self._most_work:
+            raise self._refusal(f"take about {seconds:.1f} s", self._most_work)
         total = time.perf_counter() - self.began + seconds
-        if total > self._allowed:
-            raise self._refusal(f"take about {total:.1f} s")
+        if total > self._latest:
+            raise self._refusal(f"take about {total:.1f} s", self._latest)
 
     def allows(self, seconds: float) -> bool:
         """Tell whether there is time enough for what may come next."""
-        return time.perf_counter() - self.began + seconds <= self._allowed
+        return time.perf_counter() - self.began + seconds <= self._most_work
 
     @property
-    def _allowed(self) -> float:
-        return max(SHORTEST, SHARE * self.seconds)
+    def _most_work(self) -> float:
+        return max(LEAST_WORK, SHARE * self.seconds)
 
-    def _refusal(self, found: str) -> InvalidRequestError:
-        message = (f"{self.work} {found} on one core, and {self._allowed:.1f} s may be spent "
+    @property
+    def _latest(self) -> float:
+        return max(LEAST_TIME, SHARE * self.seconds)
+
+    def _refusal(self, found: str, allowed: float) -> InvalidRequestError:
+        message = (f"{self.work} {found} on one core, and {allowed:.1f} s may be spent "
                    f"on them by {self.limit}: allow more time, or {self.advice}.")
         return InvalidRequestError([InputError(code="TOO_MUCH_WORK", path="$", message=message)])
 

@@ -34,8 +34,8 @@ EXPLORATION_SECONDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
 """How long to search by `options.x`."""
 
 LEAST_PREPARING = 0.25
-"""Seconds that may pass before the search, however short its time limit: on a busy machine a small
-request would be refused else."""
+"""Seconds by which the work before the search is judged at least: `x` 0 asks for the least search,
+whatever the request's size."""
 
 SECONDS_PER_JOB = 2e-4
 """Kept back for the last check and the reply."""
@@ -55,8 +55,10 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
     PlanCheckError
         If the plan found breaks a rule.
     """
+    # Since then, not since the body came: waiting for a turn is no work on the request.
+    began = time.perf_counter()
     request = read_request(body.content, settings.max_customers, settings.max_customers)
-    preparing = preparing_of(request.options, body, settings, should_stop)
+    preparing = preparing_of(request.options, began, settings, should_stop)
     try:
         return _answer(planner, request, body, settings, preparing, on_plan)
     except InvalidRequestError as error:
@@ -65,14 +67,14 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
         raise refused(error) from error
 
 
-def preparing_of(stated: VroomOptionsInput, body: ReceivedBody, settings: Settings,
+def preparing_of(stated: VroomOptionsInput, began: float, settings: Settings,
                  should_stop: Callable[[], bool]) -> Preparing:
     """Return the work before the search, which is a part of the time limit."""
     seconds = search_seconds(stated, settings)
     return Preparing(
         should_stop, max(LEAST_PREPARING, seconds),
         f"the time limit of {seconds:g} s, which options.l states up to "
-        f"{settings.max_plan_seconds:g} s (TANDEM_MAX_PLAN_SECONDS)", began=body.received_at,
+        f"{settings.max_plan_seconds:g} s (TANDEM_MAX_PLAN_SECONDS)", began=began,
         work="Legs and a first plan",
         advice="send fewer jobs, or fewer vehicles that drive unlike each other")
 

@@ -4,6 +4,7 @@ import json
 import math
 import random
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
@@ -94,6 +95,39 @@ def test_work_ends_when_the_clock_says_so_though_the_estimate_did_not(
     with pytest.raises(InvalidRequestError) as refusal:
         task_of(request, past)
     assert refusal.value.errors[0].code == "TOO_MUCH_WORK"
+
+
+@pytest.fixture
+def at(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Preparing]:
+    """Return a function that returns work that began some seconds ago, while the clock stands."""
+    monkeypatch.setattr("app.conversion.preparing.time", SimpleNamespace(perf_counter=lambda: 50.0))
+    return lambda spent, limit: Preparing(seconds=limit, limit="a limit", began=50.0 - spent)
+
+
+@pytest.mark.parametrize(("limit", "spent"), [(0.0, 0.4), (0.15, 0.3), (0.5, 0.48), (1.0, 0.85)])
+def test_little_work_goes_on_though_the_machine_was_busy(
+        at: Callable[..., Preparing], limit: float, spent: float) -> None:
+    at(spent, limit).pause()
+    at(spent, limit).expect(0.01)
+
+
+@pytest.mark.parametrize(("limit", "spent", "expected"), [
+    (0.0, 0.0, 0.11), (0.15, 0.0, 0.14), (0.15, 0.45, 0.1), (1.0, 0.0, 0.91), (1.0, 0.8, 0.11),
+    (10.0, 8.0, 1.1)])
+def test_work_that_does_not_fit_is_refused_before_it_is_done(
+        at: Callable[..., Preparing], limit: float, spent: float, expected: float) -> None:
+    at(spent, limit).pause()
+    with pytest.raises(InvalidRequestError) as refusal:
+        at(spent, limit).expect(expected)
+    assert "take about" in refusal.value.errors[0].message
+
+
+@pytest.mark.parametrize(("limit", "spent"), [(0.0, 0.51), (0.15, 0.51), (1.0, 0.91), (10.0, 9.1)])
+def test_work_ends_at_nine_tenths_of_a_time_limit_or_half_a_second(
+        at: Callable[..., Preparing], limit: float, spent: float) -> None:
+    with pytest.raises(InvalidRequestError) as refusal:
+        at(spent, limit).pause()
+    assert "so far" in refusal.value.errors[0].message
 
 
 def test_work_ends_when_it_is_told_to() -> None:

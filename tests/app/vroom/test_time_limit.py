@@ -3,7 +3,6 @@
 import json
 import random
 import time
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -48,9 +47,10 @@ def crowd(jobs: int, speeds: int = 1, **options: Any) -> Data:
 
 
 def asked(request: Data, planner: Any, settings: Settings | None = None,
-          should_stop: Callable[[], bool] = lambda: False) -> Data:
-    body = ReceivedBody(json.dumps(request).encode(), time.perf_counter())
-    reply: Data = json.loads(answer(planner, body, settings or Settings(), should_stop))
+          waited: float = 0.0) -> Data:
+    """Return the reply to a request that came some seconds ago."""
+    body = ReceivedBody(json.dumps(request).encode(), time.perf_counter() - waited)
+    reply: Data = json.loads(answer(planner, body, settings or Settings(), lambda: False))
     return reply
 
 
@@ -78,6 +78,12 @@ def test_more_matrices_than_memory_holds_are_refused_before_one_is_built() -> No
     with pytest.raises(VroomError, match=r"\d+ ways .*TANDEM_MAX_LEGS") as refusal:
         asked(crowd(100, 40, l=10), FirstFitPlanner(), Settings(max_legs=200_000))
     assert refusal.value.code == TOO_LARGE
+
+
+@pytest.mark.parametrize("waited", [0.3, 30.0])
+def test_a_small_request_is_answered_though_its_time_is_over(waited: float) -> None:
+    reply = asked(crowd(7), FirstFitPlanner(), Settings(vroom_seconds=0.15), waited)
+    assert reply["summary"]["unassigned"] == 0
 
 
 def test_legs_are_not_looked_for_where_there_is_no_time(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -123,6 +123,17 @@ def test_planning_ends_before_its_search_when_told(large: Problem, after: int) -
     assert not result.deterministic
 
 
+def test_a_late_plan_is_made_where_the_one_given_serves_nobody(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("model.planner.GRACE", 0.0)
+    monkeypatch.setattr("model.search.improve.GRACE", 60.0)
+    problem = generate(np.random.default_rng(0), 20, "vrptw")
+    result = Planner({"none": None}).plan(  # type: ignore[dict-item]
+        problem, PlanOptions("none", time_limit=5.0), time.perf_counter() - 10,
+        start=Solution((), tuple(range(1, 21))))
+    assert result.solution.unassigned == ()
+
+
 @pytest.mark.usefixtures("impatient")
 @pytest.mark.parametrize("told", [lambda: False, lambda: True], ids=["too late", "told"])
 def test_a_plan_given_is_kept_where_there_is_no_time(told: Callable[[], bool]) -> None:
