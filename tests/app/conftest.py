@@ -19,7 +19,9 @@ from app.settings import DEFAULT_POLICY, Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.kernel.warming import Tell, Warmth
-from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
+from model.planner import (
+    ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult, compile_search,
+)
 from model.problem import Problem
 from model.solution import Route, Solution
 from model.travel.airspace import compile_ways
@@ -157,6 +159,27 @@ def serve() -> Iterator[Callable[..., httpx.Client]]:
 def client() -> Iterator[httpx.Client]:
     """Return a client of a warm service."""
     with _serving(FirstFitPlanner()) as client:
+        while client.get("/health/ready").status_code != 200:
+            pass
+        yield client
+
+
+class SearchingPlanner(Planner):
+    """The true planner without policies, for requests that never ask one."""
+
+    def __init__(self) -> None:
+        super().__init__({DEFAULT_POLICY: None})
+
+    def warm(self, tell: Tell = lambda _: None) -> None:
+        """Compile the search, so that no plan's time goes into that."""
+        compile_search()
+
+
+@pytest.fixture(scope="session")
+def searching() -> Iterator[httpx.Client]:
+    """Return a client of a warm service that searches."""
+    with _serving(SearchingPlanner(), Settings(vroom_seconds=0.3)) as client:
+        client.timeout = 300
         while client.get("/health/ready").status_code != 200:
             pass
         yield client

@@ -8,29 +8,8 @@ import httpx
 import pytest
 
 from app.schemas.response import PlanReply
-from app.settings import DEFAULT_POLICY
-from model.kernel.warming import Tell
-from model.planner import Planner
 
 Request = dict[str, Any]
-
-
-class SearchingPlanner(Planner):
-    """A planner that never asks its policy, since every plan here begins with a given one."""
-
-    def warm(self, tell: Tell = lambda _: None) -> None:
-        """Need nothing: the search compiles with the first plan."""
-
-
-@pytest.fixture
-def client(serve: Callable[..., httpx.Client]) -> httpx.Client:
-    """Return a client of a service that searches."""
-    policies: dict[str, Any] = {DEFAULT_POLICY: None}
-    client = serve(SearchingPlanner(policies))
-    client.timeout = 300
-    while client.get("/health/ready").status_code != 200:
-        pass
-    return client
 
 
 @pytest.fixture
@@ -90,17 +69,17 @@ def halts(plan: dict[str, Any], vehicle: str) -> list[list[tuple[str, float]]]:
             for route in plan["routes"] if route["vehicle"] == vehicle for trip in route["trips"]]
 
 
-def test_plan_is_the_start_of_the_search(client: httpx.Client, street: Request,
+def test_plan_is_the_start_of_the_search(searching: httpx.Client, street: Request,
                                          tour: dict[str, Any]) -> None:
-    plan = replanned(client, street, plan=tour)
+    plan = replanned(searching, street, plan=tour)
     # d was left out and is served now; one truck suffices.
     assert (plan["status"], plan["cost"]["total"]) == ("complete", 8.0)
     assert plan["replan"] == {"settled": [], "excused": []}
 
 
 def test_what_has_departed_stays_and_others_serve_what_is_new(
-        client: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
-    plan = replanned(client, street, plan=tour, freeze_before=200)
+        searching: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
+    plan = replanned(searching, street, plan=tour, freeze_before=200)
     assert halts(plan, "truck-1") == [
         [("hub", 0), ("a", 120), ("b", 240), ("c", 360), ("hub", 540)]]
     ((start, *_),) = halts(plan, "truck-2")
@@ -109,15 +88,15 @@ def test_what_has_departed_stays_and_others_serve_what_is_new(
 
 
 def test_customers_whom_the_request_lacks_are_cancelled(
-        client: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
+        searching: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
     street["customers"] = [one for one in street["customers"] if one["id"] in "ab"]
-    plan = replanned(client, street, plan=tour, freeze_before=100)
+    plan = replanned(searching, street, plan=tour, freeze_before=100)
     assert halts(plan, "truck-1") == [[("hub", 0), ("a", 120), ("b", 240), ("hub", 360)]]
 
 
-def test_broken_vehicle_does_nothing_more(client: httpx.Client, street: Request,
+def test_broken_vehicle_does_nothing_more(searching: httpx.Client, street: Request,
                                           tour: dict[str, Any]) -> None:
-    plan = replanned(client, street, plan=tour, freeze_before=150, unavailable=["truck-1"],
+    plan = replanned(searching, street, plan=tour, freeze_before=150, unavailable=["truck-1"],
                      parcels_back=500)
     assert halts(plan, "truck-1") == [[("hub", 0), ("a", 120), ("hub", 180)]]
     ((start, *served, _),) = halts(plan, "truck-2")
@@ -126,8 +105,8 @@ def test_broken_vehicle_does_nothing_more(client: httpx.Client, street: Request,
 
 
 def test_vehicle_that_breaks_down_on_its_way_out_brings_its_parcels_back(
-        client: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
-    plan = replanned(client, street, plan=tour, freeze_before=30, unavailable=["truck-1"],
+        searching: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
+    plan = replanned(searching, street, plan=tour, freeze_before=30, unavailable=["truck-1"],
                      parcels_back=500)
     assert [route["vehicle"] for route in plan["routes"]] == ["truck-2"]
     assert plan["summary"]["served"] == 4
@@ -135,50 +114,50 @@ def test_vehicle_that_breaks_down_on_its_way_out_brings_its_parcels_back(
         assert {name for name, _ in trip} <= {"hub", "d"} or trip[0][1] >= 500
 
 
-def test_closed_window_leaves_a_parcel_aboard(client: httpx.Client, street: Request,
+def test_closed_window_leaves_a_parcel_aboard(searching: httpx.Client, street: Request,
                                               tour: dict[str, Any]) -> None:
     street["customers"][2]["time_window"] = {"latest": 250}
-    plan = replanned(client, street, plan=tour, freeze_before=200)
+    plan = replanned(searching, street, plan=tour, freeze_before=200)
     (left_out,) = plan["unassigned"]
     assert left_out["id"] == "c"
     assert left_out["reasons"][0]["code"] == "ABOARD"
 
 
 def test_what_happened_before_a_window_was_closed_is_excused(
-        client: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
+        searching: httpx.Client, street: Request, tour: dict[str, Any]) -> None:
     street["customers"][0]["time_window"] = {"latest": 10}
-    plan = replanned(client, street, plan=tour, freeze_before=200)
+    plan = replanned(searching, street, plan=tour, freeze_before=200)
     assert [(item["code"], item["path"]) for item in plan["replan"]["excused"]] == [
         ("TIME_WINDOW", "$.routes[0].trips[0].stops[1]")]
 
 
-def test_pinned_customers_stay_with_their_vehicles(client: httpx.Client, street: Request,
+def test_pinned_customers_stay_with_their_vehicles(searching: httpx.Client, street: Request,
                                                    tour: dict[str, Any]) -> None:
     stops = [visit("depot", "hub", 0, 0), visit("customer", "d", 240, 300),
              visit("depot", "hub", 540, 540)]
     tour["routes"].append({"vehicle": "truck-2", "type": "truck", "trips": [{"stops": stops}]})
     tour["unassigned"] = []
-    assert len(replanned(client, street, plan=tour)["routes"]) == 1
+    assert len(replanned(searching, street, plan=tour)["routes"]) == 1
     for pins in ({"pinned": ["c", "d"]}, {"pin_all": True}):
-        plan = replanned(client, street, plan=tour, **pins)
+        plan = replanned(searching, street, plan=tour, **pins)
         assert "d" in dict(halts(plan, "truck-2")[0])
         assert "c" in dict(halts(plan, "truck-1")[0])
 
 
-def test_replies_can_be_replanned_again_and_again(client: httpx.Client, street: Request,
+def test_replies_can_be_replanned_again_and_again(searching: httpx.Client, street: Request,
                                                   tour: dict[str, Any]) -> None:
     street["fleet"][0]["count"] = 3
-    first = replanned(client, street, plan=tour, freeze_before=100)
+    first = replanned(searching, street, plan=tour, freeze_before=100)
     street["customers"].append({"id": "e", "location": [2, 1], "demand": [1]})
-    second = replanned(client, street, plan=first, freeze_before=250)
+    second = replanned(searching, street, plan=first, freeze_before=250)
     assert halts(second, "truck-1") == halts(first, "truck-1")
     assert second["status"] == "complete"
 
 
-def test_nothing_left_to_plan_is_an_answer(client: httpx.Client, street: Request,
+def test_nothing_left_to_plan_is_an_answer(searching: httpx.Client, street: Request,
                                            tour: dict[str, Any]) -> None:
     street["customers"].pop()
-    plan = replanned(client, street, plan=tour | {"unassigned": []}, freeze_before=1000)
+    plan = replanned(searching, street, plan=tour | {"unassigned": []}, freeze_before=1000)
     assert halts(plan, "truck-1")[0][-1] == ("hub", 540)
     assert (plan["solver"]["search_iterations"], plan["solver"]["deterministic"]) == (0, True)
 
@@ -232,12 +211,12 @@ SORTIE = {"drone": "truck-1/drone-1", "launch_stop": 1, "recovery_stop": 1, "lau
     (lambda tour: _route(tour)["trips"][0].update(sorties=[SORTIE | {"recovery_time": 75}]),
      "TIMES_DISORDERED", ".plan.routes[0].trips[0].sorties[0].recovery_time"),
 ])
-def test_plans_that_do_not_fit_are_refused(client: httpx.Client, street: Request,
+def test_plans_that_do_not_fit_are_refused(searching: httpx.Client, street: Request,
                                            tour: dict[str, Any], change: Callable[[Any], object],
                                            code: str, path: str) -> None:
     street["depots"].append({"id": "far", "location": [9, 9]})
     change(tour)
-    assert (code, path) in refused(client, street, plan=tour, freeze_before=150)
+    assert (code, path) in refused(searching, street, plan=tour, freeze_before=150)
 
 
 @pytest.mark.parametrize(("replan", "code", "path"), [
@@ -251,27 +230,27 @@ def test_plans_that_do_not_fit_are_refused(client: httpx.Client, street: Request
     ({"freeze": 20}, "UNKNOWN_FIELD", ".freeze"),
     ({"plan": None}, "WRONG_TYPE", ".plan"),
 ])
-def test_terms_that_make_no_sense_are_refused(client: httpx.Client, street: Request,
+def test_terms_that_make_no_sense_are_refused(searching: httpx.Client, street: Request,
                                               tour: dict[str, Any], replan: dict[str, Any],
                                               code: str, path: str) -> None:
-    assert (code, path) in refused(client, street, **({"plan": tour} | replan))
+    assert (code, path) in refused(searching, street, **({"plan": tour} | replan))
 
 
-def test_all_errors_come_at_once(client: httpx.Client, street: Request,
+def test_all_errors_come_at_once(searching: httpx.Client, street: Request,
                                  tour: dict[str, Any]) -> None:
     street["fleet"][0]["depot"] = "moon"
     street["customers"][0]["demand"] = ["heavy"]
     _route(tour)["vehicle"] = "van-1"
-    assert set(refused(client, street, plan=tour, unavailable=["truck-9"])) >= {
+    assert set(refused(searching, street, plan=tour, unavailable=["truck-9"])) >= {
         ("WRONG_TYPE", "$.customers[0].demand[0]"), ("UNKNOWN_DEPOT", "$.fleet[0].depot"),
         ("WRONG_NAME", ".plan.routes[0].vehicle"), ("UNKNOWN_VEHICLE", ".unavailable[0]")}
 
 
-def test_a_flight_that_can_not_have_been_is_refused(client: httpx.Client, street: Request,
+def test_a_flight_that_can_not_have_been_is_refused(searching: httpx.Client, street: Request,
                                                     tour: dict[str, Any]) -> None:
     street["fleet"][0]["drones"] = {"count": 1, "capacity": [9]}
     street["airspace"] = {"no_fly": [[[3.9, -0.1], [4.1, -0.1], [4.1, 0.1], [3.9, 0.1]]]}
     _route(tour)["trips"][0]["sorties"] = [SORTIE]
     tour["unassigned"] = []
-    assert set(refused(client, street, plan=tour, freeze_before=100)) == {
+    assert set(refused(searching, street, plan=tour, freeze_before=100)) == {
         ("SETTLED_PART", ".plan.routes[0].trips[0].sorties[0]")}

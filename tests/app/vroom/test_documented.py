@@ -1,16 +1,12 @@
 """What VROOM's documentation shows by examples: requests of the same shapes, over HTTP."""
 
-from collections.abc import Callable
 from typing import Any
 
 import httpx
 import polyline
 import pytest
 
-from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.schemas_response import VroomReply
-from model.kernel.warming import Tell
-from model.planner import Planner, compile_search
 from tests.app.vroom.reference import solve
 
 Data = dict[str, Any]
@@ -24,25 +20,6 @@ END = ["type", "location", "setup", "service", "waiting_time", "load", "arrival"
        "violations"]
 JOB = ["type", "location", "id", "setup", "service", "waiting_time", "job", "load", "arrival",
        "duration", "violations"]
-
-
-class SearchingPlanner(Planner):
-    """The true planner without policies, which these requests never ask."""
-
-    def warm(self, tell: Tell = lambda _: None) -> None:
-        """Compile the search, so that no plan's time goes into that."""
-        compile_search()
-
-
-@pytest.fixture
-def client(serve: Callable[..., httpx.Client]) -> httpx.Client:
-    """Return a client of a service that searches."""
-    policies: dict[str, Any] = {DEFAULT_POLICY: None}
-    client = serve(SearchingPlanner(policies), Settings(vroom_seconds=0.3))
-    client.timeout = 300
-    while client.get("/health/ready").status_code != 200:
-        pass
-    return client
 
 
 @pytest.fixture
@@ -102,19 +79,20 @@ def refused(client: httpx.Client, request: Data) -> str:
     return str(reply.json()["error"])
 
 
-def test_breaks_and_shipments_are_refused_by_name(client: httpx.Client, two_shifts: Data) -> None:
-    reason = refused(client, two_shifts)
+def test_breaks_and_shipments_are_refused_by_name(searching: httpx.Client,
+                                                  two_shifts: Data) -> None:
+    reason = refused(searching, two_shifts)
     for named in ("shipments", "breaks of vehicle 1", "breaks of vehicle 2"):
         assert f"{named}:" in reason
 
 
 @pytest.mark.parametrize("geometry", [False, True])
 def test_jobs_by_coordinates_are_served_in_vrooms_shape(
-        client: httpx.Client, two_shifts: Data, geometry: bool) -> None:
+        searching: httpx.Client, two_shifts: Data, geometry: bool) -> None:
     del two_shifts["shipments"]
     for vehicle in two_shifts["vehicles"]:
         del vehicle["breaks"]
-    reply = solved(client, two_shifts | {"options": {"g": geometry}})
+    reply = solved(searching, two_shifts | {"options": {"g": geometry}})
     way = ["distance"] if geometry else []
     assert list(reply) == ["code", "summary", "unassigned", "routes"]
     assert list(reply["summary"]) == SUMMARY[:-2] + way + SUMMARY[-2:]
@@ -143,7 +121,7 @@ def test_jobs_by_coordinates_are_served_in_vrooms_shape(
 
 @pytest.mark.parametrize("matrix", ["matrix", "matrices"])
 def test_matrix_from_one_place_to_another_is_solved_as_by_vroom(
-        client: httpx.Client, matrix: str) -> None:
+        searching: httpx.Client, matrix: str) -> None:
     table = [[0, 900, 250, 700], [910, 0, 1100, 1500], [240, 1120, 0, 600], [720, 1490, 610, 0]]
     request: Data = {
         "vehicles": [{"id": 0, "start_index": 0, "end_index": 3}],
@@ -152,42 +130,42 @@ def test_matrix_from_one_place_to_another_is_solved_as_by_vroom(
     theirs = solve(request)
     if matrix == "matrix":
         request["matrix"] = request.pop("matrices")["car"]["durations"]
-    ours = solved(client, request)
+    ours = solved(searching, request)
     for reply in (ours, theirs):
         del reply["summary"]["computing_times"]
     assert list(ours) == list(theirs)
     assert ours == theirs
 
 
-def test_routes_by_steps_are_where_the_search_begins(client: httpx.Client,
+def test_routes_by_steps_are_where_the_search_begins(searching: httpx.Client,
                                                      with_steps: Data) -> None:
-    reply = solved(client, with_steps | {"options": {"l": 0.01}})
+    reply = solved(searching, with_steps | {"options": {"l": 0.01}})
     assert reply["summary"]["unassigned"] == 0
     begin, end = with_steps["jobs"][2]["time_windows"][0]
     assert all(begin <= step["arrival"] + step["waiting_time"] <= end
                for route in reply["routes"] for step in route["steps"]
                if step.get("id") in (3, 4, 6))
     with_steps["vehicles"][0]["capacity"] = [1]
-    assert refused(client, with_steps) == "Route over capacity for vehicle 1."
+    assert refused(searching, with_steps) == "Route over capacity for vehicle 1."
 
 
 @pytest.mark.parametrize("forced", ["service_at", "service_after", "service_before"])
 def test_times_forced_in_steps_are_refused_by_name(
-        client: httpx.Client, with_steps: Data, forced: str) -> None:
+        searching: httpx.Client, with_steps: Data, forced: str) -> None:
     with_steps["vehicles"][1]["steps"][0][forced] = 1_790_000_600
-    assert f"{forced} in steps for vehicle 2" in refused(client, with_steps)
+    assert f"{forced} in steps for vehicle 2" in refused(searching, with_steps)
 
 
-def test_mode_that_only_times_routes_is_refused_by_name(client: httpx.Client,
+def test_mode_that_only_times_routes_is_refused_by_name(searching: httpx.Client,
                                                         with_steps: Data) -> None:
-    assert "options.c" in refused(client, with_steps | {"options": {"c": True}})
+    assert "options.c" in refused(searching, with_steps | {"options": {"c": True}})
 
 
-def test_job_that_nobody_can_serve_is_told_in_vrooms_shape(client: httpx.Client,
+def test_job_that_nobody_can_serve_is_told_in_vrooms_shape(searching: httpx.Client,
                                                            with_steps: Data) -> None:
     for vehicle in with_steps["vehicles"]:
         del vehicle["steps"]
     with_steps["jobs"][0] |= {"skills": [7], "description": "a crane"}
-    (left,) = solved(client, with_steps)["unassigned"]
+    (left,) = solved(searching, with_steps)["unassigned"]
     assert list(left.items()) == [("id", 1), ("location", with_steps["jobs"][0]["location"]),
                                   ("type", "job"), ("description", "a crane")]
