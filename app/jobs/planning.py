@@ -12,7 +12,7 @@ from app.conversion.preparing import StoppedError
 from app.errors import RequestError
 from app.jobs.rows import JobRow, Standing
 from app.jobs.schemas import State
-from app.jobs.search import Find, Past, Search
+from app.jobs.search import EarlierWork, Find, Search
 from app.jobs.store import JobStore, now_ms
 from app.plans.replies import Data
 from app.plans.service import plan_options, preparing
@@ -178,10 +178,11 @@ class PlanWork:
             del self._beginning[job_id]
         options = plan_options(request.options, self._search_threads)
         kept = self._store.result(job_id)
-        past = Past(row.searched, row.search_iterations, None if kept is None else from_json(kept))
+        earlier = EarlierWork(row.searched, row.search_iterations,
+                              None if kept is None else from_json(kept))
         validated = time.perf_counter() - began
-        return Running(row, Search(self._planner, task, options, past), validated,
-                       best=past.reply)
+        return Running(row, Search(self._planner, task, options, earlier), validated,
+                       best=earlier.reply)
 
     def _stopper(self, job_id: str) -> Callable[[], bool]:
         """Return what tells whether a job that begins is to end, by this process or another."""

@@ -24,7 +24,7 @@ NEARLY_OVER = 0.999
 
 
 @dataclass(frozen=True)
-class Past:
+class EarlierWork:
     """What earlier processes did for a job."""
 
     searched: float = 0.0  # seconds
@@ -51,15 +51,15 @@ class Search:
         What to plan.
     options
         How, `time_limit` being the time for all processes together.
-    past
+    earlier
         What was done already.
     """
 
     def __init__(self, planner: Planner, task: Task, options: PlanOptions,
-                 past: Past) -> None:
+                 earlier: EarlierWork) -> None:
         self._task = task
         self._options = options
-        self._past = past
+        self._earlier = earlier
         self._began = time.perf_counter()
         self._stop = threading.Event()
         self._done = threading.Event()
@@ -84,12 +84,12 @@ class Search:
     @property
     def searched(self) -> float:
         """Seconds that all processes planned."""
-        return self._past.searched + time.perf_counter() - self._began
+        return self._earlier.searched + time.perf_counter() - self._began
 
     @property
     def iterations(self) -> int:
         """Iterations of all processes."""
-        return self._past.iterations + self._turns
+        return self._earlier.iterations + self._turns
 
     @property
     def progress(self) -> float:
@@ -150,17 +150,17 @@ class Search:
         """Return the options for what is left to do."""
         options = self._options
         limit, turns = options.time_limit, options.search_iterations
-        if limit > 0 and self._past.searched > 0:
-            limit -= self._past.searched
+        if limit > 0 and self._earlier.searched > 0:
+            limit -= self._earlier.searched
             limit = limit if limit >= SHORTEST_REST else 0.0
         if turns:
-            turns = max(0, turns - self._past.iterations)
+            turns = max(0, turns - self._earlier.iterations)
         return replace(options, time_limit=limit, search_iterations=turns)
 
     def _start(self) -> Solution | None:
-        if self._past.reply is None:
+        if self._earlier.reply is None:
             return None
-        return plan_to_solution(to_json(self._past.reply), self._task.problem)
+        return plan_to_solution(to_json(self._earlier.reply), self._task.problem)
 
     def _hear(self, progress: Progress) -> None:
         if self._first is None:
@@ -180,13 +180,13 @@ class Search:
     def _reply(self, result: PlanResult) -> Data:
         """Return the reply to a plan, earlier processes' work included."""
         reply = self._task.reply(self._options, result)
-        past = self._past
-        if past.searched > 0:
+        earlier = self._earlier
+        if earlier.searched > 0:
             solver = reply["solver"]
             solver["deterministic"] = False
-            solver["search_iterations"] += past.iterations
-            solver["elapsed"]["search"] += past.searched
-        if past.reply is not None:
-            before = past.reply["solver"]
+            solver["search_iterations"] += earlier.iterations
+            solver["elapsed"]["search"] += earlier.searched
+        if earlier.reply is not None:
+            before = earlier.reply["solver"]
             reply["solver"] |= {key: before[key] for key in ("start", "decoded_cost")}
         return reply
