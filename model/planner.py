@@ -318,7 +318,7 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
                    config, deadline, listener.should_stop, listener.on_progress)
 
 
-def insert_missing(problem: Problem, begun: Solution, seed: int,
+def complete_plan(problem: Problem, begun: Solution, seed: int,
                    should_stop: Callable[[], bool]) -> Solution:
     """Return a plan with those whom it lacks where they cost least, as a search begins.
 

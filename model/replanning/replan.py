@@ -12,7 +12,7 @@ from model.judge.past_rules import PAST_RULES
 from model.judge.rules import Violation
 from model.planner import (
     ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult, Progress,
-    insert_missing,
+    complete_plan,
 )
 from model.problem import Problem
 from model.replanning.handover import hand_over, settled, take_back
@@ -235,7 +235,7 @@ def _begin(left: Remainder, begun: Solution, options: PlanOptions,
     """
     if (options.time_limit > 0 and options.search_iterations != 0) or not begun.unassigned:
         return begun
-    filled = insert_missing(left.problem, begun, options.seed, should_stop)
+    filled = complete_plan(left.problem, begun, options.seed, should_stop)
     before, after = check(left.problem, begun), check(left.problem, filled)
     if after.is_feasible and after.cost.total <= before.cost.total:
         return filled
