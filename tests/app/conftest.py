@@ -168,7 +168,7 @@ class SearchingPlanner(Planner):
     """The true planner without policies, for requests that never ask one."""
 
     def __init__(self) -> None:
-        super().__init__({DEFAULT_POLICY: None})
+        super().__init__({DEFAULT_POLICY: None})  # type: ignore[dict-item]
 
     def warm(self, tell: Tell = lambda _: None) -> None:
         """Compile the search, so that no plan's time goes into that."""
