@@ -4,6 +4,7 @@ import json
 import logging
 import socket
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -25,6 +26,9 @@ from model.planner import (
 from model.problem import Problem
 from model.solution import Route, Solution
 from model.travel.airspace import compile_ways
+
+READY_SECONDS = 600.0
+"""How long a service may take until it plans: the search may have to be compiled."""
 
 APP_DIR = Path(__file__).parents[2] / "app"
 
@@ -129,6 +133,14 @@ def planner() -> FirstFitPlanner:
     return FirstFitPlanner()
 
 
+def ready(client: httpx.Client) -> httpx.Client:
+    """Return a client once its service plans."""
+    give_up = time.monotonic() + READY_SECONDS
+    while client.get("/health/ready").status_code != 200:
+        assert time.monotonic() < give_up, client.get("/health/ready").text
+    return client
+
+
 @contextmanager
 def _serving(planner: Planner, settings: Settings | None = None) -> Iterator[httpx.Client]:
     """Serve on loopback."""
@@ -159,9 +171,7 @@ def serve() -> Iterator[Callable[..., httpx.Client]]:
 def client() -> Iterator[httpx.Client]:
     """Return a client of a warm service."""
     with _serving(FirstFitPlanner()) as client:
-        while client.get("/health/ready").status_code != 200:
-            pass
-        yield client
+        yield ready(client)
 
 
 class SearchingPlanner(Planner):
@@ -180,9 +190,7 @@ def searching() -> Iterator[httpx.Client]:
     """Return a client of a warm service that searches."""
     with _serving(SearchingPlanner(), Settings(vroom_seconds=0.3)) as client:
         client.timeout = 300
-        while client.get("/health/ready").status_code != 200:
-            pass
-        yield client
+        yield ready(client)
 
 
 @pytest.fixture

@@ -92,6 +92,7 @@ def test_every_improved_plan_of_random_problems_is_legal_and_no_dearer(planner: 
     assert cheaper > NUM_IMPROVED / 2
 
 
+@pytest.mark.by_clock
 @pytest.mark.parametrize("num_customers", [30, 100, 300])
 @pytest.mark.parametrize("time_limit", [0.1, 0.3])
 def test_plans_come_in_time(planner: Planner, num_customers: int, time_limit: float) -> None:
@@ -99,7 +100,7 @@ def test_plans_come_in_time(planner: Planner, num_customers: int, time_limit: fl
         problem = generate(np.random.default_rng(num_customers), num_customers, variant)
         began = time.perf_counter()
         result = planner.plan(problem, PlanOptions(POLICIES[0], time_limit=time_limit))
-        assert time.perf_counter() - began <= time_limit + 0.5
+        assert time.perf_counter() - began <= time_limit + 0.2
         assert result.search_iterations > 0
 
 
@@ -178,6 +179,7 @@ def test_without_time_or_iterations_the_plan_is_the_policys(planner: Planner) ->
         assert result.deterministic
 
 
+@pytest.mark.by_clock
 @pytest.mark.parametrize(("variant", "customers", "start"), [
     ("vrptw", 40, "policy"), ("vrptw", 100, "insertion"), ("hetero", 100, "policy"),
     ("table1", 100, "policy"), ("table1", 300, "insertion")])

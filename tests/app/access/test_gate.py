@@ -14,7 +14,7 @@ from app.access.hosts import TrustedHosts
 from app.access.setup import ExposedError, check_exposure
 from app.cli.commands import cli
 from app.settings import Settings
-from tests.app.conftest import FirstFitPlanner
+from tests.app.conftest import FirstFitPlanner, ready
 from tests.conftest import complete
 
 ORIGIN = "https://dispatch.example.org"
@@ -51,8 +51,7 @@ def test_failures_have_security_headers_too(serve: Serve, smallest: dict[str, An
             raise ZeroDivisionError
 
     client = serve(Crashing())
-    while client.get("/health/ready").status_code != 200:
-        pass
+    ready(client)
     reply = client.post("/plan", json=smallest)
     assert reply.status_code == 500
     assert reply.headers["x-content-type-options"] == "nosniff"
@@ -114,8 +113,7 @@ def test_pages_of_other_origins_may_not_plan(
 
 def test_listed_origins_may_plan(serve: Serve, smallest: dict[str, Any]) -> None:
     client = serve(FirstFitPlanner(), Settings(cors_origins=[ORIGIN]))
-    while client.get("/health/ready").status_code != 200:
-        pass
+    ready(client)
     preflight = client.options("/plan", headers={
         "Origin": ORIGIN, "Access-Control-Request-Method": "POST",
         "Access-Control-Request-Headers": "x-api-key,content-type,idempotency-key"})
@@ -187,8 +185,7 @@ def test_origin_counts_where_browsers_say_nothing_else(
         serve: Serve, smallest: dict[str, Any], origin: str, status: int) -> None:
     client = serve(FirstFitPlanner(), Settings(access="open",
                                                trusted_hosts=["fleet.example.org"]))
-    while client.get("/health/ready").status_code != 200:
-        pass
+    ready(client)
     headers = {"Host": "fleet.example.org:8000", "Origin": origin}
     assert client.post("/plan", json=smallest, headers=headers).status_code == status
     assert client.get("/docs", headers=headers).status_code == 200
@@ -197,8 +194,7 @@ def test_origin_counts_where_browsers_say_nothing_else(
 def test_origin_of_a_listed_page_counts_over_plain_http(
         serve: Serve, smallest: dict[str, Any]) -> None:
     client = serve(FirstFitPlanner(), Settings(cors_origins=["http://dispatch.local"]))
-    while client.get("/health/ready").status_code != 200:
-        pass
+    ready(client)
     for origin, status in (("http://dispatch.local", 200), ("http://other.local", 403)):
         assert client.post("/plan", json=smallest, headers={"Origin": origin}).status_code == status
 

@@ -15,7 +15,7 @@ from app.access.guard import REFRESH_SECONDS
 from app.access.keys import KeyStore, Scope
 from app.database.connections import make_engine
 from app.settings import Settings
-from tests.app.conftest import FirstFitPlanner
+from tests.app.conftest import FirstFitPlanner, ready
 
 Request = dict[str, Any]
 Serve = Callable[..., httpx.Client]
@@ -38,9 +38,7 @@ def store(settings: Settings) -> KeyStore:
 def guarded(serve: Serve, settings: Settings, store: KeyStore) -> httpx.Client:
     """Return a client of a service that needs keys."""
     client = serve(FirstFitPlanner(), settings)
-    while client.get("/health/ready").status_code != 200:
-        pass
-    return client
+    return ready(client)
 
 
 def status(client: httpx.Client, request: Request, **headers: str) -> int:
@@ -108,6 +106,7 @@ def test_key_without_the_scope_is_forbidden(
     assert "plan" in reply.json()["detail"]
 
 
+@pytest.mark.by_clock
 def test_revoked_key_works_no_longer_than_promised(
         guarded: httpx.Client, store: KeyStore, smallest: Request) -> None:
     key = store.create("ann", ["plan"])
@@ -185,7 +184,6 @@ def test_openapi_tells_how_to_send_keys(guarded: httpx.Client) -> None:
 
 def test_open_access_needs_no_key(serve: Serve, smallest: Request, tmp_path: Path) -> None:
     client = serve(FirstFitPlanner(), Settings(access="open", data_dir=tmp_path))
-    while client.get("/health/ready").status_code != 200:
-        pass
+    ready(client)
     assert status(client, smallest) == 200
     assert status(client, smallest, x_api_key="junk") == 200

@@ -13,18 +13,11 @@ from app.access.keys import KeyStore
 from app.access.limits import Limits, Rates, TooManyRequestsError, client_address
 from app.database.connections import make_engine
 from app.settings import Settings
-from tests.app.conftest import FirstFitPlanner
+from tests.app.conftest import FirstFitPlanner, ready
 
 Serve = Callable[..., httpx.Client]
 
 PLAN = frozenset({"plan"})
-
-
-def ready(client: httpx.Client) -> httpx.Client:
-    """Return a client once its service plans."""
-    while client.get("/health/ready").status_code != 200:
-        pass
-    return client
 
 
 def request_from(host: str | None) -> Request:

@@ -18,8 +18,7 @@ from app.plans.task import task_of
 from app.requests.reading import read_request
 from app.settings import Settings
 from model.travel.airspace import Flights
-from tests.app.conftest import FirstFitPlanner
-from tests.app.load.waiting import until
+from tests.app.conftest import FirstFitPlanner, ready
 
 Request = dict[str, Any]
 
@@ -28,12 +27,6 @@ Request = dict[str, Any]
 def client(serve: Callable[..., httpx.Client]) -> httpx.Client:
     """Return a client of a service that is ready."""
     return ready(serve(FirstFitPlanner(), Settings(role="api")))
-
-
-def ready(client: httpx.Client) -> httpx.Client:
-    """Return a client once its service plans."""
-    until(lambda: client.get("/health/ready").status_code == 200, 60.0)
-    return client
 
 
 def circle(corners: int, x: float = 0.0, radius: float = 1000.0) -> list[list[float]]:

@@ -15,6 +15,8 @@ from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.app.load.waiting import until
 
+pytestmark = pytest.mark.by_clock
+
 GET = b"GET /health/live HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
 

@@ -21,16 +21,19 @@ from tests.conftest import free_port
 
 Request = dict[str, Any]
 
+DRAIN = 3.0
+"""Seconds for which a process that ends sends requests elsewhere; enough for one that stalls."""
+
 
 def test_running_plans_are_returned_and_new_requests_sent_elsewhere(smallest: Request) -> None:
-    with (process_of_its_own(TANDEM_DRAIN_SECONDS="2") as (process, client),
+    with (process_of_its_own(TANDEM_DRAIN_SECONDS=f"{DRAIN:g}") as (process, client),
           ThreadPoolExecutor(1) as pool):
         running = pool.submit(client.post, "/plan", json=smallest)
         until(lambda: "tandem_planner_running 1.0" in client.get("/metrics").text)
-        process.send_signal(signal.SIGTERM)
         began = time.perf_counter()
+        process.send_signal(signal.SIGTERM)
         reply = running.result()
-        assert time.perf_counter() - began < 1
+        assert time.perf_counter() - began < DRAIN
         assert reply.status_code == 200
         assert reply.json()["summary"]["served"] == 2
         refused = client.post("/plan", json=smallest)
@@ -44,7 +47,7 @@ def test_running_plans_are_returned_and_new_requests_sent_elsewhere(smallest: Re
         assert ready.headers["connection"] == "close"
         assert client.get("/health/live").status_code == 200
         assert process.wait(10) in (0, -signal.SIGTERM)
-        assert 1.5 < time.perf_counter() - began < 6
+        assert DRAIN < time.perf_counter() - began < DRAIN + 5
 
 
 @pytest.mark.parametrize("signals", [

@@ -29,15 +29,16 @@ class WaitingPlanner(FirstFitPlanner):
 
     def __init__(self) -> None:
         self.go_on = threading.Event()
-        self.started = 0
-        self.stopped_at: list[float] = []
+        self.started = self.looks = 0
+        self.has_stopped = False
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, *rest: Any, **more: Any) -> PlanResult:
         self.started += 1
         while not self.go_on.wait(0.002):
+            self.looks += 1
             if listener.should_stop():
-                self.stopped_at.append(time.perf_counter())
+                self.has_stopped = True
                 break
         return super().plan(problem, options, received_at)
 

@@ -15,7 +15,7 @@ from app.access.keys import KeyStore
 from app.database.connections import make_engine
 from app.observe.metrics import MULTIPROCESS_DIR, Metrics
 from app.settings import Settings
-from tests.app.conftest import FirstFitPlanner
+from tests.app.conftest import FirstFitPlanner, ready
 
 ROOT = Path(__file__).parents[3]
 Request = dict[str, Any]
@@ -43,9 +43,7 @@ def rendered(metrics: Metrics) -> Samples:
 def fresh(serve: Serve) -> httpx.Client:
     """Return a client of a service that nobody has asked anything."""
     client = serve(FirstFitPlanner())
-    while client.get("/health/ready").status_code != 200:
-        pass
-    return client
+    return ready(client)
 
 
 def _reply(decoded_cost: float, final_cost: float, load_rates: list[float]) -> dict[str, Any]:
@@ -111,12 +109,12 @@ def test_metrics_need_a_key_for_admins_unless_they_are_open(serve: Serve, tmp_pa
     keys = {scope: {"Authorization": f"Bearer {store.create(scope, [scope])}"}
             for scope in ("plan", "admin")}
     engine.dispose()
-    client = serve(FirstFitPlanner(), settings)
+    client = ready(serve(FirstFitPlanner(), settings))
     assert client.get("/metrics").status_code == 401
     assert client.get("/metrics", headers=keys["plan"]).status_code == 403
     samples = read(client.get("/metrics", headers=keys["admin"]).text)
     assert value(samples, "tandem_refused_requests_total", reason="access") == 2
-    opened = serve(FirstFitPlanner(), settings.model_copy(update={"metrics_open": True}))
+    opened = ready(serve(FirstFitPlanner(), settings.model_copy(update={"metrics_open": True})))
     assert opened.get("/metrics").status_code == 200
 
 

@@ -18,7 +18,7 @@ from model.kernel.warming import Tell, Warmth
 from model.planner import ALONE, Listener, PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 from model.solution import Solution
-from tests.app.conftest import FirstFitPlanner
+from tests.app.conftest import FirstFitPlanner, ready
 from tests.conftest import complete
 
 Serve = Callable[[Planner], httpx.Client]
@@ -84,8 +84,7 @@ def test_service_is_ready_once_warm(serve: Serve, smallest: dict[str, Any],
     assert refusal.headers["content-type"] == "application/problem+json"
     assert int(refusal.headers["retry-after"]) > 0
     slow.finish.set()
-    while client.get("/health/ready").status_code == 503:
-        pass
+    ready(client)
     assert client.get("/health/ready").json()["status"] == "ready"
 
 
@@ -155,8 +154,7 @@ def test_service_that_cannot_be_warmed_is_never_ready() -> None:
 def test_failures_are_internal_errors_without_details(
         serve: Serve, smallest: dict[str, Any], error: Exception) -> None:
     client = serve(WrongPlanner(error))
-    while client.get("/health/ready").status_code == 503:
-        pass
+    ready(client)
     response = client.post("/plan", json=smallest)
     assert response.status_code == 500
     assert response.headers["content-type"] == "application/problem+json"

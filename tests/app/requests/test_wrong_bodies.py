@@ -25,7 +25,7 @@ from app.schemas.check import CheckRequest
 from app.schemas.request import PlanRequest
 from app.settings import Settings
 from app.vroom.schemas import VroomRequest
-from tests.app.conftest import APP_DIR, FirstFitPlanner
+from tests.app.conftest import APP_DIR, FirstFitPlanner, ready
 from tests.app.requests.wrong_bodies import SHAPES, body_of
 
 MULTIPLE, BESIDE = 32, 250 * 2**20
@@ -204,8 +204,7 @@ def test_short_bodies_keep_each_of_their_errors(client: httpx.Client, smallest: 
 def test_others_are_answered_while_wrong_bodies_are_refused(
         serve: Callable[..., httpx.Client], tmp_path: Path) -> None:
     client = serve(FirstFitPlanner(), Settings(data_dir=tmp_path))
-    while client.get("/health/ready").status_code != 200:
-        pass
+    ready(client)
     gaps: list[float] = []
     done = threading.Event()
 

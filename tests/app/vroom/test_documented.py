@@ -11,6 +11,8 @@ from tests.app.vroom.reference import solve
 
 Data = dict[str, Any]
 
+pytestmark = pytest.mark.by_clock
+
 HUB = [13.40, 52.52]
 SUMMARY = ["cost", "routes", "unassigned", "delivery", "amount", "pickup", "setup", "service",
            "duration", "waiting_time", "priority", "violations", "computing_times"]

@@ -22,6 +22,8 @@ from tests.app.vroom.sampling import sample_request
 Data = dict[str, Any]
 Solve = Callable[..., Data]
 
+pytestmark = pytest.mark.by_clock
+
 
 @pytest.fixture(scope="session")
 def planner() -> Planner:

@@ -13,7 +13,7 @@ from app.vroom.answering import search_seconds
 from app.vroom.schemas import VroomOptionsInput
 from app.vroom.schemas_response import VroomReply
 from model.planner import PlanCheckError, PlanResult
-from tests.app.conftest import FirstFitPlanner
+from tests.app.conftest import FirstFitPlanner, ready
 
 Data = dict[str, Any]
 
@@ -65,8 +65,7 @@ def test_input_errors_are_code_2_and_status_400(client: httpx.Client, matrix_req
 def test_too_many_jobs_are_code_4_and_status_413(serve: Callable[..., httpx.Client],
                                                  matrix_request: Data) -> None:
     client = serve(FirstFitPlanner(), Settings(max_customers=3))
-    while client.get("/health/ready").status_code != 200:
-        pass
+    ready(client)
     reply = client.post("/vroom", json=matrix_request)
     assert (reply.status_code, reply.json()["code"]) == (413, 4)
 
@@ -80,8 +79,7 @@ def test_withheld_solutions_are_code_1_and_status_500(serve: Callable[..., httpx
             raise PlanCheckError("a rule is broken")
 
     client = serve(WrongPlanner())
-    while client.get("/health/ready").status_code != 200:
-        pass
+    ready(client)
     reply = client.post("/vroom", json=matrix_request)
     assert (reply.status_code, reply.json()["code"]) == (500, 1)
 

@@ -143,6 +143,7 @@ def mixed() -> Data:
     return request
 
 
+@pytest.mark.by_clock
 @pytest.mark.parametrize(("seconds", "most"), [(1e-9, 100), (0.3, 7), (1.0, 2)])
 def test_stages_that_there_is_no_time_for_are_left_out(
         monkeypatch: pytest.MonkeyPatch, mixed: Data, seconds: float, most: int) -> None:

@@ -20,6 +20,8 @@ from tests.app.vroom.reference import solve
 
 Data = dict[str, Any]
 
+pytestmark = pytest.mark.by_clock
+
 DAY = 43_200
 
 

