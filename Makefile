@@ -8,8 +8,9 @@ CASES ?= 10000
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
-# On all cores; who is idle takes over what others have left.
-PYTEST := $(BIN)/pytest --numprocesses auto --dist worksteal
+# On all cores; who is idle takes over what others have left. Threads of PyTorch's own would wait for
+# each other in vain.
+PYTEST := OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses auto --dist worksteal
 URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help

@@ -28,7 +28,7 @@ from training.variants import InstanceConfig
 WEIGHTS = Path(__file__).parents[2] / "model" / "weights"
 POLICIES = sorted(folder.name for folder in WEIGHTS.iterdir())
 NUM_DECODED = 500
-NUM_IMPROVED = 1000
+NUM_IMPROVED = 400
 TIME_LIMIT = 0.03
 SPOILED = InstanceConfig(spoiled=1.0, max_spoiled=0.5)
 
@@ -88,7 +88,7 @@ def test_every_improved_plan_of_random_problems_is_legal_and_no_dearer(planner: 
         assert not result.deterministic
         cheaper += result.final_cost < result.decoded_cost * (1 - 1e-9)
         unassigned += len(result.solution.unassigned)
-    assert unassigned > 100
+    assert unassigned > 40
     assert cheaper > NUM_IMPROVED / 2
 
 

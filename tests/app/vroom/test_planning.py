@@ -36,7 +36,7 @@ def planner() -> Planner:
 @pytest.fixture(scope="session")
 def ours(planner: Planner) -> Solve:
     """Return a function that answers a request in some seconds."""
-    def solve_ours(request: Data, seconds: float = 0.4) -> Data:
+    def solve_ours(request: Data, seconds: float = 0.2) -> Data:
         settings = Settings(vroom_seconds=seconds)
         body = ReceivedBody(json.dumps(request).encode(), time.perf_counter())
         reply: Data = json.loads(answer(planner, body, settings, lambda: False))

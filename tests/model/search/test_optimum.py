@@ -200,10 +200,11 @@ def all_rules_several_windows(rng: np.random.Generator) -> Problem:
 
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
-    assert missed_seeds(draw, range(4)) == []
+    # What many plans of two drones are compared with takes seconds each.
+    assert missed_seeds(draw, range(2 if draw in (two_drones, long_sorties) else 4)) == []
 
 
-@pytest.mark.parametrize("first", range(0, 100, SHARE))
+@pytest.mark.parametrize("first", range(0, 60, SHARE))
 def test_search_finds_the_cheapest_plan_where_all_rules_mix(first: int) -> None:
     assert missed_seeds(all_rules, range(first, first + SHARE)) == []
 
