@@ -17,7 +17,7 @@ from tests.app.jobs.stepping import (
 
 FULL_COST = 2.0 * NUM_CUSTOMERS
 
-NUM_JOBS = 200
+NUM_JOBS = 100
 """Jobs that two workers share."""
 
 
