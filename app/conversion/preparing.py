@@ -42,6 +42,8 @@ class Preparing:
         Where `seconds` come from, in words.
     work, advice
         What takes the time, and what would take less, in words.
+    least_time
+        Seconds that may pass in any case; more than work of so many seconds may take.
     """
 
     should_stop: Callable[[], bool] = lambda: False
@@ -51,6 +53,7 @@ class Preparing:
     advice: str = ("send fewer customers, fewer ways to travel, or no-fly areas with fewer "
                    "corners")
     began: float = field(default_factory=time.perf_counter)
+    least_time: float = LEAST_TIME
 
     def pause(self) -> None:
         """Go on, if neither the client nor the time is gone.
@@ -87,7 +90,7 @@ class Preparing:
 
     @property
     def _latest(self) -> float:
-        return max(LEAST_TIME, SHARE * self.seconds)
+        return max(self.least_time, SHARE * self.seconds)
 
     def _refusal(self, found: str, allowed: float) -> InvalidRequestError:
         message = (f"{self.work} {found} on one core, and {allowed:.1f} s may be spent "

@@ -4,7 +4,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pydantic_core import from_json, to_json
 
@@ -33,6 +33,9 @@ WITHHELD = "The plan found breaks a rule, so it is withheld."
 NOT_COMPUTED = "The plan could not be computed."
 POISONOUS = f"The process that planned ended unexpectedly, {MAX_CRASHES} times in a row."
 
+
+LEAST_PREPARING = 10.0
+"""Seconds that may pass before the search of any job: nobody waits for it, and it would be lost."""
 
 JOB_BOUNDS = Bounds(time_setting="TANDEM_MAX_JOB_SECONDS")
 """What a job may take; it was within the settings when it came."""
@@ -165,7 +168,8 @@ class PlanWork:
         self._beginning[job_id] = threading.Event()
         try:
             request = self._read(row)
-            task = task_of(request, preparing(request.options, JOB_BOUNDS, self._stopper(job_id)))
+            work = preparing(request.options, JOB_BOUNDS, self._stopper(job_id))
+            task = task_of(request, replace(work, least_time=LEAST_PREPARING))
         except StoppedError:
             self._give_up(row)
             return None

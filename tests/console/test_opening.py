@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import EXAMPLES, STATIC, idle, open_example
@@ -28,6 +29,7 @@ def test_page_weighs_little(open_page: Callable[..., Page], service: str) -> Non
     assert 200_000 < page_bytes < MAX_PAGE_BYTES
 
 
+@pytest.mark.by_clock
 def test_first_plan_is_drawn_within_a_second_of_the_click(console: Page) -> None:
     idle(console)
     console.evaluate("""() => {

@@ -28,7 +28,8 @@ def problem(customers: list[dict[str, Any]], **vehicle: Any) -> dict[str, Any]:
             "customers": [{"id": f"C{number}", "location": [6, 0], "demand": [5]} | customer
                           for number, customer in enumerate(customers)],
             "fleet": [{"id": "van", "count": 1, "capacity": [20]} | vehicle],
-            "options": {"time_limit": 0.1}}
+            # Few turns, and time to say why even on a machine that stalls.
+            "options": {"time_limit": 60, "search_iterations": 50}}
 
 
 PROBLEMS = {

@@ -4,6 +4,7 @@ import json
 import random
 from typing import Any
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import idle, open_file, planned, state, stop_button
@@ -51,6 +52,7 @@ def frames_while_moving(page: Page, is_pressed: bool) -> float:
     return 1000 * (len(times) - 1) / (times[-1] - times[0])
 
 
+@pytest.mark.by_clock
 def test_two_thousand_customers_are_panned_without_stutter(page: Page) -> None:
     idle(page)
     open_file(page, "large.json", json.dumps(large_problem()))

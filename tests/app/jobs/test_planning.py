@@ -14,6 +14,7 @@ from app.jobs.planning import MAX_CRASHES, POISONOUS, PlanWork, Slice, Stopping
 from app.jobs.reading import JobReader
 from app.jobs.rows import JobRow, NewJob, Standing
 from app.jobs.store import JobStore
+from app.plans.task import Task, task_of
 from app.schemas.request import PlanRequest
 from app.settings import Settings
 from tests.app.jobs.stepping import NUM_CUSTOMERS, SteppingPlanner, request_of
@@ -221,6 +222,18 @@ def test_job_cancelled_before_its_search_ends(desk: Desk, monkeypatch: pytest.Mo
     assert process.advance(job).over
     assert process.is_idle
     assert desk.row(job).state == "cancelled"
+
+
+def test_short_job_is_planned_though_the_machine_was_busy(
+        desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    process, job = desk.process(), desk.job(seconds=0.1)
+
+    def begin_late(request: PlanRequest, preparing: Preparing) -> Task:
+        return task_of(request, replace(preparing, began=preparing.began - 5.0))
+
+    monkeypatch.setattr(planning, "task_of", begin_late)
+    until(lambda: process.advance(job), lambda now: now.over)
+    assert desk.row(job).state == "done"
 
 
 def test_job_that_has_not_begun_to_search_is_left_to_others(

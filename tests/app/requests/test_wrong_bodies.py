@@ -201,6 +201,7 @@ def test_short_bodies_keep_each_of_their_errors(client: httpx.Client, smallest: 
     assert reply.json()["detail"] == "The request has 1800 errors; the first 1000 are listed."
 
 
+@pytest.mark.by_clock
 def test_others_are_answered_while_wrong_bodies_are_refused(
         serve: Callable[..., httpx.Client], tmp_path: Path) -> None:
     client = serve(FirstFitPlanner(), Settings(data_dir=tmp_path))
