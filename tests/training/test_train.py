@@ -5,7 +5,7 @@ import os
 import signal
 import subprocess
 import sys
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
@@ -47,23 +47,36 @@ def test_resumed_run_equals_an_uninterrupted_one(tmp_path: Path) -> None:
             assert torch.equal(value, second[part][name]), name
 
 
-def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:
+@dataclass(frozen=True)
+class Exported:
+    """A policy's weights, and where they are kept."""
+
+    weights: dict[str, torch.Tensor]
+    folder: Path
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory: pytest.TempPathFactory) -> Exported:
+    """Return the weights of an `attention` policy that was exported."""
     torch.manual_seed(5)
-    exported = POLICIES["attention"]()
-    export(exported, tmp_path / "exported", {})
+    policy, folder = POLICIES["attention"](), tmp_path_factory.mktemp("exported")
+    export(policy, folder, {})
+    return Exported(policy.state_dict(), folder)
+
+
+def test_training_begins_with_an_exported_policy(exported: Exported, tmp_path: Path) -> None:
     config = replace(TINY, policy="attention", baseline="shared")
-    train(config, tmp_path / "run", 5.0, "cpu", max_steps=0, validation_size=8,
-          begin_with=tmp_path / "exported")
-    content = torch.load(tmp_path / "run" / "checkpoint.pt", weights_only=False)
-    for name, value in exported.state_dict().items():
+    train(config, tmp_path, 5.0, "cpu", max_steps=0, validation_size=8,
+          begin_with=exported.folder)
+    content = torch.load(tmp_path / "checkpoint.pt", weights_only=False)
+    for name, value in exported.weights.items():
         assert torch.equal(value, content["policy"][name]), name
 
 
-def test_another_policys_weights_are_refused(tmp_path: Path) -> None:
-    export(POLICIES["attention"](), tmp_path / "exported", {})
+def test_another_policys_weights_are_refused(exported: Exported, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="begin_with"):
-        train(TINY, tmp_path / "run", 5.0, "cpu", max_steps=0, validation_size=8,
-              begin_with=tmp_path / "exported")
+        train(TINY, tmp_path, 5.0, "cpu", max_steps=0, validation_size=8,
+              begin_with=exported.folder)
 
 
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:
