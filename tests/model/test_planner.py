@@ -77,6 +77,7 @@ def test_every_decoded_plan_of_random_problems_passes_the_checker(planner: Plann
     assert unassigned > 25
 
 
+@pytest.mark.by_clock
 def test_every_improved_plan_of_random_problems_is_legal_and_no_dearer(planner: Planner) -> None:
     rng = np.random.default_rng(18)
     unassigned = cheaper = 0
