@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from model.judge.timing import opening
+from model.judge.clock import opening
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
 from model.solution import Cost, Route, Sortie, Stop, Trip, Visit
 

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from model.judge.check import Evaluation, check
-from model.judge.timing import RouteDecision, SortieDecision, TripDecision, leg_start, schedule
+from model.judge.clock import leg_start
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import Customer, DroneType, Problem, Travel, VehicleType
 from model.solution import Solution
 

@@ -20,9 +20,7 @@ from app.settings import DEFAULT_POLICY, Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.kernel.warming import Tell, Warmth
-from model.planner import (
-    ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult, compile_search,
-)
+from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult, compile_search
 from model.problem import Problem
 from model.solution import Route, Solution
 from model.travel.airspace import compile_ways

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, check
+from model.judge.clock import opening
 from model.judge.rules import airborne_duration
 from model.judge.timing import (
-    Operation, RouteDecision, SortieDecision, TripDecision, held_takeoff, opening, schedule,
+    Operation, RouteDecision, SortieDecision, TripDecision, held_takeoff, schedule,
 )
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN

@@ -6,13 +6,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from model.judge.check import check
+from model.judge.clock import leg_end, leg_start
 from model.judge.timing import (
     Operation,
     RouteDecision,
     SortieDecision,
     TripDecision,
-    leg_end,
-    leg_start,
     read_decision,
     schedule,
 )

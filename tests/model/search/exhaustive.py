@@ -11,9 +11,8 @@ from functools import cache
 from itertools import combinations, pairwise, permutations
 
 from model.judge.check import check
-from model.judge.timing import (
-    RouteDecision, SortieDecision, TripDecision, opening, schedule,
-)
+from model.judge.clock import opening
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, IntArray, Problem, VehicleType
 from model.solution import Route, Solution, Stop, Visit
 

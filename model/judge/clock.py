@@ -1,0 +1,52 @@
+"""When a leg ends that takes longer at some hours, and when a customer's service begins.
+
+Times in ms, plain Python integers.
+"""
+
+from bisect import bisect_left, bisect_right
+
+from model.problem import FULL_SPEED, Customer, SpeedProfile
+
+
+def leg_end(departure: int, duration: int, profile: SpeedProfile | None) -> int:
+    """Return when a leg of a matrix duration ends, rounded up to a millisecond."""
+    if profile is None:
+        return departure + duration
+    work = duration * FULL_SPEED
+    time = departure
+    for change in range(bisect_right(profile.times, departure), len(profile.times)):
+        until_change = (profile.times[change] - time) * profile.factors[change]
+        if work <= until_change:
+            return time - -work // profile.factors[change]
+        work -= until_change
+        time = profile.times[change]
+    return time - -work // profile.factors[-1]
+
+
+def leg_start(arrival: int, duration: int, profile: SpeedProfile | None) -> int:
+    """Return the latest departure whose leg ends no later than `arrival`."""
+    if profile is None:
+        return arrival - duration
+    work = duration * FULL_SPEED
+    time = arrival
+    for change in range(bisect_left(profile.times, arrival) - 1, -1, -1):
+        since_change = (time - profile.times[change]) * profile.factors[change + 1]
+        if work <= since_change:
+            return time + -work // profile.factors[change + 1]
+        work -= since_change
+        time = profile.times[change]
+    return time + -work // profile.factors[0]
+
+
+def opening(customer: Customer, arrival: int) -> int:
+    """Return the beginning of the window in which whoever comes at `arrival` is served."""
+    opens = customer.earliest
+    for closes, reopens in customer.gaps:
+        if arrival > closes:
+            opens = reopens
+    return opens
+
+
+def service_start(customer: Customer, arrival: int) -> int:
+    """Return when service begins; whoever is early, or comes between two windows, waits."""
+    return max(arrival, opening(customer, arrival))
