@@ -240,7 +240,7 @@ def follow(world: World, route: Record, stops: Records, p: int, time: int, cum: 
         if stop.kind == CUSTOMER:
             node = stop.node
             place = world.place[node]
-            cost += window_cost(world, node, time) - window_cost(world, node, stop.arrival)
+            cost += window_cost(world, node, time) - stop.window_cost
             depart = min(depart, as_late(place, time) - cum)
             leave, cum = end_of_service(place, time), cum + service_duration(place)
         elif stop.kind == START:

@@ -31,7 +31,7 @@ STOP = record(
     "leave", "latest", "leg", "gap", "flying", "trip",
     # All else that follows.
     "early", "rest", "end", "cum", "depart", "arrival", "before", "block", "last", "d", "c", "hi",
-    "lo", "dep", "hold", "idle")
+    "lo", "dep", "hold", "idle", window_cost=float)
 
 CUSTOMER, START, END = range(3)
 

@@ -164,8 +164,10 @@ def price_windows(world: World, route: Record, stops: Records,
     late = early = 0.0
     for p in range(route.length):
         if stops[p].kind == CUSTOMER:
-            late += lateness_cost(world, stops[p].node, stops[p].arrival)
-            early += waiting_cost(world, stops[p].node, stops[p].arrival)
+            costs = (lateness_cost(world, stops[p].node, stops[p].arrival),
+                     waiting_cost(world, stops[p].node, stops[p].arrival))
+            stops[p].window_cost = costs[0] + costs[1]
+            late, early = late + costs[0], early + costs[1]
     for s in range(route.sorties):
         for visit in range(sorties[s].count):
             node = sorties[s].nodes[visit]
