@@ -10,12 +10,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from operator import attrgetter
 
-from model.dialects.vroom.alternatives import bring_first, leave_out_by_priority
 from model.dialects.vroom.checking import drive, route_faults
 from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.errors import RefusedError
 from model.dialects.vroom.models import Model, Routes
 from model.dialects.vroom.places import Places
+from model.dialects.vroom.prices import bring_first, leave_out_by_priority
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.work import UNHURRIED, LegLimit, Preparing, attempt_seconds, model_seconds
 from model.judge.check import check

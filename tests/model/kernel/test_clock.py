@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge import timing
+from model.judge import clock
 from model.kernel.clock import is_steady, leg_end, leg_start
 from model.kernel.compiled import compiled
 from model.kernel.instance import pack
@@ -34,7 +34,7 @@ def test_legs_end_and_begin_when_the_judge_says(tiny_problem, customers, truck, 
     for time in [0, *changes, *rng.integers(0, 20 * MINUTE, 300).tolist()]:
         duration = int(rng.integers(0, 15 * MINUTE))
         end, start, steady = both(kind, times, factors, duration, time)
-        assert end == timing.leg_end(time, duration, profile)
-        assert start == timing.leg_start(time, duration, profile)
+        assert end == clock.leg_end(time, duration, profile)
+        assert start == clock.leg_start(time, duration, profile)
         assert steady == (profile is None)
-        assert timing.leg_end(start, duration, profile) <= time
+        assert clock.leg_end(start, duration, profile) <= time
