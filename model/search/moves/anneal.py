@@ -12,7 +12,7 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import compiled_on_arrays, inlined, spliced
 from model.kernel.copying import copy_some
 from model.search.moves.exchange import exchange_tails
-from model.search.moves.recreate import ORDERS, recreate, sort_absent
+from model.search.moves.recreate import draw_order, recreate, sort_absent
 from model.search.moves.resplit import resplit
 from model.search.moves.retype import cheapen_types, draw_type, improve_types
 from model.search.moves.ruin import choose, remove_marked
@@ -167,7 +167,7 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
             if world.mixed and count.touched > 0 and uniform(searcher.rng) < RETYPED:
                 draw_type(world, searcher)
         sort_absent(world, searcher, first,
-                    order if building else ORDERS[below(searcher.rng, len(ORDERS))])
+                    order if building else draw_order(world, searcher.rng))
         limit = value.cost - value.temperature * math.log(1.0 - uniform(searcher.rng))
         retyped = (not building and (world.traded or world.mixed)
                    and uniform(searcher.rng) < RETYPED)

@@ -11,7 +11,7 @@ from model.search.insertion.places import find_beside, find_place, try_new_route
 from model.search.route.edit import NEW_FLIGHT, NEW_ROUTE, apply
 from model.search.route.layout import MODE_LEAN, World
 from model.search.route.lean import insert_lean
-from model.search.route.randomness import uniform
+from model.search.route.randomness import below, uniform
 from model.search.route.refresh import locate, refresh
 from model.search.route.state import Searcher, free_slot, keep_aside, list_active, touch
 from model.search.route.vehicles import change_type
@@ -22,15 +22,28 @@ ENLARGED = 0.2
 OPENING = 0.03
 """How often the first customer inserted is given a route of its own."""
 
-BY_CHANCE, BY_DEMAND, BY_FAR, BY_CLOSE, BY_WIDTH, BY_LATEST = range(6)
+BY_CHANCE, BY_DEMAND, BY_FAR, BY_CLOSE, BY_WIDTH, BY_LATEST, BY_COST = range(7)
 ORDERS = (BY_CHANCE, BY_CHANCE, BY_CHANCE, BY_CHANCE, BY_DEMAND, BY_DEMAND, BY_DEMAND, BY_DEMAND,
           BY_FAR, BY_FAR, BY_CLOSE, BY_WIDTH, BY_WIDTH, BY_LATEST)
+
+DEAREST_FIRST = 0.5
+"""How often those come first whom it costs most to leave out, where that differs."""
+
+
+@spliced
+def draw_order(world: World, rng: UIntArray) -> int:
+    """Draw in what order customers are inserted."""
+    if world.unequal and uniform(rng) < DEAREST_FIRST:
+        return BY_COST
+    return ORDERS[below(rng, len(ORDERS))]
 
 
 @inlined
 def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     """Return where a customer comes in an order; least first."""
     place = world.place[node]
+    if order == BY_COST:
+        return -world.unassigned_more[node]
     if order == BY_DEMAND:
         return -float(total(demand_of(place)))
     if order in (BY_FAR, BY_CLOSE):

@@ -87,6 +87,7 @@ class World(NamedTuple):
     blink: float  # how often a better place for a customer is overlooked
     unassigned_cost: float  # of whoever it costs least to leave out
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that
+    unequal: bool  # leaving out some costs more than others
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
     place: Records  # (node,) NODE
     price: Records  # (node,) PRICE, per ms
