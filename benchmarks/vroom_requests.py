@@ -35,6 +35,9 @@ SIDE_M, SPEED = 20_000, 10.0
 """Side of the area in metres, and speed in metres a second."""
 
 DAY = 28_800
+MANY, SHORT = 50, 300
+"""Windows of a job that has many, and how long each is."""
+
 LEAST_SECONDS = 0.05
 """Tandem gets at least this time, where VROOM is done sooner."""
 
@@ -79,6 +82,16 @@ def several_windows(rng: np.random.Generator, size: int) -> Data:
     for job in request["jobs"]:
         morning, afternoon = int(rng.integers(0, 9_000)), int(rng.integers(16_200, 23_400))
         job["time_windows"] = [[morning, morning + 3_600], [afternoon, afternoon + 3_600]]
+    return request
+
+
+def many_windows(rng: np.random.Generator, size: int) -> Data:
+    """Return the same as `windows`, with fifty windows of five minutes all over the day."""
+    request = windows(rng, size)
+    step = DAY // MANY
+    for job in request["jobs"]:
+        begins = np.arange(0, DAY, step) + rng.integers(0, step - SHORT, MANY)
+        job["time_windows"] = [[begin, begin + SHORT] for begin in begins.tolist()]
     return request
 
 
@@ -151,7 +164,8 @@ def limits(rng: np.random.Generator, size: int) -> Data:
 
 
 CLASSES: tuple[Callable[[np.random.Generator, int], Data], ...] = (
-    cvrp, windows, several_windows, skills, mixed_fleet, setups, priorities, both_ways, limits)
+    cvrp, windows, several_windows, many_windows, skills, mixed_fleet, setups, priorities,
+    both_ways, limits)
 
 
 def _places(rng: np.random.Generator, size: int, num_places: int) -> Data:
