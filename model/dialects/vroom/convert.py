@@ -47,6 +47,7 @@ class Converter:
         self._is_timed = request.is_timed
         self._origin = self._find_origin()
         self._shifts = {kind.stated.time_window for kind in self.kinds}
+        self._windows = [self._reachable(job.time_windows or ()) for job in request.jobs]
 
     def model(self, jobs: Sequence[int], preparing: Preparing = UNHURRIED) -> Model:
         """Return the problem of serving jobs, at least one.
@@ -166,7 +167,7 @@ class Converter:
         demand = tuple(loads.demand[job].tolist())
         skills = frozenset(map(str, stated.skills))
         name = str(stated.id)
-        windows = self._reachable(job)
+        windows = self._windows[job]
         if not windows:
             return Customer(name, demand, service * PARTS, skills=skills)
         begins = [self._instant(begin) for begin, _ in windows]
@@ -176,14 +177,13 @@ class Converter:
 
     def _startable(self, jobs: Sequence[int]) -> BoolArray:
         """Return (kind, node) that nobody serves a job in whose windows nobody works."""
-        startable = [self._request.jobs[job].time_windows is None or bool(self._reachable(job))
+        startable = [self._request.jobs[job].time_windows is None or bool(self._windows[job])
                      for job in jobs]
         return np.tile(np.array(startable, np.bool_), (len(self.kinds), 1))
 
-    def _reachable(self, job: int) -> list[Window]:
-        """Return the windows of a job in which any vehicle works, in order."""
-        stated = self._request.jobs[job].time_windows or ()
-        return [window for window in sorted(stated) if self._may_start(window)]
+    def _reachable(self, windows: Sequence[Window]) -> list[Window]:
+        """Return those windows in which any vehicle works, in order."""
+        return [window for window in sorted(windows) if self._may_start(window)]
 
     def _may_start(self, window: Window) -> bool:
         """Tell whether any vehicle works within a time window."""
