@@ -22,7 +22,7 @@ def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
 
 @spliced
 def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, last: int,
-               skipped: int, place: Record, spare: int, rate: float, best: float, blink: float,
+               skipped: int, place: Records, spare: int, rate: float, best: float, blink: float,
                rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
 
@@ -111,7 +111,7 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
 
 
 @spliced
-def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: int, place: Record,
+def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: int, place: Records,
                     best: int) -> tuple[int, int]:
     """Return the shortest detour for a customer on a lean route, and the stop before it.
 

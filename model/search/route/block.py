@@ -131,7 +131,7 @@ def bound_arrival(acc: Record, first: int, last: int) -> None:
 
 
 @inlined
-def reach(place: Record, arrival: int, d: int, c: int, acc: Record) -> bool:
+def reach(place: Records, arrival: int, d: int, c: int, acc: Record) -> bool:
     """Bound the truck's arrival by the window of a customer reached at (d, c), at `arrival`.
 
     In place; False if that is too late however soon the truck arrives.
