@@ -8,7 +8,8 @@ fit a capacity of 0.001.
 from collections.abc import Iterable, Iterator, Sequence
 
 from app.errors import InputError, json_path
-from app.schemas.request import CustomerInput, VehicleTypeInput
+from app.schemas.customer import CustomerInput
+from app.schemas.vehicle import VehicleTypeInput
 from model.problem import MAX_QUANTITY, USUAL_DECIMALS
 
 MAX_DECIMALS = 9

@@ -8,16 +8,10 @@ import numpy as np
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.units import thousandths
 from app.conversion.work import legs_seconds, sights_seconds
-from app.schemas.request import (
-    DEFAULT_DRONE_SPEED_KMH,
-    DEFAULT_TRUCK_SPEED_KMH,
-    CustomerInput,
-    DepotInput,
-    DronesInput,
-    MatrixInput,
-    PlanRequest,
-    VehicleTypeInput,
-)
+from app.schemas.customer import CustomerInput
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.request import DepotInput, MatrixInput, PlanRequest
+from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
 from model.problem import FloatArray, SpeedProfile, Travel
 from model.travel.airspace import Airspace, Flights
 from model.travel.matrices import (

@@ -9,8 +9,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.schemas.request import MAX_VEHICLE_TYPES, Name, PlanRequest, VehicleTypeInput
+from app.schemas.fields import Name
+from app.schemas.request import MAX_VEHICLE_TYPES, PlanRequest
 from app.schemas.response import CostReply, LoadRateReply, PlanReply
+from app.schemas.vehicle import VehicleTypeInput
 
 Kind = Literal["plan", "compare", "sweep"]
 State = Literal["queued", "running", "done", "failed", "cancelled"]

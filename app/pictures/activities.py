@@ -9,8 +9,9 @@ from typing import Literal
 
 from app.conversion.names import number_in
 from app.pictures.scene import Scene
+from app.schemas.drones import DronesInput
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
-from app.schemas.request import DronesInput, VehicleTypeInput
+from app.schemas.vehicle import VehicleTypeInput
 
 Activity = Literal["drive", "wait", "serve", "fly", "launch", "reload"]
 

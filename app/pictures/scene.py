@@ -12,8 +12,10 @@ from app.errors import InputError, InvalidRequestError, json_path
 from app.plans.replies import cost_reply, summary_reply
 from app.plans.task import task_of
 from app.requests.plan_reading import read_plan
+from app.schemas.customer import CustomerInput
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, TripInput
-from app.schemas.request import CustomerInput, DepotInput, PlanRequest, VehicleTypeInput
+from app.schemas.request import DepotInput, PlanRequest
+from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray
 from model.travel.matrices import LocalProjection
 

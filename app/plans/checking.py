@@ -12,10 +12,11 @@ from app.errors import InputError, InvalidRequestError, NotJsonError, RequestErr
 from app.plans.replies import Data, cost_reply, summary_reply
 from app.plans.task import task_of, violation_reply
 from app.requests.bounds import Bounds, bound_errors
+from app.requests.draft import Draft
 from app.requests.plan_reading import Known, plan_errors, read_plan
 from app.requests.reading import partial_draft, read_json, request_errors
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
-from app.requests.validation import Draft, semantic_errors
+from app.requests.validation import semantic_errors
 from app.schemas.check import CheckRequest
 from app.schemas.plan import PlanInput
 from app.settings import MAX_NUM_SAMPLES, MAX_TIME_LIMIT

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from app.conversion.travels import Travels
 from app.errors import InputError
-from app.requests.validation import Draft
+from app.requests.draft import Draft
 from app.schemas.request import PlanRequest, ReplanInput
 from app.settings import MAX_CUSTOMERS, MAX_LEGS, MAX_NUM_SAMPLES, MAX_TIME_LIMIT, Settings
 from model.planner import decoding_seconds

@@ -10,8 +10,10 @@ from app.conversion.names import number_in
 from app.conversion.units import thousandths
 from app.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_error
 from app.requests.reading import read_json
+from app.schemas.customer import CustomerInput
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput
-from app.schemas.request import CustomerInput, DepotInput, VehicleTypeInput
+from app.schemas.request import DepotInput
+from app.schemas.vehicle import VehicleTypeInput
 from model.problem import Problem
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 

@@ -8,8 +8,10 @@ from typing import TypeVar
 from app.conversion.names import number_in
 from app.conversion.units import thousandths
 from app.errors import ErrorCode, InputError, json_path
+from app.schemas.customer import CustomerInput
 from app.schemas.plan import MAX_INSTANT, RouteInput, SortieInput, TripInput
-from app.schemas.request import CustomerInput, DepotInput, ReplanInput, VehicleTypeInput
+from app.schemas.request import DepotInput, ReplanInput
+from app.schemas.vehicle import VehicleTypeInput
 
 Path = tuple[str | int, ...]
 Errors = Iterator[InputError]

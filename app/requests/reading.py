@@ -8,18 +8,19 @@ from pydantic_core import ErrorDetails, from_json, to_json
 
 from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_error
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
+from app.requests.draft import Draft
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
-from app.requests.validation import Draft, semantic_errors
+from app.requests.validation import semantic_errors
+from app.schemas.customer import CustomerInput
 from app.schemas.request import (
     AirspaceInput,
-    CustomerInput,
     DepotInput,
     MatrixInput,
     OptionsInput,
     PlanRequest,
     ReplanInput,
-    VehicleTypeInput,
 )
+from app.schemas.vehicle import VehicleTypeInput
 
 Section = TypeVar("Section", bound=BaseModel)
 Parts = set[tuple[str | int, ...]]

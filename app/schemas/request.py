@@ -6,57 +6,32 @@ an unknown depot, is checked in `app.requests.validation`.
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
+from app.schemas.customer import CustomerInput
+from app.schemas.fields import (
+    LOCATION_INDEX_TEXT,
+    LOCATION_TEXT,
+    MAX_DEPOTS,
+    Input,
+    Location,
+    LocationIndex,
+    Money,
+    Name,
+    Seconds,
+    Table,
+)
 from app.schemas.plan import PlanInput
+from app.schemas.vehicle import VehicleTypeInput
 from app.settings import DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT
-from model.problem import MAX_MONEY, MAX_QUANTITY
 
-MAX_AMOUNT = MAX_QUANTITY // 1000
-"""Largest amount, duration in seconds or distance in metres: all are held as thousandths."""
-
-MAX_DEPOTS = 100
 MAX_VEHICLE_TYPES = 100
 MAX_POLYGON_POINTS = 500
 
-DEFAULT_TRUCK_SPEED_KMH = 40.0
-DEFAULT_DRONE_SPEED_KMH = 60.0
-
-Name = Annotated[str, Field(min_length=1, max_length=200)]
-Amount = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
-Seconds = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
-Metres = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
-Money = Annotated[float, Field(ge=0, le=MAX_MONEY)]
-# Speed and factor together keep every share of the fastest speed above a millionth.
-Speed = Annotated[float, Field(ge=1, le=1000)]
-Demand = Annotated[list[Amount], Field(min_length=1, max_length=3)]
-Location = tuple[float, float]
-LocationIndex = Annotated[int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS)]
-Skills = Annotated[list[Name], Field(max_length=100)]
-MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + 1
-"""Most rows of a matrix, and columns: what `location_index` can name."""
-
-Table = Annotated[
-    list[Annotated[list[Annotated[float, Field(le=MAX_AMOUNT)]],
-                   Field(fail_fast=True, max_length=MAX_PLACES)]],
-    Field(fail_fast=True, max_length=MAX_PLACES),
-]
 Polygon = Annotated[list[Location], Field(min_length=3, max_length=MAX_POLYGON_POINTS)]
 
-LOCATION_TEXT = (
-    "`[x, y]` in units of `planar_unit` metres, or `[longitude, latitude]` in degrees when "
-    "`coordinate_system` is `geographic`. May be left out where `matrices` cover every vehicle."
-)
-LOCATION_INDEX_TEXT = "Row and column of this place in `matrices`, from 0. Needed with `matrices`."
 
-
-class _Input(BaseModel):
-    """Strict on types, names and finiteness."""
-
-    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
-
-
-class DepotInput(_Input):
+class DepotInput(Input):
     """A place where trips start and end."""
 
     id: Name = Field(description="Name of the depot, unique among depots.")
@@ -64,163 +39,7 @@ class DepotInput(_Input):
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
 
 
-class TimeWindowInput(_Input):
-    """When service at a customer may start; both ends belong to the window."""
-
-    earliest: Seconds = Field(
-        0.0, description="Earliest start of service in seconds since plan start; earlier waits."
-    )
-    latest: Seconds | None = Field(
-        None, description="Latest arrival in seconds since plan start. Null: no limit."
-    )
-    late_cost_per_hour: Money | None = Field(
-        None,
-        description="Cost per hour of arriving after `latest`. Null: arriving later isn't allowed.",
-    )
-    early_cost_per_hour: Money = Field(
-        0.0, description="Cost per hour of waiting for `earliest` at the customer."
-    )
-
-
-class CustomerInput(_Input):
-    """A place with a demand, served once by a truck or a drone."""
-
-    id: Name = Field(description="Name of the customer, unique among customers.")
-    location: Location | None = Field(None, description=LOCATION_TEXT)
-    location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
-    demand: Demand = Field(
-        description="Amount to deliver in 1 to 3 dimensions (such as kg and litres), in your "
-        "units; as many as every `capacity`. Counted exactly, with up to nine decimals."
-    )
-    service_duration: Seconds = Field(0.0, description="Time spent at the customer in seconds.")
-    time_window: TimeWindowInput = Field(
-        TimeWindowInput(), description="When service may start. Default: at any time."
-    )
-    served_by: Literal["truck", "drone", "either"] = Field(
-        "either", description="Kind of vehicle that may serve the customer."
-    )
-    skills: Skills = Field([], description="Skills that the serving vehicle type must have, all.")
-    release_time: Seconds = Field(
-        0.0,
-        description="When the parcel is at the depot, in seconds since plan start: a trip that "
-        "carries it begins no earlier.",
-    )
-
-
-class CostsInput(_Input):
-    """What a vehicle costs, in one currency."""
-
-    fixed: Money = Field(0.0, description="Cost per vehicle that is used at all.")
-    per_km: Money = Field(1.0, description="Cost per kilometre driven by the truck.")
-    per_hour: Money = Field(
-        0.0, description="Cost per hour from first departure to last return, waiting included."
-    )
-
-
-class DroneCostsInput(_Input):
-    """What a drone costs, in one currency."""
-
-    per_km: Money = Field(0.25, description="Cost per kilometre flown.")
-    per_hour: Money = Field(0.0, description="Cost per hour from take-off to the end of recovery.")
-
-
-class SpeedChangeInput(_Input):
-    """Speed from an instant on, until the next entry. State `speed_kmh` or `factor`, not both."""
-
-    from_time: Seconds = Field(
-        alias="from", description="When this speed begins, in seconds since plan start."
-    )
-    speed_kmh: Speed | None = Field(None, description="Speed in km/h from then on.")
-    factor: Annotated[float, Field(ge=0.05, le=20)] | None = Field(
-        None, description="Speed from then on as a multiple of the vehicle type's usual speed."
-    )
-
-
-class ShiftInput(_Input):
-    """When vehicles of a type work."""
-
-    earliest: Seconds = Field(
-        0.0, description="Earliest begin of the first trip in seconds since plan start."
-    )
-    latest: Seconds | None = Field(
-        None, description="Latest return in seconds since plan start. Null: no limit."
-    )
-
-
-class DronesInput(_Input):
-    """The drones that ride on every truck of a type."""
-
-    count: int = Field(ge=0, le=32, description="Drones per truck.")
-    capacity: Demand = Field(
-        description="Largest payload of one sortie, per dimension, in the unit of `demand`."
-    )
-    speed_kmh: Speed | None = Field(
-        None,
-        description=f"Airspeed in km/h, {DEFAULT_DRONE_SPEED_KMH:g} by default. Without meaning "
-        "where the profile has a matrix.",
-    )
-    profile: Name = Field("drone", description="Entry of `matrices` that holds the flights.")
-    endurance: Seconds | None = Field(
-        None, description="Longest flight from take-off to recovery in seconds. Null: no limit."
-    )
-    endurance_includes_waiting: bool = Field(
-        True, description="Whether waiting for the truck at the recovery stop uses endurance."
-    )
-    launch_duration: Seconds = Field(
-        0.0, description="Time to launch in seconds; the truck stands still meanwhile."
-    )
-    recovery_duration: Seconds = Field(
-        0.0, description="Time to recover in seconds; the truck stands still meanwhile."
-    )
-    service_duration: Seconds | None = Field(
-        None, description="Time at a customer in seconds. Null: the customer's `service_duration`."
-    )
-    max_customers_per_sortie: int = Field(
-        1, ge=1, le=100, description="Most customers on one flight."
-    )
-    costs: DroneCostsInput = Field(DroneCostsInput(), description="What flying costs.")
-
-
-class VehicleTypeInput(_Input):
-    """A number of equal trucks, with or without drones."""
-
-    id: Name = Field(description="Name of the type, unique in the fleet; vehicles are `<id>-1`, …")
-    depot: Name | None = Field(
-        None, description="Depot where the vehicles start and end. Null: the first depot."
-    )
-    count: int = Field(ge=1, le=10_000, description="Vehicles of this type.")
-    capacity: Demand = Field(
-        description="Largest load of one trip, per dimension, drones' parcels included."
-    )
-    costs: CostsInput = Field(CostsInput(), description="What the vehicles cost.")
-    speed_kmh: Speed | None = Field(
-        None,
-        description=f"Speed in km/h, {DEFAULT_TRUCK_SPEED_KMH:g} by default. Without meaning where "
-        "the profile has a matrix, except as the base of a speed profile in km/h.",
-    )
-    profile: Name = Field("truck", description="Entry of `matrices` that holds the legs.")
-    speed_profile: Annotated[list[SpeedChangeInput], Field(max_length=1000)] = Field(
-        [],
-        description="Speeds by time of day, in order of `from`. Before the first entry the usual "
-        "speed holds. A leg that crosses a change is driven partly at each speed.",
-    )
-    shift: ShiftInput = Field(ShiftInput(), description="When the vehicles work.")
-    max_working_duration: Seconds | None = Field(
-        None,
-        description="Longest time from first departure to last return in seconds. Null: no limit.",
-    )
-    max_trip_distance: Metres | None = Field(
-        None, description="Longest drive of one trip in metres. Null: no limit."
-    )
-    max_trips: int = Field(1, ge=1, le=1000, description="Most trips of one vehicle.")
-    reload_duration: Seconds = Field(
-        0.0, description="Time at the depot between two trips in seconds."
-    )
-    skills: Skills = Field([], description="Skills of the vehicles, and of their drones.")
-    drones: DronesInput | None = Field(None, description="Drones on every truck. Null: none.")
-
-
-class MatrixInput(_Input):
+class MatrixInput(Input):
     """Legs between all places by one kind of vehicle; rows are origins."""
 
     durations: Table = Field(
@@ -233,7 +52,7 @@ class MatrixInput(_Input):
     )
 
 
-class WindInput(_Input):
+class WindInput(Input):
     """A steady wind, felt by drones alone."""
 
     speed_kmh: Annotated[float, Field(ge=0, le=500)] = Field(0.0, description="Speed in km/h.")
@@ -244,7 +63,7 @@ class WindInput(_Input):
     )
 
 
-class AirspaceInput(_Input):
+class AirspaceInput(Input):
     """What changes flights that are computed from locations."""
 
     no_fly: Annotated[list[Polygon], Field(max_length=200)] = Field(
@@ -255,7 +74,7 @@ class AirspaceInput(_Input):
     wind: WindInput = Field(WindInput(), description="Wind, the same everywhere and always.")
 
 
-class OptionsInput(_Input):
+class OptionsInput(Input):
     """How to plan."""
 
     policy: Name = Field(DEFAULT_POLICY, description="Policy that builds the plan.")
@@ -296,7 +115,7 @@ class OptionsInput(_Input):
     )
 
 
-class ReplanInput(_Input):
+class ReplanInput(Input):
     """A plan to go on from, and what of it stays."""
 
     plan: PlanInput = Field(
@@ -327,7 +146,7 @@ class ReplanInput(_Input):
     )
 
 
-class PlanRequest(_Input):
+class PlanRequest(Input):
     """Customers and a fleet."""
 
     coordinate_system: Literal["planar", "geographic"] = Field(

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.conversion.problem import default_unassigned_cost, to_problem
+from app.conversion.leaving_out import default_unassigned_cost
+from app.conversion.problem import to_problem
 from app.requests.reading import read_request
 from model.problem import UNLIMITED, UNREACHABLE, Problem, SpeedProfile
 

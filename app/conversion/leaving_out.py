@@ -1,0 +1,58 @@
+"""What leaving a customer out costs where a request doesn't say."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from model.problem import (
+    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, UNREACHABLE, Customer, Travel, VehicleType,
+)
+
+DETOURS_PER_CUSTOMER = 10
+"""A customer left out costs as much as this many vehicles sent out for it alone."""
+
+
+def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequence[VehicleType],
+                            travels: Sequence[Travel]) -> float:
+    """Return a cost larger than any detour: that of many vehicles used for one customer each.
+
+    Each drives the longest leg there and back, serves longest, and works and is late or early as
+    long as the latest time that the problem states.
+    """
+    stated = [time for customer in customers
+              for time in (customer.earliest, customer.latest, customer.release_time)]
+    stated += [kind.latest for kind in vehicle_types]
+    horizon = max([time for time in stated if time < UNLIMITED], default=0) / MS_PER_HOUR
+    service = max([customer.service_duration for customer in customers], default=0) / MS_PER_HOUR
+    longest = [_longest_leg(travel) for travel in travels]
+    detour = max(_vehicle_cost(kind, longest, service + horizon) for kind in vehicle_types)
+    late = max([customer.late_cost_per_hour or 0.0 for customer in customers], default=0.0)
+    early = max([customer.early_cost_per_hour for customer in customers], default=0.0)
+    return max(1.0, DETOURS_PER_CUSTOMER * detour + (late + early) * horizon)
+
+
+def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],
+                  other_hours: float) -> float:
+    """Return the cost of a vehicle, and its drones, that goes the longest leg there and back.
+
+    `longest` has the kilometres and hours of each travel's.
+    """
+    slowest = min(kind.speed_profile.factors) / FULL_SPEED if kind.speed_profile else 1.0
+    kilometres, hours = longest[kind.travel]
+    cost = (kind.fixed_cost + 2 * kilometres * kind.cost_per_km
+            + (2 * hours / slowest + other_hours) * kind.cost_per_hour)
+    if kind.drones is not None:
+        kilometres, hours = longest[kind.drones.travel]
+        cost += (2 * kilometres * kind.drones.cost_per_km
+                 + (2 * hours + other_hours) * kind.drones.cost_per_hour)
+    return cost
+
+
+def _longest_leg(travel: Travel) -> tuple[float, float]:
+    """Return the largest distance in kilometres and the largest duration in hours."""
+    millimetres, milliseconds = travel.distance.max(initial=0), travel.duration.max(initial=0)
+    if milliseconds < UNREACHABLE:
+        return float(millimetres) / MM_PER_KM, float(milliseconds) / MS_PER_HOUR
+    reachable = travel.duration < UNREACHABLE
+    return (float(np.max(travel.distance, where=reachable, initial=0)) / MM_PER_KM,
+            float(np.max(travel.duration, where=reachable, initial=0)) / MS_PER_HOUR)

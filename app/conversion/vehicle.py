@@ -1,0 +1,55 @@
+"""`VehicleTypeInput` -> `VehicleType`, with its drones."""
+
+from collections.abc import Sequence
+
+from app.conversion.amounts import counted
+from app.conversion.travels import Travels
+from app.conversion.units import optional_thousandths, thousandths
+from app.schemas.drones import DronesInput
+from app.schemas.vehicle import VehicleTypeInput
+from model.problem import UNLIMITED, DroneType, VehicleType
+
+
+def to_vehicle_type(stated: VehicleTypeInput, depot: int, travels: Travels,
+                    decimals: Sequence[int]) -> VehicleType:
+    """Convert a valid vehicle type, whose home is the node `depot`."""
+    travel, speed_profile = travels.drive(stated)
+    shift = stated.shift
+    return VehicleType(
+        id=stated.id,
+        count=stated.count,
+        capacity=counted(stated.capacity, decimals),
+        travel=travel,
+        depot=depot,
+        fixed_cost=stated.costs.fixed,
+        cost_per_km=stated.costs.per_km,
+        cost_per_hour=stated.costs.per_hour,
+        speed_profile=speed_profile,
+        earliest=thousandths(shift.earliest),
+        latest=UNLIMITED if shift.latest is None else thousandths(shift.latest),
+        max_working_duration=optional_thousandths(stated.max_working_duration),
+        max_trip_distance=optional_thousandths(stated.max_trip_distance),
+        max_trips=stated.max_trips,
+        reload_duration=thousandths(stated.reload_duration),
+        skills=frozenset(stated.skills),
+        drones=_drones(stated.drones, travels, decimals),
+    )
+
+
+def _drones(stated: DronesInput | None, travels: Travels,
+            decimals: Sequence[int]) -> DroneType | None:
+    if stated is None or stated.count == 0:
+        return None
+    return DroneType(
+        count=stated.count,
+        capacity=counted(stated.capacity, decimals),
+        travel=travels.fly(stated),
+        endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
+        endurance_includes_waiting=stated.endurance_includes_waiting,
+        launch_duration=thousandths(stated.launch_duration),
+        recovery_duration=thousandths(stated.recovery_duration),
+        service_duration=optional_thousandths(stated.service_duration),
+        max_customers_per_sortie=stated.max_customers_per_sortie,
+        cost_per_km=stated.costs.per_km,
+        cost_per_hour=stated.costs.per_hour,
+    )

@@ -1,0 +1,75 @@
+"""The parts of a request that fit the schema, and what is said of those that don't make sense."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from app.errors import ErrorCode, InputError, json_path
+from app.schemas.customer import CustomerInput
+from app.schemas.fields import Location
+from app.schemas.request import AirspaceInput, DepotInput, MatrixInput, OptionsInput, ReplanInput
+from app.schemas.vehicle import VehicleTypeInput
+
+MAX_COORDINATE_M = 1e7
+"""Farthest planar coordinate from the origin in metres, a quarter of the way round the earth."""
+
+Path = tuple[str | int, ...]
+Place = DepotInput | CustomerInput
+Errors = Iterator[InputError]
+
+
+@dataclass(frozen=True)
+class Draft:
+    """The parts of a request that fit the schema; None stands for one that doesn't.
+
+    `matrices` is None if there are none, or if `matrices_known` is False.
+    """
+
+    coordinate_system: str | None
+    planar_unit: float
+    depots: Sequence[DepotInput | None] | None
+    customers: Sequence[CustomerInput | None] | None
+    fleet: Sequence[VehicleTypeInput | None] | None
+    matrices: Mapping[str, MatrixInput | None] | None
+    matrices_known: bool
+    airspace: AirspaceInput | None
+    options: OptionsInput | None
+    replan: ReplanInput | None = None
+
+    def places(self) -> Iterator[tuple[Path, Place]]:
+        """Yield depots and customers with their paths."""
+        for name, entries in (("depots", self.depots), ("customers", self.customers)):
+            for index, entry in enumerate(entries or ()):
+                if entry is not None:
+                    yield (name, index), entry
+
+    def known_customers(self) -> Iterator[tuple[Path, CustomerInput]]:
+        """Yield customers with their paths."""
+        for index, entry in enumerate(self.customers or ()):
+            if entry is not None:
+                yield ("customers", index), entry
+
+    def vehicle_types(self) -> Iterator[tuple[Path, VehicleTypeInput]]:
+        """Yield vehicle types with their paths."""
+        for index, entry in enumerate(self.fleet or ()):
+            if entry is not None:
+                yield ("fleet", index), entry
+
+
+def error_at(code: ErrorCode, path: Path, message: str) -> InputError:
+    """Return an error of a part of a request."""
+    return InputError(code=code, path=json_path(path), message=message)
+
+
+def point_errors(draft: Draft, path: Path, point: Location) -> Errors:
+    """Say what is wrong with a point, if anything is."""
+    if draft.coordinate_system == "geographic":
+        longitude, latitude = point
+        if not (-180 <= longitude <= 180 and -90 <= latitude <= 90):
+            yield error_at("LOCATION_OFF_GLOBE", path,
+                           "A geographic location is [longitude, latitude] with longitude in "
+                           "-180..180 and latitude in -90..90: correct it, or swap the two.")
+    elif (draft.coordinate_system == "planar"
+          and max(abs(point[0]), abs(point[1])) * draft.planar_unit > MAX_COORDINATE_M):
+        yield error_at("LOCATION_TOO_FAR", path,
+                       f"A planar coordinate lies within {MAX_COORDINATE_M:g} m of the origin: "
+                       "check planar_unit, or move the origin nearer.")

@@ -1,0 +1,54 @@
+"""What the schema can't tell of a vehicle type."""
+
+from app.conversion.units import thousandths
+from app.requests.draft import Draft, Errors, Path, error_at
+from app.schemas.vehicle import SpeedChangeInput, VehicleTypeInput
+
+
+def shift_errors(draft: Draft) -> Errors:
+    """Say which shifts end before they start."""
+    for path, vehicle_type in draft.vehicle_types():
+        shift = vehicle_type.shift
+        if shift.latest is not None and shift.latest < shift.earliest:
+            yield error_at("SHIFT_ENDS_BEFORE_START", (*path, "shift", "latest"),
+                           f"The shift ends at {shift.latest:g} s, before it starts at "
+                           f"{shift.earliest:g} s: raise latest or lower earliest.")
+
+
+def depot_errors(draft: Draft) -> Errors:
+    """Say which types name a depot that isn't there."""
+    if draft.depots is None or None in draft.depots:
+        return
+    known = {depot.id for depot in draft.depots if depot is not None}
+    for path, vehicle_type in draft.vehicle_types():
+        if vehicle_type.depot is not None and vehicle_type.depot not in known:
+            yield error_at("UNKNOWN_DEPOT", (*path, "depot"),
+                           f"No depot has the id {vehicle_type.depot!r}: use the id of one in "
+                           "depots, or add it there.")
+
+
+def speed_errors(draft: Draft) -> Errors:
+    """Say what is wrong with speeds by time of day."""
+    for path, vehicle_type in draft.vehicle_types():
+        previous = -1
+        for index, change in enumerate(vehicle_type.speed_profile):
+            here = (*path, "speed_profile", index)
+            start = thousandths(change.from_time)
+            if start <= previous:
+                yield error_at("SPEED_PROFILE_ORDER", (*here, "from"),
+                               "The entry begins no later than the one before it: sort the entries "
+                               "by from, each time once.")
+            previous = start
+            yield from _speed_change_errors(draft, here, vehicle_type, change)
+
+
+def _speed_change_errors(draft: Draft, path: Path, vehicle_type: VehicleTypeInput,
+                         change: SpeedChangeInput) -> Errors:
+    if (change.speed_kmh is None) == (change.factor is None):
+        yield error_at("MISSING_SPEED" if change.factor is None else "TWO_SPEEDS", path,
+                       "An entry has either speed_kmh or factor: state exactly one.")
+    elif (change.speed_kmh is not None and vehicle_type.speed_kmh is None
+          and vehicle_type.profile in (draft.matrices or {})):
+        yield error_at("MISSING_SPEED", (*path, "speed_kmh"),
+                       "The legs come from a matrix, whose speed is not known: use factor, or "
+                       "state speed_kmh of the vehicle type.")

@@ -1,0 +1,61 @@
+"""A customer of a request."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from app.schemas.fields import (
+    LOCATION_INDEX_TEXT,
+    LOCATION_TEXT,
+    Demand,
+    Input,
+    Location,
+    LocationIndex,
+    Money,
+    Name,
+    Seconds,
+    Skills,
+)
+
+
+class TimeWindowInput(Input):
+    """When service at a customer may start; both ends belong to the window."""
+
+    earliest: Seconds = Field(
+        0.0, description="Earliest start of service in seconds since plan start; earlier waits."
+    )
+    latest: Seconds | None = Field(
+        None, description="Latest arrival in seconds since plan start. Null: no limit."
+    )
+    late_cost_per_hour: Money | None = Field(
+        None,
+        description="Cost per hour of arriving after `latest`. Null: arriving later isn't allowed.",
+    )
+    early_cost_per_hour: Money = Field(
+        0.0, description="Cost per hour of waiting for `earliest` at the customer."
+    )
+
+
+class CustomerInput(Input):
+    """A place with a demand, served once by a truck or a drone."""
+
+    id: Name = Field(description="Name of the customer, unique among customers.")
+    location: Location | None = Field(None, description=LOCATION_TEXT)
+    location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
+    demand: Demand = Field(
+        description="Amount to deliver in 1 to 3 dimensions (such as kg and litres), in your "
+        "units; as many as every `capacity`. Counted exactly, with up to nine decimals."
+    )
+    service_duration: Seconds = Field(0.0, description="Time spent at the customer in seconds.")
+    time_window: TimeWindowInput = Field(
+        TimeWindowInput(), description="When service may start. Default: at any time."
+    )
+    served_by: Literal["truck", "drone", "either"] = Field(
+        "either", description="Kind of vehicle that may serve the customer."
+    )
+    skills: Skills = Field([], description="Skills that the serving vehicle type must have, all.")
+    release_time: Seconds = Field(
+        0.0,
+        description="When the parcel is at the depot, in seconds since plan start: a trip that "
+        "carries it begins no earlier.",
+    )

@@ -1,0 +1,48 @@
+"""The drones of a vehicle type."""
+
+from pydantic import Field
+
+from app.schemas.fields import Demand, Input, Money, Name, Seconds, Speed
+
+DEFAULT_DRONE_SPEED_KMH = 60.0
+
+
+class DroneCostsInput(Input):
+    """What a drone costs, in one currency."""
+
+    per_km: Money = Field(0.25, description="Cost per kilometre flown.")
+    per_hour: Money = Field(0.0, description="Cost per hour from take-off to the end of recovery.")
+
+
+class DronesInput(Input):
+    """The drones that ride on every truck of a type."""
+
+    count: int = Field(ge=0, le=32, description="Drones per truck.")
+    capacity: Demand = Field(
+        description="Largest payload of one sortie, per dimension, in the unit of `demand`."
+    )
+    speed_kmh: Speed | None = Field(
+        None,
+        description=f"Airspeed in km/h, {DEFAULT_DRONE_SPEED_KMH:g} by default. Without meaning "
+        "where the profile has a matrix.",
+    )
+    profile: Name = Field("drone", description="Entry of `matrices` that holds the flights.")
+    endurance: Seconds | None = Field(
+        None, description="Longest flight from take-off to recovery in seconds. Null: no limit."
+    )
+    endurance_includes_waiting: bool = Field(
+        True, description="Whether waiting for the truck at the recovery stop uses endurance."
+    )
+    launch_duration: Seconds = Field(
+        0.0, description="Time to launch in seconds; the truck stands still meanwhile."
+    )
+    recovery_duration: Seconds = Field(
+        0.0, description="Time to recover in seconds; the truck stands still meanwhile."
+    )
+    service_duration: Seconds | None = Field(
+        None, description="Time at a customer in seconds. Null: the customer's `service_duration`."
+    )
+    max_customers_per_sortie: int = Field(
+        1, ge=1, le=100, description="Most customers on one flight."
+    )
+    costs: DroneCostsInput = Field(DroneCostsInput(), description="What flying costs.")

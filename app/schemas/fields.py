@@ -1,0 +1,45 @@
+"""What fields of a request have in common: their types, bounds and strictness."""
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.settings import MAX_CUSTOMERS
+from model.problem import MAX_MONEY, MAX_QUANTITY
+
+MAX_AMOUNT = MAX_QUANTITY // 1000
+"""Largest amount, duration in seconds or distance in metres: all are held as thousandths."""
+
+MAX_DEPOTS = 100
+
+Name = Annotated[str, Field(min_length=1, max_length=200)]
+Amount = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
+Seconds = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
+Metres = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
+Money = Annotated[float, Field(ge=0, le=MAX_MONEY)]
+# Speed and factor together keep every share of the fastest speed above a millionth.
+Speed = Annotated[float, Field(ge=1, le=1000)]
+Demand = Annotated[list[Amount], Field(min_length=1, max_length=3)]
+Location = tuple[float, float]
+LocationIndex = Annotated[int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS)]
+Skills = Annotated[list[Name], Field(max_length=100)]
+MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + 1
+"""Most rows of a matrix, and columns: what `location_index` can name."""
+
+Table = Annotated[
+    list[Annotated[list[Annotated[float, Field(le=MAX_AMOUNT)]],
+                   Field(fail_fast=True, max_length=MAX_PLACES)]],
+    Field(fail_fast=True, max_length=MAX_PLACES),
+]
+
+LOCATION_TEXT = (
+    "`[x, y]` in units of `planar_unit` metres, or `[longitude, latitude]` in degrees when "
+    "`coordinate_system` is `geographic`. May be left out where `matrices` cover every vehicle."
+)
+LOCATION_INDEX_TEXT = "Row and column of this place in `matrices`, from 0. Needed with `matrices`."
+
+
+class Input(BaseModel):
+    """Strict on types, names and finiteness."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, frozen=True)

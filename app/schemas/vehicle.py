@@ -1,0 +1,82 @@
+"""A vehicle type of a request."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from app.schemas.drones import DronesInput
+from app.schemas.fields import Demand, Input, Metres, Money, Name, Seconds, Skills, Speed
+
+DEFAULT_TRUCK_SPEED_KMH = 40.0
+
+
+class CostsInput(Input):
+    """What a vehicle costs, in one currency."""
+
+    fixed: Money = Field(0.0, description="Cost per vehicle that is used at all.")
+    per_km: Money = Field(1.0, description="Cost per kilometre driven by the truck.")
+    per_hour: Money = Field(
+        0.0, description="Cost per hour from first departure to last return, waiting included."
+    )
+
+
+class SpeedChangeInput(Input):
+    """Speed from an instant on, until the next entry. State `speed_kmh` or `factor`, not both."""
+
+    from_time: Seconds = Field(
+        alias="from", description="When this speed begins, in seconds since plan start."
+    )
+    speed_kmh: Speed | None = Field(None, description="Speed in km/h from then on.")
+    factor: Annotated[float, Field(ge=0.05, le=20)] | None = Field(
+        None, description="Speed from then on as a multiple of the vehicle type's usual speed."
+    )
+
+
+class ShiftInput(Input):
+    """When vehicles of a type work."""
+
+    earliest: Seconds = Field(
+        0.0, description="Earliest begin of the first trip in seconds since plan start."
+    )
+    latest: Seconds | None = Field(
+        None, description="Latest return in seconds since plan start. Null: no limit."
+    )
+
+
+class VehicleTypeInput(Input):
+    """A number of equal trucks, with or without drones."""
+
+    id: Name = Field(description="Name of the type, unique in the fleet; vehicles are `<id>-1`, …")
+    depot: Name | None = Field(
+        None, description="Depot where the vehicles start and end. Null: the first depot."
+    )
+    count: int = Field(ge=1, le=10_000, description="Vehicles of this type.")
+    capacity: Demand = Field(
+        description="Largest load of one trip, per dimension, drones' parcels included."
+    )
+    costs: CostsInput = Field(CostsInput(), description="What the vehicles cost.")
+    speed_kmh: Speed | None = Field(
+        None,
+        description=f"Speed in km/h, {DEFAULT_TRUCK_SPEED_KMH:g} by default. Without meaning where "
+        "the profile has a matrix, except as the base of a speed profile in km/h.",
+    )
+    profile: Name = Field("truck", description="Entry of `matrices` that holds the legs.")
+    speed_profile: Annotated[list[SpeedChangeInput], Field(max_length=1000)] = Field(
+        [],
+        description="Speeds by time of day, in order of `from`. Before the first entry the usual "
+        "speed holds. A leg that crosses a change is driven partly at each speed.",
+    )
+    shift: ShiftInput = Field(ShiftInput(), description="When the vehicles work.")
+    max_working_duration: Seconds | None = Field(
+        None,
+        description="Longest time from first departure to last return in seconds. Null: no limit.",
+    )
+    max_trip_distance: Metres | None = Field(
+        None, description="Longest drive of one trip in metres. Null: no limit."
+    )
+    max_trips: int = Field(1, ge=1, le=1000, description="Most trips of one vehicle.")
+    reload_duration: Seconds = Field(
+        0.0, description="Time at the depot between two trips in seconds."
+    )
+    skills: Skills = Field([], description="Skills of the vehicles, and of their drones.")
+    drones: DronesInput | None = Field(None, description="Drones on every truck. Null: none.")
