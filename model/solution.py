@@ -1,6 +1,6 @@
 """A plan: routes of trips, with the sorties flown from them. Times in ms, nodes as in `Problem`."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 
 @dataclass(frozen=True)
@@ -80,5 +80,8 @@ class Cost:
     @property
     def total(self) -> float:
         """Sum of all terms."""
-        return (self.fixed + self.distance + self.time + self.lateness + self.earliness
-                + self.unassigned)
+        return sum([getattr(self, term) for term in COST_TERMS])
+
+
+COST_TERMS = tuple(term.name for term in fields(Cost))
+"""Names of the terms, as replies, pictures and people see them."""

@@ -25,6 +25,7 @@ from app.requests.reading import read_request
 from app.settings import Settings
 from model.judge.check import Evaluation
 from model.planner import Planner, load_planner
+from model.solution import COST_TERMS
 
 EXIT_INFEASIBLE = 1
 
@@ -148,6 +149,6 @@ def _print_evaluation(evaluation: Evaluation) -> None:
     for violation in evaluation.violations:
         typer.echo(f"{violation.code} {violation.path}: {violation.message}")
     cost = evaluation.cost
-    for term in ("fixed", "distance", "time", "lateness", "earliness", "unassigned", "total"):
+    for term in (*COST_TERMS, "total"):
         typer.echo(f"{term:10} {getattr(cost, term):.6f}")
     typer.echo("feasible" if evaluation.is_feasible else "infeasible")

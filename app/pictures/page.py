@@ -21,8 +21,6 @@ tr.drone td { color: #0b5d87; }
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 
-TERMS = ("fixed", "distance", "time", "lateness", "earliness", "unassigned", "total")
-
 STOP_COLUMNS = ("Trip", "Place", "Arrival", "Service", "Departure", "Window", "Late, min", "Demand",
                 "By")
 _NUMBERS = frozenset({0, 2, 3, 4, 6, 7})
@@ -48,7 +46,8 @@ def draw_page(scene: Scene) -> bytes:
 
 
 def _cost_table(scene: Scene) -> str:
-    rows = [(term.capitalize(), f"{scene.cost[term]:,.2f}") for term in TERMS]
+    terms = [*(term for term in scene.cost if term != "total"), "total"]
+    rows = [(term.capitalize(), f"{scene.cost[term]:,.2f}") for term in terms]
     return _table("Cost", ("Term", "Cost"), rows, numbers={1})
 
 

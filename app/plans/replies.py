@@ -11,7 +11,7 @@ from model.judge.explain import Reason, explain
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
 from model.problem import Problem
-from model.solution import Cost, Route, Solution, Sortie, Stop, Trip, Visit
+from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Stop, Trip, Visit
 
 Data = dict[str, Any]
 
@@ -63,8 +63,7 @@ def vehicle_name(problem: Problem, route: Route) -> str:
 
 def cost_reply(cost: Cost) -> Data:
     """Return a cost by term."""
-    return {"total": cost.total, "fixed": cost.fixed, "distance": cost.distance, "time": cost.time,
-            "lateness": cost.lateness, "earliness": cost.earliness, "unassigned": cost.unassigned}
+    return {"total": cost.total} | {term: getattr(cost, term) for term in COST_TERMS}
 
 
 def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:

@@ -15,7 +15,7 @@ from model.judge.past_rules import begins_with, past_violations
 from model.judge.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
 from model.judge.timing import read_decision, resume_trip, schedule_trip
 from model.problem import UNREACHABLE, DroneType, Problem, VehicleType
-from model.solution import Cost, Route, Solution, Sortie, Trip
+from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Trip
 
 
 @dataclass(frozen=True)
@@ -81,14 +81,7 @@ def judge_route(problem: Problem, route: Route, path: str,
 
 
 def _total(costs: list[Cost]) -> Cost:
-    return Cost(
-        fixed=sum([cost.fixed for cost in costs]),
-        distance=sum([cost.distance for cost in costs]),
-        time=sum([cost.time for cost in costs]),
-        lateness=sum([cost.lateness for cost in costs]),
-        earliness=sum([cost.earliness for cost in costs]),
-        unassigned=sum([cost.unassigned for cost in costs]),
-    )
+    return Cost(*[sum([getattr(cost, term) for cost in costs]) for term in COST_TERMS])
 
 
 def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,

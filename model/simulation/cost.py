@@ -9,9 +9,9 @@ from model.kernel.records import Record, Records, record
 from model.kernel.stop import lateness
 from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray
 from model.simulation.vehicle_log import Setting, VehicleLog, first_departure
+from model.solution import COST_TERMS
 
-COST = record(fixed=float, distance=float, time=float, lateness=float, earliness=float,
-              unassigned=float)
+COST = record(**dict.fromkeys(COST_TERMS, float))
 """What vehicles cost, by term."""
 
 

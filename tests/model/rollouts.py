@@ -17,6 +17,7 @@ from model.problem import (
 from model.simulation.cost import by_term
 from model.simulation.simulator import NUM_KINDS, OUTLOOK, RETURN, legal_actions, reset
 from model.simulation.transition import State
+from model.solution import COST_TERMS
 from training.instances import VARIANTS, generate
 
 
@@ -37,7 +38,7 @@ class Rollout:
     """One rollout, from the first step on."""
 
     steps: list[Step] = field(default_factory=list)
-    cost: FloatArray = field(default_factory=lambda: np.zeros(6))
+    cost: FloatArray = field(default_factory=lambda: np.zeros(len(COST_TERMS)))
 
     @property
     def actions(self) -> list[int]:

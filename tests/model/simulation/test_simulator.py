@@ -5,7 +5,7 @@ import subprocess
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -69,9 +69,7 @@ def test_random_rollouts_pass_the_checker_at_the_cost_it_finds() -> None:
             solution = extract(problem, pack([problem]), rollout.actions)
             evaluation = check(problem, solution)
             assert evaluation.violations == ()
-            cost = evaluation.cost
-            terms = (cost.fixed, cost.distance, cost.time, cost.lateness, cost.earliness,
-                     cost.unassigned)
+            terms = astuple(evaluation.cost)
             assert rollout.cost.tolist() == pytest.approx(terms, rel=1e-9, abs=1e-9)
 
 

@@ -5,11 +5,11 @@ import { addVehicles, changeWindows, giveWindow, withoutDrones } from '../core/c
 import { movedCustomers, planMeasures, requestDifferences } from '../core/differences.js';
 import { fromNothing } from '../core/replanning.js';
 import { clock, count, km, money, number, percent, signed } from '../core/format.js';
+import { costTerms } from '../core/terms.js';
 import { html } from '../libraries.js';
 import { plan } from '../planning.js';
 import { store, useStore } from '../store.js';
 import { Change } from './change-words.js';
-import { TERMS } from './costs-tab.js';
 import { WindowFields } from './window-fields.js';
 
 const MOST_LISTED = 40;
@@ -121,7 +121,7 @@ export function Differences({ entry, former }) {
     class="number">Plan ${former.number}</th>
     <th scope="col" class="number">Plan ${entry.number}</th><th scope="col"
       class="number">Difference</th></tr>`;
-  const names = { total: 'Total', ...TERMS };
+  const costs = [former.plan.cost, entry.plan.cost];
   return html`<section class="section"
     id="differences"><h3>Plan ${entry.number} beside plan ${former.number}</h3>
     ${
@@ -134,9 +134,9 @@ export function Differences({ entry, former }) {
         : html`<p class="help">The problem is the same.</p>`
     }
     <table><thead>${head}</thead><tbody>
-      ${Object.entries(names).map(
+      ${[['total', 'Total'], ...costTerms(...costs)].map(
         ([term, name]) => html`<${Difference} key=${term} name=${name}
-        before=${former.plan.cost[term]} now=${entry.plan.cost[term]} show=${money} cost />`,
+        before=${costs[0][term] ?? 0} now=${costs[1][term] ?? 0} show=${money} cost />`,
       )}
       ${planMeasures(former.plan, entry.plan).map(
         ({ key, name, before, now }) => html`<${Difference}

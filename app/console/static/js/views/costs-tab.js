@@ -2,19 +2,10 @@
 
 import { besidePlan, shownPlan } from '../actions.js';
 import { duration, km, money, number, percent } from '../core/format.js';
+import { costTerms } from '../core/terms.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { ShareBar } from './parts.js';
-
-/** Terms of the cost and their names. */
-export const TERMS = {
-  fixed: 'Vehicles used',
-  distance: 'Distance',
-  time: 'Working time',
-  lateness: 'Lateness',
-  earliness: 'Waiting for windows',
-  unassigned: 'Left out',
-};
 
 /** The tab. */
 export function CostsTab() {
@@ -25,7 +16,7 @@ export function CostsTab() {
   return html`<section class="section"><h3>Cost by term</h3>
       <table><thead><tr><th scope="col">Term</th><th scope="col" class="number">Cost</th>
         <th scope="col">Share</th></tr></thead>
-      <tbody>${Object.entries(TERMS).map(
+      <tbody>${costTerms(plan.cost).map(
         ([term, name]) => html`<tr key=${term}><th scope="row">${name}</th>
         <td class="number">${money(plan.cost[term])}</td>
         <td><${ShareBar} share=${shareOf(plan.cost, term)} text=${percent(shareOf(plan.cost, term))}

@@ -5,10 +5,10 @@ import { clock, count, money, number, percent } from '../core/format.js';
 import { heatTable, readValues, variableFields, writeAt } from '../core/grid.js';
 import { heatColour } from '../core/palette.js';
 import { fromNothing } from '../core/replanning.js';
+import { costTerms } from '../core/terms.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { showScenarioJob, showScenarioPlan, startScenario, stopScenario } from '../scenarios.js';
 import { store, useStore } from '../store.js';
-import { TERMS } from './costs-tab.js';
 
 /** The tab. */
 export function ScenariosTab() {
@@ -178,7 +178,9 @@ function CompareResult({ scenario: { body, result } }) {
             : (error ?? 'no plan')
         }</td>`,
       )}</tr>
-      ${Object.entries(TERMS).map(([term, name]) => line(name, ({ cost }) => money(cost[term])))}
+      ${costTerms(...entries.flatMap(([, { cost }]) => (cost ? [cost] : []))).map(([term, name]) =>
+        line(name, ({ cost }) => money(cost[term] ?? 0)),
+      )}
       ${line('Load rate, mean', ({ load_rate: rate }) => percent(rate?.mean))}
       ${line('Load rate, least', ({ load_rate: rate }) => percent(rate?.min))}
       ${line('Working rate, mean', ({ working_rate: rate }) => percent(rate?.mean))}
