@@ -80,7 +80,8 @@ def _customer(rng: random.Random, dimensions: int) -> Data:
         **_maybe(rng, 0.5, service_duration=rng.choice((0, 1e-4, 60, 900, 1e5, LONGEST))),
         **_maybe(rng, 0.5, time_window=_window(rng)),
         **_maybe(rng, 0.1, skills=rng.sample(SKILLS[:3], rng.randint(1, 2))),
-        **_maybe(rng, 0.15, release_time=rng.choice((0, 1, 3600, 86400, LONGEST)))}
+        **_maybe(rng, 0.15, release_time=rng.choice((0, 1, 3600, 86400, LONGEST))),
+        **_maybe(rng, 0.2, unassigned_cost=rng.choice((None, 0, 1e-9, 3, 1000, RICHEST)))}
 
 
 def _window(rng: random.Random) -> Data:

@@ -258,6 +258,7 @@ class Problem:
     unassigned_cost: float  # per customer left out who states no other
     amount_decimals: tuple[int, ...] = ()  # (dimension,) of demands and capacities; for people
     may_serve: BoolArray | None = None  # (vehicle type, customer); None: any type anyone
+    must_serve: bool = False  # whoever states no cost of being left out; for people
     num_dimensions: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -329,6 +330,10 @@ class Problem:
         """Return what leaving a customer out costs."""
         own = customer.unassigned_cost
         return self.unassigned_cost if own is None else own
+
+    def must_be_served(self, customer: Customer) -> bool:
+        """Tell whether no price was stated at which a customer may be left out."""
+        return self.must_serve and customer.unassigned_cost is None
 
     def customer_at(self, node: int) -> Customer:
         """Return the customer at a node.

@@ -22,4 +22,5 @@ def to_customer(stated: CustomerInput, decimals: Sequence[int]) -> Customer:
         served_by=stated.served_by,
         skills=frozenset(stated.skills),
         release_time=thousandths(stated.release_time),
+        unassigned_cost=stated.unassigned_cost,
     )

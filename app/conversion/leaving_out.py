@@ -17,7 +17,8 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     """Return a cost larger than any detour: that of many vehicles used for one customer each.
 
     Each drives the longest leg there and back, serves longest, and works and is late or early as
-    long as the latest time that the problem states.
+    long as the latest time that the problem states. Leaving out all who state a price of their own
+    costs less, too.
     """
     stated = [time for customer in customers
               for time in (customer.earliest, customer.latest, customer.release_time)]
@@ -28,7 +29,8 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     detour = max(_vehicle_cost(kind, longest, service + horizon) for kind in vehicle_types)
     late = max([customer.late_cost_per_hour or 0.0 for customer in customers], default=0.0)
     early = max([customer.early_cost_per_hour for customer in customers], default=0.0)
-    return max(1.0, DETOURS_PER_CUSTOMER * detour + (late + early) * horizon)
+    stated_costs = sum([customer.unassigned_cost or 0.0 for customer in customers])
+    return max(1.0, DETOURS_PER_CUSTOMER * detour + (late + early) * horizon + stated_costs)
 
 
 def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],

@@ -34,4 +34,5 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
         coordinates=travels.coordinates(),
         unassigned_cost=unassigned_cost,
         amount_decimals=decimals,
+        must_serve=request.unassigned_cost is None,
     )

@@ -160,10 +160,14 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
     """Return a plan in numbers, even if it breaks rules."""
     trips = [trip for route in evaluation.routes for trip in route.trips]
     sorties = [sortie for trip in trips for sortie in trip.sorties]
+    served = _served(problem, solution)
     rates = [min(trip.load_rate, MAX_LOAD_RATE) for trip in trips] or [0.0]
     return {
         "customers": problem.num_customers,
-        "served": _served(problem, solution),
+        "served": len(served),
+        "must_unserved": sum(problem.must_be_served(customer) for node, customer
+                             in enumerate(problem.customers, problem.num_depots)
+                             if node not in served),
         "vehicles": len(solution.routes),
         "trips": len(trips),
         "sorties": len(sorties),
@@ -174,10 +178,10 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
     }
 
 
-def _served(problem: Problem, solution: Solution) -> int:
-    """Return how many customers are served, each counted once."""
+def _served(problem: Problem, solution: Solution) -> set[int]:
+    """Return the nodes of the customers who are served."""
     nodes = {stop.node for route in solution.routes for trip in route.trips
              for stop in trip.stops[1:-1]}
     nodes |= {visit.node for route in solution.routes for trip in route.trips
               for sortie in trip.sorties for visit in sortie.visits}
-    return sum(problem.num_depots <= node < problem.num_nodes for node in nodes)
+    return {node for node in nodes if problem.num_depots <= node < problem.num_nodes}

@@ -59,3 +59,8 @@ class CustomerInput(Input):
         description="When the parcel is at the depot, in seconds since plan start: a trip that "
         "carries it begins no earlier.",
     )
+    unassigned_cost: Money | None = Field(
+        None,
+        description="Cost of leaving the customer out. Null: the request's; if that is null too, "
+        "the customer must be served, and is left out only if no plan found serves all who must.",
+    )

@@ -172,7 +172,9 @@ class PlanRequest(Input):
     airspace: AirspaceInput = Field(AirspaceInput(), description="No-fly areas and wind.")
     unassigned_cost: Money | None = Field(
         None,
-        description="Cost of each customer left out. Null: larger than the detour to any customer.",
+        description="Cost of each customer left out who states none. Null: these must be served; "
+        "each who isn't costs more than the detour to any customer, and than leaving out all who "
+        "state a cost.",
     )
     replan: ReplanInput | None = Field(
         None, description="A plan to go on from. Null: plan from nothing."

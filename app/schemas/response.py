@@ -119,6 +119,9 @@ class SummaryReply(_Reply):
 
     customers: int = Field(description="Customers of the request.")
     served: int = Field(description="Customers served.")
+    must_unserved: int = Field(
+        description="Customers left out who must be served, as no `unassigned_cost` holds for them."
+    )
     vehicles: int = Field(description="Vehicles used.")
     trips: int = Field(description="Trips of all vehicles.")
     sorties: int = Field(description="Drone flights.")

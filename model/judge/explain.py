@@ -98,18 +98,21 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
     if hosts:
         way = f"A drone of {vehicle_type.id} could serve it from a stop at {hosts[0].id}"
     used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    left_out = problem.cost_of_leaving_out(attempt.customer)
+    is_dear = not hosts and cost >= left_out
+    price = f"{ceil(cost * 100) / 100:.2f}"
+    at_price = f"{way} at a cost of {price}; leaving it out costs {left_out:.2f}"
     if used >= vehicle_type.count:
+        if is_dear:
+            return Reason(index, "COST", f"{at_price}, and all {vehicle_type.count} are in use.")
         message = f"{way}, but all {vehicle_type.count} are in use."
         return Reason(index, "FLEET_EXHAUSTED", message,
                       None if hosts else "fits with one more vehicle")
-    left_out = problem.cost_of_leaving_out(attempt.customer)
-    if not hosts and cost >= left_out:
-        price = f"{ceil(cost * 100) / 100:.2f}"
-        message = f"{way} at a cost of {price}; leaving it out costs {left_out:.2f}."
+    if is_dear:
         whose = "" if attempt.customer.unassigned_cost is None else "its "
         remedy = (f"served if {whose}unassigned_cost were above {price}" if cost < MAX_MONEY
                   else None)
-        return Reason(index, "COST", message, remedy)
+        return Reason(index, "COST", f"{at_price}.", remedy)
     return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
 
 

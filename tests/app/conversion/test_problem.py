@@ -179,6 +179,20 @@ def test_leaving_a_customer_out_costs_more_than_any_detour(smallest: Request) ->
     assert problem_of(smallest | {"unassigned_cost": 3}).unassigned_cost == 3
 
 
+def test_whoever_must_be_served_costs_more_than_all_others(smallest: Request) -> None:
+    alone = problem_of(smallest)
+    smallest["customers"][1]["unassigned_cost"] = 500
+    problem = problem_of(smallest)
+    must, other = problem.customers
+    assert problem.unassigned_cost == alone.unassigned_cost + 500
+    assert problem.cost_of_leaving_out(must) == problem.unassigned_cost
+    assert problem.cost_of_leaving_out(other) == 500
+    assert [problem.must_be_served(customer) for customer in (must, other)] == [True, False]
+    priced = problem_of(smallest | {"unassigned_cost": 3})
+    assert [priced.cost_of_leaving_out(customer) for customer in priced.customers] == [3, 500]
+    assert not any(map(priced.must_be_served, priced.customers))
+
+
 def test_leaving_a_customer_out_costs_something_where_nothing_else_does(
         smallest: Request) -> None:
     smallest["fleet"][0]["costs"] = {"per_km": 0}

@@ -74,6 +74,22 @@ def test_customer_that_nobody_can_serve_is_unassigned_with_reasons(
     assert left_out["reasons"][0]["vehicle_type"] == "truck"
 
 
+def test_leaving_out_costs_what_each_customer_says(client: httpx.Client,
+                                                   smallest: Request) -> None:
+    for customer, price in zip(smallest["customers"], (7, None), strict=True):
+        customer |= {"skills": ["crane"], "unassigned_cost": price}
+    plan = client.post("/plan", json=smallest | {"unassigned_cost": 5}).json()
+    assert (plan["cost"]["unassigned"], plan["summary"]["must_unserved"]) == (12, 0)
+    plan = client.post("/plan", json=smallest).json()
+    PlanReply.model_validate(plan)
+    assert plan["cost"]["unassigned"] > 14
+    assert plan["summary"]["must_unserved"] == 1
+    checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
+    assert checked["feasible"]
+    assert checked["cost"] == plan["cost"]
+    assert checked["summary"] == plan["summary"]
+
+
 def test_health(client: httpx.Client) -> None:
     assert client.get("/health/live").json() == {"status": "live"}
     assert client.get("/health/ready").json() == {"status": "ready", "detail": "ready",

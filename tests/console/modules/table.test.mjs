@@ -21,8 +21,8 @@ test('columns are recognised by the names that people give them', () => {
 
 test('a line becomes a customer', () => {
   const { customers, errors } = readSheet([
-    ['id', 'x', 'y', 'demand', 'service_min', 'from', 'until', 'served_by', 'skills'],
-    ['A', '1.5', '2', '3', '5', '8:00', '36000', 'Drone', 'cooled; heavy'],
+    ['id', 'x', 'y', 'demand', 'service_min', 'from', 'until', 'served_by', 'skills', 'Prize'],
+    ['A', '1.5', '2', '3', '5', '8:00', '36000', 'Drone', 'cooled; heavy', '12.5'],
   ]);
   assert.deepEqual(errors, []);
   assert.deepEqual(customers, [
@@ -34,6 +34,7 @@ test('a line becomes a customer', () => {
       time_window: { earliest: 28800, latest: 36000 },
       served_by: 'drone',
       skills: ['cooled', 'heavy'],
+      unassigned_cost: 12.5,
     },
   ]);
 });

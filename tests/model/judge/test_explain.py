@@ -103,6 +103,16 @@ def test_leaving_out_is_cheaper(tiny_problem, customers, truck):
     assert (reason.code, reason.remedy) == ("COST", "served if unassigned_cost were above 20.50")
 
 
+def test_one_more_vehicle_would_not_do_where_leaving_out_is_cheaper(tiny_problem, customers,
+                                                                    truck):
+    *others, d = customers
+    problem = tiny_problem(*others, replace(d, unassigned_cost=20.0),
+                           truck=replace(truck, fixed_cost=12.5, cost_per_km=1.0))
+    reason = reason_for_d(problem, Solution(serve(problem, 1, 2), (3, 4)))
+    assert reason == Reason(0, "COST", "truck could serve it alone at a cost of 20.50; leaving it "
+                            "out costs 20.00, and all 2 are in use.")
+
+
 def test_only_the_other_type_may_serve_it(tiny_problem, customers, truck, drones):
     table = np.array([[True, True, True, False], [True] * 4])
     problem = replace(tiny_problem(*customers, truck=replace(truck, drones=drones),

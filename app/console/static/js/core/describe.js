@@ -1,6 +1,6 @@
 /** What a customer, stop or sortie is, as pairs of a term and its value. */
 
-import { amounts, clock, duration, km, percent, timeWindow } from './format.js';
+import { amounts, clock, duration, km, money, percent, timeWindow } from './format.js';
 
 const SERVED_BY = { truck: 'truck only', drone: 'drone only', either: 'truck or drone' };
 
@@ -32,6 +32,8 @@ function customerFacts(customer) {
   }
   if (customer.skills?.length) facts.push(['Skills', customer.skills.join(', ')]);
   if (customer.release_time) facts.push(['Parcel there', `from ${clock(customer.release_time)}`]);
+  const price = customer.unassigned_cost;
+  if (price !== null && price !== undefined) facts.push(['Left out', `costs ${money(price)}`]);
   return facts;
 }
 

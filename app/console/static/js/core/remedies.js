@@ -13,8 +13,13 @@ const CHANGES = [
     new RegExp(`^served if unassigned_cost were above ${NUMBER}$`),
     (request, _, above) => ({
       ...request,
-      unassigned_cost: Math.ceil((numberOf(above) + 0.01) * 100) / 100,
+      unassigned_cost: justAbove(above),
     }),
+  ],
+  [
+    new RegExp(`^served if its unassigned_cost were above ${NUMBER}$`),
+    (request, { customer }, above) =>
+      setIn(request, [...customer, 'unassigned_cost'], justAbove(above)),
   ],
   [
     /^fits if .+ had .+$/,
@@ -64,6 +69,10 @@ const CHANGES = [
 
 function numberOf(text) {
   return Number(text.replaceAll(',', ''));
+}
+
+function justAbove(price) {
+  return Math.ceil((numberOf(price) + 0.01) * 100) / 100;
 }
 
 function add(request, keys, more) {

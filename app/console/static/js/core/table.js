@@ -43,6 +43,7 @@ const NAMES = {
   served_by: ['served_by', 'vehicle', 'by', 'mode'],
   skills: ['skills', 'skill', 'requires'],
   release_time: ['release_time', 'release', 'released'],
+  unassigned_cost: ['unassigned_cost', 'cost_of_leaving_out', 'penalty', 'prize'],
   kind: ['kind', 'type'],
 };
 
@@ -184,6 +185,7 @@ const READERS = {
       .filter(Boolean),
   }),
   release_time: time,
+  unassigned_cost: numeric(0, 1e12),
   kind: text,
 };
 
@@ -205,7 +207,7 @@ function customerOf(id, line) {
     if (line[name] !== undefined) window[name] = line[name];
   }
   if (Object.keys(window).length) customer.time_window = window;
-  for (const name of ['served_by', 'skills', 'release_time']) {
+  for (const name of ['served_by', 'skills', 'release_time', 'unassigned_cost']) {
     if (line[name] !== undefined) customer[name] = line[name];
   }
   return customer;

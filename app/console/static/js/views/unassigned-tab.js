@@ -1,7 +1,7 @@
 /** Customers that no vehicle serves: why, and what would change that, one click away. */
 
 import { edit, indexOf, shownPlan } from '../actions.js';
-import { count } from '../core/format.js';
+import { count, number } from '../core/format.js';
 import { applyRemedy } from '../core/remedies.js';
 import { html } from '../libraries.js';
 import { plan } from '../planning.js';
@@ -13,9 +13,11 @@ export function UnassignedTab() {
   const entry = useStore(shownPlan);
   const request = useStore((state) => state.request);
   if (!entry) return html`<p class="empty">Nothing is planned yet.</p>`;
-  const { unassigned } = entry.plan;
+  const { unassigned, summary } = entry.plan;
   if (!unassigned.length) return html`<p class="empty">Every customer is served.</p>`;
   return html`<section class="section"><h3>${count(unassigned.length, 'customer')} unassigned</h3>
+    ${summary.must_unserved > 0 && html`<p>${number(summary.must_unserved, 0)} of them must be
+      served: nothing says what leaving them out may cost.</p>`}
     ${unassigned.map(
       (customer) => html`<${Unassigned} key=${customer.id} customer=${customer}
       index=${indexOf(entry)} request=${request} />`,
