@@ -125,19 +125,18 @@ def _draw_points(axes: Axes, visited: set[str]) -> None:
     _as_map(axes)
 
 
-def draw_times(rows: Sequence[Planned], path: Path) -> None:
-    """Costs of Table 1 over time, each seed a dot."""
+def draw_turns(rows: Sequence[Planned], path: Path) -> None:
+    """Costs of Table 1 over turns of the search, each seed a dot."""
     figure = Figure(figsize=(6.0, 3.4), layout="constrained")
     axes = figure.subplots()
-    timed = [row for row in rows if row.seconds]
-    axes.plot([row.seconds for row in timed], [row.cost for row in timed], "o", alpha=0.6,
+    axes.plot([row.turns for row in rows], [row.cost for row in rows], "o", alpha=0.6,
               color=VEHICLES[0])
-    limits = sorted({row.seconds for row in timed})
-    axes.plot(limits, [statistics.median(row.cost for row in timed if row.seconds == limit)
+    limits = sorted({row.turns for row in rows})
+    axes.plot(limits, [statistics.median(row.cost for row in rows if row.turns == limit)
                        for limit in limits], color=VEHICLES[0], label="median")
     axes.axhline(REFERENCE, color=GREY, linestyle="--", label=f"reference, {REFERENCE}")
-    axes.set(xscale="log", xlabel="seconds", ylabel="cost")
-    axes.set_xticks(limits, [f"{limit:g}" for limit in limits])
+    axes.set(xscale="log", xlabel="turns", ylabel="cost")
+    axes.set_xticks(limits, [f"{limit:,}" for limit in limits])
     axes.minorticks_off()
     axes.legend(frameon=False)
     axes.grid(alpha=0.3)

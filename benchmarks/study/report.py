@@ -92,7 +92,7 @@ def _draw(study: Study, plan: Mapping[str, Any], folder: Path) -> None:
     figures.draw_nodes(folder / "nodes.svg")
     figures.draw_windows(folder / "windows.svg")
     figures.draw_routes(groups(), plan, folder / "routes.svg")
-    figures.draw_times(study.of("table1"), folder / "times.svg")
+    figures.draw_turns(study.of("table1"), folder / "turns.svg")
     figures.draw_fleets(study.of("fleets"), study.trips, folder / "fleets.svg")
     figures.draw_trips(findings.shown_trips(study.of("fleets"), study.trips),
                        folder / "trips.svg")
@@ -104,14 +104,13 @@ def _draw(study: Study, plan: Mapping[str, Any], folder: Path) -> None:
 def _made(study: Study) -> str:
     rows = study.rows
     dates = " to ".join(sorted({min(row.date for row in rows), max(row.date for row in rows)}))
-    repeatable = sum(row.deterministic for row in rows)
     return (
         f"Made on {dates}, {'; '.join(sorted({row.machine for row in rows}))}, beside other work: "
         f"{len(rows):,} plans in {sum(row.cpu_s for row in rows) / 60:.1f} minutes of processor "
         "time, one thread each. Tandem's checker, which shares no code with search or policies, "
-        f"judged all {len(rows):,} and found no rule broken. {repeatable:,} of them end after so "
-        "many turns of the search, or have none: the same version makes the same plans again. The "
-        "others are those of Table 1 within times.")
+        f"judged all {len(rows):,} and found no rule broken. All end after so many turns of the "
+        "search, or have none: the same version makes the same plans again. What a time limit "
+        "brings stands in [benchmarks.md](benchmarks.md).")
 
 
 def _inputs() -> str:
@@ -148,8 +147,8 @@ def _routes(study: Study, plan: Mapping[str, Any]) -> str:
         f"The least cost found is {least:.2f}, {_beside(least)}. All 100 customers are served by "
         f"four trucks loaded {findings.words_of([100 * rate for rate in rates], '.1f')} %. "
         "The paper says 2135 for its plan.", "",
-        *tables.times_table(rows), "", _share_of_core(rows), "",
-        "![Cost of Table 1 over time](study/times.svg)", "",
+        *tables.turns_table(rows), "",
+        "![Cost of Table 1 over turns](study/turns.svg)", "",
         "The best of the plans that can be made again, as Table 2 prints routes (length in km, "
         f"`study/{PLAN}`):", "", *tables.paths_table(plan), "",
         "### The printed plan is infeasible", "",
@@ -166,12 +165,6 @@ def _routes(study: Study, plan: Mapping[str, Any]) -> str:
         f"{sum(measured(group).truck_length for group in table1):.0f} long, more than the "
         "2135 that it is said to cost.", "",
         "![The printed routes beside planned ones](study/routes.svg)"])
-
-
-def _share_of_core(rows: Sequence[Planned]) -> str:
-    timed = [row for row in rows if row.seconds]
-    share = sum(row.cpu_s for row in timed) / sum(row.wall_s for row in timed)
-    return f"The searches within times had {100 * share:.0f} % of a core, other work the rest."
 
 
 def _num_cases(rows: Sequence[Planned]) -> str:

@@ -39,18 +39,18 @@ def over_seeds(rows: Sequence[Planned], value: Callable[[Planned], float]) -> tu
     return statistics.fmean(means), spread(means)
 
 
-def times_table(rows: Sequence[Planned]) -> Lines:
-    """Table 1 within times."""
+def turns_table(rows: Sequence[Planned]) -> Lines:
+    """Table 1 by more and more turns."""
     lines = []
-    for turns, seconds in dict.fromkeys((row.turns, row.seconds) for row in rows):
-        group = [row for row in rows if (row.turns, row.seconds) == (turns, seconds)]
+    for turns in dict.fromkeys(row.turns for row in rows):
+        group = [row for row in rows if row.turns == turns]
         costs = [row.cost for row in group]
         median = statistics.median(costs)
-        lines.append([f"{seconds:g} s" if seconds else f"{turns:,} turns", str(len(costs)),
+        lines.append([f"{turns:,}", str(len(costs)),
                       f"{min(costs):.2f}", f"{median:.2f}", f"{max(costs):.2f}",
                       f"{100 * (median / REFERENCE - 1):+z.2f}",
                       f"{statistics.fmean(row.cpu_s for row in group):.2g}"])
-    return markdown(["search", "seeds", "least", "median", "most",
+    return markdown(["turns", "seeds", "least", "median", "most",
                      f"median to {REFERENCE}, %", "seconds of processor time"], lines)
 
 

@@ -13,19 +13,19 @@ from benchmarks.study.findings import on_fleets, on_search
 from benchmarks.study.planning import plan_one
 from benchmarks.study.printed import broken_rules, groups, measured, printed_rows, visits
 from benchmarks.study.report import write_report
-from benchmarks.study.tables import against_table, hours_table, rises, times_table
+from benchmarks.study.tables import against_table, hours_table, rises, turns_table
 from benchmarks.study.tasks import (
     FULL, GREEDY, MIXED, NOBODY, QUICK, SINGLE, Planned, Scale, Task, TripRow, all_tasks,
 )
 
-TINY = Scale(sizes=(25,), cases=2, seeds=1, budgets=(0.05,), table1_turns=20, table1_seeds=1,
+TINY = Scale(sizes=(25,), cases=2, seeds=1, table1_turns=(5, 20), table1_seeds=1,
              hours=(4.0, 8.0), fleet_turns=2, hour_turns=1, drone_sizes=(25,), drone_cases=1,
              drone_turns=1, policy_turns=(1,))
 
 
 def task(section: str = "fleets", **fields: object) -> Task:
     """Return a task of 25 customers."""
-    plain = Task(section, 25, 2, SINGLE, 8.0, 0, "off", "fixed", "", GREEDY, 50, 0.0, 1)
+    plain = Task(section, 25, 2, SINGLE, 8.0, 0, "off", "fixed", "", GREEDY, 50, 1)
     return replace(plain, **fields)
 
 
@@ -33,7 +33,7 @@ def planned(cost: float, **fields: object) -> Planned:
     """Return a plan that never was."""
     row = Planned(**vars(task()), cost=cost, fixed=10.0, transport=cost - 10.0, lateness=0.0,
                   unassigned=0, vehicles=1, trips=1, sorties=0, driven=100.0, flown=0.0,
-                  working_hours=4.0, least_load_rate=0.9, mean_load_rate=0.9, deterministic=True,
+                  working_hours=4.0, least_load_rate=0.9, mean_load_rate=0.9,
                   wall_s=1.0, cpu_s=1.0, date="2026-01-01", machine="none")
     return replace(row, **fields)
 
@@ -126,8 +126,9 @@ def test_search_begins_as_the_task_says() -> None:
              for policy in ("attention", "pointer")}
     assert costs["attention"] != costs["pointer"]
     for policy in (*costs, NOBODY):
-        row = plan_one(task("policies", drones=1, policy=policy, turns=25)).row
-        assert row.deterministic
+        row, again = (plan_one(task("policies", drones=1, policy=policy, turns=25)).row
+                      for _ in range(2))
+        assert row.cost == again.cost
         assert row.unassigned == 0
         assert row.cost <= costs.get(policy, row.cost)
 
@@ -141,7 +142,7 @@ def test_small_study_is_planned_once_and_reported_the_same_again(tmp_path: Path)
     write_report(run(TINY, page.with_suffix(""), workers=1), page)
     assert {path.name: path.read_bytes() for path in tmp_path.rglob("*.*")} == written
     text = page.read_text()
-    for name in ("nodes", "windows", "routes", "times", "fleets", "trips", "hours", "drones",
+    for name in ("nodes", "windows", "routes", "turns", "fleets", "trips", "hours", "drones",
                  "policies"):
         assert f"](study/{name}.svg)" in text
         assert written[f"{name}.svg"].startswith(b"<?xml")
@@ -156,10 +157,10 @@ def test_cheaper_plan_is_kept(tmp_path: Path) -> None:
         assert path.read_bytes() == kept
 
 
-def test_times_are_compared_with_the_reference() -> None:
-    rows = [planned(710.53 * share, seconds=1.0, seed=seed)
+def test_turns_are_compared_with_the_reference() -> None:
+    rows = [planned(710.53 * share, turns=2_000, seed=seed)
             for seed, share in enumerate((1.0, 1.01, 1.5))]
-    assert times_table(rows)[2:] == ["| 1 s | 3 | 710.53 | 717.64 | 1065.80 | +1.00 | 1 |"]
+    assert turns_table(rows)[2:] == ["| 2,000 | 3 | 710.53 | 717.64 | 1065.80 | +1.00 | 1 |"]
 
 
 def test_fleets_are_compared_by_their_best_seeds() -> None:
