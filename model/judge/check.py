@@ -4,8 +4,9 @@ Shares nothing with simulator and search, so that it can judge both.
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from model.judge.metrics import (
     RouteMetrics, flight_legs, measure_route, measure_trip, unassigned_cost,
@@ -16,6 +17,8 @@ from model.judge.rules import TimedTrip, Violation, route_violations, seconds, t
 from model.judge.timing import read_decision, resume_trip, schedule_trip
 from model.problem import UNREACHABLE, DroneType, Problem, VehicleType
 from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Trip
+
+NOTHING_KNOWN: Mapping[int, "JudgedRoute"] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -33,8 +36,12 @@ class Evaluation:
         return not self.violations
 
 
-def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN) -> Evaluation:
-    """Judge a plan, and whether it begins with what has happened."""
+def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN,
+          known: Mapping[int, "JudgedRoute"] = NOTHING_KNOWN) -> Evaluation:
+    """Judge a plan, and whether it begins with what has happened.
+
+    `known` are routes, by index, that were judged before by `judge_route`, at the same path.
+    """
     violations = [*_assignment_violations(problem, solution), *_fleet_violations(problem, solution)]
     if past is not EVERYTHING_OPEN:
         violations += past_violations(problem, solution, past)
@@ -42,7 +49,7 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN) ->
     costs = [Cost(unassigned=unassigned_cost(problem, solution.unassigned))]
     makespan = 0
     for index, route in enumerate(solution.routes):
-        judged = judge_route(problem, route, f"routes[{index}]", past)
+        judged = known.get(index) or judge_route(problem, route, f"routes[{index}]", past)
         violations += judged.violations
         metrics.append(judged.metrics)
         costs.append(judged.cost)

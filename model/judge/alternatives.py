@@ -1,0 +1,177 @@
+"""What it would cost to serve a customer elsewhere, otherwise or not at all.
+
+What is said of an alternative is true, since the judge has judged the whole plan; that it is the
+cheapest of its kind is true of those tried.
+"""
+
+import math
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from model.judge.bench import Bench, Trial
+from model.judge.past import Vehicle
+from model.judge.places import Means, Place, halts
+from model.judge.screening import Guess, Screen
+from model.problem import Customer, Problem
+from model.solution import Stop, Visit
+
+Kind = Literal["place", "by", "window", "vehicle", "unassigned"]
+
+TRIES, MORE_TRIES = 3, 8
+"""Places that are tried of a vehicle's best by truck, and so by drone; and more if none is legal.
+"""
+
+EVERYWHERE = frozenset({"VEHICLE", "SKILLS", "SERVED_BY"})
+"""Rules that whoever breaks them with a vehicle breaks at all its places."""
+
+Group = tuple[Vehicle, Means]
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """The best trial of its kind."""
+
+    kind: Kind
+    trial: Trial
+    window: int | None = None  # which of several the customer is served in
+
+
+@dataclass(frozen=True)
+class Findings:
+    """What was found by trying."""
+
+    alternatives: tuple[Alternative, ...]
+    trials: tuple[Trial, ...]  # of all vehicles, at every place tried
+    is_complete: bool  # no clock cut it short
+
+
+def window_of(customer: Customer, start: int) -> int | None:
+    """Return which of several windows service that starts then is in; None: there is but one."""
+    if not customer.gaps:
+        return None
+    return sum([start >= reopens for _, reopens in customer.gaps])
+
+
+def halt_of(trial: Trial, node: int) -> Stop | Visit | None:
+    """Return when a plan serves a customer; None: it doesn't."""
+    for route in trial.solution.routes:
+        for trip in route.trips:
+            for halt in halts(trip):
+                if halt.node == node:
+                    return halt
+    return None
+
+
+def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
+    """Return what else could be done with a customer, as far as is found by an instant.
+
+    `until` is on `time.perf_counter`.
+    """
+    by_group, is_complete = _try_groups(bench, until)
+    windows, all_windows = _windows(bench, until)
+    found = bench.found
+    alternatives: list[Alternative] = []
+    if found is not None:
+        here = found.place
+        alternatives += _best("place", by_group.get((here.vehicle, here.by), ()))
+        alternatives += _best("by", [trial for (_, by), trials in by_group.items()
+                                     if by != here.by for trial in trials])
+    vehicles: dict[Vehicle, list[Trial]] = {}
+    for (vehicle, _), trials in by_group.items():
+        if found is None or vehicle != found.place.vehicle:
+            vehicles.setdefault(vehicle, []).extend(trials)
+    others = [each for trials in vehicles.values() for each in _best("vehicle", trials)]
+    alternatives += [*windows, *sorted(others, key=lambda each: each.trial.rank)]
+    if found is not None:
+        alternatives.append(Alternative("unassigned", bench.left_out))
+    return Findings(tuple(alternatives),
+                    tuple([trial for trials in by_group.values() for trial in trials]),
+                    is_complete and all_windows)
+
+
+def _best(kind: Kind, trials: Sequence[Trial]) -> Iterator[Alternative]:
+    if trials:
+        yield Alternative(kind, min(trials, key=lambda trial: trial.rank))
+
+
+def _try_groups(bench: Bench, until: float) -> tuple[dict[Group, list[Trial]], bool]:
+    """Try the best places of each vehicle and means, and tell whether there was time for all.
+
+    All of them have their first turn before any has its second.
+    """
+    guesses = {group: [guess for guess in some if not _is_here(bench, guess.place)]
+               for group, some in _guesses(bench, bench.problem).items()}
+    order = sorted([group for group, some in guesses.items() if some],
+                   key=lambda group: guesses[group][0][:2])
+    tried: dict[Group, list[Trial]] = {}
+    for turn in range(MORE_TRIES):
+        for group in order:
+            if turn >= len(guesses[group]) or _is_settled(tried.get(group, ()), turn):
+                continue
+            if time.perf_counter() >= until:
+                return tried, False
+            tried.setdefault(group, []).append(bench.put(guesses[group][turn].place))
+    return tried, True
+
+
+def _guesses(bench: Bench, problem: Problem) -> dict[Group, list[Guess]]:
+    return Screen(problem, bench.left_out.solution, bench.node, bench.setting.past).guesses()
+
+
+def _is_settled(trials: Sequence[Trial], turn: int) -> bool:
+    """Tell whether a vehicle's further places needn't be tried."""
+    if any(trial.evaluation.is_feasible for trial in trials):
+        return turn >= TRIES
+    return any(violation.code in EVERYWHERE
+               for trial in trials for violation in trial.evaluation.violations)
+
+
+def _is_here(bench: Bench, place: Place) -> bool:
+    """Tell whether a place is where the plan has the customer, or one that is just the same."""
+    if bench.found is None:
+        return False
+    here = bench.found.place
+    if here.own_trip and len(bench.plan.solution.routes[bench.found.route].trips) == 1:
+        # Alone with a vehicle, he may as well be so with another of its type.
+        place = place._replace(vehicle=Vehicle(place.vehicle.type, here.vehicle.number))
+    return place._replace(drone=here.drone) == here
+
+
+def _windows(bench: Bench, until: float) -> tuple[list[Alternative], bool]:
+    """Return the best place in each other window, and tell whether there was time for all."""
+    customer = bench.problem.customer_at(bench.node)
+    halt = halt_of(bench.plan, bench.node)
+    now = None if halt is None else window_of(customer, halt.service_start)
+    found: list[Alternative] = []
+    for window in range(len(customer.openings) if customer.gaps else 0):
+        if window == now:
+            continue
+        problem = with_customer(bench.problem, bench.node, in_window(customer, window))
+        guesses = sorted([guess for some in _guesses(bench, problem).values() for guess in some],
+                         key=lambda guess: guess[:2])
+        trials: list[Trial] = []
+        for turn, guess in enumerate(guesses[:MORE_TRIES]):
+            if time.perf_counter() >= until:
+                return found, False
+            if not (turn >= TRIES and any(trial.evaluation.is_feasible for trial in trials)):
+                trials.append(bench.put(guess.place, problem))
+        found += [replace(each, window=window) for each in _best("window", trials)]
+    return found, True
+
+
+def in_window(customer: Customer, window: int) -> Customer:
+    """Return a customer with but one of several windows; only the last of them may be soft."""
+    closes = [each for each, _ in customer.gaps]
+    if window == len(closes):
+        return replace(customer, earliest=customer.openings[window], gaps=())
+    return replace(customer, earliest=customer.openings[window], latest=closes[window], gaps=(),
+                   late_cost_per_hour=None)
+
+
+def with_customer(problem: Problem, node: int, customer: Customer) -> Problem:
+    """Return a problem in which a customer is another."""
+    index = node - problem.num_depots
+    return replace(problem, customers=(*problem.customers[:index], customer,
+                                       *problem.customers[index + 1:]))

@@ -1,0 +1,133 @@
+"""A plan without one customer, who is put at places of it by way of trial.
+
+All others stay where they are, in their order. Each trial is a whole plan that was judged.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from model.judge.check import Evaluation, JudgedRoute, check, judge_route
+from model.judge.past import EVERYTHING_OPEN, Past
+from model.judge.places import Found, Place, changed, find_place, route_with, routes_without
+from model.judge.retiming import TimedRoute, read_route, time_route
+from model.judge.rules import Violation
+from model.judge.timing import RouteDecision
+from model.problem import Problem
+from model.solution import Solution
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A customer at a place, or left out, and what the judge says of the whole plan."""
+
+    place: Place | None
+    solution: Solution
+    evaluation: Evaluation
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """What is smaller for a better plan: fewest broken rules, then lowest cost."""
+        return len(self.evaluation.violations), self.evaluation.cost.total
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What a plan is judged by beside the problem: what has happened, and what that broke."""
+
+    past: Past = EVERYTHING_OPEN
+    excused: Collection[Violation] = ()
+
+    def judge(self, problem: Problem, solution: Solution,
+              known: Mapping[int, JudgedRoute]) -> Evaluation:
+        """Judge a plan, some of whose routes were judged before."""
+        evaluation = check(problem, solution, self.past, known)
+        if not self.excused:
+            return evaluation
+        return replace(evaluation, violations=tuple(
+            [each for each in evaluation.violations if each not in self.excused]))
+
+    def judge_routes(self, problem: Problem, solution: Solution) -> dict[int, JudgedRoute]:
+        """Judge each route alone."""
+        return {index: judge_route(problem, route, f"routes[{index}]", self.past)
+                for index, route in enumerate(solution.routes)}
+
+
+class Bench:
+    """Tries one customer at places of a plan that leaves him out.
+
+    Parameters
+    ----------
+    problem
+        What the plan is for.
+    solution
+        A plan without broken rules.
+    node
+        The customer.
+    setting
+        What else it is judged by.
+    judged
+        Its routes, judged by `setting`; None: they aren't yet.
+    """
+
+    def __init__(self, problem: Problem, solution: Solution, node: int,
+                 setting: Setting | None = None,
+                 judged: Mapping[int, JudgedRoute] | None = None) -> None:
+        self.problem = problem
+        self.node = node
+        self.setting = setting or Setting()
+        self.found: Found | None = find_place(solution, node)
+        judged = self.setting.judge_routes(problem, solution) if judged is None else judged
+        self.plan = Trial(None if self.found is None else self.found.place, solution,
+                          self.setting.judge(problem, solution, judged))
+        self.left_out, self.judged = self._leave_out(judged)
+
+    def _leave_out(self, judged: Mapping[int, JudgedRoute]
+                   ) -> tuple[Trial, Mapping[int, JudgedRoute]]:
+        """Return the plan that leaves the customer out, and its routes as judged."""
+        solution, found = self.plan.solution, self.found
+        if found is None:
+            return self.plan, judged
+        index = found.route
+        decision = read_route(self.problem, solution.routes[index])
+        unassigned = (*solution.unassigned, self.node)
+        if all(not way.trips for way in routes_without(decision, found)):
+            plan = changed(solution, index, None, unassigned)
+            judged = self.setting.judge_routes(self.problem, plan)
+        else:
+            timed = self._best(self.problem, [*routes_without(decision, found)], index)
+            plan = changed(solution, index, timed.route, unassigned)
+            judged = {**judged, index: timed.judged}
+        return Trial(None, plan, self.setting.judge(self.problem, plan, judged)), judged
+
+    def _best(self, problem: Problem, ways: Sequence[RouteDecision], index: int) -> TimedRoute:
+        """Return the best of several ways to go on with a route."""
+        return min([time_route(problem, way, f"routes[{index}]", self.setting.past)
+                    for way in ways], key=lambda timed: timed.rank)
+
+    def put(self, place: Place, problem: Problem | None = None,
+            same: Collection[int] | None = None) -> Trial:
+        """Return the plan with the customer at a place.
+
+        Parameters
+        ----------
+        place
+            Where he is put.
+        problem
+            What it is judged by; None: the problem as it is.
+        same
+            Types of vehicles of which that says the same; None: of all.
+        """
+        problem = problem or self.problem
+        routes = self.left_out.solution.routes
+        index = next((index for index, route in enumerate(routes)
+                      if (route.vehicle_type, route.vehicle) == place.vehicle), len(routes))
+        kind = problem.vehicle_types[place.vehicle.type]
+        decision = (read_route(problem, routes[index]) if index < len(routes)
+                    else RouteDecision(place.vehicle.type, place.vehicle.number, ()))
+        decision = route_with(decision, place, self.node, (kind.begins_at, kind.ends_at))
+        timed = self._best(problem, [decision], index)
+        others = tuple([node for node in self.left_out.solution.unassigned if node != self.node])
+        plan = changed(self.left_out.solution, index, timed.route, others)
+        known = {number: judged for number, judged in self.judged.items()
+                 if same is None or routes[number].vehicle_type in same}
+        return Trial(place, plan, self.setting.judge(problem, plan, {**known, index: timed.judged}))

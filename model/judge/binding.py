@@ -1,0 +1,219 @@
+"""Which limits bind where a customer is served, and what a unit more of each would save.
+
+A limit is changed by a unit and the customer put at the places that it might make legal or cheaper:
+what is said to be saved is the difference between two plans that the judge has judged.
+"""
+
+import math
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
+
+from model.judge.alternatives import halt_of, with_customer
+from model.judge.bench import Bench, Trial
+from model.judge.clock import opening
+from model.judge.rules import airborne_duration
+from model.problem import MM_PER_KM, UNLIMITED, Problem, VehicleType
+from model.solution import Trip
+
+Unit = Literal["minute", "unit", "km"]
+Whose = Literal["customer", "vehicle_type"]
+
+MS_PER_MINUTE = 60_000
+
+NOT_WORTH = 1e-6
+"""Less than this share of a plan's cost is rounding."""
+
+MAX_RETRIES = 6
+"""Places tried that would be cheaper, if only they were legal."""
+
+
+class Limit(NamedTuple):
+    """A limit, by how much it isn't reached, and the problem with a unit more of it."""
+
+    field: str  # as requests name it
+    whose: Whose
+    kind: int | None  # the vehicle type that has it; None: the customer has it
+    unit: Unit
+    slack: float | None  # units; None: the plan doesn't come near it
+    problem: Problem
+
+
+@dataclass(frozen=True)
+class Binding:
+    """A limit that is reached, or of which a unit more would save something."""
+
+    limit: Limit
+    saves_per_unit: float
+
+
+def find_binding(bench: Bench, trials: Sequence[Trial],
+                 until: float = math.inf) -> tuple[tuple[Binding, ...], bool]:
+    """Return what binds, as far as is found by an instant, and whether there was time for all.
+
+    `trials` are those of `find_alternatives`; `until` is on `time.perf_counter`.
+    """
+    begun = _best_now(bench, trials)
+    places = [begun, *_cheaper_but_illegal(trials, begun)]
+    found: list[Binding] = []
+    for limit in _limits(bench, places):
+        if time.perf_counter() >= until:
+            return tuple(found), False
+        saved = begun.evaluation.cost.total - _cost_with(bench, limit, places)
+        if saved <= NOT_WORTH * max(1.0, abs(begun.evaluation.cost.total)):
+            saved = 0.0
+        if saved or (limit.slack is not None and limit.slack <= 0):
+            found.append(Binding(limit, saved))
+    return tuple(sorted(found, key=lambda each: -each.saves_per_unit)), True
+
+
+def _best_now(bench: Bench, trials: Sequence[Trial]) -> Trial:
+    """Return the best that can be done with the customer as things are."""
+    known = [bench.plan, *[trial for trial in trials if trial.evaluation.is_feasible]]
+    if bench.found is not None:
+        known.append(bench.put(bench.found.place))
+    return min(known, key=lambda trial: trial.rank)
+
+
+def _cheaper_but_illegal(trials: Sequence[Trial], begun: Trial) -> list[Trial]:
+    cheaper = [trial for trial in trials if not trial.evaluation.is_feasible
+               and trial.evaluation.cost.total < begun.evaluation.cost.total]
+    return sorted(cheaper, key=lambda trial: trial.rank)[:MAX_RETRIES]
+
+
+def _cost_with(bench: Bench, limit: Limit, places: Sequence[Trial]) -> float:
+    """Return the lowest cost of a legal plan with the customer at one of some places."""
+    others = None
+    if limit.kind is not None:
+        others = set(range(len(bench.problem.vehicle_types))) - {limit.kind}
+    here = [] if bench.found is None else [bench.found.place]
+    tried = [bench.put(place, limit.problem, others)
+             for place in dict.fromkeys([*here, *[trial.place for trial in places]])
+             if place is not None]
+    return min([trial.evaluation.cost.total for trial in tried if trial.evaluation.is_feasible],
+               default=math.inf)
+
+
+def _limits(bench: Bench, places: Sequence[Trial]) -> Iterator[Limit]:
+    """Yield the limits of the customer, and of the types of vehicles that might serve him."""
+    yield from _customer_limits(bench)
+    kinds = [place.vehicle.type for place in (
+        None if bench.found is None else bench.found.place, *[trial.place for trial in places])
+        if place is not None]
+    for kind in dict.fromkeys(kinds):
+        yield from _type_limits(bench, kind)
+
+
+def _customer_limits(bench: Bench) -> Iterator[Limit]:
+    problem, node = bench.problem, bench.node
+    customer, halt = problem.customer_at(node), halt_of(bench.plan, node)
+    window = "time_windows" if customer.gaps else "time_window"
+    last, first = ("[-1]", "[0]") if customer.gaps else ("", "")
+    if customer.latest < UNLIMITED:
+        slack = None if halt is None else max(0, customer.latest - halt.arrival)
+        changed = replace(customer, latest=min(customer.latest + MS_PER_MINUTE, UNLIMITED))
+        yield Limit(f"{window}{last}.latest", "customer", None, "minute", _in_minutes(slack),
+                    with_customer(problem, node, changed))
+    if customer.earliest > 0:
+        slack = None
+        if halt is not None and opening(customer, halt.arrival) == customer.earliest:
+            slack = max(0, halt.arrival - customer.earliest)
+        changed = replace(customer, earliest=max(0, customer.earliest - MS_PER_MINUTE))
+        yield Limit(f"{window}{first}.earliest", "customer", None, "minute", _in_minutes(slack),
+                    with_customer(problem, node, changed))
+    if customer.release_time > 0:
+        trip = _trip_of(bench)
+        slack = None if trip is None else trip.stops[0].arrival - customer.release_time
+        changed = replace(customer, release_time=max(0, customer.release_time - MS_PER_MINUTE))
+        yield Limit("release_time", "customer", None, "minute", _in_minutes(slack),
+                    with_customer(problem, node, changed))
+
+
+def _in_minutes(duration: int | None) -> float | None:
+    return None if duration is None else duration / MS_PER_MINUTE
+
+
+def _trip_of(bench: Bench) -> Trip | None:
+    """Return the trip that serves the customer."""
+    found = bench.found
+    return (None if found is None
+            else bench.plan.solution.routes[found.route].trips[found.place.trip])
+
+
+def _type_limits(bench: Bench, kind: int) -> Iterator[Limit]:
+    """Yield the limits of a type of vehicle, and of its drones."""
+    problem, found = bench.problem, bench.found
+    vehicle_type = problem.vehicle_types[kind]
+    is_here = found is not None and found.place.vehicle.type == kind
+    for field, unit, slack, changed in (*_truck_limits(bench, vehicle_type, is_here),
+                                        *_drone_limits(bench, vehicle_type, is_here)):
+        kinds = (*problem.vehicle_types[:kind], changed, *problem.vehicle_types[kind + 1:])
+        yield Limit(field, "vehicle_type", kind, unit, slack,
+                    replace(problem, vehicle_types=kinds))
+
+
+_Changed = tuple[str, Unit, float | None, VehicleType]
+
+
+def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:
+    found = bench.found if is_here else None
+    measured = None if found is None else bench.plan.evaluation.routes[found.route]
+    trip = None if found is None or measured is None else measured.trips[found.place.trip]
+    for dimension, (most, places) in enumerate(zip(kind.capacity, bench.problem.amount_decimals,
+                                                   strict=True)):
+        slack = None if trip is None else (most - trip.load[dimension]) / 10**places
+        yield (_capacity_field("capacity", kind, dimension), "unit", slack,
+               replace(kind, capacity=_one_more(kind.capacity, dimension, 10**places)))
+    if kind.latest < UNLIMITED:
+        end = None
+        if found is not None:
+            end = bench.plan.solution.routes[found.route].trips[-1].stops[-1].departure
+        yield ("shift.latest", "minute",
+               _in_minutes(None if end is None else kind.latest - end),
+               replace(kind, latest=min(kind.latest + MS_PER_MINUTE, UNLIMITED)))
+    if kind.max_working_duration is not None:
+        slack = (None if measured is None
+                 else _in_minutes(kind.max_working_duration - measured.working_duration))
+        longer = kind.max_working_duration + MS_PER_MINUTE
+        yield ("max_working_duration", "minute", slack, replace(kind, max_working_duration=longer))
+    if kind.max_trip_distance is not None:
+        slack = None if trip is None else (kind.max_trip_distance - trip.distance) / MM_PER_KM
+        yield ("max_trip_distance", "km", slack,
+               replace(kind, max_trip_distance=kind.max_trip_distance + MM_PER_KM))
+
+
+def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:
+    drones, trip, found = kind.drones, _trip_of(bench), bench.found
+    if drones is None:
+        return
+    sortie = None
+    if is_here and found is not None and found.place.by == "drone" and trip is not None:
+        sortie = trip.sorties[found.flight]
+    if drones.endurance < UNLIMITED:
+        slack = None
+        if sortie is not None and trip is not None:
+            flown = airborne_duration(bench.problem, drones, trip, sortie)
+            slack = _in_minutes(drones.endurance - flown)
+        longer = min(drones.endurance + MS_PER_MINUTE, UNLIMITED)
+        yield ("drones.endurance", "minute", slack,
+               replace(kind, drones=replace(drones, endurance=longer)))
+    for dimension, (most, places) in enumerate(zip(drones.capacity, bench.problem.amount_decimals,
+                                                   strict=True)):
+        slack = None
+        if sortie is not None:
+            carried = sum([bench.problem.customer_at(visit.node).demand[dimension]
+                           for visit in sortie.visits])
+            slack = (most - carried) / 10**places
+        more = _one_more(drones.capacity, dimension, 10**places)
+        yield (_capacity_field("drones.capacity", kind, dimension), "unit", slack,
+               replace(kind, drones=replace(drones, capacity=more)))
+
+
+def _capacity_field(name: str, kind: VehicleType, dimension: int) -> str:
+    return f"{name}[{dimension}]" if len(kind.capacity) > 1 else name
+
+
+def _one_more(capacity: tuple[int, ...], dimension: int, unit: int) -> tuple[int, ...]:
+    return tuple([most + (unit if index == dimension else 0)
+                  for index, most in enumerate(capacity)])

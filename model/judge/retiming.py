@@ -1,0 +1,171 @@
+"""Routes whose sequences have changed, timed anew: trips begin when that is cheapest, as tried.
+
+A trip's start is a choice, everything else follows from it. Three are tried: as stated before, as
+soon as possible, and as late as moves no end and makes no window missed.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+from model.judge.check import JudgedRoute, judge_route
+from model.judge.past import KnownTrip, Past, Vehicle
+from model.judge.places import halts
+from model.judge.timing import (
+    RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
+)
+from model.problem import Customer, Problem, VehicleType
+from model.solution import Route, Trip
+
+BISECTIONS = 8
+"""Steps in which the latest start of a trip with drones or a speed profile is looked for."""
+
+
+class TimedRoute(NamedTuple):
+    """A route and what the judge says of it alone."""
+
+    route: Route
+    judged: JudgedRoute
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """What is smaller for a better route: fewest broken rules, then lowest cost."""
+        return len(self.judged.violations), self.judged.cost.total
+
+
+def read_route(problem: Problem, route: Route) -> RouteDecision:
+    """Return the choices that a timed route states."""
+    drones = problem.vehicle_types[route.vehicle_type].drones
+    launch_duration = 0 if drones is None else drones.launch_duration
+    return RouteDecision(route.vehicle_type, route.vehicle, tuple(
+        [read_decision(trip, launch_duration) for trip in route.trips]))
+
+
+def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past) -> TimedRoute:
+    """Return a route with the times that the judge finds best of those tried.
+
+    What is known of its trips must be in the decision as it is.
+    """
+    timer = _Timer(problem, decision, past)
+    best: TimedRoute | None = None
+    for route in timer.tries():
+        tried = TimedRoute(route, judge_route(problem, route, path, past))
+        if best is None or tried.rank < best.rank:
+            best = tried
+    if best is None:
+        raise ValueError(f"route trips: {decision.trips!r} is not allowed")
+    return best
+
+
+class _Timer:
+    """Times one route in several ways."""
+
+    def __init__(self, problem: Problem, decision: RouteDecision, past: Past) -> None:
+        self._problem = problem
+        self._decision = decision
+        self._type: VehicleType = problem.vehicle_types[decision.vehicle_type]
+        self._known = past.trips.get(Vehicle(decision.vehicle_type, decision.vehicle), ())
+        self._past = past
+
+    def tries(self) -> Iterator[Route]:
+        """Yield the route with each way to choose its starts, none of them twice."""
+        trips = self._decision.trips
+        soonest = self._timed([None] * len(trips))
+        tried = [soonest]
+        yield self._route(soonest)
+        starts = [trip.start for trip in trips]
+        for chosen in (starts, self._latest_starts(soonest)):
+            timed = self._timed(chosen)
+            if timed not in tried:
+                tried.append(timed)
+                yield self._route(timed)
+
+    def _route(self, trips: list[Trip]) -> Route:
+        return Route(self._decision.vehicle_type, self._decision.vehicle, tuple(trips))
+
+    def _timed(self, starts: list[int | None]) -> list[Trip]:
+        """Return the trips, each from its start on, or when it is ready if that is later."""
+        timed: list[Trip] = []
+        ready = max(self._type.earliest, self._past.now)
+        for number, (trip, start) in enumerate(zip(self._decision.trips, starts, strict=True)):
+            known = self._known_trip(number)
+            if known is None:
+                begin = max(ready, self._free_from(trip), 0 if start is None else start)
+                timed.append(self._from(trip, begin))
+            else:
+                timed.append(resume_trip(self._problem, self._type, trip, known, self._past.now))
+            ready = max(timed[-1].stops[-1].departure + self._type.reload_duration,
+                        self._past.now)
+        return timed
+
+    def _known_trip(self, number: int) -> KnownTrip | None:
+        return self._known[number] if number < len(self._known) else None
+
+    def _from(self, trip: TripDecision, begin: int) -> Trip:
+        return schedule_trip(self._problem, self._type, replace(trip, start=begin), begin)
+
+    def _free_from(self, trip: TripDecision) -> int:
+        """Return when all parcels of a trip are at the depot."""
+        nodes = [*trip.nodes[1:-1], *[node for sortie in trip.sorties for node in sortie.nodes]]
+        back = max([self._past.returned.get(node, 0) for node in nodes], default=0)
+        return max(back, latest_release(self._problem, trip))
+
+    def _latest_starts(self, soonest: list[Trip]) -> list[int | None]:
+        """Return starts as late as they cost nothing else, from those as soon as possible."""
+        starts: list[int | None] = [None] * len(soonest)
+        following: int | None = None
+        for number in range(len(soonest) - 1, -1, -1):
+            trip = soonest[number]
+            if self._known_trip(number) is not None:
+                break
+            room = 0
+            if following is not None:
+                room = following - self._type.reload_duration - trip.stops[-1].departure
+            following = trip.stops[0].arrival + self._delay(self._decision.trips[number], trip,
+                                                            room)
+            starts[number] = following
+        return starts
+
+    def _delay(self, decision: TripDecision, trip: Trip, room: int) -> int:
+        """Return how much later a trip may begin that may end `room` later."""
+        if not trip.sorties and self._type.speed_profile is None and not self._type.busy_until:
+            return _plain_delay(self._problem, trip, room)
+        high = room + sum([halt.service_start - halt.arrival for halt in halts(trip)])
+        low, latest = 0, trip.stops[-1].departure + room
+        late = _lateness(self._problem, trip)
+        for step in range(BISECTIONS if high else 0):
+            middle = high if step == 0 else (low + high) // 2
+            tried = self._from(decision, trip.stops[0].arrival + middle)
+            if tried.stops[-1].departure <= latest and _lateness(self._problem, tried) <= late:
+                low = middle
+            else:
+                high = middle
+        return low
+
+
+def _plain_delay(problem: Problem, trip: Trip, room: int) -> int:
+    """Return how much later a truck's trip may begin that may end `room` later.
+
+    A delay shrinks by each wait on the way (Savelsbergh 1992).
+    """
+    waited, most = 0, None
+    for stop in trip.stops[1:-1]:
+        customer = problem.customer_at(stop.node)
+        left = waited + max(0, _closing(customer, stop.service_start) - stop.arrival)
+        most = left if most is None else min(most, left)
+        waited += stop.service_start - stop.arrival
+    return waited + room if most is None else min(most, waited + room)
+
+
+def _closing(customer: Customer, start: int) -> int:
+    """Return the last arrival in the window in which service starts."""
+    for closes, reopens in customer.gaps:
+        if start < reopens:
+            return closes
+    return customer.latest
+
+
+def _lateness(problem: Problem, trip: Trip) -> int:
+    """Return by how much all customers of a trip are reached too late, added up."""
+    return sum([max(0, halt.arrival - problem.customer_at(halt.node).latest)
+                for halt in halts(trip)])

@@ -1,0 +1,237 @@
+"""Which places of a plan look cheapest for one more customer, by detours and the room in time.
+
+A guess that costs little: it decides which places are tried, never what is said of them.
+"""
+
+from collections import defaultdict
+from collections.abc import Collection, Iterator
+from itertools import pairwise
+from typing import NamedTuple
+
+from model.judge.clock import service_start
+from model.judge.past import Past, Vehicle
+from model.judge.places import Means, Place
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, DroneType, Problem
+from model.solution import Solution, Trip
+
+BY_TRUCK: tuple[Means, ...] = ("truck",)
+ANYHOW: tuple[Means, ...] = ("truck", "drone")
+
+SPANS = 4
+"""A drone is recovered where it was launched, or at one of so many stops from there on."""
+
+
+class Guess(NamedTuple):
+    """A place, and how good it looks: first that it is not too late, then what it costs."""
+
+    late: int  # ms, too late there or afterwards
+    cost: float
+    place: Place
+
+
+class _Legs:
+    """Ways to and from one node, as lists by the other node."""
+
+    def __init__(self, problem: Problem, travel: int, node: int) -> None:
+        matrices = problem.travel[travel]
+        self.there: list[int] = matrices.duration[:, node].tolist()
+        self.back: list[int] = matrices.duration[node].tolist()
+        self.far_there: list[int] = matrices.distance[:, node].tolist()
+        self.far_back: list[int] = matrices.distance[node].tolist()
+        self._matrices = matrices
+
+    def between(self, origin: int, target: int) -> tuple[int, int]:
+        """Return the duration and distance of the leg without the node."""
+        return (self._matrices.duration.item(origin, target),
+                self._matrices.distance.item(origin, target))
+
+
+class Screen:
+    """Guesses for one customer, in a plan that leaves him out.
+
+    `means` are those by which he may be served.
+    """
+
+    def __init__(self, problem: Problem, solution: Solution, node: int, past: Past,
+                 means: Collection[Means] = ANYHOW) -> None:
+        self._problem = problem
+        self._solution = solution
+        self._node = node
+        self._customer = problem.customer_at(node)
+        self._past = past
+        self._legs: dict[int, _Legs] = {}
+        self._means = means
+
+    def guesses(self) -> dict[tuple[Vehicle, Means], list[Guess]]:
+        """Return the places of each vehicle, by truck and by drone, the best ones first.
+
+        Beside those in use, one more vehicle of each type that has more.
+        """
+        found: defaultdict[tuple[Vehicle, Means], list[Guess]] = defaultdict(list)
+        trips = self._num_trips()
+        for route in self._solution.routes:
+            vehicle = Vehicle(route.vehicle_type, route.vehicle)
+            known = self._past.trips.get(vehicle, ())
+            for number, trip in enumerate(route.trips):
+                if number < len(known) - 1 or (
+                        number < len(known) and known[number].rest != "anything"):
+                    continue
+                first_stop, first_flight = 1, 0
+                if number < len(known):
+                    first_stop = len(known[number].stops)
+                    first_flight = len(known[number].sorties)
+                for guess in self._on_trip(vehicle, number, trip, first_stop, first_flight):
+                    found[vehicle, guess.place.by].append(guess)
+        for vehicle, number in self._own_trips(trips):
+            for guess in self._alone(vehicle, number, is_new=vehicle not in trips):
+                found[vehicle, guess.place.by].append(guess)
+        for guesses in found.values():
+            guesses.sort(key=lambda guess: guess[:2])
+        return found
+
+    def _num_trips(self) -> dict[Vehicle, int]:
+        return {Vehicle(route.vehicle_type, route.vehicle): len(route.trips)
+                for route in self._solution.routes}
+
+    def _own_trips(self, trips: dict[Vehicle, int]) -> Iterator[tuple[Vehicle, int]]:
+        """Yield vehicles that may make a trip for the customer alone, and its index."""
+        for vehicle, number in trips.items():
+            if number < self._problem.vehicle_types[vehicle.type].max_trips:
+                begun = len(self._past.trips.get(vehicle, ()))
+                yield from ((vehicle, index) for index in range(begun, number + 1))
+        for index, kind in enumerate(self._problem.vehicle_types):
+            free = (vehicle for number in range(kind.count)
+                    if (vehicle := Vehicle(index, number)) not in trips
+                    and vehicle not in self._past.unavailable)
+            unused = next(free, None)
+            if unused is not None:
+                yield unused, 0
+
+    def _legs_of(self, travel: int) -> _Legs:
+        if travel not in self._legs:
+            self._legs[travel] = _Legs(self._problem, travel, self._node)
+        return self._legs[travel]
+
+    def _alone(self, vehicle: Vehicle, number: int, is_new: bool) -> Iterator[Guess]:
+        """Yield a trip for the customer alone, by truck and by each way of one drone."""
+        kind = self._problem.vehicle_types[vehicle.type]
+        begin, end, fixed = kind.begins_at, kind.ends_at, kind.fixed_cost if is_new else 0.0
+        legs = self._legs_of(kind.travel)
+        hours = legs.there[begin] + self._customer.service_duration + legs.back[end]
+        cost = (fixed + (legs.far_there[begin] + legs.far_back[end]) * kind.cost_per_km / MM_PER_KM
+                + hours * kind.cost_per_hour / MS_PER_HOUR)
+        yield Guess(0, cost, Place(vehicle, number, "truck", 1, own_trip=True))
+        drones = kind.drones
+        if drones is not None and "drone" in self._means:
+            for recovery, place in enumerate((begin, end)):
+                duration, price = self._flight(drones, begin, place)
+                if duration < UNREACHABLE:
+                    price += fixed + duration * kind.cost_per_hour / MS_PER_HOUR
+                    yield Guess(max(0, duration - drones.endurance), price,
+                                Place(vehicle, number, "drone", 0, recovery, own_trip=True))
+
+    def _on_trip(self, vehicle: Vehicle, number: int, trip: Trip, first_stop: int,
+                 first_flight: int) -> Iterator[Guess]:
+        kind = self._problem.vehicle_types[vehicle.type]
+        slacks = _slacks(self._problem, kind.latest, trip)
+        yield from self._by_truck(vehicle, number, trip, slacks, first_stop)
+        drones = kind.drones
+        if drones is not None and "drone" in self._means:
+            yield from self._by_drone(vehicle, number, trip, drones, first_stop)
+            yield from self._by_shared_flight(vehicle, number, trip, drones, first_flight)
+
+    def _by_truck(self, vehicle: Vehicle, number: int, trip: Trip, slacks: list[int],
+                  first_stop: int) -> Iterator[Guess]:
+        kind, customer = self._problem.vehicle_types[vehicle.type], self._customer
+        legs = self._legs_of(kind.travel)
+        hard = customer.late_cost_per_hour is None
+        for index in range(max(1, first_stop), len(trip.stops)):
+            before, after = trip.stops[index - 1], trip.stops[index]
+            arrival = before.departure + legs.there[before.node]
+            start = service_start(customer, arrival)
+            _, straight = legs.between(before.node, after.node)
+            detour = legs.far_there[before.node] + legs.far_back[after.node] - straight
+            push = start + customer.service_duration + legs.back[after.node] - after.arrival
+            too_late = max(0, arrival - customer.latest)
+            late = (too_late if hard else 0) + max(0, push - slacks[index])
+            cost = (detour * kind.cost_per_km / MM_PER_KM + push * kind.cost_per_hour / MS_PER_HOUR
+                    + too_late * (customer.late_cost_per_hour or 0.0) / MS_PER_HOUR
+                    + (start - arrival) * customer.early_cost_per_hour / MS_PER_HOUR)
+            yield Guess(late, cost, Place(vehicle, number, "truck", index))
+
+    def _flight(self, drones: DroneType, launch: int, recovery: int) -> tuple[int, float]:
+        """Return how long a flight between two nodes takes, and its cost."""
+        legs = self._legs_of(drones.travel)
+        service = drones.service_duration
+        if service is None:
+            service = self._customer.service_duration
+        duration = legs.there[launch] + service + legs.back[recovery]
+        distance = legs.far_there[launch] + legs.far_back[recovery]
+        return duration, (distance * drones.cost_per_km / MM_PER_KM
+                          + duration * drones.cost_per_hour / MS_PER_HOUR)
+
+    def _by_drone(self, vehicle: Vehicle, number: int, trip: Trip, drones: DroneType,
+                  first_stop: int) -> Iterator[Guess]:
+        """Yield flights of their own, of drones that are aboard then."""
+        per_hour = self._problem.vehicle_types[vehicle.type].cost_per_hour
+        customer, last = self._customer, len(trip.stops) - 1
+        legs = self._legs_of(drones.travel)
+        for launch in range(first_stop - 1, last + 1):
+            begin = trip.stops[launch]
+            arrival = begin.arrival + drones.launch_duration + legs.there[begin.node]
+            too_late = 0
+            if customer.late_cost_per_hour is None:
+                too_late = max(0, arrival - customer.latest)
+            for recovery in range(launch, min(launch + SPANS, last + 1)):
+                end = trip.stops[recovery]
+                duration, cost = self._flight(drones, begin.node, end.node)
+                if duration >= UNREACHABLE:
+                    continue
+                drone = _free_drone(trip, drones.count, launch, recovery)
+                if drone is None:
+                    continue
+                held = begin.arrival + duration - end.departure
+                yield Guess(too_late + max(0, duration - drones.endurance),
+                            cost + max(0, held) * per_hour / MS_PER_HOUR,
+                            Place(vehicle, number, "drone", launch, recovery, drone))
+
+    def _by_shared_flight(self, vehicle: Vehicle, number: int, trip: Trip, drones: DroneType,
+                          first_flight: int) -> Iterator[Guess]:
+        """Yield places on flights that have room for one more."""
+        legs = self._legs_of(drones.travel)
+        for index, sortie in enumerate(trip.sorties):
+            if index < first_flight or len(sortie.visits) >= drones.max_customers_per_sortie:
+                continue
+            nodes = [trip.stops[sortie.launch_stop].node, *[each.node for each in sortie.visits],
+                     trip.stops[sortie.recovery_stop].node]
+            for visit, (here, there) in enumerate(pairwise(nodes)):
+                duration, straight = legs.between(here, there)
+                added = legs.there[here] + legs.back[there] - duration
+                detour = legs.far_there[here] + legs.far_back[there] - straight
+                if added < UNREACHABLE // 2:
+                    cost = (detour * drones.cost_per_km / MM_PER_KM
+                            + added * drones.cost_per_hour / MS_PER_HOUR)
+                    airborne = sortie.recovery_start - sortie.launch_time
+                    yield Guess(max(0, airborne + added - drones.endurance), cost,
+                                Place(vehicle, number, "drone", sortie.launch_stop,
+                                      sortie.recovery_stop, sortie.drone, index, visit))
+
+
+def _slacks(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:
+    """Return by how much each stop may be reached later, by hard windows and the shift's end."""
+    slack = max(0, shift_ends - trip.stops[-1].departure)
+    slacks = [slack]
+    for stop in reversed(trip.stops[1:-1]):
+        customer = problem.customer_at(stop.node)
+        slack += stop.service_start - stop.arrival
+        if customer.late_cost_per_hour is None:
+            slack = min(slack, max(0, customer.latest - stop.arrival))
+        slacks.append(slack)
+    return [slack, *reversed(slacks)]
+
+
+def _free_drone(trip: Trip, count: int, launch: int, recovery: int) -> int | None:
+    """Return a drone that is aboard from one stop to another, by the order of stops."""
+    busy = {sortie.drone for sortie in trip.sorties
+            if sortie.launch_stop < recovery and launch < sortie.recovery_stop}
+    return next((drone for drone in range(count) if drone not in busy), None)

@@ -1,0 +1,77 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.judge.alternatives import find_alternatives
+from model.judge.bench import Bench
+from model.judge.binding import find_binding
+from model.judge.check import check
+from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
+from tests.model.tiny import draw_tiny
+
+
+def binding(problem, solution, node):
+    bench = Bench(problem, solution, node)
+    found, is_complete = find_binding(bench, find_alternatives(bench).trials)
+    assert is_complete
+    return {each.limit.field: (each.limit.slack, each.saves_per_unit) for each in found}
+
+
+def test_minute_of_a_window_saves_what_waiting_costs(tiny_problem, customers, truck):
+    a, b, c, d = customers
+    problem = tiny_problem(replace(a, latest=2 * MINUTE), replace(b, earliest=30 * MINUTE), c, d,
+                           truck=replace(truck, count=1, cost_per_hour=60.0))
+    # a has to be reached at 2, so that the truck waits for b from 9 to 30.
+    solution = plan(problem, route(A, B, C, D, start=0))
+    assert binding(problem, solution, B) == {"time_window.earliest": (0.0, pytest.approx(1.0))}
+    assert binding(problem, solution, A)["time_window.latest"] == (0.0, pytest.approx(1.0))
+
+
+def test_unit_of_capacity_saves_a_trip_of_his_own(tiny_problem, customers, truck):
+    problem = tiny_problem(*customers, truck=replace(truck, capacity=(3000,), cost_per_km=1.0))
+    solution = plan(problem, route(A, B, C), route(D, vehicle=1))
+    # With one more, a rides to d for nothing, and so did b; the other way round, d adds 2 km.
+    assert binding(problem, solution, A) == {"capacity": (0.0, 0.0)}
+    assert binding(problem, solution, D) == {"capacity": (2.0, pytest.approx(6.0))}
+
+
+def test_minute_of_the_shift_or_of_work_lets_others_stay_at_home(tiny_problem, customers, truck):
+    limits = replace(truck, latest=35 * MINUTE, cost_per_km=1.0)
+    problem = tiny_problem(*customers, truck=limits)
+    solution = plan(problem, route(A, B, C), route(D, vehicle=1))
+    # All four take 36 minutes.
+    assert binding(problem, solution, D)["shift.latest"] == (14.0, pytest.approx(6.0))
+    problem = tiny_problem(*customers, truck=replace(limits, latest=10**9,
+                                                     max_working_duration=35 * MINUTE))
+    assert binding(problem, solution, D)["max_working_duration"] == (14.0, pytest.approx(6.0))
+
+
+def test_minute_of_endurance_lets_a_drone_go(tiny_problem, customers, truck, drones):
+    carrier = replace(truck, count=1, cost_per_km=1.0, drones=replace(drones, endurance=6 * MINUTE))
+    problem = tiny_problem(*customers, truck=carrier)
+    # From c to d and back: one minute each way and five of service.
+    solution = plan(problem, route(A, B, C, D))
+    assert binding(problem, solution, D)["drones.endurance"] == (None, pytest.approx(2.0))
+
+
+def test_customer_left_out_is_told_what_would_let_him_in(tiny_problem, customers, truck):
+    problem = tiny_problem(*customers, truck=replace(truck, count=1, capacity=(3000,)))
+    solution = plan(problem, route(A, B, C), unassigned=(D,))
+    assert binding(problem, solution, D) == {"capacity": (None, pytest.approx(1000.0))}
+
+
+@pytest.mark.parametrize("seed", range(15))
+def test_what_is_saved_is_saved_by_a_plan_that_the_judge_accepts(seed):
+    rng = np.random.default_rng(seed)
+    problem = draw_tiny(rng)
+    solution = greedy(problem)
+    for node in range(problem.num_depots, problem.num_nodes):
+        bench = Bench(problem, solution, node)
+        found, _ = find_binding(bench, find_alternatives(bench).trials)
+        for each in found:
+            slack = each.limit.slack
+            assert each.saves_per_unit > 0 or (slack is not None and slack <= 0)
+            # More of anything leaves a legal plan legal, and as cheap at most.
+            relaxed = check(each.limit.problem, solution)
+            assert {item.code for item in relaxed.violations} <= {"TIME_MISMATCH"}
