@@ -78,10 +78,28 @@ def _customer(rng: random.Random, dimensions: int) -> Data:
         "demand": _amounts(rng, dimensions, (0, 1, 1, 2, 3, 7.5, 0.0004, 1e-3, 1e3, LONGEST)),
         "served_by": rng.choice(("either", "either", "truck", "drone")),
         **_maybe(rng, 0.5, service_duration=rng.choice((0, 1e-4, 60, 900, 1e5, LONGEST))),
-        **_maybe(rng, 0.5, time_window=_window(rng)),
+        **_windows(rng),
         **_maybe(rng, 0.1, skills=rng.sample(SKILLS[:3], rng.randint(1, 2))),
         **_maybe(rng, 0.15, release_time=rng.choice((0, 1, 3600, 86400, LONGEST))),
         **_maybe(rng, 0.2, unassigned_cost=rng.choice((None, 0, 1e-9, 3, 1000, RICHEST)))}
+
+
+def _windows(rng: random.Random) -> Data:
+    """Return no window, one, or several, which may be disordered now and then."""
+    several = rng.random()
+    if several < 0.5:
+        return _maybe(rng, 0.8, time_window=_window(rng))
+    if several < 0.7:
+        return {}
+    price = rng.choice((0, 0, 7, RICHEST))
+    times = sorted(rng.sample((0, 1, 1.0005, 60, 600, 3600, 7200, 30000, 1e6, LONGEST),
+                              2 * rng.randint(1, 4)))
+    if rng.random() < 0.02:
+        times.reverse()
+    windows: list[Data] = [{"earliest": earliest, "latest": latest, "early_cost_per_hour": price}
+                           for earliest, latest in zip(times[::2], times[1::2], strict=True)]
+    windows[-1] |= rng.choice(({}, {"latest": None}, {"late_cost_per_hour": 12.5}))
+    return {"time_windows": windows}
 
 
 def _window(rng: random.Random) -> Data:
@@ -178,6 +196,7 @@ def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
             customer.pop(name, None)
         if rng.random() < 0.7:
             customer.pop("time_window", None)
+            customer.pop("time_windows", None)
             customer.pop("service_duration", None)
     for kind in request["fleet"]:
         kind["capacity"] = [20] * dimensions

@@ -1,6 +1,7 @@
 """`CustomerInput` -> `Customer`."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from app.conversion.amounts import counted
 from app.conversion.units import thousandths
@@ -10,17 +11,20 @@ from model.problem import UNLIMITED, Customer
 
 def to_customer(stated: CustomerInput, decimals: Sequence[int]) -> Customer:
     """Convert a valid customer; `decimals` by dimension."""
-    window = stated.time_window
+    windows = stated.windows
+    first, last = windows[0], windows[-1]
     return Customer(
         id=stated.id,
         demand=counted(stated.demand, decimals),
         service_duration=thousandths(stated.service_duration),
-        earliest=thousandths(window.earliest),
-        latest=UNLIMITED if window.latest is None else thousandths(window.latest),
-        late_cost_per_hour=window.late_cost_per_hour,
-        early_cost_per_hour=window.early_cost_per_hour,
+        earliest=thousandths(first.earliest),
+        latest=UNLIMITED if last.latest is None else thousandths(last.latest),
+        late_cost_per_hour=last.late_cost_per_hour,
+        early_cost_per_hour=first.early_cost_per_hour,
         served_by=stated.served_by,
         skills=frozenset(stated.skills),
         release_time=thousandths(stated.release_time),
         unassigned_cost=stated.unassigned_cost,
+        gaps=tuple([(thousandths(window.latest or 0.0), thousandths(following.earliest))
+                    for window, following in pairwise(windows)]),
     )

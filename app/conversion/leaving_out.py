@@ -21,7 +21,7 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     costs less, too.
     """
     stated = [time for customer in customers
-              for time in (customer.earliest, customer.latest, customer.release_time)]
+              for time in (*customer.openings, customer.latest, customer.release_time)]
     stated += [kind.latest for kind in vehicle_types]
     horizon = max([time for time in stated if time < UNLIMITED], default=0) / MS_PER_HOUR
     service = max([customer.service_duration for customer in customers], default=0) / MS_PER_HOUR

@@ -145,8 +145,10 @@ def _flight_bars(sortie: SortieInput, trip: int, drones: DronesInput | None) -> 
 
 
 def _window(scene: Scene, customer: str, arrival: float, service_start: float) -> Window | None:
-    """Return a customer's window if one is stated."""
-    window = scene.customers[customer].time_window
+    """Return the customer's window in which service began, if any is stated."""
+    windows = scene.customers[customer].windows
+    window = next((window for window in reversed(windows) if window.earliest <= service_start),
+                  windows[0])
     if window.latest is None and not window.earliest:
         return None
     is_late = window.latest is not None and arrival > window.latest

@@ -5,6 +5,7 @@ from html import escape
 
 from app.pictures.drawing import draw_svg
 from app.pictures.scene import Scene, clock
+from app.schemas.customer import TimeWindowInput
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
 
 _STYLE = """
@@ -86,14 +87,18 @@ def _sortie_rows(scene: Scene, number: int, trip: TripInput,
 
 
 def _order(scene: Scene, name: str, arrival: float) -> tuple[str, str, str]:
-    """Return a customer's window, the minutes of lateness and the demand."""
+    """Return a customer's windows, the minutes of lateness and the demand."""
     customer = scene.customers[name]
-    window = customer.time_window
-    late = 0.0 if window.latest is None else max(0.0, arrival - window.latest)
-    latest = "" if window.latest is None else clock(window.latest)
-    stated = f"{clock(window.earliest)} to {latest}".strip()
-    return (stated if window.earliest or latest else "", f"{late / 60:.1f}" if late else "",
+    latest = customer.windows[-1].latest
+    late = 0.0 if latest is None else max(0.0, arrival - latest)
+    return (", ".join(filter(None, map(_window, customer.windows))),
+            f"{late / 60:.1f}" if late else "",
             ", ".join(f"{amount:g}" for amount in customer.demand))
+
+
+def _window(window: TimeWindowInput) -> str:
+    latest = "" if window.latest is None else clock(window.latest)
+    return f"{clock(window.earliest)} to {latest}".strip() if window.earliest or latest else ""
 
 
 def _unassigned(scene: Scene) -> str:

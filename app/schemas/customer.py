@@ -1,6 +1,6 @@
 """A customer of a request."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -36,6 +36,9 @@ class TimeWindowInput(Input):
     )
 
 
+Windows = Annotated[list[TimeWindowInput], Field(min_length=1, max_length=8)]
+
+
 class CustomerInput(Input):
     """A place with a demand, served once by a truck or a drone."""
 
@@ -49,6 +52,12 @@ class CustomerInput(Input):
     service_duration: Seconds = Field(0.0, description="Time spent at the customer in seconds.")
     time_window: TimeWindowInput = Field(
         TimeWindowInput(), description="When service may start. Default: at any time."
+    )
+    time_windows: Windows | None = Field(
+        None,
+        description="Several windows instead of `time_window`, one after another: service starts "
+        "in one of them, and whoever comes between two waits for the next. Only the last may be "
+        "soft. Null: `time_window` holds.",
     )
     served_by: Literal["truck", "drone", "either"] = Field(
         "either", description="Kind of vehicle that may serve the customer."
@@ -64,3 +73,8 @@ class CustomerInput(Input):
         description="Cost of leaving the customer out. Null: the request's; if that is null too, "
         "the customer must be served, and is left out only if no plan found serves all who must.",
     )
+
+    @property
+    def windows(self) -> list[TimeWindowInput]:
+        """The windows, one after another."""
+        return [self.time_window] if self.time_windows is None else self.time_windows

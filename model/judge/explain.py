@@ -120,6 +120,9 @@ def _failed(problem: Problem, index: int, node: int, attempt: Attempt) -> Reason
     """Say which rule an attempt breaks, with a remedy that was tried."""
     code = next(code for code in DIAGNOSES if code in attempt.codes)
     diagnosis = DIAGNOSES[code](attempt)
+    window = _missed_window(attempt)
+    if window is not None:
+        return Reason(index, window.code, window.message, window.remedy)
     remedy = None
     if diagnosis.problem and not check(diagnosis.problem, attempt.solution).violations:
         remedy = diagnosis.remedy
@@ -238,17 +241,49 @@ def _trip_distance(attempt: Attempt) -> _Diagnosis:
     )
 
 
+def _arrival(attempt: Attempt) -> int:
+    trip = attempt.solution.routes[0].trips[0]
+    return (trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]).arrival
+
+
 def _time_window(attempt: Attempt) -> _Diagnosis:
-    customer, trip = attempt.customer, attempt.solution.routes[0].trips[0]
-    arrival = (trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]).arrival
-    late = _up_to_tenth(arrival - customer.latest, MS_PER_MINUTE)
+    customer = attempt.customer
+    late = _up_to_tenth(_arrival(attempt) - customer.latest, MS_PER_MINUTE)
     enough = customer.latest + late
     changed = replace(customer, latest=min(enough, UNLIMITED))
+    window = "last window" if customer.gaps else "window"
     return _Diagnosis(
         "TIME_WINDOW",
-        f"The earliest arrival is {_minutes(late)} after its window closes.",
-        _if_stated(f"fits if its window closed {_minutes(late)} later", enough),
+        f"The earliest arrival is {_minutes(late)} after its {window} closes.",
+        _if_stated(f"fits if its {window} closed {_minutes(late)} later", enough),
         replace(attempt.problem, customers=(changed,)),
+    )
+
+
+def _missed_window(attempt: Attempt) -> _Diagnosis | None:
+    """Say that waiting for a window breaks a rule, and widen the one before it.
+
+    None if nobody waits between two windows, or that doesn't suffice.
+    """
+    customer, arrival = attempt.customer, _arrival(attempt)
+    missed = [number for number, (closes, opens) in enumerate(customer.gaps)
+              if closes < arrival < opens]
+    if not missed:
+        return None
+    (number,) = missed
+    closes, opens = customer.gaps[number]
+    late = _up_to_tenth(arrival - closes, MS_PER_MINUTE)
+    # Windows don't touch: one that would is closed just before the next opens.
+    wider = (min(closes + late, opens - 1), opens)
+    gaps = (*customer.gaps[:number], wider, *customer.gaps[number + 1:])
+    changed = replace(attempt.problem, customers=(replace(customer, gaps=gaps),))
+    if all(again.codes for again in attempts(changed, 0, changed.num_depots)):
+        return None
+    return _Diagnosis(
+        "TIME_WINDOW",
+        f"The earliest arrival is {_minutes(late)} after its window {number + 1} closes, and "
+        f"window {number + 2} is too late for {attempt.vehicle_type.id}.",
+        f"fits if its window {number + 1} closed {_minutes(late)} later",
     )
 
 

@@ -48,6 +48,14 @@ def _longer_endurance(kind: VehicleType, text: str) -> VehicleType:
     return replace(kind, drones=replace(drones, endurance=drones.endurance + _units(text, MINUTE)))
 
 
+def _wider_window(customer: Customer, text: str) -> Customer:
+    number, minutes = text.split(" closed ")
+    gaps = list(customer.gaps)
+    closes, opens = gaps[int(number) - 1]
+    gaps[int(number) - 1] = (min(closes + _units(minutes, MINUTE), opens - 1), opens)
+    return replace(customer, gaps=tuple(gaps))
+
+
 ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
     "fits if endurance were (.+) minutes? longer": _longer_endurance,
     "fits if the drone capacity were at least (.+)": lambda kind, text: replace(
@@ -65,8 +73,9 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
     "fits with one more vehicl(e)": lambda kind, _: replace(kind, count=kind.count + 1),
 }
 ON_CUSTOMER: dict[str, Callable[[Customer, str], Customer]] = {
-    "fits if its window closed (.+) minutes? later": lambda customer, text: replace(
+    "fits if its (?:last )?window closed (.+) minutes? later": lambda customer, text: replace(
         customer, latest=customer.latest + _units(text, MINUTE)),
+    r"fits if its window (\d+ closed .+) minutes? later": _wider_window,
     "served if its unassigned_cost were above (.+)": lambda customer, text: replace(
         customer, unassigned_cost=float(text) + 0.01),
     "fits if a truck may serve (it)": lambda customer, _: replace(customer, served_by="either"),

@@ -30,6 +30,20 @@ def test_defaults_of_the_smallest_request(smallest: Request) -> None:
     assert (first.earliest, first.latest, first.late_cost_per_hour) == (0, UNLIMITED, None)
 
 
+def test_several_windows_are_one_after_another(smallest: Request) -> None:
+    first, second = smallest["customers"]
+    first["time_windows"] = [
+        {"earliest": 5, "latest": 5, "early_cost_per_hour": 2},
+        {"earliest": 7.5, "latest": 8, "early_cost_per_hour": 2},
+        {"earliest": 20, "late_cost_per_hour": 9, "early_cost_per_hour": 2}]
+    second["time_windows"] = [{"earliest": 3, "latest": 4}]
+    several, one = problem_of(smallest).customers
+    assert (several.earliest, several.gaps, several.latest) == (
+        5000, ((5000, 7500), (8000, 20_000)), UNLIMITED)
+    assert (several.late_cost_per_hour, several.early_cost_per_hour) == (9, 2)
+    assert (one.earliest, one.gaps, one.latest) == (3000, (), 4000)
+
+
 def test_planar_legs_at_forty_km_per_hour(smallest: Request) -> None:
     (travel,) = problem_of(smallest).travel
     # 3-4-5 triangle: 5 km take 5 / 40 h = 450 s; both customers are 5 km from (3, 4).

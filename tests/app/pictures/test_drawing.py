@@ -94,6 +94,15 @@ def test_windows_at_the_same_time_have_lanes_of_their_own(rich: Request,
     assert rows_of(scene_of(rich, two_trips))[0].lanes == (0, 0)
 
 
+def test_of_several_windows_that_of_service_is_drawn(rich: Request, two_trips: Request) -> None:
+    drawn = rows_of(scene_of(rich, two_trips))[0].windows
+    early = rich["customers"][0]
+    early["time_windows"] = [{"latest": 100}, early.pop("time_window"), {"earliest": 8000}]
+    scene = scene_of(rich, two_trips)
+    assert rows_of(scene)[0].windows == drawn
+    assert b"0:00 to 0:01, 1:00 to 2:00, 2:13 to" in draw_page(scene)
+
+
 def test_broken_rules_are_told(rich: Request, two_trips: Request) -> None:
     rich["fleet"][0]["capacity"] = [12]
     texts, _ = shown(draw_svg(scene_of(rich, two_trips)))

@@ -48,6 +48,22 @@ test('times that Excel holds as shares of a day or as dates are read', () => {
   assert.deepEqual(customers[0].time_window, { earliest: 28800, latest: 37800 });
 });
 
+test('several windows stand in one cell', () => {
+  const { customers, errors } = readSheet([
+    ['id', 'x', 'y', 'Windows', 'early cost', 'late cost'],
+    ['A', 1, 2, '8:00-9:30; 14:00 to 50400', '2', '5'],
+    ['B', 1, 2, '8:00', '', ''],
+  ]);
+  assert.deepEqual(
+    errors.map(({ row, column }) => [row, column]),
+    [[2, 3]],
+  );
+  assert.deepEqual(customers[0].time_windows, [
+    { earliest: 28800, latest: 34200, early_cost_per_hour: 2 },
+    { earliest: 50400, latest: 50400, early_cost_per_hour: 2, late_cost_per_hour: 5 },
+  ]);
+});
+
 test('every wrong cell is told, with its place', () => {
   const { errors } = readSheet([
     ['id', 'lat', 'lon', 'demand', 'by'],

@@ -225,8 +225,16 @@ def test_a_later_window_counts_if_it_fits(tiny_problem, customers, truck, drones
     assert reason_for_d(tiny_problem(*others, several, truck=hours)).code == "SEARCH"
     short = replace(hours, latest=60 * MINUTE)
     assert reason_for_d(tiny_problem(*others, several, truck=short)).code == "SEARCH"
-    assert reason_for_d(tiny_problem(*others, several, truck=replace(
-        hours, latest=48 * MINUTE))).code == "SHIFT"
+    closing = tiny_problem(*others, several, truck=replace(hours, latest=48 * MINUTE))
+    reason = reason_for_d(closing)
+    assert reason == Reason(0, "TIME_WINDOW", "The earliest arrival is 1 minute after its window 1 "
+                            "closes, and window 2 is too late for truck.",
+                            "fits if its window 1 closed 1 minute later")
+    assert reason_for_d(applied(closing, reason, 4)).code == "SEARCH"
+    ended = reason_for_d(tiny_problem(*others, replace(several, gaps=((MINUTE, 2 * MINUTE),),
+                                                       latest=6 * MINUTE), truck=hours))
+    assert (ended.code, ended.remedy) == ("TIME_WINDOW",
+                                          "fits if its last window closed 2 minutes later")
     flown = replace(several, served_by="drone")
     assert reason_for_d(tiny_problem(*others, flown, truck=replace(
         truck, drones=replace(drones, endurance=14 * MINUTE)))).code == "SEARCH"

@@ -2,6 +2,7 @@
 
 import { isInside } from './detour.js';
 import { removeIn, setIn } from './paths.js';
+import { windowsOf, withWindows } from './windows.js';
 
 const DECIMALS = { planar: 3, geographic: 6 };
 
@@ -39,15 +40,29 @@ export function addDepot(request, location) {
   return { ...request, depots: [...request.depots, depot] };
 }
 
-/** Give customers a window. */
-export function giveWindow(request, ids, { earliest, latest }) {
+/** Give customers windows, each `{earliest, latest}`; what the old ones cost stays. */
+export function giveWindows(request, ids, windows) {
   const given = new Set(ids);
+  const renewed = (customer) => {
+    const old = windowsOf(customer);
+    const price = old[old.length - 1]?.late_cost_per_hour;
+    return withWindows(
+      customer,
+      windows.map((window, position) => {
+        const { late_cost_per_hour: _, ...others } = old[position] ?? {};
+        const isLast = position === windows.length - 1;
+        return {
+          ...others,
+          ...(isLast && price !== undefined && { late_cost_per_hour: price }),
+          ...window,
+        };
+      }),
+    );
+  };
   return {
     ...request,
     customers: request.customers.map((customer) =>
-      given.has(customer.id)
-        ? { ...customer, time_window: { ...customer.time_window, earliest, latest } }
-        : customer,
+      given.has(customer.id) ? renewed(customer) : customer,
     ),
   };
 }
@@ -111,14 +126,18 @@ export function withoutDrones(request) {
   return { ...request, fleet: request.fleet.map((type) => ({ ...type, drones: null })) };
 }
 
-/** Take all windows away, or make them soft at a cost per hour of lateness. */
+/** Take all windows away, or make the last of each customer soft at a cost per hour of lateness. */
 export function changeWindows(request, lateCostPerHour) {
   return {
     ...request,
     customers: request.customers.map((customer) => {
-      const { time_window: window, ...rest } = customer;
-      if (!window || lateCostPerHour === null) return rest;
-      return { ...rest, time_window: { ...window, late_cost_per_hour: lateCostPerHour } };
+      if (lateCostPerHour === null) return withWindows(customer, []);
+      const windows = windowsOf(customer);
+      const soft = windows.slice(-1).map((window) => ({
+        ...window,
+        late_cost_per_hour: lateCostPerHour,
+      }));
+      return withWindows(customer, [...windows.slice(0, -1), ...soft]);
     }),
   };
 }

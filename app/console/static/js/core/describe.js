@@ -1,6 +1,7 @@
 /** What a customer, stop or sortie is, as pairs of a term and its value. */
 
-import { amounts, clock, duration, km, money, percent, timeWindow } from './format.js';
+import { amounts, clock, duration, km, money, percent } from './format.js';
+import { windowsInWords, windowsOf } from './windows.js';
 
 const SERVED_BY = { truck: 'truck only', drone: 'drone only', either: 'truck or drone' };
 
@@ -24,7 +25,7 @@ export function describe(request, index, key) {
 function customerFacts(customer) {
   const facts = [
     ['Demand', amounts(customer.demand)],
-    ['Window', timeWindow(customer.time_window)],
+    ['Window', windowsInWords(windowsOf(customer))],
   ];
   if (customer.service_duration) facts.push(['Service', duration(customer.service_duration)]);
   if (customer.served_by && customer.served_by !== 'either') {

@@ -5,6 +5,8 @@
  * `t:<vehicle>/<trip>` and `s:<vehicle>/<trip>/<sortie>`; vehicles count in the fleet's order.
  */
 
+import { windowAt } from './windows.js';
+
 /** Return the index of a plan, or null without one. */
 export function indexPlan(request, plan) {
   if (!plan) return null;
@@ -123,7 +125,7 @@ function haltOf(key, reply, trip, source) {
     vehicle: trip.vehicle,
     source,
     location: source?.location ?? null,
-    window: source?.time_window ?? null,
+    window: windowAt(source, reply.service_start),
     arrival: reply.arrival,
     serviceStart: reply.service_start,
     departure: reply.departure,

@@ -1,6 +1,7 @@
 /** Remedies of unassigned customers as changes of the problem. */
 
 import { getIn, setIn } from './paths.js';
+import { closingLater, windowsOf } from './windows.js';
 
 const NUMBER = '([\\d.,]+)';
 const SECONDS_PER_MINUTE = 60;
@@ -47,9 +48,14 @@ const CHANGES = [
       add(request, [...type, 'max_trip_distance'], numberOf(more) * METRES_PER_KM),
   ],
   [
-    new RegExp(`^fits if its window closed ${NUMBER} minutes? later$`),
+    new RegExp(`^fits if its (?:last )?window closed ${NUMBER} minutes? later$`),
     (request, { customer }, more) =>
-      add(request, [...customer, 'time_window', 'latest'], numberOf(more) * SECONDS_PER_MINUTE),
+      closeLater(request, customer, windowsOf(getIn(request, customer)).length - 1, more),
+  ],
+  [
+    new RegExp(`^fits if its window ${NUMBER} closed ${NUMBER} minutes? later$`),
+    (request, { customer }, position, more) =>
+      closeLater(request, customer, numberOf(position) - 1, more),
   ],
   [
     new RegExp(`^fits if .+'s shift ended ${NUMBER} minutes? later$`),
@@ -69,6 +75,11 @@ const CHANGES = [
 
 function numberOf(text) {
   return Number(text.replaceAll(',', ''));
+}
+
+function closeLater(request, keys, position, minutes) {
+  const later = numberOf(minutes) * SECONDS_PER_MINUTE;
+  return setIn(request, keys, closingLater(getIn(request, keys), position, later));
 }
 
 function justAbove(price) {

@@ -38,6 +38,7 @@ const NAMES = {
     'window_end',
     'end',
   ],
+  time_windows: ['time_windows', 'windows', 'opening_hours'],
   late_cost_per_hour: ['late_cost_per_hour', 'late_cost'],
   early_cost_per_hour: ['early_cost_per_hour', 'early_cost'],
   served_by: ['served_by', 'vehicle', 'by', 'mode'],
@@ -155,6 +156,17 @@ function time(cell) {
     : { value: seconds };
 }
 
+/** Read windows such as `8:00-9:30; 14:00-15:00`. */
+function windows(cell) {
+  const stated = String(cell)
+    .split(/[;|]/)
+    .filter((part) => part.trim());
+  const read = stated.map((part) => part.split(/\s*(?:-|\u2013|\bto\b)\s*/).map(parseClock));
+  return read.length && read.every((times) => times.length === 2 && !times.includes(null))
+    ? { value: read.map(([earliest, latest]) => ({ earliest, latest })) }
+    : { message: `"${cell}" are no windows: state them as 8:00-9:30; 14:00-15:00.` };
+}
+
 const text = (cell) => ({ value: String(cell).trim() });
 const amount = numeric(0, 1e9);
 const READERS = {
@@ -170,6 +182,7 @@ const READERS = {
   service_minutes: numeric(0, 1e7),
   earliest: time,
   latest: time,
+  time_windows: windows,
   late_cost_per_hour: numeric(0, 1e12),
   early_cost_per_hour: numeric(0, 1e12),
   served_by(cell) {
@@ -202,11 +215,23 @@ function customerOf(id, line) {
   const customer = { id, location: locationOf(line), demand };
   const service = line.service_duration ?? (line.service_minutes ?? 0) * 60;
   if (service) customer.service_duration = service;
-  const window = {};
-  for (const name of ['earliest', 'latest', 'late_cost_per_hour', 'early_cost_per_hour']) {
-    if (line[name] !== undefined) window[name] = line[name];
+  const named = (names) =>
+    Object.fromEntries(
+      names.filter((name) => line[name] !== undefined).map((name) => [name, line[name]]),
+    );
+  const early = named(['early_cost_per_hour']);
+  const late = named(['late_cost_per_hour']);
+  if (line.time_windows) {
+    const last = line.time_windows.length - 1;
+    customer.time_windows = line.time_windows.map((window, position) => ({
+      ...window,
+      ...early,
+      ...(position === last && late),
+    }));
+  } else {
+    const window = { ...named(['earliest', 'latest']), ...late, ...early };
+    if (Object.keys(window).length) customer.time_window = window;
   }
-  if (Object.keys(window).length) customer.time_window = window;
   for (const name of ['served_by', 'skills', 'release_time', 'unassigned_cost']) {
     if (line[name] !== undefined) customer[name] = line[name];
   }

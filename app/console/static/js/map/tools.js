@@ -6,7 +6,7 @@ import {
   addDepot,
   customersWithin,
   eraseAreasAt,
-  giveWindow,
+  giveWindows,
   moveCustomer,
   removeCustomer,
   setArea,
@@ -34,6 +34,12 @@ export const TOOLS = {
 
 const isCustomer = (key) => key?.startsWith('c:');
 const idOf = (key) => key.slice(2);
+
+/** Give customers the window that is chosen. */
+function paint(request, ids) {
+  const { earliest, latest } = store.get().brush;
+  return giveWindows(request, ids, [{ earliest, latest }]);
+}
 
 /** Let a map follow the chosen tool; returns a function that ends it. */
 export function attachTools(view) {
@@ -72,14 +78,13 @@ const BEGIN = {
     view.onGround = (point) => edit((request) => addDepot(request, point));
   },
   window(view) {
-    view.onSelect = (key) =>
-      isCustomer(key) && edit((request) => giveWindow(request, [idOf(key)], store.get().brush));
+    view.onSelect = (key) => isCustomer(key) && edit((request) => paint(request, [idOf(key)]));
   },
   windowArea: (view) =>
     drawShape(view, 'Rectangle', (layer) => {
       const bounds = layer.getBounds();
       const box = [bounds.getWest(), bounds.getSouth(), bounds.getEast(), bounds.getNorth()];
-      edit((request) => giveWindow(request, customersWithin(request, box), store.get().brush));
+      edit((request) => paint(request, customersWithin(request, box)));
     }),
   area: (view) =>
     drawShape(view, 'Polygon', (layer) => edit((request) => setArea(request, ringOf(layer)))),

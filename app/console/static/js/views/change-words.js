@@ -1,8 +1,9 @@
 /** What changed in a problem, as a person says it. */
 
 import { select } from '../actions.js';
-import { clock, timeWindow } from '../core/format.js';
+import { clock } from '../core/format.js';
 import { labelOf } from '../core/schema.js';
+import { windowsInWords } from '../core/windows.js';
 import { html } from '../libraries.js';
 
 const LONGEST = 60;
@@ -15,7 +16,9 @@ export function Change({ path, before, after }) {
   if (id !== undefined && rest === undefined) {
     return before === undefined ? html`${link} is a new order` : html`${id} is cancelled`;
   }
-  if (rest === 'time_window') return html`${link} may be served ${timeWindow(after)}`;
+  if (rest === 'time_window' || rest === 'time_windows') {
+    return html`${link} may be served ${windowsInWords([after ?? []].flat())}`;
+  }
   const { owner, field } = placeOf(path);
   const [then, now] = [before, after].map((value) => shown(value, field));
   return html`${owner && `${owner}: `}${field} ${then} \u2192 ${now}`;

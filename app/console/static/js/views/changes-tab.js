@@ -1,7 +1,7 @@
 /** What if: change one thing, plan, and see the plan beside the former. */
 
 import { besidePlan, edit, select, shownPlan } from '../actions.js';
-import { addVehicles, changeWindows, giveWindow, withoutDrones } from '../core/changes.js';
+import { addVehicles, changeWindows, giveWindows, withoutDrones } from '../core/changes.js';
 import { movedCustomers, planMeasures, requestDifferences } from '../core/differences.js';
 import { fromNothing } from '../core/replanning.js';
 import { clock, count, km, money, number, percent, signed } from '../core/format.js';
@@ -10,6 +10,7 @@ import { html } from '../libraries.js';
 import { plan } from '../planning.js';
 import { store, useStore } from '../store.js';
 import { Change } from './change-words.js';
+import { windowsOf } from '../core/windows.js';
 import { WindowFields } from './window-fields.js';
 
 const MOST_LISTED = 40;
@@ -37,7 +38,7 @@ function changeAndPlan(change) {
 function Changes() {
   const request = useStore((state) => state.request);
   const hasDrones = request.fleet.some((type) => type.drones?.count);
-  const windows = request.customers.filter(({ time_window: window }) => window).length;
+  const windows = request.customers.filter((customer) => windowsOf(customer).length).length;
   const onlyOne = request.fleet.length === 1;
   return html`<section class="section"><h3>Change one thing and plan again</h3>
     ${request.fleet.map(
@@ -75,7 +76,7 @@ function WindowChange({ request }) {
         value=${other.id}>${other.id}</option>`)}
     </select></label>
     <${WindowFields} customer=${customer}
-      onApply=${(window) => changeAndPlan(giveWindow(request, [id], window))} /></div>`;
+      onApply=${(windows) => changeAndPlan(giveWindows(request, [id], windows))} /></div>`;
 }
 
 function Plans() {

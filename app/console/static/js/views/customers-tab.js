@@ -1,9 +1,10 @@
 /** Customers and depots: a long table, and a form for the one that is selected. */
 
 import { edit, hover, indexOf, openTab, select, shownPlan } from '../actions.js';
-import { amounts, clock, count, timeWindow } from '../core/format.js';
+import { amounts, clock, count } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
 import { freeName, removeCustomer } from '../core/changes.js';
+import { windowsInWords, windowsOf } from '../core/windows.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { Field, Fields } from './form.js';
@@ -84,7 +85,8 @@ function CustomerRow({ customer, halt, index, selected, marked, errors }) {
       </button></th>
     <td ...${cell('demand')} class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
       ${amounts(customer.demand ?? [])}</td>
-    <td ...${cell('time_window')}>${timeWindow(customer.time_window)}</td>
+    <td ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
+      ${windowsInWords(windowsOf(customer))}</td>
     <td ...${cell('served_by')} class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
       ${customer.served_by ?? 'either'}</td>
     <td class=${halt?.lateness > 0 || (index && !halt) ? 'late-text' : ''}>${arrival}</td></tr>`;

@@ -39,7 +39,7 @@ export function Field({ name, schema, keys, request, onChange, choices = {}, req
   if (kind === 'other') return null;
   const shared = { name, keys, request, onChange, errors, schema: found.schema, choices };
   if (kind === 'object') return html`<${ObjectField} ...${shared} nullable=${found.nullable} />`;
-  if (kind === 'objects') return html`<${ListField} ...${shared} />`;
+  if (kind === 'objects') return html`<${ListField} ...${shared} nullable=${found.nullable} />`;
   return html`<${PlainField} ...${shared} kind=${kind} nullable=${found.nullable}
     required=${required} />`;
 }
@@ -188,10 +188,14 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices 
   </fieldset>`;
 }
 
-function ListField({ name, schema, keys, request, onChange, errors, choices }) {
+function ListField({ name, schema, keys, request, onChange, nullable, errors, choices }) {
   const schemas = useStore((state) => state.schemas);
   const values = getIn(request, keys) ?? [];
   const add = () => onChange(setIn(request, keys, [...values, blank(schemas, schema.items)]));
+  const remove = (index) => {
+    const isLast = nullable && values.length === 1;
+    onChange(removeIn(request, isLast ? keys : [...keys, index]));
+  };
   return html`<fieldset class="group list">
     <legend>${labelOf(name)}</legend>
     <p class="help">${helpOf(schema)}</p>
@@ -200,8 +204,8 @@ function ListField({ name, schema, keys, request, onChange, errors, choices }) {
       (_, index) => html`<div class="entry" key=${index}>
       <${Fields} schema=${schema.items} keys=${[...keys, index]} request=${request}
         onChange=${onChange} choices=${choices} />
-      <button type="button" class="quiet" onClick=${() =>
-        onChange(removeIn(request, [...keys, index]))}>Remove entry ${index + 1}</button>
+      <button type="button" class="quiet"
+        onClick=${() => remove(index)}>Remove entry ${index + 1}</button>
     </div>`,
     )}
     <button type="button" onClick=${add}>Add to ${labelOf(name).toLowerCase()}</button>

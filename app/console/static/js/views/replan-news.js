@@ -1,7 +1,7 @@
 /** What is new since the plan: orders that came in or were cancelled, windows that changed. */
 
 import { edit, select, undo } from '../actions.js';
-import { giveWindow, removeCustomer } from '../core/changes.js';
+import { giveWindows, removeCustomer } from '../core/changes.js';
 import { requestDifferences } from '../core/differences.js';
 import { choicesOf, fromNothing, setPinned } from '../core/replanning.js';
 import { html } from '../libraries.js';
@@ -62,6 +62,6 @@ function SelectedOrder({ request }) {
         <button type="button" disabled=${!mayCancel} onClick=${cancel}>Cancel this order</button>
       </div>
       <div class="buttons"><span>Window</span><${WindowFields} customer=${customer}
-        onApply=${(window) => edit(giveWindow(request, [id], window))} /></div>
+        onApply=${(windows) => edit(giveWindows(request, [id], windows))} /></div>
     </div></div>`;
 }

@@ -1,28 +1,42 @@
-/** Two fields for a customer's window. */
+/** Two fields for each of a customer's windows. */
 
 import { clock, parseClock } from '../core/format.js';
+import { windowsOf } from '../core/windows.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 
+const ANY_TIME = [{ earliest: 0, latest: null }];
+
 /**
- * Fields and the button that changes the window.
+ * Fields and the button that changes the windows.
  *
- * @param customer whose window it is
- * @param onApply called with `{earliest, latest}` in seconds; `latest` is null for no end
+ * @param customer whose windows they are
+ * @param onApply called with windows of `{earliest, latest}` in seconds; `latest` null for no end
  */
 export function WindowFields({ customer, onApply }) {
-  const window = customer.time_window;
-  const stated = [window?.earliest ?? 0, window?.latest ?? null];
-  const [text, setText] = useState(['', '']);
-  useLayoutEffect(() => setText(stated.map((time) => clock(time))), [customer]);
-  const [earliest, latest] = text.map((part) => (part.trim() === '' ? null : parseClock(part)));
-  const isWrong = text.map((part, at) => part.trim() !== '' && [earliest, latest][at] === null);
-  const apply = () => onApply({ earliest: earliest ?? 0, latest });
-  const input = (at, label) => html`<label>${label} <input type="text" size="6" value=${text[at]}
-    placeholder=${at ? 'never' : '0:00'} aria-invalid=${isWrong[at]}
+  const stated = windowsOf(customer);
+  const windows = stated.length ? stated : ANY_TIME;
+  const texts = () =>
+    windows.flatMap(({ earliest, latest }) => [clock(earliest ?? 0), clock(latest ?? null)]);
+  const [text, setText] = useState(texts);
+  useLayoutEffect(() => setText(texts()), [customer]);
+  const times = text.map((part) => (part.trim() === '' ? null : parseClock(part)));
+  const isWrong = text.map((part, at) => part.trim() !== '' && times[at] === null);
+  const apply = () =>
+    onApply(
+      windows.map((_, number) => ({
+        earliest: times[2 * number] ?? 0,
+        latest: times[2 * number + 1] ?? null,
+      })),
+    );
+  const input = (at, label) => html`<label>${label} <input type="text" size="6"
+    value=${text[at] ?? ''} placeholder=${at % 2 ? 'never' : '0:00'} aria-invalid=${isWrong[at]}
     onKeyDown=${(event) => event.key === 'Enter' && !isWrong.includes(true) && apply()}
     onInput=${({ target }) =>
       setText(text.map((part, other) => (other === at ? target.value : part)))} /></label>`;
-  return html`${input(0, 'opens')} ${input(1, 'closes')}
+  return html`${windows.map((_, number) => {
+    const which = windows.length > 1 ? `${number + 1} ` : '';
+    return html`${input(2 * number, `${which}opens`)} ${input(2 * number + 1, `${which}closes`)} `;
+  })}
     <button type="button" disabled=${isWrong.includes(true)}
-      onClick=${apply}>Change this window</button>`;
+      onClick=${apply}>Change ${windows.length > 1 ? 'these windows' : 'this window'}</button>`;
 }
