@@ -5,14 +5,14 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import Any
 
-from benchmarks.peers import PeerAnswer, needs_trips_or_releases
+from benchmarks.peers import PeerAnswer, has_rare_rules
 from benchmarks.published import Published
 
 
 def solve(instance: Published, seconds: float, seed: int) -> PeerAnswer | None:
     """Plan within a limit of processor time, all that it knows; None unless it is a plain CVRP."""
     vehicles = instance.vehicles
-    if (instance.has_windows or needs_trips_or_releases(instance) or len(vehicles) > 1
+    if (instance.has_windows or has_rare_rules(instance) or len(vehicles) > 1
             or vehicles[0].fixed_cost or vehicles[0].count < instance.num_customers):
         return None
     hygese: Any = import_module("hygese")

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.peers import PeerAnswer, PeerRoute, better, needs_trips_or_releases, useful_counts
+from benchmarks.peers import PeerAnswer, PeerRoute, better, has_rare_rules, useful_counts
 from benchmarks.published import Published
 
 STRATEGIES = ("PATH_CHEAPEST_ARC", "PARALLEL_CHEAPEST_INSERTION")
@@ -18,7 +18,7 @@ def solve(instance: Published, seconds: float, seed: int) -> PeerAnswer | None:
 
     None where vehicles may reload. One thread; `seed` changes nothing: the search has none.
     """
-    if needs_trips_or_releases(instance):
+    if has_rare_rules(instance):
         return None
     first, second = (_search(instance, seconds, strategy) for strategy in STRATEGIES)
     return better(instance, first, second)

@@ -6,7 +6,7 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import Any
 
-from benchmarks.peers import PeerAnswer, PeerRoute, better, needs_trips_or_releases, useful_counts
+from benchmarks.peers import PeerAnswer, PeerRoute, better, has_rare_rules, useful_counts
 from benchmarks.published import Published
 
 SECONDS_PER_HOUR = 3600
@@ -17,7 +17,7 @@ def solve(instance: Published, seconds: float, seed: int) -> PeerAnswer | None:
 
     None where vehicles may reload. `seed` changes nothing: the search is deterministic.
     """
-    if needs_trips_or_releases(instance):
+    if has_rare_rules(instance):
         return None
     low, high = (_explore(instance, seconds, level) for level in (0, 5))
     return better(instance, low, high)

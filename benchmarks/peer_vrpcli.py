@@ -7,7 +7,7 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import Any
 
-from benchmarks.peers import PeerAnswer, PeerRoute, needs_trips_or_releases, useful_counts
+from benchmarks.peers import PeerAnswer, PeerRoute, has_rare_rules, useful_counts
 from benchmarks.published import Published
 
 ONE_THREAD = {"numThreadPools": 1, "threadsPerPool": 1}
@@ -19,7 +19,7 @@ def solve(instance: Published, seconds: float, seed: int) -> PeerAnswer | None:
     None where vehicles may reload or the limit isn't a number of seconds. The solver takes no
     seed: each run is another.
     """
-    if needs_trips_or_releases(instance) or seconds < 1 or seconds != int(seconds):
+    if has_rare_rules(instance) or seconds < 1 or seconds != int(seconds):
         return None
     vrp_cli: Any = import_module("vrp_cli")
     config = {

@@ -7,7 +7,8 @@ all are measured by the same rules.
 import math
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from benchmarks.published import Published, to_problem
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Problem
-from model.solution import Solution
+from model.solution import Route, Solution
 
 PeerRoute = tuple[int, list[list[int]]]
 """Index of the vehicle type, then the trips, each the nodes of its customers in order."""
@@ -34,29 +35,53 @@ class PeerAnswer:
 class Verdict:
     """What the checker says of a plan."""
 
-    cost: float  # in the unit of the published cost, without customers left out
+    cost: float  # in the unit of the published cost, without who is missing
     is_feasible: bool  # no rule is broken, customers left out aside
-    num_unassigned: int
+    num_missing: int  # customers left out who may not be
 
     @property
     def counts(self) -> bool:
         """The plan serves everybody and breaks no rule."""
-        return self.is_feasible and self.num_unassigned == 0
+        return self.is_feasible and self.num_missing == 0
 
 
 def timed_plan(problem: Problem, routes: Iterable[PeerRoute]) -> Solution:
-    """Return a plan with its times; empty trips and routes are left out."""
+    """Return a plan with its times; empty trips and routes are left out.
+
+    Vehicles leave as early as they may; those that may only work so long, as late as makes them no
+    later home.
+    """
     used: Counter[int] = Counter()
     planned = []
     missing = set(range(problem.num_depots, problem.num_nodes))
     for vehicle_type, trips in routes:
-        decisions = tuple(TripDecision((0, *trip, 0)) for trip in trips if trip)
+        kind = problem.vehicle_types[vehicle_type]
+        decisions = tuple(TripDecision((kind.begins_at, *trip, kind.ends_at))
+                          for trip in trips if trip)
         if decisions:
             decision = RouteDecision(vehicle_type, used[vehicle_type], decisions)
-            planned.append(schedule(problem, decision))
+            route = schedule(problem, decision)
+            if kind.max_working_duration is not None:
+                route = schedule(problem, _leaving_late(problem, decision, route))
+            planned.append(route)
             used[vehicle_type] += 1
             missing.difference_update(*trips)
     return Solution(tuple(planned), tuple(sorted(missing)))
+
+
+def _leaving_late(problem: Problem, decision: RouteDecision, route: Route) -> RouteDecision:
+    """Return the same route, of one trip, begun as late as lets it end as early."""
+    (trip,), (timed,) = decision.trips, route.trips
+    duration = problem.travel[problem.vehicle_types[route.vehicle_type].travel].duration
+    latest, behind = timed.stops[-1].arrival, trip.nodes[-1]
+    for stop in reversed(timed.stops[1:-1]):
+        customer = problem.customer_at(stop.node)
+        closings = (*(closes for closes, _ in customer.gaps), customer.latest)
+        leave = latest - duration.item(stop.node, behind) - customer.service_duration
+        latest = min([leave, *(at for at in closings if at >= stop.service_start)])
+        behind = stop.node
+    start = latest - duration.item(trip.nodes[0], behind)
+    return replace(decision, trips=(replace(trip, start=max(start, timed.stops[0].arrival)),))
 
 
 def judge(problem: Problem, routes: Iterable[PeerRoute]) -> Verdict:
@@ -69,8 +94,26 @@ def judge(problem: Problem, routes: Iterable[PeerRoute]) -> Verdict:
     """
     solution = timed_plan(problem, routes)
     evaluation = check(problem, solution)
-    return Verdict(evaluation.cost.total - evaluation.cost.unassigned, evaluation.is_feasible,
-                   len(solution.unassigned))
+    missing = sum(problem.customer_at(node).unassigned_cost is None
+                  for node in solution.unassigned)
+    return Verdict(evaluation.cost.total - missing * problem.unassigned_cost,
+                   evaluation.is_feasible, missing)
+
+
+def stated_cost(instance: Published, routes: Iterable[PeerRoute]) -> float:
+    """Return what a plan costs by the instance's own numbers, without a look at its problem."""
+    cost, left_out = 0, set(instance.customers)
+    for vehicle_type, trips in routes:
+        kind = instance.vehicles[vehicle_type]
+        driven = [trip for trip in trips if trip]
+        cost += kind.fixed_cost if driven else 0
+        for trip in driven:
+            stops = [kind.depot, *trip, *([] if instance.is_open else [kind.depot])]
+            cost += kind.unit_cost * sum(int(instance.travel[leg]) for leg in pairwise(stops))
+            left_out.difference_update(trip)
+    if instance.prize is not None:
+        cost += sum(int(instance.prize[node]) for node in left_out)
+    return cost / instance.divisor
 
 
 def better(instance: Published, first: PeerAnswer, second: PeerAnswer) -> PeerAnswer:
@@ -79,14 +122,18 @@ def better(instance: Published, first: PeerAnswer, second: PeerAnswer) -> PeerAn
 
     def badness(answer: PeerAnswer) -> tuple[bool, int, float]:
         verdict = judge(problem, answer.routes)
-        return not verdict.is_feasible, verdict.num_unassigned, verdict.cost
+        return not verdict.is_feasible, verdict.num_missing, verdict.cost
 
     return min((first, second), key=badness)
 
 
-def needs_trips_or_releases(instance: Published) -> bool:
-    """Tell whether vehicles may reload or parcels come late, which few solvers know."""
-    return instance.max_trips > 1 or bool(instance.release.any())
+def has_rare_rules(instance: Published) -> bool:
+    """Tell whether an instance has rules that few solvers know."""
+    return (instance.max_trips > 1 or bool(instance.release.any()) or instance.num_depots > 1
+            or instance.prize is not None or bool(instance.gaps) or instance.pickup is not None
+            or instance.is_open
+            or any(kind.max_duration is not None or kind.serves is not None
+                   for kind in instance.vehicles))
 
 
 def useful_counts(instance: Published) -> list[int]:

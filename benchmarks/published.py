@@ -10,10 +10,10 @@ from vrplib import read_solution  # type: ignore[import-untyped]
 
 from app.files.importers import read_instance_file
 from app.files.instance import FileVehicles, InstanceFile, Rounding, distances
-from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
     MM_PER_KM,
     UNLIMITED,
+    BoolArray,
     Customer,
     Depot,
     FloatArray,
@@ -22,7 +22,6 @@ from model.problem import (
     Travel,
     VehicleType,
 )
-from model.solution import Solution
 
 NO_LIMIT = 2**40
 """Stands for "no limit" in `Published.latest`."""
@@ -32,6 +31,10 @@ MODEL_UNITS = 1000
 
 DETOURS_PER_CUSTOMER = 10
 """A customer left out costs as much as this many of the longest trips, in dearest vehicles."""
+
+
+Gaps = tuple[tuple[int, int], ...]
+"""As in `Customer`, in the unit of a set."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +54,14 @@ class PublishedVehicle:
     capacity: int
     fixed_cost: int  # in integer objective units
     unit_cost: int  # objective units per unit of distance
+    depot: int = 0  # node
+    max_duration: int | None = None  # from departure to return
+    serves: tuple[int, ...] | None = None  # nodes; None: all customers
 
 
 @dataclass(frozen=True, eq=False)
 class Published:
-    """A public instance in the integer units of its set's convention; node 0 is the depot."""
+    """A public instance in the integer units of its set's convention; depots come first."""
 
     name: str
     set_name: str
@@ -71,11 +77,28 @@ class Published:
     has_windows: bool
     divisor: int  # published cost = integer objective / divisor
     best_known: float  # published cost, nan if unknown
+    num_depots: int = 1
+    prize: IntArray | None = None
+    """(node,) Objective units lost with a customer left out; None: nobody may be."""
+    gaps: tuple[Gaps, ...] = ()
+    """(node,) Last start of service in one window and first in the next; (): a window each."""
+    pickup: IntArray | None = None  # (node,) amount taken in, `demand` being what is brought
+    pickups_last: bool = False  # and only behind all deliveries of a route, at least one
+    is_open: bool = False  # routes end with their last customer
 
     @property
     def num_customers(self) -> int:
         """Customers."""
-        return len(self.demand) - 1
+        return len(self.demand) - self.num_depots
+
+    @property
+    def customers(self) -> range:
+        """Their nodes."""
+        return range(self.num_depots, len(self.demand))
+
+    def gaps_at(self, node: int) -> Gaps:
+        """Return what lies between the windows of a customer."""
+        return self.gaps[node] if self.gaps else ()
 
 
 _DIMACS = Convention(scale=10, rounding="dimacs", divisor=10)
@@ -189,18 +212,36 @@ def to_problem(instance: Published) -> Problem:
     """Return an instance whose plans cost what the set's convention says.
 
     A unit of distance is a metre, a unit of time a second.
+
+    Raises
+    ------
+    ValueError
+        If it has pickups, or routes that end with their last customer.
     """
+    if instance.pickup is not None or instance.is_open:
+        raise ValueError(f"{instance.name}: has rules that no problem can state")
     legs = instance.travel * MODEL_UNITS
-    nodes = range(1, instance.num_customers + 1)
-    customers = tuple([_customer(instance, node) for node in nodes])
+    names = ["depot"] if instance.num_depots == 1 else [
+        f"depot-{number}" for number in range(1, instance.num_depots + 1)]
+    customers = tuple([_customer(instance, node) for node in instance.customers])
     vehicle_types = tuple([_vehicle_type(instance, index)
                            for index in range(len(instance.vehicles))])
-    longest = int((instance.travel[0] + instance.travel[:, 0]).max())
+    longest = max(int((instance.travel[kind.depot] + instance.travel[:, kind.depot]).max())
+                  for kind in instance.vehicles)
     dearest = max(kind.unit_cost for kind in instance.vehicles) * longest
     dearest += max(kind.fixed_cost for kind in instance.vehicles)
-    return Problem((Depot("depot"),), customers, vehicle_types, (Travel(legs, legs),),
+    return Problem(tuple(map(Depot, names)), customers, vehicle_types, (Travel(legs, legs),),
                    instance.coordinates,
-                   unassigned_cost=DETOURS_PER_CUSTOMER * dearest / instance.divisor)
+                   unassigned_cost=DETOURS_PER_CUSTOMER * dearest / instance.divisor,
+                   may_serve=_may_serve(instance))
+
+
+def _may_serve(instance: Published) -> BoolArray | None:
+    if all(kind.serves is None for kind in instance.vehicles):
+        return None
+    nodes = np.array(instance.customers)
+    return np.stack([np.isin(nodes, nodes if kind.serves is None else kind.serves)
+                     for kind in instance.vehicles])
 
 
 def _customer(instance: Published, node: int) -> Customer:
@@ -209,17 +250,24 @@ def _customer(instance: Published, node: int) -> Customer:
         service_duration=int(instance.service[node]) * MODEL_UNITS,
         earliest=int(instance.earliest[node]) * MODEL_UNITS,
         latest=_model_latest(instance, node),
-        release_time=int(instance.release[node]) * MODEL_UNITS)
+        release_time=int(instance.release[node]) * MODEL_UNITS,
+        unassigned_cost=(None if instance.prize is None
+                         else int(instance.prize[node]) / instance.divisor),
+        gaps=tuple([(closes * MODEL_UNITS, reopens * MODEL_UNITS)
+                    for closes, reopens in instance.gaps_at(node)]))
 
 
 def _vehicle_type(instance: Published, index: int) -> VehicleType:
     kind = instance.vehicles[index]
     name = "truck" if len(instance.vehicles) == 1 else f"type-{index + 1}"
     return VehicleType(
-        name, kind.count, (kind.capacity * MODEL_UNITS,), travel=0,
+        name, kind.count, (kind.capacity * MODEL_UNITS,), travel=0, depot=kind.depot,
         fixed_cost=kind.fixed_cost / instance.divisor,
         cost_per_km=kind.unit_cost * MM_PER_KM / (MODEL_UNITS * instance.divisor),
-        earliest=int(instance.earliest[0]) * MODEL_UNITS, latest=_model_latest(instance, 0),
+        earliest=int(instance.earliest[kind.depot]) * MODEL_UNITS,
+        latest=_model_latest(instance, kind.depot),
+        max_working_duration=(None if kind.max_duration is None
+                              else kind.max_duration * MODEL_UNITS),
         max_trips=instance.max_trips)
 
 
@@ -242,20 +290,16 @@ def read_routes(path: Path) -> list[list[list[int]]]:
     return routes
 
 
-def to_solution(instance: Published, problem: Problem,
-                routes: Sequence[Sequence[Sequence[int]]]) -> Solution:
-    """Return the plan in which vehicle k, as the file counts them, makes the trips of `routes[k]`.
+def routes_of_types(instance: Published, routes: Sequence[list[list[int]]]
+                    ) -> list[tuple[int, list[list[int]]]]:
+    """Return the type of vehicle k, as the file counts them, with the trips of `routes[k]`.
 
     Raises
     ------
     ValueError
-        If there are more routes than vehicles, or a node is no customer.
+        If there are more routes than vehicles.
     """
-    places = [(index, vehicle) for index, kind in enumerate(instance.vehicles)
-              for vehicle in range(kind.count)]
-    if len(routes) > len(places):
-        raise ValueError(f"routes: {len(routes)} for {len(places)} vehicles")
-    return Solution(tuple(
-        schedule(problem, RouteDecision(*place, tuple(TripDecision((0, *trip, 0))
-                                                      for trip in trips)))
-        for place, trips in zip(places, routes, strict=False) if trips))
+    types = [index for index, kind in enumerate(instance.vehicles) for _ in range(kind.count)]
+    if len(routes) > len(types):
+        raise ValueError(f"routes: {len(routes)} for {len(types)} vehicles")
+    return [(kind, trips) for kind, trips in zip(types, routes, strict=False) if trips]

@@ -19,9 +19,10 @@ from typing import Annotated
 import typer
 
 from benchmarks.instances import uniform_set
-from benchmarks.peers import PeerAnswer, judge
+from benchmarks.peers import PeerAnswer, Verdict, judge, stated_cost
 from benchmarks.published import CONVENTIONS, Published, published_set, to_problem
 from benchmarks.results import Result, gap_percent
+from benchmarks.rule_sets import RULE_SETS, rule_set
 from benchmarks.rows import append_rows, read_rows
 from benchmarks.workers import SOLVERS, NoPlanError, Worker, require_installed
 
@@ -89,7 +90,8 @@ def result(run: Run, answer: PeerAnswer | None) -> Result:
     feasible = complete = False
     if answer is not None:
         verdict = judge(to_problem(instance), answer.routes)
-        feasible, complete = verdict.is_feasible, verdict.num_unassigned == 0
+        _require_stated_cost(instance, answer, verdict)
+        feasible, complete = verdict.is_feasible, verdict.num_missing == 0
         seconds, cost = answer.seconds, verdict.cost
         gap = gap_percent(cost, instance.best_known) if verdict.counts else math.nan
     return Result(
@@ -97,6 +99,13 @@ def result(run: Run, answer: PeerAnswer | None) -> Result:
         SOLVERS[run.solver].threads, run.budget, run.seed, round(seconds, 4), round(cost, 6),
         instance.best_known, round(gap, 4), feasible, complete,
         "" if answer is None else answer.version, datetime.now(UTC).date().isoformat(), machine())
+
+
+def _require_stated_cost(instance: Published, answer: PeerAnswer, verdict: Verdict) -> None:
+    """Raise `ArithmeticError` if the judge's cost isn't what the instance's own numbers say."""
+    stated = stated_cost(instance, answer.routes)
+    if not math.isclose(verdict.cost, stated, rel_tol=1e-9, abs_tol=1e-9):
+        raise ArithmeticError(f"{instance.name}: {verdict.cost} is judged, {stated} is stated")
 
 
 def measure(planned: Sequence[Run]) -> Iterator[Result]:
@@ -126,6 +135,7 @@ def measure(planned: Sequence[Run]) -> Iterator[Result]:
 def _instances(data: Path, sets: Sequence[str], names: Sequence[str]) -> list[Published]:
     """Return the instances of sets in turn, those named or, if none are, all."""
     read = [uniform_set(data / "vrptw_uniform.jsonl", UNIFORM[name]) if name in UNIFORM
+            else rule_set(data, name) if name in RULE_SETS
             else published_set(data, name) for name in sets]
     return in_turn([[instance for instance in group if not names or instance.name in names]
                     for group in read])
@@ -134,7 +144,8 @@ def _instances(data: Path, sets: Sequence[str], names: Sequence[str]) -> list[Pu
 def main(
     data: Annotated[Path, typer.Option(help="folder of the published sets")]
     = Path("../shared/data"),
-    sets: Annotated[str, typer.Option(help="comma-separated; also " + ", ".join(UNIFORM))]
+    sets: Annotated[str, typer.Option(help="comma-separated; also "
+                                     + ", ".join((*UNIFORM, *RULE_SETS)))]
     = ",".join(CONVENTIONS),
     budgets: Annotated[str, typer.Option(help="seconds, comma-separated")] = "0.1,1,10",
     seeds: Annotated[int, typer.Option(help="runs of each solver that has seeds", min=1)] = 3,

@@ -5,16 +5,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.peers import judge
 from benchmarks.published import (
     NO_LIMIT,
     Published,
     published_set,
     read_published,
     read_routes,
+    routes_of_types,
     to_problem,
-    to_solution,
 )
-from model.judge.check import check
 from model.problem import UNLIMITED
 
 SOLOMON = """C901
@@ -122,10 +122,9 @@ def _write(folder: Path, set_name: str, name: str, text: str) -> Path:
 def _cost(instance: Published, path: Path, solution: str) -> float:
     """Return what a feasible `.sol` file costs."""
     path.write_text(solution, "utf-8")
-    problem = to_problem(instance)
-    evaluation = check(problem, to_solution(instance, problem, read_routes(path)))
-    assert evaluation.is_feasible, evaluation.violations
-    return evaluation.cost.total
+    verdict = judge(to_problem(instance), routes_of_types(instance, read_routes(path)))
+    assert verdict.counts
+    return verdict.cost
 
 
 def test_time_windows_are_counted_in_tenths(tmp_path: Path) -> None:
@@ -228,4 +227,4 @@ def test_unknown_sets_and_foreign_rules_are_refused(tmp_path: Path) -> None:
 def test_solution_with_more_routes_than_vehicles_is_refused(tmp_path: Path) -> None:
     instance = read_published(_write(tmp_path, "cvrp_x", "X-n3-k2.vrp", CVRP), "cvrp_x")
     with pytest.raises(ValueError, match="routes: 3 for 2 vehicles"):
-        to_solution(instance, to_problem(instance), [[[1]], [[2]], []])
+        routes_of_types(instance, [[[1]], [[2]], []])

@@ -102,7 +102,7 @@ def test_plan_costs_what_its_set_says(tiny: Published) -> None:
 
 def test_plan_without_a_customer_is_feasible_but_does_not_count(tiny: Published) -> None:
     verdict = judge(to_problem(tiny), [(0, [[1, 2]])])
-    assert (verdict.is_feasible, verdict.num_unassigned, verdict.counts) == (True, 1, False)
+    assert (verdict.is_feasible, verdict.num_missing, verdict.counts) == (True, 1, False)
     assert verdict.cost == pytest.approx(4.0)
 
 
