@@ -100,7 +100,7 @@ def test_of_several_windows_that_of_service_is_drawn(rich: Request, two_trips: R
     early["time_windows"] = [{"latest": 100}, early.pop("time_window"), {"earliest": 8000}]
     scene = scene_of(rich, two_trips)
     assert rows_of(scene)[0].windows == drawn
-    assert b"0:00 to 0:01, 1:00 to 2:00, 2:13 to" in draw_page(scene)
+    assert b"0:00 to 0:02, 1:00 to 2:00, 2:13 to" in draw_page(scene)
 
 
 def test_broken_rules_are_told(rich: Request, two_trips: Request) -> None:
