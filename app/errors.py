@@ -70,6 +70,7 @@ ErrorCode = Literal[
     "NOT_PLANNED",
     "PINNED_TO_UNAVAILABLE",
     "SETTLED_PART",
+    "ILLEGAL_PLAN",
     "TOO_MANY_VEHICLES",
     "WRONG_PARAMETER",
     "UNKNOWN_PATH",

@@ -21,10 +21,15 @@ from app.jobs.schemas import (
 )
 from app.jobs.service import JobService, Submission, is_job_id
 from app.jobs.webhook import check_url
-from app.load.abandoned import watching
+from app.load.abandoned import Planning, watching
 from app.load.bodies import Body, ReceivedBody
+from app.plans.explaining import explain_job
+from app.plans.routes import Service
+from app.requests.bounds import Bounds
+from app.schemas.explain import ExplainOptions, ExplainReply
 from app.schemas.openapi import ERROR_RESPONSES, EXAMPLES, event_stream, json_body
 from app.schemas.request import PlanRequest
+from app.settings import MAX_TIME_LIMIT
 
 router = APIRouter(tags=["jobs"])
 
@@ -66,6 +71,9 @@ PICTURE: dict[int | str, dict[str, Any]] = {
           "content": {"image/svg+xml": {"schema": {"type": "string"}}}},
     **FOUND, **_problems(_409="The job has no plan, or none yet, or several."),
 }
+
+EXPLAINED: dict[int | str, dict[str, Any]] = {
+    **FOUND, **_problems(500, _409="The job has no plan, or none yet, or several.")}
 
 JobId = Annotated[str, Path(max_length=36, description="Id of the job.")]
 IdempotencyKey = Annotated[str | None, Header(
@@ -164,6 +172,29 @@ async def follow_job(
 async def draw_plan(job_id: JobId, principal: Jobs, desk: Desk) -> Response:
     """Return a picture of a job's best plan so far."""
     return Response(await desk.picture(job_id, principal.key_id), media_type="image/svg+xml")
+
+
+@router.get("/jobs/{job_id}/explain", summary="Explain a job's plan",
+            response_model=ExplainReply, responses=EXPLAINED)
+async def explain_plan(
+    request: Request, job_id: JobId, principal: Jobs, planning: Planning, desk: Desk,
+    service: Service,
+    customer: Annotated[str | None, Query(
+        description="Id of the customer of whom it is asked why he is served where he is. Left "
+        "out: of nobody.")] = None,
+    drones: Annotated[bool, Query(
+        description="Whether to tell what drones save: each sortie, and all in sum.")] = False,
+    time_limit: Annotated[float, Query(
+        gt=0, le=MAX_TIME_LIMIT, description="Seconds until the reply: what was not tried by then "
+        "is not in it.")] = 1.0,
+) -> Response:
+    """Return the same as `POST /explain` of a job's best plan so far."""
+    wanted, plan = await desk.ask(lambda jobs: jobs.plan(job_id, principal.key_id))
+    bounds = Bounds.of_plans(request.app.state.settings)
+    reply = await planning.run(request, lambda should_stop: explain_job(
+        wanted, plan, customer, drones, ExplainOptions(time_limit=time_limit), bounds,
+        service.warm_planner, should_stop))
+    return Response(reply, media_type="application/json")
 
 
 @router.delete("/jobs/{job_id}", summary="Stop a job", response_model=JobReply, responses=FOUND)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails, to_json
@@ -22,6 +22,8 @@ from app.schemas.plan import PlanInput
 from app.settings import MAX_NUM_SAMPLES, MAX_TIME_LIMIT
 
 PROBLEM, PLAN = "problem", "plan"
+
+Kind = TypeVar("Kind", bound=CheckRequest)
 
 
 def answer_check(body: bytes, bounds: Bounds,
@@ -49,7 +51,14 @@ def answer_check(body: bytes, bounds: Bounds,
 
 
 def read_check(body: bytes, bounds: Bounds) -> CheckRequest:
+    """Return the request of `POST /check` that `body` holds; raises as `read_about_plan` does."""
+    return read_about_plan(body, bounds, CheckRequest)
+
+
+def read_about_plan(body: bytes, bounds: Bounds, kind: type[Kind]) -> Kind:
     """Return the request that `body` holds; nothing is planned, so its options aren't bounded.
+
+    `kind` is what it has to be.
 
     Raises
     ------
@@ -59,9 +68,9 @@ def read_check(body: bytes, bounds: Bounds) -> CheckRequest:
         With every error found, if it is not a valid request.
     """
     bounds = replace(bounds, num_samples=MAX_NUM_SAMPLES, time_limit=MAX_TIME_LIMIT)
-    require_readable(body, CheckRequest)
+    require_readable(body, kind)
     try:
-        request = CheckRequest.model_validate_json(body)
+        request = kind.model_validate_json(body)
     except ValidationError as error:
         raise _refusal(error, body, bounds) from error
     problem = request.problem

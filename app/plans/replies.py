@@ -142,17 +142,17 @@ def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetri
 
 
 def _unassigned(problem: Problem, node: int, reasons: tuple[Reason, ...]) -> Data:
+    return {"id": problem.customer_at(node).id,
+            "reasons": [reason_reply(problem, reason) for reason in reasons]}
+
+
+def reason_reply(problem: Problem, reason: Reason) -> Data:
+    """Return why vehicles of a type don't serve a customer."""
     return {
-        "id": problem.customer_at(node).id,
-        "reasons": [
-            {
-                "vehicle_type": problem.vehicle_types[reason.vehicle_type].id,
-                "code": reason.code,
-                "message": reason.message,
-                "remedy": reason.remedy,
-            }
-            for reason in reasons
-        ],
+        "vehicle_type": problem.vehicle_types[reason.vehicle_type].id,
+        "code": reason.code,
+        "message": reason.message,
+        "remedy": reason.remedy,
     }
 
 

@@ -8,9 +8,11 @@ from app.access.guard import Plan
 from app.load.abandoned import Planning
 from app.load.bodies import Body
 from app.plans.checking import answer_check
+from app.plans.explaining import answer_explain
 from app.plans.service import PlanService
 from app.requests.bounds import Bounds
 from app.schemas.check import CheckReply, CheckRequest
+from app.schemas.explain import ExplainReply, ExplainRequest
 from app.schemas.openapi import ERROR_RESPONSES, EXAMPLES, json_body
 from app.schemas.request import PlanRequest
 from app.schemas.response import PlanReply
@@ -18,6 +20,7 @@ from app.schemas.response import PlanReply
 router = APIRouter()
 
 CHECK_EXAMPLES = {"check": "A plan whose truck is too full, and too late at its second customer"}
+EXPLAIN_EXAMPLES = {"explain": "Why truck-1 serves B, and what a drone saves"}
 CHECK_ERROR_RESPONSES = {status: response for status, response in ERROR_RESPONSES.items()
                          if status != 500}
 """A plan of whatever kind is an answer."""
@@ -48,4 +51,16 @@ async def check(request: Request, principal: Plan, planning: Planning, body: Bod
     bounds = Bounds.of_plans(request.app.state.settings)
     reply = await planning.run(
         request, lambda should_stop: answer_check(body.content, bounds, should_stop))
+    return Response(reply, media_type="application/json")
+
+
+@router.post("/explain", summary="Explain a plan", tags=["planning"], response_model=ExplainReply,
+             responses=ERROR_RESPONSES,
+             openapi_extra=json_body(ExplainRequest, EXPLAIN_EXAMPLES))
+async def explain(request: Request, principal: Plan, planning: Planning, body: Body,
+                  service: Service) -> Response:
+    """Return what it would cost to serve a customer elsewhere, and what drones save."""
+    bounds = Bounds.of_plans(request.app.state.settings)
+    reply = await planning.run(request, lambda should_stop: answer_explain(
+        body, bounds, service.warm_planner, should_stop))
     return Response(reply, media_type="application/json")

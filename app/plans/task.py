@@ -12,7 +12,9 @@ from app.errors import InputError, InvalidRequestError
 from app.plans.replies import Data, plan_reply, vehicle_name
 from app.requests.plan_reading import read_earlier_plan
 from app.schemas.request import PlanRequest, ReplanInput
+from model.judge.bench import Setting
 from model.judge.check import Evaluation, check
+from model.judge.explain import Reason, explain
 from model.judge.past import Vehicle
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
@@ -51,6 +53,23 @@ class Task:
         if self.replanning is not None:
             return self.replanning.check(solution)
         return check(self.problem, solution)
+
+    @property
+    def judged_problem(self) -> Problem:
+        """The problem that a plan is judged by: parcels that were loaded are there."""
+        return self.problem if self.replanning is None else self.replanning.problem
+
+    @property
+    def setting(self) -> Setting:
+        """What a plan is judged by beside the problem."""
+        replanning = self.replanning
+        return Setting() if replanning is None else Setting(replanning.past, replanning.excused)
+
+    def reasons(self, solution: Solution, node: int, until: float) -> tuple[Reason, ...]:
+        """Return why a plan leaves a customer out, as far as is found until an instant."""
+        if self.replanning is None:
+            return explain(self.problem, solution, node, until)
+        return self.replanning.reasons(solution, node, until)
 
     def reply(self, options: PlanOptions, result: PlanResult) -> Data:
         """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""

@@ -22,6 +22,7 @@ from app.requests.refusal import require_readable
 from app.requests.scan import DEPTH, ERRORS, PARTS, scan
 from app.requests.shapes import LONG, shapes_of
 from app.schemas.check import CheckRequest
+from app.schemas.explain import ExplainRequest
 from app.schemas.request import PlanRequest
 from app.settings import Settings
 from app.vroom.schemas import VroomRequest
@@ -79,6 +80,8 @@ def _examples() -> Iterator[tuple[type[BaseModel], bytes]]:
             yield VroomRequest, body
         elif path.name.startswith("check"):
             yield CheckRequest, body
+        elif path.name.startswith("explain"):
+            yield ExplainRequest, body
         else:
             yield PlanRequest, body
 
@@ -89,7 +92,7 @@ def test_what_fits_the_schema_has_no_errors() -> None:
         model.model_validate_json(body)
         assert counted(body, model)[0] == 0
         seen.add(model)
-    assert len(seen) == 3
+    assert len(seen) == 4
 
 
 def _changes(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:

@@ -15,6 +15,7 @@ from functools import partial
 from app.errors import RequestError
 from app.jobs.reading import JobReader
 from app.plans.checking import read_check
+from app.plans.explaining import read_explain
 from app.requests.bounds import UNBOUNDED
 from app.requests.reading import read_request
 from app.requests.refusal import compile_scan
@@ -103,6 +104,11 @@ _CHECK: dict[str, Endless] = {
                       b"0]}]}]}"),
 }
 
+_EXPLAIN: dict[str, Endless] = {
+    "a long name": (b'"customer":"', b"a", b'"'),
+    "stops nowhere": _CHECK["stops nowhere"],
+}
+
 _SWEEP: dict[str, Endless] = {
     "keys": (b'"grid":{', b'"a":0,', b'"b":0}'),
     "values": (b'"grid":{"a":[', b"0,", b"0]}"),
@@ -121,7 +127,8 @@ _COMPARE: dict[str, Endless] = {
     "numbers for routes in the base": (b'"base":{"replan":{"plan":{"routes":[', b"0,", b"0]}}}"),
 }
 
-SHAPES = {"plan": _PLAN, "vroom": _VROOM, "check": _CHECK, "sweep": _SWEEP, "compare": _COMPARE}
+SHAPES = {"plan": _PLAN, "vroom": _VROOM, "check": _CHECK, "explain": _EXPLAIN, "sweep": _SWEEP,
+          "compare": _COMPARE}
 
 
 def body_of(shape: Endless, size: int) -> bytes:
@@ -137,6 +144,7 @@ def readers() -> dict[str, Callable[[bytes], object]]:
         "plan": lambda body: read_request(body, None),
         "vroom": lambda body: read_vroom(body, 10_000, 10_000),
         "check": lambda body: read_check(body, UNBOUNDED),
+        "explain": lambda body: read_explain(body, UNBOUNDED),
         "sweep": partial(jobs.validate, "sweep"),
         "compare": partial(jobs.validate, "compare"),
     }

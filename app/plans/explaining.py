@@ -1,0 +1,216 @@
+"""Any legal plan: why a customer is served where he is, and what drones save."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from pydantic_core import to_json
+
+from app.conversion.preparing import Preparing
+from app.errors import InputError, InvalidRequestError
+from app.load.bodies import ReceivedBody
+from app.plans.checking import PLAN, PROBLEM, read_about_plan
+from app.plans.explain_replies import customer_reply, drones_reply, nobody_reply
+from app.plans.replies import Data
+from app.plans.task import Task, task_of, violation_reply
+from app.requests.bounds import Bounds
+from app.requests.plan_reading import parse_plan, read_plan
+from app.schemas.explain import ExplainOptions, ExplainRequest
+from app.schemas.request import PlanRequest
+from model.judge.alternatives import find_alternatives
+from model.judge.bench import Bench, Setting
+from model.judge.binding import find_binding
+from model.judge.retiming import read_route, time_route
+from model.judge.worth import sorties_worth
+from model.planner import Listener, Planner, PlanOptions, PlanResult
+from model.problem import Problem
+from model.solution import Route, Solution
+
+ALTERNATIVES_SHARE = 0.7
+"""Share of the time limit after which no more places are tried, so that limits are."""
+
+REASONS_SECONDS = 0.05
+"""For which reasons are looked for why a customer is left out."""
+
+SORTIES_SHARE = 0.3
+"""Share of the time left in which single sorties are judged, where two searches follow."""
+
+LEAST_TRYING = 0.2
+"""Share of the time limit that is spent on trying even if reading has taken all of it."""
+
+LEAST_SEARCH = 0.05
+"""Seconds without which a search is not worth the name."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked of a plan, and until when it is to be answered, on `time.perf_counter`."""
+
+    customer: str | None
+    drones: bool
+    began: float
+    until: float
+
+    def after(self, share: float) -> float:
+        """Return the instant at which a share of the time is over."""
+        return self.began + share * (self.until - self.began)
+
+
+def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[], Planner],
+                   should_stop: Callable[[], bool] = lambda: False) -> bytes:
+    """Return the reply to a request of `POST /explain` as JSON, unless the work is to end.
+
+    Raises
+    ------
+    RequestError
+        If `body` is no valid request, the plan breaks a rule, or the work is to end.
+    """
+    request = read_explain(body.content, bounds)
+    task = task_of(request.problem, _preparing(bounds, should_stop))
+    solution = read_plan(request.plan, task.problem, (PLAN,))
+    question = _question(request.customer, request.drones, request.options, body.received_at)
+    return to_json(_Explainer(task, solution, planner, should_stop).answer(question))
+
+
+def explain_job(request: PlanRequest, plan: bytes, customer: str | None, drones: bool,
+                options: ExplainOptions, bounds: Bounds, planner: Callable[[], Planner],
+                should_stop: Callable[[], bool]) -> bytes:
+    """Return the same of a job's plan, as JSON; raises as `answer_explain` does."""
+    began = time.perf_counter()
+    _require_within(options, bounds, "query.time_limit")
+    _require_known(request, customer, "query.customer")
+    task = task_of(request, _preparing(bounds, should_stop))
+    solution = read_plan(parse_plan(plan), task.problem)
+    question = _question(customer, drones, options, began)
+    return to_json(_Explainer(task, solution, planner, should_stop).answer(question))
+
+
+def read_explain(body: bytes, bounds: Bounds) -> ExplainRequest:
+    """Return the request that `body` holds; raises as `read_about_plan` does."""
+    request = read_about_plan(body, bounds, ExplainRequest)
+    _require_within(request.options, bounds, "$.options.time_limit")
+    _require_known(request.problem, request.customer, "$.customer")
+    return request
+
+
+def _require_within(options: ExplainOptions, bounds: Bounds, path: str) -> None:
+    if options.time_limit > bounds.time_limit:
+        raise InvalidRequestError([InputError(
+            code="OUT_OF_RANGE", path=path,
+            message=f"This service takes {bounds.time_limit:g} s at most ({bounds.time_setting}): "
+            "lower it.")])
+
+
+def _require_known(request: PlanRequest, customer: str | None, path: str) -> None:
+    if customer is not None and all(each.id != customer for each in request.customers):
+        raise InvalidRequestError([InputError(
+            code="UNKNOWN_CUSTOMER", path=path,
+            message=f"The problem has no customer {customer[:200]!r}: use the id of one it has.")])
+
+
+def _preparing(bounds: Bounds, should_stop: Callable[[], bool]) -> Preparing:
+    return Preparing(should_stop, bounds.time_limit,
+                     f"the {bounds.time_limit:g} s of {bounds.time_setting}")
+
+
+def _question(customer: str | None, drones: bool, options: ExplainOptions,
+              received_at: float) -> Question:
+    """Return what is asked, now that all that it is asked of is read."""
+    now, limit = time.perf_counter(), options.time_limit
+    return Question(customer, drones, now, max(received_at + limit, now + LEAST_TRYING * limit))
+
+
+class _Explainer:
+    """Answers questions about one plan."""
+
+    def __init__(self, task: Task, solution: Solution, planner: Callable[[], Planner],
+                 should_stop: Callable[[], bool]) -> None:
+        """Judge the plan.
+
+        Raises
+        ------
+        InvalidRequestError
+            If it breaks a rule.
+        """
+        evaluation = task.check(solution)
+        if evaluation.violations:
+            found = [violation_reply(each, f"$.{PROBLEM}", f"$.{PLAN}")
+                     for each in evaluation.violations]
+            raise InvalidRequestError([InputError(
+                code="ILLEGAL_PLAN", path=each["path"],
+                message=f"The plan breaks {each['code']}: {each['message']}. Only a plan without "
+                "broken rules is explained: correct it, or plan anew.") for each in found])
+        self._task = task
+        self._problem, self._setting = task.judged_problem, task.setting
+        self._solution = solution
+        self._cost = evaluation.cost
+        self._planner = planner
+        self._should_stop = should_stop
+
+    def answer(self, question: Question) -> Data:
+        """Return the reply to a question."""
+        reply, complete = nobody_reply(self._cost), True
+        if question.customer is not None:
+            reply, complete = self._of_customer(question, question.customer)
+        drones = None
+        if question.drones:
+            drones, in_time = self._of_drones(question)
+            complete = complete and in_time
+        return reply | {"drones": drones, "complete": complete}
+
+    def _of_customer(self, question: Question, name: str) -> tuple[Data, bool]:
+        node = next(node for node, customer
+                    in enumerate(self._problem.customers, self._problem.num_depots)
+                    if customer.id == name)
+        bench = Bench(self._problem, self._solution, node, self._setting)
+        share = ALTERNATIVES_SHARE * (0.3 if question.drones else 1.0)
+        found = find_alternatives(bench, question.after(share))
+        binding, in_time = find_binding(bench, found.trials,
+                                        question.after(0.3 if question.drones else 1.0))
+        reasons = (() if bench.found is not None else self._task.reasons(
+            self._solution, node, time.perf_counter() + REASONS_SECONDS))
+        return (customer_reply(bench, found.alternatives, binding, reasons),
+                found.is_complete and in_time)
+
+    def _of_drones(self, question: Question) -> tuple[Data, bool]:
+        now = time.perf_counter()
+        until = now + SORTIES_SHARE * (question.until - now)
+        worth = list(sorties_worth(self._problem, self._solution, self._setting, until))
+        each = (question.until - time.perf_counter()) / 2
+        searched = None
+        if worth and self._task.replanning is None and each >= LEAST_SEARCH:
+            searched = self._searched(each)
+        reply = drones_reply(self._problem, self._solution, self._cost, worth, searched,
+                             max(0.0, each) if searched else 0.0)
+        return reply, all(sortie.is_tried for sortie in worth)
+
+    def _searched(self, seconds: float) -> tuple[PlanResult, PlanResult] | None:
+        """Return plans with drones and of trucks alone, found from the same plan as long."""
+        planner = self._planner()
+        begun = _without_sorties(self._problem, self._solution, self._setting)
+        if not self._task.check(begun).is_feasible:
+            return None
+        alone = replace(self._problem, vehicle_types=tuple(
+            [replace(kind, drones=None) for kind in self._problem.vehicle_types]))
+        options = PlanOptions(planner.policies[0], time_limit=seconds)
+        listener = Listener(self._should_stop)
+        flown, driven = [planner.plan(problem, options, None, listener, begun)
+                         for problem in (self._problem, alone)]
+        return flown, driven
+
+
+def _without_sorties(problem: Problem, solution: Solution, setting: Setting) -> Solution:
+    """Return a plan in which nobody is served by drones any more; they are left out."""
+    routes: list[Route] = []
+    left_out = [*solution.unassigned]
+    for route in solution.routes:
+        decision = read_route(problem, route)
+        left_out += [node for trip in decision.trips for sortie in trip.sorties
+                     for node in sortie.nodes]
+        trips = tuple([replace(trip, sorties=(), operations=None) for trip in decision.trips
+                       if len(trip.nodes) > 2])
+        if trips:
+            timed = time_route(problem, replace(decision, trips=trips), f"routes[{len(routes)}]",
+                               setting.past)
+            routes.append(timed.route)
+    return Solution(tuple(routes), tuple(left_out))
