@@ -161,7 +161,24 @@ def _drones(rng: random.Random, dimensions: int) -> Data:
         **_maybe(rng, 0.3, service_duration=rng.choice((0, 30, 1e6))),
         **_maybe(rng, 0.4, max_customers_per_sortie=rng.choice((1, 2, 3, 100))),
         **_maybe(rng, 0.5, costs={"per_km": rng.choice((0, 0.25, RICHEST)),
-                                  "per_hour": rng.choice((0, 5, RICHEST))})}
+                                  "per_hour": rng.choice((0, 5, RICHEST))}),
+        **_maybe(rng, 0.4, energy=_energy(rng, dimensions))}
+
+
+def _energy(rng: random.Random, dimensions: int) -> Data:
+    """Return a battery that is empty at once, never, or that makes little sense."""
+    power = {"cruise_w": rng.choice((0, 100, 1e5)), "cruise_w_per_kg": rng.choice((0, 30, 1e5)),
+             **_maybe(rng, 0.5, hover_w=rng.choice((0, 80, 1e5)), hover_w_per_kg=0)}
+    climb = {"altitude": rng.choice((0, 50, LONGEST)), "up_seconds": rng.choice((0, 9, LONGEST)),
+             "down_seconds": rng.choice((0, 0.001, 20)), "up_w": rng.choice((0, 300))}
+    model = rng.choice(({"power": power}, {"power": power}, {"preset": "murray-raj-2020"},
+                        {"preset": "dorling-2017"}, {"preset": "rodrigues-2022"}))
+    return {
+        "battery_wh": rng.choice((0.001, 20, 130, 1e6)), **model,
+        "weight_dimension": rng.randrange(dimensions),
+        **_maybe(rng, 0.5, reserve=rng.choice((0, 0.2, 0.99))),
+        **_maybe(rng, 0.5, kg_per_unit=rng.choice((0, 0.1, 1, LONGEST))),
+        **_maybe(rng, 0.4, climb=climb), **_maybe(rng, 0.5, lands=rng.random() < 0.5)}
 
 
 def _airspace(rng: random.Random, place: Callable[[], Point], system: str) -> Data:

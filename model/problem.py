@@ -11,6 +11,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from model.energy import Energy
+
 IntArray = NDArray[np.int64]
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -136,6 +138,7 @@ class DroneType:
     max_customers_per_sortie: int = 1
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0
+    energy: Energy | None = None  # what a sortie may take of the battery; None: any
 
     def __post_init__(self) -> None:
         _require(self.count >= 1, "drone count", self.count)
@@ -306,6 +309,9 @@ class Problem:
                      f"{name} drone capacity", vehicle_type.drones.capacity)
             _require(0 <= vehicle_type.drones.travel < len(self.travel), f"{name} drone travel",
                      vehicle_type.drones.travel)
+            energy = vehicle_type.drones.energy
+            _require(energy is None or energy.dimension < self.num_dimensions,
+                     f"{name} drone energy", energy)
 
     @property
     def num_depots(self) -> int:

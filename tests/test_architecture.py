@@ -29,10 +29,11 @@ APP_ORDER = (
 """Each folder or file of `app` imports only those to the left of its name."""
 
 MODEL = {
-    "problem": (),
+    "energy": (),
+    "problem": ("energy",),
     "solution": (),
-    "judge": ("problem", "solution"),
-    "kernel": ("problem",),
+    "judge": ("energy", "problem", "solution"),
+    "kernel": ("energy", "problem"),
     "travel": ("problem", "kernel"),
     "simulation": ("problem", "solution", "kernel"),
     "policy": ("problem", "kernel", "simulation"),
@@ -43,7 +44,7 @@ MODEL = {
     "dialects": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
-MOST_ARROWS = 30
+MOST_ARROWS = 33
 
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
@@ -57,6 +58,8 @@ HOMES = {
     "kernel/stop": {".arrival_limit", ".service_duration", ".window_earliest", ".window_latest"},
     "kernel/flight": {".drone_service_duration", ".endurance", ".launch_duration",
                       ".recovery_duration", ".waiting_counts", "UNREACHABLE"},
+    "kernel/energy": {".battery", ".lands", ".climb_duration", ".descent_duration", ".cruise",
+                      ".hover", ".weight_dimension"},
     "kernel/load": {".capacity", ".demand", ".payload"},
     "kernel/clock": {".speed_changes", "FULL_SPEED", "arrival_by_profile", "leave_by_profile"},
     "kernel/leg": {"LEG_DISTANCE", "LEG_DURATION"},

@@ -17,12 +17,13 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
     travels.expect_legs()
     depots = {depot.id: node for node, depot in enumerate(request.depots)}
     decimals = decimals_of(request.customers, request.fleet)
+    customers = tuple([to_customer(customer, decimals) for customer in request.customers])
+    demands = [customer.demand for customer in customers]
     vehicle_types = tuple(
         to_vehicle_type(stated, 0 if stated.depot is None else depots[stated.depot], travels,
-                        decimals)
+                        decimals, demands)
         for stated in request.fleet
     )
-    customers = tuple([to_customer(customer, decimals) for customer in request.customers])
     unassigned_cost = request.unassigned_cost
     if unassigned_cost is None:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built())

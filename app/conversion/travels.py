@@ -5,6 +5,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from app.conversion.energy import climb_duration
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.units import thousandths
 from app.conversion.work import legs_seconds, sights_seconds
@@ -19,6 +20,7 @@ from model.travel.matrices import (
     embed,
     flight_travel,
     great_circle_distances,
+    longer_legs,
     matrix_travel,
     planar_distances,
     speed_profile,
@@ -32,6 +34,7 @@ class _Key(NamedTuple):
     means: Literal["drive", "matrix", "flight"]
     profile: str  # of the client's matrix, else empty
     speed: float  # km/h, or a multiple of the matrix speed
+    climb: int = 0  # ms more for each leg
 
 
 def _places(request: PlanRequest) -> list[DepotInput | CustomerInput]:
@@ -176,11 +179,11 @@ class Travels:
     def _flying(self, drones: DronesInput) -> _Key:
         if self._matrix(drones.profile) is not None:
             return self._driving_at(drones.profile, 1.0)
-        speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
+        speed, climb = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH, climb_duration(drones)
         airspace = self._request.airspace
         if not airspace.no_fly and not airspace.wind.speed_kmh:
-            return self._driving_at(drones.profile, speed)
-        return _Key("flight", "", speed)
+            return self._driving_at(drones.profile, speed)._replace(climb=climb)
+        return _Key("flight", "", speed, climb)
 
     def _driving_at(self, profile: str, speed: float) -> _Key:
         return (_Key("drive", "", speed) if self._matrix(profile) is None
@@ -198,6 +201,8 @@ class Travels:
 
     def _build(self, key: _Key) -> Travel:
         self._preparing.pause()
+        if key.climb:
+            return longer_legs(self._build(key._replace(climb=0)), key.climb)
         matrix = self._matrix(key.profile) if key.means == "matrix" else None
         if matrix is not None:
             durations = self._at_places(matrix.durations) / key.speed

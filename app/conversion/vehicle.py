@@ -1,8 +1,9 @@
 """`VehicleTypeInput` -> `VehicleType`, with its drones."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from app.conversion.amounts import counted
+from app.conversion.energy import to_energy
 from app.conversion.travels import Travels
 from app.conversion.units import optional_thousandths, thousandths
 from app.schemas.drones import DronesInput
@@ -11,8 +12,9 @@ from model.problem import UNLIMITED, DroneType, VehicleType
 
 
 def to_vehicle_type(stated: VehicleTypeInput, depot: int, travels: Travels,
-                    decimals: Sequence[int]) -> VehicleType:
-    """Convert a valid vehicle type, whose home is the node `depot`."""
+                    decimals: Sequence[int],
+                    demands: Collection[Sequence[int]]) -> VehicleType:
+    """Convert a valid vehicle type, whose home is the node `depot`; `demands` are customers'."""
     travel, speed_profile = travels.drive(stated)
     shift = stated.shift
     return VehicleType(
@@ -32,12 +34,12 @@ def to_vehicle_type(stated: VehicleTypeInput, depot: int, travels: Travels,
         max_trips=stated.max_trips,
         reload_duration=thousandths(stated.reload_duration),
         skills=frozenset(stated.skills),
-        drones=_drones(stated.drones, travels, decimals),
+        drones=_drones(stated.drones, travels, decimals, demands),
     )
 
 
-def _drones(stated: DronesInput | None, travels: Travels,
-            decimals: Sequence[int]) -> DroneType | None:
+def _drones(stated: DronesInput | None, travels: Travels, decimals: Sequence[int],
+            demands: Collection[Sequence[int]]) -> DroneType | None:
     if stated is None or stated.count == 0:
         return None
     return DroneType(
@@ -50,6 +52,8 @@ def _drones(stated: DronesInput | None, travels: Travels,
         recovery_duration=thousandths(stated.recovery_duration),
         service_duration=optional_thousandths(stated.service_duration),
         max_customers_per_sortie=stated.max_customers_per_sortie,
+        energy=(None if stated.energy is None
+                else to_energy(stated, stated.energy, decimals, demands)),
         cost_per_km=stated.costs.per_km,
         cost_per_hour=stated.costs.per_hour,
     )

@@ -6,6 +6,7 @@ from functools import partial
 from typing import Any
 
 from app.conversion.units import whole
+from app.plans.energy import energy_models, energy_wh
 from model.judge.check import Evaluation
 from model.judge.explain import Reason, explain
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
@@ -32,7 +33,7 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
     solution, evaluation = result.solution, result.evaluation
     elapsed = result.elapsed
     why = reasons or partial(explain, problem)
-    return {
+    reply = {
         "status": "partial" if solution.unassigned else "complete",
         "cost": cost_reply(evaluation.cost),
         "routes": [_route(problem, route, metrics)
@@ -54,6 +55,8 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
                         "check": elapsed.check, "total": 0.0},
         },
     }
+    models = energy_models(problem)
+    return reply | {"energy_models": models} if models else reply
 
 
 def vehicle_name(problem: Problem, route: Route) -> str:
@@ -89,6 +92,7 @@ def _trip(problem: Problem, vehicle: str, trip: Trip, metrics: TripMetrics) -> D
                   for stop, load in zip(trip.stops, metrics.stop_loads, strict=True)],
         "sorties": [_sortie(problem, vehicle, sortie, measured)
                     for sortie, measured in zip(trip.sorties, metrics.sorties, strict=True)],
+        "energy_wh": energy_wh([sortie.energy for sortie in metrics.sorties]),
     }
 
 
@@ -138,6 +142,7 @@ def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetri
         "recovery_time": whole(sortie.recovery_time),
         "distance": whole(metrics.distance),
         "duration": whole(metrics.duration),
+        "energy_wh": energy_wh([metrics.energy]),
     }
 
 
@@ -173,6 +178,7 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
         "sorties": len(sorties),
         "distance": whole(sum(trip.distance for trip in trips)),
         "drone_distance": whole(sum(sortie.distance for sortie in sorties)),
+        "energy_wh": energy_wh([sortie.energy for sortie in sorties]),
         "load_rate": {"min": min(rates), "mean": sum(rates) / len(rates), "max": max(rates)},
         "makespan": whole(evaluation.makespan),
     }

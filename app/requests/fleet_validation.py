@@ -1,7 +1,11 @@
 """What the schema can't tell of a vehicle type."""
 
+from app.conversion.amounts import counted, decimals_of
+from app.conversion.energy import is_countable
 from app.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
+from app.schemas.drones import DronesInput
+from app.schemas.energy import EnergyInput
 from app.schemas.vehicle import SpeedChangeInput, VehicleTypeInput
 
 
@@ -25,6 +29,39 @@ def depot_errors(draft: Draft) -> Errors:
             yield error_at("UNKNOWN_DEPOT", (*path, "depot"),
                            f"No depot has the id {vehicle_type.depot!r}: use the id of one in "
                            "depots, or add it there.")
+
+
+def energy_errors(draft: Draft) -> Errors:
+    """Say what is wrong with what flying takes."""
+    for path, vehicle_type in draft.vehicle_types():
+        drones = vehicle_type.drones
+        if drones is None or drones.energy is None:
+            continue
+        here, energy = (*path, "drones", "energy"), drones.energy
+        if (energy.power is None) == (energy.preset is None):
+            yield error_at("POWER_OR_PRESET", here,
+                           "What flying takes is stated by power or by preset: state exactly one.")
+        elif energy.weight_dimension >= len(drones.capacity):
+            yield error_at("DIMENSION_MISMATCH", (*here, "weight_dimension"),
+                           f"There are {len(drones.capacity)} dimensions, numbered from 0: use a "
+                           "smaller number.")
+        elif not _is_countable(draft, drones, energy):
+            yield error_at("OUT_OF_RANGE", here,
+                           "With the most that the drone lifts, flying takes more power than can "
+                           "be counted: check kg_per_unit, capacity and the powers per kg.")
+
+
+def _is_countable(draft: Draft, drones: DronesInput, energy: EnergyInput) -> bool:
+    """Tell whether powers can be counted, or can't be looked at for other errors."""
+    customers = [customer for _, customer in draft.known_customers()]
+    fleet = [vehicle_type for _, vehicle_type in draft.vehicle_types()]
+    stated = [*(customer.demand for customer in customers), *(kind.capacity for kind in fleet),
+              *(kind.drones.capacity for kind in fleet if kind.drones is not None)]
+    if len(set(map(len, stated))) > 1:
+        return True
+    decimals = decimals_of(customers, fleet)
+    demands = [counted(customer.demand, decimals) for customer in customers]
+    return is_countable(drones, energy, decimals, demands)
 
 
 def speed_errors(draft: Draft) -> Errors:

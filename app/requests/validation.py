@@ -7,7 +7,7 @@ from app.errors import InputError, json_path
 from app.requests.airspace_validation import airspace_errors
 from app.requests.customer_validation import window_errors
 from app.requests.draft import Draft, Errors, Path, Place, error_at, point_errors
-from app.requests.fleet_validation import depot_errors, shift_errors, speed_errors
+from app.requests.fleet_validation import depot_errors, energy_errors, shift_errors, speed_errors
 from app.requests.plan_validation import Names, replan_errors
 from app.schemas.vehicle import VehicleTypeInput
 
@@ -31,6 +31,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *_location_errors(draft),
         *_index_errors(draft),
         *speed_errors(draft),
+        *energy_errors(draft),
         *airspace_errors(draft),
         *_policy_errors(draft, policies),
         *replan_errors(draft.replan, Names.of(draft.depots, draft.customers, draft.fleet)),

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from app.schemas.energy import EnergyInput
 from app.schemas.fields import Demand, Input, Money, Name, Seconds, Speed
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
@@ -46,3 +47,7 @@ class DronesInput(Input):
         1, ge=1, le=100, description="Most customers on one flight."
     )
     costs: DroneCostsInput = Field(DroneCostsInput(), description="What flying costs.")
+    energy: EnergyInput | None = Field(
+        None,
+        description="What flights take of the battery, beside `endurance`. Null: nothing is known.",
+    )

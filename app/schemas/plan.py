@@ -64,6 +64,7 @@ class SortieInput(_Plan):
     recovery_time: Instant = Field(description="End of the recovery.")
     distance: Number = None
     duration: Number = None
+    energy_wh: Number = None
 
 
 class TripInput(_Plan):
@@ -75,6 +76,7 @@ class TripInput(_Plan):
     load_rate: Number = None
     distance: Number = None
     duration: Number = None
+    energy_wh: Number = None
 
 
 class RouteInput(_Plan):
@@ -104,4 +106,5 @@ class PlanInput(_Plan):
     cost: Details = None
     summary: Details = None
     solver: Details = None
+    energy_models: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     replan: Details = None

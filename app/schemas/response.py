@@ -62,6 +62,9 @@ class SortieReply(_Reply):
     recovery_time: float = Field(description="End of the recovery.")
     distance: float = Field(description="Distance flown in metres.")
     duration: float = Field(description="From take-off to the end of the recovery in seconds.")
+    energy_wh: float | None = Field(
+        description="What the flight takes of the battery in watt-hours. Null: not known."
+    )
 
 
 class TripReply(_Reply):
@@ -73,6 +76,9 @@ class TripReply(_Reply):
     duration: float = Field(description="From first departure or take-off to the end in seconds.")
     stops: list[StopReply] = Field(description="Stops in order, the depot first and last.")
     sorties: list[SortieReply] = Field(description="Drone flights of this trip.")
+    energy_wh: float | None = Field(
+        description="What its flights take in watt-hours. Null: not known, or there are none."
+    )
 
 
 class RouteReply(_Reply):
@@ -127,6 +133,9 @@ class SummaryReply(_Reply):
     sorties: int = Field(description="Drone flights.")
     distance: float = Field(description="Distance driven in metres.")
     drone_distance: float = Field(description="Distance flown in metres.")
+    energy_wh: float | None = Field(
+        description="What all flights take in watt-hours. Null: not known, or there are none."
+    )
     load_rate: LoadRateReply = Field(description="Load rates of the trips.")
     makespan: float = Field(description="Last return of any vehicle, seconds since plan start.")
 
@@ -162,6 +171,29 @@ class SolverReply(_Reply):
         "iterations asked for were made, or none was. False if the clock ended the search."
     )
     elapsed: ElapsedReply = Field(description="Seconds by phase.")
+
+
+class PowerPointReply(_Reply):
+    """What flying takes with a weight aboard, in watts."""
+
+    weight: float = Field(description="Amount aboard, in the unit of `demand`.")
+    cruise_w: float = Field(description="Power in level flight.")
+    hover_w: float = Field(description="Power while it waits in the air.")
+    up_w: float = Field(description="Power of the climb.")
+    down_w: float = Field(description="Power of the descent.")
+
+
+class EnergyModelReply(_Reply):
+    """The numbers of a preset, for a vehicle type's drones."""
+
+    vehicle_type: str = Field(description="Id of the vehicle type.")
+    preset: str = Field(description="Name of the preset.")
+    available_wh: float = Field(description="What a sortie may take, without the reserve.")
+    up_seconds: float = Field(description="Duration of the climb of each leg.")
+    down_seconds: float = Field(description="Duration of the descent of each leg.")
+    power: list[PowerPointReply] = Field(
+        description="Powers by weight aboard; between two weights they are straight lines."
+    )
 
 
 class ViolationReply(_Reply):
@@ -207,6 +239,9 @@ class PlanReply(_Reply):
     unassigned: list[UnassignedReply] = Field(description="Customers left out, with reasons.")
     summary: SummaryReply = Field(description="The plan in numbers.")
     solver: SolverReply = Field(description="How the plan was made.")
+    energy_models: list[EnergyModelReply] | None = Field(
+        None, description="Presets of drones' energy. Left out if none was named."
+    )
     replan: ReplanReply | None = Field(
         None, description="What became of the plan given. Left out if none was."
     )

@@ -13,8 +13,10 @@ from itertools import chain
 from math import ceil
 from typing import NamedTuple
 
+from model.energy import MICROJOULES_PER_WH
 from model.judge.check import check
-from model.judge.rules import airborne_duration, amounts, decimal
+from model.judge.energy import sortie_energy
+from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
 from model.judge.trial import Attempt, attempts, small_problem, try_truck
 from model.problem import (
     MAX_MONEY, MAX_QUANTITY, MM_PER_KM, UNLIMITED, DroneType, Problem, VehicleType,
@@ -226,6 +228,25 @@ def _endurance(attempt: Attempt) -> _Diagnosis:
     )
 
 
+def _energy(attempt: Attempt) -> _Diagnosis:
+    drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
+    energy = drones.energy
+    if energy is None:
+        raise ValueError("drone energy: None is not allowed")
+    taken = sortie_energy(attempt.problem, drones, energy, trip, trip.sorties[0])
+    missing = ceil((taken - energy.available) / energy.usable_share)
+    tenths = -(-missing * 10 // MICROJOULES_PER_WH)
+    enough = energy.available + round(tenths / 10 * energy.usable_share * MICROJOULES_PER_WH)
+    changed = replace(drones, energy=replace(energy, available=enough))
+    return _Diagnosis(
+        "RANGE",
+        f"A flight from the depot and back takes {watt_hours(taken)}, and "
+        f"{watt_hours(energy.available)} may be taken.",
+        f"fits with a battery of {tenths / 10:g} Wh more",
+        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+    )
+
+
 def _trip_distance(attempt: Attempt) -> _Diagnosis:
     vehicle_type = attempt.vehicle_type
     limit = vehicle_type.max_trip_distance or 0
@@ -321,6 +342,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], _Diagnosis]] = {
     "PAYLOAD": _payload,
     "UNREACHABLE": _unreachable,
     "ENDURANCE": _endurance,
+    "ENERGY": _energy,
     "TRIP_DISTANCE": _trip_distance,
     "TIME_WINDOW": _time_window,
     "SHIFT": _shift,

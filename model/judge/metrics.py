@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from model.judge.clock import opening
+from model.judge.energy import sortie_energy
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
 from model.solution import Cost, Route, Sortie, Stop, Trip, Visit
 
@@ -14,6 +15,7 @@ class SortieMetrics:
 
     distance: int  # mm
     duration: int  # ms from take-off to the end of recovery
+    energy: int | None = None  # µJ; None where it is not known what flying takes
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,9 @@ def _measure_sorties(
     distance = problem.travel[drones.travel].distance
     return tuple(
         SortieMetrics(sum([distance.item(*leg) for leg in flight_legs(trip, sortie)]),
-                      sortie.recovery_time - sortie.launch_time)
+                      sortie.recovery_time - sortie.launch_time,
+                      None if drones.energy is None
+                      else sortie_energy(problem, drones, drones.energy, trip, sortie))
         for sortie in trip.sorties
     )
 

@@ -4,6 +4,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from operator import gt
 
+from model.energy import MICROJOULES_PER_WH
+from model.judge.energy import sortie_energy
 from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.timing import TripDecision, latest_release
 from model.problem import USUAL_DECIMALS, DroneType, Problem, VehicleType
@@ -37,6 +39,11 @@ def decimal(parts: int, places: int = USUAL_DECIMALS) -> str:
 def seconds(time: int) -> str:
     """Return a time or duration for people."""
     return f"{decimal(time)} s"
+
+
+def watt_hours(energy: int) -> str:
+    """Return an energy in µJ for people."""
+    return f"{energy / MICROJOULES_PER_WH:.4g} Wh"
 
 
 def amounts(problem: Problem, load: tuple[int, ...]) -> str:
@@ -146,6 +153,11 @@ def _sortie_violations(
     if flight > drones.endurance:
         message = f"{seconds(flight)} in the air, endurance is {seconds(drones.endurance)}"
         yield Violation("ENDURANCE", message, path)
+    if drones.energy is not None:
+        energy = sortie_energy(problem, drones, drones.energy, trip, sortie)
+        if energy > drones.energy.available:
+            message = f"takes {watt_hours(energy)}, {watt_hours(drones.energy.available)} are there"
+            yield Violation("ENERGY", message, path)
 
 
 def airborne_duration(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie) -> int:

@@ -2,7 +2,8 @@
 
 A decision fixes sequences, the order of launches and recoveries at each stop and when a trip
 begins; every other time follows as soon as possible, but for launches: one is held back as long as
-windows would let its flight last longer than the endurance. Times in ms, plain Python integers.
+windows would let its flight last longer than the endurance, or hover for more than its battery
+holds. Times in ms, plain Python integers.
 """
 
 from collections.abc import Iterable, Iterator
@@ -10,6 +11,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from model.judge.clock import leg_end, opening, service_start
+from model.judge.energy import longest_hold
 from model.judge.past import KnownStop, KnownTrip
 from model.problem import DroneType, Problem, VehicleType
 from model.solution import Route, Sortie, Stop, Trip, Visit
@@ -161,8 +163,9 @@ def held_takeoff(problem: Problem, drones: DroneType, decision: TripDecision,
                  sortie: SortieDecision, soonest: int) -> int:
     """Return when a drone takes off that can from `soonest` on.
 
-    As early as the windows that it then meets let it be back within its endurance; at once where
-    the flight is too long in any case, since holding it back wouldn't help.
+    As early as the windows that it then meets let it be back within its endurance, and its energy
+    if it hovers before them; at once where the flight is too long in any case, since holding it
+    back wouldn't help.
     """
     takeoff, held = soonest, _held_until(problem, drones, decision, sortie, soonest)
     while held > takeoff:
@@ -172,10 +175,10 @@ def held_takeoff(problem: Problem, drones: DroneType, decision: TripDecision,
 
 def _held_until(problem: Problem, drones: DroneType, decision: TripDecision,
                 sortie: SortieDecision, takeoff: int) -> int:
-    """Return when the windows met from `takeoff` on let a drone be back within its endurance."""
+    """Return when the windows met from `takeoff` on let a drone be back within its limits."""
     duration, first = problem.travel[drones.travel].duration, len(problem.depots)
-    node, time = decision.nodes[sortie.launch_stop], takeoff
-    to_fly = back = 0
+    node, time, back = decision.nodes[sortie.launch_stop], takeoff, 0
+    legs, services = [], []
     for following in sortie.nodes:
         customer, leg = problem.customers[following - first], duration.item(node, following)
         own = drones.service_duration
@@ -183,10 +186,15 @@ def _held_until(problem: Problem, drones: DroneType, decision: TripDecision,
         opens = opening(customer, time + leg)
         time = max(time + leg, opens) + service
         back = max(back + leg, opens) + service
-        to_fly += leg + service
+        legs.append(leg)
+        services.append(service)
         node = following
-    home = duration.item(node, decision.nodes[sortie.recovery_stop])
-    return back + home - drones.endurance if to_fly + home <= drones.endurance else takeoff
+    legs.append(duration.item(node, decision.nodes[sortie.recovery_stop]))
+    limit = drones.endurance
+    if drones.energy is not None:
+        hold = longest_hold(problem, drones.energy, sortie.nodes, legs, services)
+        limit = limit if hold is None else min(limit, hold)
+    return back + legs[-1] - limit if sum(legs) + sum(services) <= limit else takeoff
 
 
 def _by_arrival(

@@ -22,8 +22,8 @@ from numba.core.compiler import Compiler
 SOURCES = (
     "problem",
     *(f"kernel/{part}" for part in (
-        "compiled", "records", "alarm", "copying", "instance", "start", "stop", "flight", "load",
-        "clock", "leg")),
+        "compiled", "records", "alarm", "copying", "instance", "start", "stop", "energy",
+        "flight", "load", "clock", "leg")),
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (
         "vehicle_log", "cost", "meeting", "transition", "simulator")),

@@ -4,6 +4,10 @@
 """
 
 from model.kernel.compiled import inlined
+from model.kernel.energy import (
+    after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_cruise,
+    longest_hover, weight_of,
+)
 from model.kernel.instance import FAR, NONE
 from model.kernel.records import Record, Records
 from model.kernel.stop import opening, service_duration, start_of_service
@@ -75,12 +79,25 @@ def earliest_back(kind: Record, place: Records, arrival: int, home: int) -> int:
 
 
 @inlined
-def held_until(kind: Record, back: int) -> int:
-    """Return the earliest take-off after which a drone can be back within its endurance.
+def longest_hold(kind: Record, flight: int, left: int, weight: int) -> int:
+    """Return in how long after its take-off windows may let a drone be back.
+
+    Its endurance; and where it hovers before windows, what it can beside the `flight`, services
+    included, after which so much is `left` of its battery, with the most `weight` at a customer.
+    """
+    limit = kind.endurance
+    if hovers_at_customers(kind) and left >= 0:
+        limit = min(limit, flight + longest_hover(kind, left, weight))
+    return limit
+
+
+@inlined
+def held_until(back: int, limit: int) -> int:
+    """Return the earliest take-off after which a drone can be back within a limit.
 
     `back` is the earliest that windows allow; the flight itself may be too long.
     """
-    return back - kind.endurance
+    return back - limit
 
 
 @inlined
@@ -89,11 +106,25 @@ def held_takeoff(kind: Record, place: Records, takeoff: int, out: int, home: int
 
     `out` and `home` are the durations of its legs.
     """
-    held = held_until(kind, earliest_back(kind, place, takeoff + out, home))
+    limit = kind.endurance
+    if hovers_at_customers(kind):
+        limit = longest_hold(kind, out + drone_service(kind, place) + home,
+                             after_flight(kind, place, out, home), weight_of(kind, place))
+    held = held_until(earliest_back(kind, place, takeoff + out, home), limit)
     while held > takeoff:
         takeoff = held
-        held = held_until(kind, earliest_back(kind, place, takeoff + out, home))
+        held = held_until(earliest_back(kind, place, takeoff + out, home), limit)
     return takeoff
+
+
+@inlined
+def after_flight(kind: Record, place: Records, out: int, home: int) -> int:
+    """Return what is left of the battery after a flight to one customer without any waiting."""
+    weight = weight_of(kind, place)
+    left = after_leg(kind, battery_of(kind), weight, out)
+    if hovers_at_customers(kind):
+        left = after_hovering(kind, left, weight, drone_service(kind, place))
+    return after_leg(kind, left, 0, home)
 
 
 @inlined
@@ -103,6 +134,34 @@ def can_last(kind: Record, duration: int) -> bool:
     None is that leads where nobody can fly.
     """
     return duration <= kind.endurance
+
+
+@inlined
+def can_serve(kind: Record, place: Records, out: int, home: int) -> bool:
+    """Tell whether a flight to one customer is within endurance and energy if nothing waits."""
+    return (can_last(kind, out + drone_service(kind, place) + home)
+            and (not is_limited(kind) or after_flight(kind, place, out, home) >= 0))
+
+
+@inlined
+def can_wait(kind: Record, place: Records, out: int, home: int, waiting: int) -> bool:
+    """Tell whether energy lasts for a flight to one customer and so long a wait to be recovered."""
+    if not is_limited(kind):
+        return True
+    return after_hovering(kind, after_flight(kind, place, out, home), 0, waiting) >= 0
+
+
+@inlined
+def within_energy(kind: Record, place: Records, out: int, home: int, takeoff: int, served: int,
+                  recovery_start: int) -> bool:
+    """Tell whether energy lasts for a sortie to one customer, its waiting included."""
+    if not is_limited(kind):
+        return True
+    left = after_flight(kind, place, out, home)
+    if hovers_at_customers(kind):
+        waited = served - drone_service(kind, place) - takeoff - out
+        left = after_hovering(kind, left, weight_of(kind, place), waited)
+    return after_hovering(kind, left, 0, recovery_start - served - home) >= 0
 
 
 @inlined
@@ -118,17 +177,27 @@ def within_endurance(kind: Record, takeoff: int, back: int, recovery_start: int)
 
 
 @inlined
-def enduring_within(kind: Record, takeoff_d: int, takeoff_c: int, d: int,
-                    c: int) -> tuple[int, int]:
-    """Return for which arrivals at a block's beginning (d, c) is within the endurance.
+def endurance_of(kind: Record) -> int:
+    """Return how long `counted_until` may be from the take-off."""
+    return kind.endurance
 
-    The first and the last; FAR and NONE if there is none. Pairs are as for `stop`; (d, c) is what
-    `counted_until` says, and the take-off a pair too. With `time`, both are sums with d as soon as
-    that is past `takeoff_c - takeoff_d`, so that a flight too long by d must begin before.
+
+@inlined
+def longest_flight(kind: Record) -> int:
+    """Return how long a drone may fly with nothing aboard, for those who only want an idea."""
+    return min(kind.endurance, longest_cruise(kind))
+
+
+@inlined
+def lasting_within(limit: int, begin_d: int, begin_c: int, d: int, c: int) -> tuple[int, int]:
+    """Return for which arrivals at a block's beginning it is at most `limit` from one to another.
+
+    The first and the last; FAR and NONE if there is none. Pairs are as for `stop`, (d, c) never
+    before the other. With `time`, both are sums with d as soon as that is past `begin_c - begin_d`,
+    so that what lasts too long by d must begin before.
     """
-    endurance = kind.endurance
-    if d - takeoff_d <= endurance:
-        return (c - endurance - takeoff_d if c - takeoff_c > endurance else NONE), FAR
-    if c - takeoff_c > endurance:
+    if d - begin_d <= limit:
+        return (c - limit - begin_d if c - begin_c > limit else NONE), FAR
+    if c - begin_c > limit:
         return FAR, NONE
-    return NONE, endurance + takeoff_c - d
+    return NONE, limit + begin_c - d

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from model.energy import MAX_POINTS, Energy
 from model.kernel.nearest import least_columns
 from model.kernel.pausing import Pause, go_on, matrix_blocks
 from model.kernel.records import Records, record
@@ -46,13 +47,17 @@ TYPE = record(
     "count", "travel", "begins_at", "ends_at", "shift_earliest", "busy_until", "begun",
     "shift_latest", "max_working_duration", "max_trip_distance", "max_trips", "reload_duration",
     "speed_changes", "drones", "drone_travel", "endurance", "waiting_counts", "launch_duration",
-    "recovery_duration", "drone_service_duration", capacity=MAX_DIMENSIONS, payload=MAX_DIMENSIONS)
+    "recovery_duration", "drone_service_duration", "points", "battery", "lands", "climb_duration",
+    "descent_duration", "weight_dimension", capacity=MAX_DIMENSIONS, payload=MAX_DIMENSIONS,
+    weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
-its working duration, and costs as if it were fixed."""
+its working duration, and costs as if it were fixed. Its drones' powers are known at so many
+`points`, by weight; none if no battery limits them."""
 
 NO_PROFILE = -1
 NO_DRONES = (0,) * 7
+NO_ENERGY = (0,) * 6
 
 RATE = record(fixed=float, distance=float, time=float, drone_distance=float, drone_time=float)
 """What a vehicle costs, and what per km and per hour, its drones' apart."""
@@ -188,6 +193,7 @@ def _type_row(kind: VehicleType) -> tuple[Any, ...]:
     drones, worked = kind.drones, _worked(kind)
     load = kind.initial_load or (0,) * len(kind.capacity)
     free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
+    energy = None if drones is None else drones.energy
     return (
         kind.count, kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.busy_until,
         int(kind.works_since is not None), kind.latest,
@@ -196,13 +202,29 @@ def _type_row(kind: VehicleType) -> tuple[Any, ...]:
         kind.max_trips, kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
         *(NO_DRONES if drones is None else _drones(drones)),
-        _padded(free), _padded(() if drones is None else drones.capacity))
+        *_battery(energy), _padded(free), _padded(() if drones is None else drones.capacity),
+        *_powers(energy))
 
 
 def _drones(drones: DroneType) -> tuple[int, ...]:
     service = -1 if drones.service_duration is None else drones.service_duration
     return (drones.count, drones.travel, drones.endurance, int(drones.endurance_includes_waiting),
             drones.launch_duration, drones.recovery_duration, service)
+
+
+def _battery(energy: Energy | None) -> tuple[int, ...]:
+    if energy is None:
+        return NO_ENERGY
+    return (len(energy.weights), energy.available, int(energy.lands), energy.climb_duration,
+            energy.descent_duration, energy.dimension)
+
+
+def _powers(energy: Energy | None) -> tuple[tuple[int, ...], ...]:
+    """Return weights, and the powers at each."""
+    if energy is None:
+        return ((0,) * MAX_POINTS,) * 5
+    return tuple([(*row, *(0,) * (MAX_POINTS - len(row))) for row in (
+        energy.weights, energy.cruise, energy.hover, energy.climb, energy.descent)])
 
 
 def _worked(kind: VehicleType) -> int:

@@ -22,6 +22,12 @@ def demand_of(place: Records) -> Amount:
 
 
 @inlined
+def demanded(place: Records, dimension: int) -> int:
+    """Return what a customer's parcel takes of one dimension."""
+    return place[0].demand[dimension]
+
+
+@inlined
 def capacity_of(kind: Record) -> Amount:
     """Return what a vehicle of a type holds."""
     return kind.capacity[0], kind.capacity[1], kind.capacity[2]

@@ -4,6 +4,7 @@ Like the tokens, all numbers are free of units. Training and decoding share this
 """
 
 from model.kernel.compiled import compiled, inlined
+from model.kernel.flight import longest_flight
 from model.kernel.instance import MAX_DIMENSIONS, Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, release_of
@@ -69,7 +70,7 @@ def _describe_flight(setting: Setting, unit: Unit, here: int, node: int, distanc
     back = min(lookup(setting.fly, node, here), 10 * there)
     _describe_leg(unit, there, 2 * distance, rate.drone_distance, 2 * rate.drone_time,
                   feature)
-    feature.endurance_share = _share(there + back, setting.type.endurance)
+    feature.endurance_share = _share(there + back, longest_flight(setting.type))
 
 
 @inlined

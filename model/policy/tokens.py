@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.kernel.instance import FAR, Instance
+from model.kernel.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 
 Float32Array = NDArray[np.float32]
@@ -190,9 +191,17 @@ def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_])
         squash((kind["max_trips"] - 1.0) / 2), squash(kind["reload_duration"] / time),
         kind["speed_changes"] > 0, squash(drones / 2.0),
         np.where(has_drones, squash(kind["payload"][..., 0] / np.maximum(capacity, 1) * 10), 0),
-        np.where(has_drones, squash(unbounded(kind["endurance"]) / time), 0),
+        np.where(has_drones, squash(unbounded(_longest_flights(kind)) / time), 0),
         np.where(has_drones, squash(flight / time), 0),
         np.where(has_drones, squash(rate["drone_distance"] * flown / MM_PER_KM / cost
                                     + rate["drone_time"] * hours / cost), 0),
         instance.can_drive.sum(axis=2) / customers, instance.can_fly.sum(axis=2) / customers,
     ], axis=2)
+
+
+def _longest_flights(kind: Records) -> IntArray:
+    """Return how long drones of types fly at most, with nothing aboard if energy limits them."""
+    power = np.maximum(kind["cruise"][..., 0], 1)
+    limited = (kind["points"] > 0) & (kind["cruise"][..., 0] > 0)
+    longest: IntArray = np.where(limited, kind["battery"] // power, UNLIMITED)
+    return np.minimum(kind["endurance"], longest)

@@ -8,8 +8,8 @@ launches are timed anew once it is known where the truck drives to.
 
 from model.kernel.compiled import inlined
 from model.kernel.flight import (
-    can_last, drone_service, held_takeoff, launch_begin, ready, recovery_end, take_off, unreachable,
-    within_endurance,
+    can_serve, held_takeoff, launch_begin, ready, recovery_end, take_off, unreachable,
+    within_endurance, within_energy,
 )
 from model.kernel.instance import MAX_DIMENSIONS
 from model.kernel.leg import lookup
@@ -43,9 +43,9 @@ def mark_place(setting: Setting, drone: Record, here: int, to: int) -> None:
     drone.place = ABOARD
     if drone.sortie != IN_FLIGHT:
         node = drone.node
-        service = drone_service(setting.type, setting.node[node])
-        flight = lookup(setting.fly, here, node) + service + lookup(setting.fly, node, to)
-        drone.place = MEET if can_last(setting.type, flight) else LOOP
+        meets = can_serve(setting.type, setting.node[node], lookup(setting.fly, here, node),
+                          lookup(setting.fly, node, to))
+        drone.place = MEET if meets else LOOP
 
 
 @inlined
@@ -89,14 +89,17 @@ def next_back(drones: Records, place: int) -> int:
 
 
 @inlined
-def bring_aboard(setting: Setting, drone: Record, free: int) -> int:
-    """Recover a drone from `free` on; return the end, -1 if it isn't within its endurance.
+def bring_aboard(setting: Setting, drone: Record, here: int, free: int) -> int:
+    """Recover a drone launched at `here` from `free` on; return the end, -1 if it can't last.
 
     In place.
     """
-    begin = max(free, drone.back)
+    begin, node = max(free, drone.back), drone.node
     if unreachable(drone.back) or not within_endurance(
             setting.type, drone.takeoff, drone.back, begin):
+        return -1
+    if not within_energy(setting.type, setting.node[node], lookup(setting.fly, here, node),
+                         drone.back - drone.ready, drone.takeoff, drone.ready, begin):
         return -1
     drone.recovery = begin
     return recovery_end(setting.type, begin)
@@ -119,7 +122,7 @@ def operate(setting: Setting, vehicle: Record, drones: Records, to: int) -> int:
         landed = next_back(drones, LOOP) if looping > 0 else -1
         if landed >= 0 and (launched < 0 or (
                 begin > free and max(free, drones[landed].back) <= begin)):
-            free = bring_aboard(setting, drones[landed], free)
+            free = bring_aboard(setting, drones[landed], here, free)
             if free < 0:
                 return -1
             looping -= 1
@@ -133,8 +136,8 @@ def operate(setting: Setting, vehicle: Record, drones: Records, to: int) -> int:
 
 
 @inlined
-def meet(setting: Setting, drones: Records, arrival: int) -> int:
-    """Recover the drones that the truck meets where it arrives.
+def meet(setting: Setting, drones: Records, here: int, arrival: int) -> int:
+    """Recover the drones, launched at `here`, that the truck meets where it arrives.
 
     In place; returns when all are recovered. Where one can't be within its endurance: -1, and in
     place, it is marked LOOP instead.
@@ -144,7 +147,7 @@ def meet(setting: Setting, drones: Records, arrival: int) -> int:
         landed = next_back(drones, MEET)
         if landed < 0:
             return free
-        free = bring_aboard(setting, drones[landed], free)
+        free = bring_aboard(setting, drones[landed], here, free)
         if free < 0:
             drones[landed].place = LOOP
             return -1
@@ -183,7 +186,7 @@ def leave_for(setting: Setting, vehicle: Record, drones: Records,
         arrival = travel_arrival(setting, here, to, max(vehicle.service_end, left))
         if vehicle.flying == 0:
             return left, arrival, arrival
-        free = meet(setting, drones, arrival)
+        free = meet(setting, drones, here, arrival)
         if free >= 0:
             break
     if any_late(setting, here, drones):

@@ -13,7 +13,7 @@ from model.kernel.clock import leg_end
 from model.kernel.compiled import compiled, inlined, pasted
 from model.kernel.flight import (
     held_takeoff, launch_begin, ready, recoveries_take_time, recovery_end, take_off,
-    within_endurance,
+    within_endurance, within_energy,
 )
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
@@ -141,11 +141,18 @@ def _replay_launch(setting: Setting, log: VehicleLog, sortie: Record, node: int,
 
 
 @inlined
-def _replay_recovery(setting: Setting, sortie: Record, node: int, free: int, write: bool) -> int:
+def _replay_recovery(setting: Setting, log: VehicleLog, sortie: Record, node: int, free: int,
+                     write: bool) -> int:
     """Time one recovery begun at `free` or later; return its end, -1 if it is not allowed."""
-    takeoff = sortie.trial_takeoff
-    back = sortie.trial_ready + lookup(setting.fly, sortie.node, node)
+    takeoff, customer = sortie.trial_takeoff, sortie.node
+    home = lookup(setting.fly, customer, node)
+    back = sortie.trial_ready + home
     begin = max(free, back)
+    # A sortie as long as before may wait where that takes more.
+    if not within_energy(setting.type, setting.node[customer],
+                         lookup(setting.fly, log.stop[sortie.launch_stop].node, customer), home,
+                         takeoff, sortie.trial_ready, begin):
+        return -1
     end = recovery_end(setting.type, begin)
     if write:
         if not within_endurance(setting.type, takeoff, back, begin):
@@ -194,7 +201,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                 if log.op[op].is_recovery:
                     # Recoveries that take no time never hold up one another.
                     begin = free if recoveries_take_time(setting.type) else launched
-                    end = _replay_recovery(setting, sortie, node, begin, write)
+                    end = _replay_recovery(setting, log, sortie, node, begin, write)
                 else:
                     end = launched = _replay_launch(setting, log, sortie, node, free, write)
                 if end < 0:

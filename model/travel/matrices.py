@@ -148,6 +148,15 @@ def flight_travel(distances_m: FloatArray, durations_s: FloatArray,
     return Travel(duration, distance)
 
 
+def longer_legs(travel: Travel, more: int) -> Travel:
+    """Return legs that take so many ms more, but for who stays."""
+    duration = np.where(travel.duration < UNREACHABLE, travel.duration + more, UNREACHABLE)
+    duration[duration > MAX_QUANTITY] = UNREACHABLE
+    np.fill_diagonal(duration, np.diagonal(travel.duration))
+    distance = np.where(duration < UNREACHABLE, travel.distance, UNREACHABLE)
+    return Travel(duration, distance)
+
+
 def speed_profile(
     base_speed: float, changes: Sequence[tuple[int, float]]
 ) -> tuple[float, SpeedProfile]:

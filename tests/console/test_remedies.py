@@ -39,6 +39,8 @@ PROBLEMS = {
     "if capacity": problem([{"demand": [25]}]),
     "drone capacity": problem([{"demand": [9], "served_by": "drone"}], drones=DRONES),
     "endurance": problem([{"served_by": "drone"}], drones=DRONES | {"endurance": 600}),
+    "a battery of": problem([{"served_by": "drone"}], drones=DRONES | {
+        "energy": {"battery_wh": 10.0, "power": {"cruise_w": 200.0}}}),
     "trips could be": problem([{}], max_trip_distance=9000),
     "window closed": problem([{"time_window": {"latest": 300}}]),
     "shift ended": problem([{}], shift={"latest": 600}),

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
+from model.judge.energy import hover_energy, leg_energy, sortie_energy
 from model.judge.rules import airborne_duration
 from model.judge.timing import (
     Operation, RouteDecision, SortieDecision, TripDecision, held_takeoff, schedule,
@@ -94,6 +95,32 @@ def _flight(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to:
         flight.customer, to)
 
 
+def _lasts(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: int) -> bool:
+    """Tell whether endurance and energy suffice for a flight that ends at `to`, if nobody waits."""
+    flight = trip.flights[index]
+    if _flight(problem, drones, trip, index, to) > drones.endurance:
+        return False
+    if drones.energy is None:
+        return True
+    legs, customer = problem.travel[drones.travel].duration, problem.customer_at(flight.customer)
+    weight = customer.demand[drones.energy.dimension]
+    out = legs.item(trip.nodes[flight.launch_stop], flight.customer)
+    taken = leg_energy(drones.energy, out, weight) + leg_energy(
+        drones.energy, legs.item(flight.customer, to), 0)
+    if not drones.energy.lands:
+        own = drones.service_duration
+        service = customer.service_duration if own is None else own
+        taken += hover_energy(drones.energy, service, weight)
+    return taken <= drones.energy.available
+
+
+def _drained(problem: Problem, drones: DroneType, trip: Trip, index: int) -> bool:
+    """Tell whether a sortie takes more than its battery has."""
+    energy = drones.energy
+    return energy is not None and energy.available < sortie_energy(
+        problem, drones, energy, trip, trip.sorties[index])
+
+
 def _at_this_stop(problem: Problem, drones: DroneType, recovered: OpenTrip,
                   arrived: list[Operation], crew: int, launches: list[int],
                   loops: list[int]) -> list[Operation]:
@@ -135,7 +162,7 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
     trip = vehicle.trips[-1]
     drones, flying = problem.vehicle_types[vehicle.kind].drones, trip.flying
     loops = [index for index in flying
-             if drones is not None and _flight(problem, drones, trip, index, to) > drones.endurance]
+             if drones is not None and not _lasts(problem, drones, trip, index, to)]
     while True:
         here = len(trip.nodes) - 1
         operations = list(trip.operations[-1])
@@ -160,7 +187,8 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
         timed = _timed(problem, vehicle, settled)
         late = [index for index in order if drones is not None and (
             arrivals[index] >= UNREACHABLE or drones.endurance
-            < airborne_duration(problem, drones, timed, timed.sorties[index]))]
+            < airborne_duration(problem, drones, timed, timed.sorties[index])
+            or _drained(problem, drones, timed, index))]
         if not late:
             return replace(vehicle, trips=(*vehicle.trips[:-1], settled))
         if set(late) & set(loops):
@@ -209,8 +237,9 @@ def judge(problem: Problem, vehicle: Vehicle, start: int | None) -> tuple[Route,
 def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
     """Tell whether a later start adds no lateness, lengthens no sortie and ends no later.
 
-    With drones, nobody may be served in another window either.
+    With drones, nobody may be served in another window either, nor any battery be drained.
     """
+    drones = problem.vehicle_types[soon.vehicle_type].drones
     has_drones = any(trip.sorties for trip in soon.trips)
 
     def may_be(halt: Stop | Visit, later: Stop | Visit) -> bool:
@@ -221,6 +250,9 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
 
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):
+            return False
+        if drones is not None and any(_drained(problem, drones, other, index)
+                                      for index in range(len(other.sorties))):
             return False
         for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
             longer = (flown.recovery_start - flown.launch_time

@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
+from model.energy import MICROJOULES_PER_WH
 from model.judge.explain import Reason
 from model.problem import Customer, DroneType, Problem, VehicleType
 
@@ -56,8 +57,18 @@ def _wider_window(customer: Customer, text: str) -> Customer:
     return replace(customer, gaps=tuple(gaps))
 
 
+def _larger_battery(kind: VehicleType, text: str) -> VehicleType:
+    energy = _drones(kind).energy
+    assert energy is not None
+    # As from a request, whose battery has no more decimals.
+    stated = energy.available / energy.usable_share / MICROJOULES_PER_WH + float(text)
+    available = round(stated * energy.usable_share * MICROJOULES_PER_WH)
+    return replace(kind, drones=replace(_drones(kind), energy=replace(energy, available=available)))
+
+
 ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
     "fits if endurance were (.+) minutes? longer": _longer_endurance,
+    "fits with a battery of (.+) Wh more": _larger_battery,
     "fits if the drone capacity were at least (.+)": lambda kind, text: replace(
         kind, drones=replace(_drones(kind), capacity=_amounts(text))),
     "fits if capacity were at least (.+)": lambda kind, text: replace(

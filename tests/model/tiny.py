@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from model.energy import Energy
 from model.problem import (
     FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Problem,
     SpeedProfile, Travel, VehicleType,
@@ -117,6 +118,29 @@ def with_gaps(rng: np.random.Generator, problem: Problem, share: float = 0.7) ->
 
     return replace(problem, customers=tuple(
         several(customer) if rng.random() < share else customer for customer in problem.customers))
+
+
+def with_energy(rng: np.random.Generator, problem: Problem, share: float = 1.0) -> Problem:
+    """Return a problem in which a share of the types has drones that a battery limits."""
+    def powers(points: int) -> tuple[int, ...]:
+        low = _draw(rng, 0, 3, 1)
+        return tuple(low + _draw(rng, 0, 4, 1) * (rng.random() < 0.6) for _ in range(points))
+
+    def battery(dimensions: int) -> Energy:
+        weights = ((0, 3), (0, 1, 2), (0, 2, 3))[int(rng.integers(3))]
+        points = len(weights)
+        cruise = tuple(1 + power for power in powers(points))
+        return Energy(
+            available=_draw(rng, 6, 50), usable_share=1.0, weights=weights, cruise=cruise,
+            hover=powers(points), climb=powers(points), descent=powers(points),
+            climb_duration=_draw(rng, 0, 1, MINUTE // 2),
+            descent_duration=_draw(rng, 0, 1, MINUTE // 2),
+            dimension=int(rng.integers(dimensions)), lands=bool(rng.random() < 0.5))
+
+    return replace(problem, vehicle_types=tuple(
+        replace(kind, drones=replace(kind.drones, energy=battery(problem.num_dimensions)))
+        if kind.drones is not None and rng.random() < share else kind
+        for kind in problem.vehicle_types))
 
 
 def with_table(rng: np.random.Generator, problem: Problem) -> Problem:

@@ -3,7 +3,7 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.flight import (
-    can_last, drone_service, earliest_back, recovery_end, take_off, unreachable, within_endurance,
+    can_serve, drone_service, earliest_back, recovery_end, take_off, unreachable, within_endurance,
 )
 from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
 from model.kernel.load import demand_of, fits, lifts, plus
@@ -153,7 +153,7 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         longer = max(0, begun + flight - stops[recovery].leave)
         cost = ((out.distance + home.distance) * world.rate[k].drone_distance
                 + longer * world.rate[k].time + late - now.early[slot])
-        if cost < best and can_last(kind, flight):
+        if cost < best and can_serve(kind, place, out.duration, home.duration):
             index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
                               slot, launch)
             searcher.offer[index].last = recovery

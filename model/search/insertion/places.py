@@ -2,7 +2,7 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import pasted
-from model.kernel.flight import held_until
+from model.kernel.flight import endurance_of, held_until
 from model.kernel.load import fits
 from model.kernel.stop import opening
 from model.search.insertion.cheapest_stop import (
@@ -66,7 +66,7 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
                 offer_sorties(world, searcher, slot, p, node)
             leave = now.stop[slot, first].leave
             # Who would have to wait for a flight from the depot may fly when the trip is over.
-            soonest = held_until(world.type[k], opening(world.place[node], leave))
+            soonest = held_until(opening(world.place[node], leave), endurance_of(world.type[k]))
             if leave < soonest:
                 offer_sorties(world, searcher, slot, last, node)
     if world.visits[k] > 1 and by_drone:

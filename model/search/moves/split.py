@@ -13,7 +13,7 @@ import math
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.flight import (
-    can_last, drone_service, handling_duration, launch_duration, within_endurance,
+    can_serve, can_wait, drone_service, handling_duration, launch_duration, within_endurance,
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.records import Records, record
@@ -124,7 +124,8 @@ def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: i
     out, home = leg(flights, node, customer), leg(flights, customer, to)
     flight = out.duration + service + home.duration
     airborne = max(flight, driven)
-    if not within_endurance(kind, 0, flight, airborne):
+    if not within_endurance(kind, 0, flight, airborne) or not can_wait(
+            kind, world.place[customer], out.duration, home.duration, airborne - flight):
         return math.inf
     return ((handled + airborne) * rate.time + distance * rate.distance
             + airborne * rate.drone_time
@@ -139,7 +140,8 @@ def loop_cost(world: World, k: int, node: int, customer: int) -> float:
     service = drone_service(kind, world.place[customer])
     out, home = leg(flights, node, customer), leg(flights, customer, node)
     airborne = out.duration + service + home.duration
-    if not can_last(kind, airborne) or not world.loops:
+    if not world.loops or not can_serve(kind, world.place[customer], out.duration,
+                                        home.duration):
         return math.inf
     handled = handling_duration(kind)
     return ((airborne + handled) * rate.time + airborne * rate.drone_time

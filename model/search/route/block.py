@@ -5,9 +5,13 @@ By pairs `(d, c)`, which docs/search.md derives under "Times on a route".
 
 from model.kernel.clock import is_steady, leg_end
 from model.kernel.compiled import inlined
+from model.kernel.energy import (
+    after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_hover,
+    weight_of,
+)
 from model.kernel.flight import (
-    counted_until, drone_service, earliest_back, enduring_within, held_until, launch_begin, ready,
-    recovery_end, take_off, unreachable,
+    counted_until, drone_service, earliest_back, endurance_of, held_until, lasting_within,
+    launch_begin, longest_hold, ready, recovery_end, take_off, unreachable,
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
@@ -15,7 +19,7 @@ from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import (
     allowed_within, are_single, in_same_window, latest_allowed, service_duration, start_within,
-    too_late,
+    too_late, waiting,
 )
 from model.problem import IntArray
 from model.search.route.layout import CUSTOMER, DONE, END, FLYING, START, WAITING, World
@@ -73,15 +77,17 @@ def plain_block(world: World, k: int, stop: Record, time: int) -> None:
 def make_ready(world: World, k: int, stops: Records, sorties: Records, count: int) -> None:
     """Have the sorties of a route wait for their launches. In place.
 
-    And write how long each is held back: until windows let it be back within the endurance. Where
-    some have several, that hangs on when it could begin, and is for `soonest_takeoff`.
+    And write how long each is held back: until windows let it be back within its limit. Where some
+    have several, that hangs on when it could begin, and is for `soonest_takeoff`.
     """
     kind, single = world.type[k], are_single(world.place)
     legs = legs_of(world.leg, kind.drone_travel)
     for s in range(count):
         sortie = sorties[s]
         node = sortie.home = stops[sortie.recovery].node
-        sortie.state, sortie.held = WAITING, NONE
+        sortie.state, sortie.held, sortie.limit = WAITING, NONE, endurance_of(kind)
+        if is_limited(kind):
+            charge(world.place, legs, kind, sortie, stops[sortie.launch].node)
         if not single:
             continue
         back = home = 0
@@ -92,7 +98,45 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
             back = max(back, earliest_back(kind, place, NONE, home))
             home += drone_service(kind, place)
             node = customer
-        sortie.held = held_until(kind, back)
+        sortie.held = held_until(back, sortie.limit)
+
+
+@inlined
+def charge(places: Records, legs: IntArray, kind: Record, sortie: Record, node: int) -> None:
+    """Write what a sortie launched at `node` may hover for, without and before windows. In place.
+
+    That is what its flight leaves of its battery.
+    """
+    left, aboard, flown, here = battery_of(kind), 0, 0, sortie.home
+    for index in range(sortie.count - 1, -1, -1):
+        customer = sortie.nodes[index]
+        place, flight = places[customer], leg(legs, customer, here).duration
+        left = after_leg(kind, left, aboard, flight)
+        aboard += weight_of(kind, place)
+        service = drone_service(kind, place)
+        if hovers_at_customers(kind):
+            left = after_hovering(kind, left, aboard, service)
+        flown += flight + service
+        here = customer
+    flight = leg(legs, node, here).duration
+    sortie.left = after_leg(kind, left, aboard, flight)
+    sortie.limit = longest_hold(kind, flown + flight, sortie.left, aboard)
+
+
+@inlined
+def hover(places: Records, kind: Record, sortie: Record, acc: Record) -> None:
+    """Take what a sortie whose arrivals are known needs to wait for windows in the air. In place.
+
+    Later it waits no longer, as long as windows are the same; sooner, nothing is said of.
+    """
+    aboard = 0
+    for index in range(sortie.count - 1, -1, -1):
+        place = places[sortie.nodes[index]]
+        aboard += weight_of(kind, place)
+        waited = waiting(place, sortie.arrivals[index])
+        if waited > 0:
+            sortie.left = after_hovering(kind, sortie.left, aboard, waited)
+            acc.lo = max(acc.lo, acc.time)
 
 
 @inlined
@@ -107,7 +151,7 @@ def held_by_windows(places: Records, legs: IntArray, kind: Record, sortie: Recor
                    earliest_back(kind, place, time + flight, 0))
         time = ready(kind, place, time + flight)
         here = customer
-    return held_until(kind, back + leg(legs, here, sortie.home).duration)
+    return held_until(back + leg(legs, here, sortie.home).duration, sortie.limit)
 
 
 @inlined
@@ -173,23 +217,31 @@ def fly_out(places: Records, legs: IntArray, kind: Record, sortie: Record, node:
     sortie.ready_d, sortie.ready_c = d, c
     sortie.state = FLYING
     acc.flying += 1
-    return True
+    if hovers_at_customers(kind):
+        hover(places, kind, sortie, acc)
+    return not is_limited(kind) or sortie.left >= 0
 
 
 @inlined
 def bring_home(legs: IntArray, kind: Record, sortie: Record, node: int,
                acc: Record) -> bool:
-    """Recover a sortie at `node`. In place; False if endurance forbids it."""
+    """Recover a sortie at `node`. In place; False if endurance or energy forbids it."""
     last = sortie.nodes[sortie.count - 1]
     flight = leg(legs, last, node).duration
     back_d, back_c = sortie.ready_d + flight, sortie.ready_c + flight
     begin_d, begin_c = max(acc.free_d, back_d), max(acc.free_c, back_c)
     if unreachable(flight):
         return False
-    first, last = enduring_within(kind, sortie.takeoff_d, sortie.takeoff_c,
-                                  counted_until(kind, back_d, begin_d),
-                                  counted_until(kind, back_c, begin_c))
+    first, last = lasting_within(endurance_of(kind), sortie.takeoff_d, sortie.takeoff_c,
+                                 counted_until(kind, back_d, begin_d),
+                                 counted_until(kind, back_c, begin_c))
     bound_arrival(acc, first, last)
+    if is_limited(kind):
+        first, last = lasting_within(longest_hover(kind, sortie.left, 0), back_d, back_c, begin_d,
+                                     begin_c)
+        bound_arrival(acc, first, last)
+        # A sortie as long as before may wait where that takes more.
+        acc.dep = min(acc.dep, last)
     begin = max(acc.time + begin_d, begin_c)
     sortie.begin = begin
     slack = begin - begin_d

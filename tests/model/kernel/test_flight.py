@@ -6,14 +6,15 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.kernel.compiled import compiled
 from model.kernel.flight import (
-    can_last, counted_until, drone_service, enduring_within, handling_duration, held_takeoff,
+    can_serve, counted_until, endurance_of, handling_duration, held_takeoff, lasting_within,
     launch_begin, launch_duration, ready, recovery_end, take_off, unreachable, within_endurance,
+    within_energy,
 )
 from model.kernel.instance import pack
 from model.kernel.records import Record, Records
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.solution import Solution
-from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_gaps
+from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_energy, with_gaps
 
 
 @compiled
@@ -32,14 +33,19 @@ def is_short_enough(kind: Record, takeoff: int, back: int, begin: int) -> bool:
 
 @compiled
 def lasts(kind: Record, place: Records, out: int, home: int) -> tuple[bool, bool]:
-    flight = out + drone_service(kind, place) + home
-    return can_last(kind, flight), unreachable(out) or unreachable(home)
+    return can_serve(kind, place, out, home), unreachable(out) or unreachable(home)
 
 
 @compiled
 def enduring(kind: Record, takeoff_d: int, takeoff_c: int, d: int,
              c: int) -> tuple[int, int]:
-    return enduring_within(kind, takeoff_d, takeoff_c, d, c)
+    return lasting_within(endurance_of(kind), takeoff_d, takeoff_c, d, c)
+
+
+@compiled
+def is_charged(kind: Record, place: Records, out: int, home: int, takeoff: int, served: int,
+               begin: int) -> bool:
+    return within_energy(kind, place, out, home, takeoff, served, begin)
 
 
 @compiled
@@ -56,6 +62,8 @@ def drawn(seed: int, count: int = 200) -> list[tuple[Problem, DroneType, int, in
         problem = (draw_tiny, draw_late)[len(found) % 2](rng)
         if len(found) % 4 > 1:
             problem = with_gaps(rng, problem)
+        if len(found) % 3 == 2:
+            problem = with_energy(rng, problem)
         drones = problem.vehicle_types[0].drones
         if drones is not None:
             node = int(rng.integers(problem.num_depots, problem.num_nodes))
@@ -86,6 +94,8 @@ def test_a_sortie_is_timed_and_allowed_as_the_judge_says() -> None:
                        if other != node)
         codes = {v.code for v in check(problem, Solution((route,), others)).violations}
         assert is_short_enough(kind, takeoff, back, back) == ("ENDURANCE" not in codes)
+        charged = is_charged(kind, place, out, home, takeoff, back - home, back)
+        assert charged == ("ENERGY" not in codes)
         fine, held = fine + ("ENDURANCE" not in codes), held + (
             takeoff > start + drones.launch_duration)
     assert min(too_long, fine, held) > 5

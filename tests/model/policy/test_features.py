@@ -1,7 +1,10 @@
 """Tests of what a policy sees."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+
 from model.kernel.instance import pack
 from model.policy import features
 from model.policy.observation import NUM_ACTION_FEATURES, empty_observation
@@ -10,6 +13,7 @@ from model.problem import Problem
 from model.simulation.simulator import DRIVE, OPEN, apply, encode_action, reset
 from tests.conftest import MINUTE
 from tests.model.rollouts import Batch, Units, in_other_units, random_problems, roll
+from tests.model.tiny import draw_tiny, with_energy
 
 TOLERANCE = 1e-5
 SIGNED = {
@@ -122,3 +126,18 @@ def test_company_is_the_unserved_customers_nearby(tiny_problem, customers, truck
     np.testing.assert_allclose(of_node[1], [3 / 5, 7 / 9, (3 - 1) / 2 / 3], rtol=1e-6)
     np.testing.assert_allclose(of_node[3], [3 / 5, 4 / 6, (3 - 2) / 2 / 3], rtol=1e-6)
     np.testing.assert_allclose(of_node[4], [4 / 6, 7 / 9, (4 - 6) / 2 / 3], rtol=1e-6)
+
+
+def test_a_battery_is_seen_as_how_long_it_lasts() -> None:
+    rng = np.random.default_rng(4)
+    problem = with_energy(rng, draw_tiny(rng, drone_share=1.0))
+    kind = problem.vehicle_types[0]
+    assert kind.drones is not None
+    assert kind.drones.energy is not None
+    lasts = kind.drones.energy.available // kind.drones.energy.cruise[0]
+    enduring = replace(kind.drones, energy=None, endurance=min(lasts, kind.drones.endurance))
+    other = replace(problem, vehicle_types=(replace(kind, drones=enduring),
+                                            *problem.vehicle_types[1:]))
+    seen = [tokens(instance, scales(instance), problem.coordinates[None]).type
+            for instance in (pack([problem]), pack([other]))]
+    assert (seen[0][0, 0] == seen[1][0, 0]).all()

@@ -15,7 +15,7 @@ from model.problem import (
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
-from tests.model.tiny import draw_tiny, with_beginnings, with_gaps, with_places
+from tests.model.tiny import draw_tiny, with_beginnings, with_energy, with_gaps, with_places
 
 MINUTE = 60_000
 TURNS = 6_000
@@ -198,6 +198,13 @@ def all_rules_several_windows(rng: np.random.Generator) -> Problem:
     return with_gaps(rng, all_rules(rng))
 
 
+def all_rules_on_batteries(rng: np.random.Generator) -> Problem:
+    while True:
+        problem = with_energy(rng, all_rules(rng))
+        if any(kind.drones for kind in problem.vehicle_types):
+            return problem
+
+
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     # What many plans of two drones are compared with takes seconds each.
@@ -218,7 +225,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 
 @pytest.mark.parametrize("first", range(0, 60, SHARE))
 @pytest.mark.parametrize("draw", [
-    all_rules_elsewhere, all_rules_begun, all_rules_several_windows],
+    all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem], first: int) -> None:

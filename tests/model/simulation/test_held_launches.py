@@ -20,7 +20,7 @@ from tests.model.mask_oracle import legal_codes
 from tests.model.remedies import applied
 from tests.model.rollouts import legal, roll
 from tests.model.simulation.test_simulator import walk
-from tests.model.tiny import draw_late, with_gaps
+from tests.model.tiny import draw_late, with_energy, with_gaps
 
 MINUTE = 60_000
 
@@ -154,12 +154,15 @@ def test_a_drone_held_at_the_depot_is_no_work_before_it_takes_off(late):
 
 
 @pytest.mark.parametrize("several", [False, True])
-def test_the_mask_is_exact_where_launches_are_held_back(several: bool) -> None:
-    for seed in range(250 if not several else 120):
+@pytest.mark.parametrize("on_battery", [False, True])
+def test_the_mask_is_exact_where_launches_are_held_back(several: bool, on_battery: bool) -> None:
+    for seed in range(250 if not several and not on_battery else 120):
         rng = np.random.default_rng(seed)
         problem = draw_late(rng)
         if several:
             problem = with_gaps(rng, problem)
+        if on_battery:
+            problem = with_energy(rng, problem)
         for codes, position in walk(problem, rng):
             expected = legal_codes(problem, position.vehicle, position.served, position.used)
             assert sorted(codes) == sorted(expected), f"seed {seed}"

@@ -21,7 +21,7 @@ from model.simulation.simulator import (
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_gaps, with_own_costs, with_places, with_table,
+    draw_tiny, with_beginnings, with_energy, with_gaps, with_own_costs, with_places, with_table,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -82,7 +82,8 @@ def test_random_rollouts_of_all_rules_at_once_pass_the_checker() -> None:
         assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
 
 
-@pytest.mark.parametrize("change", [with_table, with_places, with_beginnings, with_gaps])
+@pytest.mark.parametrize("change", [
+    with_table, with_places, with_beginnings, with_gaps, with_energy])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Callable[[np.random.Generator, Problem], Problem]) -> None:
     for seed in range(200):

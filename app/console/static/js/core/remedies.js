@@ -43,6 +43,11 @@ const CHANGES = [
       add(request, [...type, 'drones', 'endurance'], numberOf(more) * SECONDS_PER_MINUTE),
   ],
   [
+    new RegExp(`^fits with a battery of ${NUMBER} Wh more$`),
+    (request, { type }, more) =>
+      add(request, [...type, 'drones', 'energy', 'battery_wh'], numberOf(more)),
+  ],
+  [
     new RegExp(`^fits if trips could be ${NUMBER} km longer$`),
     (request, { type }, more) =>
       add(request, [...type, 'max_trip_distance'], numberOf(more) * METRES_PER_KM),

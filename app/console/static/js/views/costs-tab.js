@@ -48,6 +48,9 @@ function Summary({ summary }) {
   const rows = [
     ['Driven', km(summary.distance)],
     ['Flown', km(summary.drone_distance)],
+    ...(summary.energy_wh == null
+      ? []
+      : [['Energy of flights', `${number(summary.energy_wh, 1)} Wh`]]),
     ['Trips', number(summary.trips, 0)],
     ['Flights', number(summary.sorties, 0)],
     ['Load rate', `${percent(rates.min)} to ${percent(rates.max)}, mean ${percent(rates.mean)}`],

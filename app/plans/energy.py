@@ -1,0 +1,39 @@
+"""What flights take, and what presets say of it, as a reply states them."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from model.energy import MICROJOULES_PER_WH, Energy
+from model.problem import Problem
+
+Data = dict[str, Any]
+
+
+def energy_wh(energies: Iterable[int | None]) -> float | None:
+    """Return the sum of what flights take in Wh; None if it is known of none."""
+    known = [energy for energy in energies if energy is not None]
+    return sum(known) / MICROJOULES_PER_WH if known else None
+
+
+def energy_models(problem: Problem) -> list[Data]:
+    """Return the numbers of the presets that a problem's drones fly by."""
+    drones = [(kind.id, kind.drones.energy) for kind in problem.vehicle_types
+              if kind.drones is not None]
+    return [_model(problem, name, energy) for name, energy in drones
+            if energy is not None and energy.preset is not None]
+
+
+def _model(problem: Problem, name: str, energy: Energy) -> Data:
+    unit = 10 ** problem.amount_decimals[energy.dimension]
+    points = zip(energy.weights, energy.cruise, energy.hover, energy.climb, energy.descent,
+                 strict=True)
+    return {
+        "vehicle_type": name,
+        "preset": energy.preset,
+        "available_wh": energy.available / MICROJOULES_PER_WH,
+        "up_seconds": energy.climb_duration / 1000,
+        "down_seconds": energy.descent_duration / 1000,
+        "power": [{"weight": weight / unit, "cruise_w": cruise / 1000, "hover_w": hover / 1000,
+                   "up_w": climb / 1000, "down_w": descent / 1000}
+                  for weight, cruise, hover, climb, descent in points],
+    }

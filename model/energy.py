@@ -1,0 +1,55 @@
+"""What a drone's battery holds, and what flying takes of it.
+
+Energies are integer microjoules, powers milliwatts, so that power times milliseconds is energy.
+"""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+MAX_POINTS = 24
+"""Most weights at which powers are stated."""
+
+MAX_POWER = 10**9
+"""Largest power in mW."""
+
+MAX_RISE = 2**62
+"""Bound of a rise in power times that in weight, whose product has to fit 64 bits."""
+
+MICROJOULES_PER_WH = 3_600_000_000
+
+
+@dataclass(frozen=True)
+class Energy:
+    """A battery, and powers by the weight aboard: linear between points, and on beyond the last."""
+
+    available: int  # what a sortie may take, without the reserve
+    usable_share: float  # of the battery; for people
+    weights: tuple[int, ...]  # (point,) ascending from 0, in parts of the dimension that weighs
+    cruise: tuple[int, ...]  # (point,) power in level flight
+    hover: tuple[int, ...]  # (point,)
+    climb: tuple[int, ...]  # (point,)
+    descent: tuple[int, ...]  # (point,)
+    climb_duration: int = 0  # ms of each leg
+    descent_duration: int = 0
+    dimension: int = 0  # of demands, which weighs
+    lands: bool = True  # at customers; else it hovers there
+    preset: str | None = None  # name of the published model that the powers are from; for people
+
+    def __post_init__(self) -> None:
+        if not 2 <= len(self.weights) <= MAX_POINTS or self.weights[0] != 0:
+            raise ValueError(f"energy weights: {self.weights!r} is not allowed")
+        if any(upper <= lower for lower, upper in pairwise(self.weights)):
+            raise ValueError(f"energy weights: {self.weights!r} is not allowed")
+        for name in ("available", "climb_duration", "descent_duration", "dimension"):
+            if getattr(self, name) < 0:
+                raise ValueError(f"energy {name}: {getattr(self, name)!r} is not allowed")
+        if not 0 < self.usable_share <= 1:
+            raise ValueError(f"energy usable_share: {self.usable_share!r} is not allowed")
+        for name in ("cruise", "hover", "climb", "descent"):
+            self._require_powers(name, getattr(self, name))
+
+    def _require_powers(self, name: str, powers: tuple[int, ...]) -> None:
+        if len(powers) != len(self.weights) or min(powers) < 0 or max(powers) > MAX_POWER:
+            raise ValueError(f"energy {name}: {powers!r} is not allowed")
+        if (max(powers) - min(powers)) * self.weights[-1] >= MAX_RISE:
+            raise ValueError(f"energy {name}: {powers!r} is too finely weighed")

@@ -1,0 +1,78 @@
+"""What flights take of batteries, over HTTP."""
+
+from typing import Any
+
+import httpx
+import pytest
+
+from app.schemas.response import PlanReply
+
+Request = dict[str, Any]
+
+
+def flying(request: Request, **energy: Any) -> Request:
+    """Return a request whose second customer a drone serves."""
+    request["customers"][1]["served_by"] = "drone"
+    request["fleet"][0]["drones"] = {
+        "count": 1, "capacity": [10], "energy": {"battery_wh": 100.0, "reserve": 0} | energy}
+    return request
+
+
+def planned(client: httpx.Client, request: Request) -> dict[str, Any]:
+    reply = client.post("/plan", json=request)
+    assert reply.status_code == 200, reply.text
+    plan: dict[str, Any] = reply.json()
+    PlanReply.model_validate(plan)
+    return plan
+
+
+def test_a_reply_tells_what_flights_take(client: httpx.Client, smallest: Request) -> None:
+    request = flying(smallest, power={"cruise_w": 100, "cruise_w_per_kg": 20})
+    plan = planned(client, request)
+    trip, = plan["routes"][0]["trips"]
+    sortie, = trip["sorties"]
+    # Legs at 60 km/h: out with 5 kg, back with nothing.
+    hours = sortie["distance"] / 1000 / 60 / 2
+    assert sortie["energy_wh"] == pytest.approx(hours * 200 + hours * 100, rel=1e-5)
+    assert trip["energy_wh"] == plan["summary"]["energy_wh"] == sortie["energy_wh"]
+    assert "energy_models" not in plan
+    again = client.post("/check", json={"problem": request, "plan": plan}).json()
+    assert (again["feasible"], again["summary"]["energy_wh"]) == (True, sortie["energy_wh"])
+
+
+def test_nothing_is_said_where_nothing_is_known(client: httpx.Client, smallest: Request) -> None:
+    plan = planned(client, smallest)
+    assert plan["summary"]["energy_wh"] is plan["routes"][0]["trips"][0]["energy_wh"] is None
+
+
+def test_a_preset_comes_back_with_its_numbers(client: httpx.Client, smallest: Request) -> None:
+    plan = planned(client, flying(smallest, preset="dorling-2017"))
+    model, = plan["energy_models"]
+    assert (model["vehicle_type"], model["preset"]) == ("truck", "dorling-2017")
+    assert model["available_wh"] == 100
+    empty, full = model["power"]
+    assert full["weight"] == 10
+    assert full["cruise_w"] - empty["cruise_w"] == pytest.approx(467.0)
+
+
+def test_who_is_too_far_for_the_battery_is_left_out_with_a_remedy(
+        client: httpx.Client, smallest: Request) -> None:
+    request = flying(smallest, power={"cruise_w": 100})
+    request["fleet"][0]["drones"]["energy"]["battery_wh"] = 5.0
+    request["customers"] = request["customers"][1:]
+    plan = planned(client, request)
+    reason, = plan["unassigned"][0]["reasons"]
+    assert reason["code"] == "RANGE"
+    assert reason["remedy"].startswith("fits with a battery of ")
+    more = float(reason["remedy"].split()[5])
+    request["fleet"][0]["drones"]["energy"]["battery_wh"] += more
+    assert planned(client, request)["unassigned"] == []
+
+
+def test_a_plan_with_energies_can_be_gone_on_from(
+        client: httpx.Client, smallest: Request) -> None:
+    request = flying(smallest, preset="rodrigues-2022")
+    plan = planned(client, request)
+    assert plan["energy_models"]
+    again = planned(client, request | {"replan": {"plan": plan}})
+    assert again["summary"]["energy_wh"] == plan["summary"]["energy_wh"]
