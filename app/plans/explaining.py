@@ -165,7 +165,7 @@ class _Explainer:
         bench = Bench(self._problem, self._solution, node, self._setting)
         share = ALTERNATIVES_SHARE * (0.3 if question.drones else 1.0)
         found = find_alternatives(bench, question.after(share))
-        binding, in_time = find_binding(bench, found.trials,
+        binding, in_time = find_binding(bench, found,
                                         question.after(0.3 if question.drones else 1.0))
         reasons = (() if bench.found is not None else self._task.reasons(
             self._solution, node, time.perf_counter() + REASONS_SECONDS))

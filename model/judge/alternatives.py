@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from model.judge.bench import Bench, Trial
+from model.judge.bench import Bench, Draft, Trial
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
 from model.judge.screening import Guess, Screen
@@ -43,7 +43,7 @@ class Findings:
     """What was found by trying."""
 
     alternatives: tuple[Alternative, ...]
-    trials: tuple[Trial, ...]  # of all vehicles, at every place tried
+    drafts: tuple[Draft, ...]  # of all vehicles, at every place tried
     is_complete: bool  # no clock cut it short
 
 
@@ -75,28 +75,38 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
     alternatives: list[Alternative] = []
     if found is not None:
         here = found.place
-        alternatives += _best("place", by_group.get((here.vehicle, here.by), ()))
-        alternatives += _best("by", [trial for (_, by), trials in by_group.items()
-                                     if by != here.by for trial in trials])
-    vehicles: dict[Vehicle, list[Trial]] = {}
-    for (vehicle, _), trials in by_group.items():
+        alternatives += _best(bench, "place", by_group.get((here.vehicle, here.by), ()))
+        alternatives += _best(bench, "by", [draft for (_, by), drafts in by_group.items()
+                                            if by != here.by for draft in drafts])
+    vehicles: dict[Vehicle, list[Draft]] = {}
+    for (vehicle, _), drafts in by_group.items():
         if found is None or vehicle != found.place.vehicle:
-            vehicles.setdefault(vehicle, []).extend(trials)
-    others = [each for trials in vehicles.values() for each in _best("vehicle", trials)]
+            vehicles.setdefault(vehicle, []).extend(drafts)
+    others = [each for drafts in vehicles.values() for each in _best(bench, "vehicle", drafts)]
     alternatives += [*windows, *sorted(others, key=lambda each: each.trial.rank)]
     if found is not None:
         alternatives.append(Alternative("unassigned", bench.left_out))
     return Findings(tuple(alternatives),
-                    tuple([trial for trials in by_group.values() for trial in trials]),
+                    tuple([draft for drafts in by_group.values() for draft in drafts]),
                     is_complete and all_windows)
 
 
-def _best(kind: Kind, trials: Sequence[Trial]) -> Iterator[Alternative]:
+def _best(bench: Bench, kind: Kind, drafts: Sequence[Draft],
+          problem: Problem | None = None) -> Iterator[Alternative]:
+    """Yield the best of some drafts, if there are any.
+
+    One that is legal by itself may not be so in the plan: then the next best is looked at.
+    """
+    trials: list[Trial] = []
+    for draft in sorted(drafts, key=lambda draft: draft.rank)[:TRIES]:
+        trials.append(bench.finish(draft, problem))
+        if draft.timed.judged.violations or trials[-1].evaluation.is_feasible:
+            break
     if trials:
         yield Alternative(kind, min(trials, key=lambda trial: trial.rank))
 
 
-def _try_groups(bench: Bench, until: float) -> tuple[dict[Group, list[Trial]], bool]:
+def _try_groups(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bool]:
     """Try the best places of each vehicle and means, and tell whether there was time for all.
 
     All of them have their first turn before any has its second.
@@ -105,14 +115,14 @@ def _try_groups(bench: Bench, until: float) -> tuple[dict[Group, list[Trial]], b
                for group, some in _guesses(bench, bench.problem).items()}
     order = sorted([group for group, some in guesses.items() if some],
                    key=lambda group: guesses[group][0][:2])
-    tried: dict[Group, list[Trial]] = {}
+    tried: dict[Group, list[Draft]] = {}
     for turn in range(MORE_TRIES):
         for group in order:
             if turn >= len(guesses[group]) or _is_settled(tried.get(group, ()), turn):
                 continue
             if time.perf_counter() >= until:
                 return tried, False
-            tried.setdefault(group, []).append(bench.put(guesses[group][turn].place))
+            tried.setdefault(group, []).append(bench.draft(guesses[group][turn].place))
     return tried, True
 
 
@@ -120,12 +130,12 @@ def _guesses(bench: Bench, problem: Problem) -> dict[Group, list[Guess]]:
     return Screen(problem, bench.left_out.solution, bench.node, bench.setting.past).guesses()
 
 
-def _is_settled(trials: Sequence[Trial], turn: int) -> bool:
+def _is_settled(drafts: Sequence[Draft], turn: int) -> bool:
     """Tell whether a vehicle's further places needn't be tried."""
-    if any(trial.evaluation.is_feasible for trial in trials):
+    if any(not draft.timed.judged.violations for draft in drafts):
         return turn >= TRIES
     return any(violation.code in EVERYWHERE
-               for trial in trials for violation in trial.evaluation.violations)
+               for draft in drafts for violation in draft.timed.judged.violations)
 
 
 def _is_here(bench: Bench, place: Place) -> bool:
@@ -151,13 +161,14 @@ def _windows(bench: Bench, until: float) -> tuple[list[Alternative], bool]:
         problem = with_customer(bench.problem, bench.node, in_window(customer, window))
         guesses = sorted([guess for some in _guesses(bench, problem).values() for guess in some],
                          key=lambda guess: guess[:2])
-        trials: list[Trial] = []
+        drafts: list[Draft] = []
         for turn, guess in enumerate(guesses[:MORE_TRIES]):
             if time.perf_counter() >= until:
                 return found, False
-            if not (turn >= TRIES and any(trial.evaluation.is_feasible for trial in trials)):
-                trials.append(bench.put(guess.place, problem))
-        found += [replace(each, window=window) for each in _best("window", trials)]
+            if not _is_settled(drafts, turn):
+                drafts.append(bench.draft(guess.place, problem))
+        found += [replace(each, window=window)
+                  for each in _best(bench, "window", drafts, problem)]
     return found, True
 
 

@@ -104,30 +104,62 @@ class Bench:
         return min([time_route(problem, way, f"routes[{index}]", self.setting.past)
                     for way in ways], key=lambda timed: timed.rank)
 
-    def put(self, place: Place, problem: Problem | None = None,
-            same: Collection[int] | None = None) -> Trial:
-        """Return the plan with the customer at a place.
+    @property
+    def without(self) -> float:
+        """What the plan costs without the customer, nothing being counted for leaving him out."""
+        cost = self.left_out.evaluation.cost
+        left_out = self.problem.cost_of_leaving_out(self.problem.customer_at(self.node))
+        return cost.total - left_out
 
-        Parameters
-        ----------
-        place
-            Where he is put.
-        problem
-            What it is judged by; None: the problem as it is.
-        same
-            Types of vehicles of which that says the same; None: of all.
-        """
+    def draft(self, place: Place, problem: Problem | None = None) -> "Draft":
+        """Return the route with the customer at a place; `problem` as in `finish`."""
         problem = problem or self.problem
         routes = self.left_out.solution.routes
         index = next((index for index, route in enumerate(routes)
                       if (route.vehicle_type, route.vehicle) == place.vehicle), len(routes))
-        kind = problem.vehicle_types[place.vehicle.type]
-        decision = (read_route(problem, routes[index]) if index < len(routes)
-                    else RouteDecision(place.vehicle.type, place.vehicle.number, ()))
+        kind, before = problem.vehicle_types[place.vehicle.type], 0.0
+        if index < len(routes):
+            decision, before = read_route(problem, routes[index]), self.judged[index].cost.total
+        else:
+            decision = RouteDecision(place.vehicle.type, place.vehicle.number, ())
         decision = route_with(decision, place, self.node, (kind.begins_at, kind.ends_at))
         timed = self._best(problem, [decision], index)
-        others = tuple([node for node in self.left_out.solution.unassigned if node != self.node])
-        plan = changed(self.left_out.solution, index, timed.route, others)
-        known = {number: judged for number, judged in self.judged.items()
-                 if same is None or routes[number].vehicle_type in same}
-        return Trial(place, plan, self.setting.judge(problem, plan, {**known, index: timed.judged}))
+        return Draft(place, index, timed, timed.judged.cost.total - before)
+
+    def finish(self, draft: "Draft", problem: Problem | None = None,
+               judged: Mapping[int, JudgedRoute] | None = None) -> Trial:
+        """Judge the plan with a route.
+
+        Parameters
+        ----------
+        draft
+            The route.
+        problem
+            What it is judged by; None: the problem as it is.
+        judged
+            The other routes as `problem` has them judged; None: as the problem as it is does.
+        """
+        problem, solution = problem or self.problem, self.left_out.solution
+        others = tuple([node for node in solution.unassigned if node != self.node])
+        plan = changed(solution, draft.index, draft.timed.route, others)
+        known = {**(self.judged if judged is None else judged), draft.index: draft.timed.judged}
+        return Trial(draft.place, plan, self.setting.judge(problem, plan, known))
+
+    def put(self, place: Place) -> Trial:
+        """Return the plan with the customer at a place."""
+        return self.finish(self.draft(place))
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A customer at a place, the rest of the plan not being looked at."""
+
+    place: Place
+    index: int  # of the route
+    timed: TimedRoute
+    added: float  # cost of the route, less what it costs without him
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """What is smaller for a better place: fewest broken rules, then what it adds."""
+        return len(self.timed.judged.violations), self.added

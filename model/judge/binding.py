@@ -10,14 +10,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
-from model.judge.alternatives import halt_of, with_customer
+from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import opening
+from model.judge.places import Place
 from model.judge.rules import airborne_duration
+from model.judge.screening import Screen
 from model.problem import MM_PER_KM, UNLIMITED, Problem, VehicleType
 from model.solution import Trip
 
-Unit = Literal["minute", "unit", "km"]
+Unit = Literal["minute", "unit", "km", "vehicle", "trip"]
 Whose = Literal["customer", "vehicle_type"]
 
 MS_PER_MINUTE = 60_000
@@ -38,6 +40,7 @@ class Limit(NamedTuple):
     unit: Unit
     slack: float | None  # units; None: the plan doesn't come near it
     problem: Problem
+    gives_trips: bool = False  # a unit more is a trip more, which is at no place tried before
 
 
 @dataclass(frozen=True)
@@ -48,59 +51,72 @@ class Binding:
     saves_per_unit: float
 
 
-def find_binding(bench: Bench, trials: Sequence[Trial],
+def find_binding(bench: Bench, findings: Findings,
                  until: float = math.inf) -> tuple[tuple[Binding, ...], bool]:
     """Return what binds, as far as is found by an instant, and whether there was time for all.
 
-    `trials` are those of `find_alternatives`; `until` is on `time.perf_counter`.
+    `findings` are those of `find_alternatives`; `until` is on `time.perf_counter`.
     """
-    begun = _best_now(bench, trials)
-    places = [begun, *_cheaper_but_illegal(trials, begun)]
+    begun = _best_now(bench, findings)
+    cost = begun.evaluation.cost.total
+    places = [begun.place, *_cheaper_but_illegal(bench, findings, cost)]
     found: list[Binding] = []
     for limit in _limits(bench, places):
         if time.perf_counter() >= until:
             return tuple(found), False
-        saved = begun.evaluation.cost.total - _cost_with(bench, limit, places)
-        if saved <= NOT_WORTH * max(1.0, abs(begun.evaluation.cost.total)):
+        saved = cost - _cost_with(bench, limit, places)
+        if saved <= NOT_WORTH * max(1.0, abs(cost)):
             saved = 0.0
-        if saved or (limit.slack is not None and limit.slack <= 0):
+        is_reached = limit.slack is not None and limit.slack <= 0 and not limit.gives_trips
+        if saved or is_reached:
             found.append(Binding(limit, saved))
     return tuple(sorted(found, key=lambda each: -each.saves_per_unit)), True
 
 
-def _best_now(bench: Bench, trials: Sequence[Trial]) -> Trial:
+def _best_now(bench: Bench, findings: Findings) -> Trial:
     """Return the best that can be done with the customer as things are."""
-    known = [bench.plan, *[trial for trial in trials if trial.evaluation.is_feasible]]
+    known = [bench.plan, *[each.trial for each in findings.alternatives
+                           if each.window is None and each.trial.evaluation.is_feasible]]
     if bench.found is not None:
         known.append(bench.put(bench.found.place))
     return min(known, key=lambda trial: trial.rank)
 
 
-def _cheaper_but_illegal(trials: Sequence[Trial], begun: Trial) -> list[Trial]:
-    cheaper = [trial for trial in trials if not trial.evaluation.is_feasible
-               and trial.evaluation.cost.total < begun.evaluation.cost.total]
-    return sorted(cheaper, key=lambda trial: trial.rank)[:MAX_RETRIES]
+def _cheaper_but_illegal(bench: Bench, findings: Findings, cost: float) -> list[Place]:
+    """Return places that would be cheaper than what can be done, if only they were legal."""
+    cheaper = [draft for draft in findings.drafts
+               if draft.timed.judged.violations and bench.without + draft.added < cost]
+    return [draft.place for draft in sorted(cheaper, key=lambda draft: draft.rank)[:MAX_RETRIES]]
 
 
-def _cost_with(bench: Bench, limit: Limit, places: Sequence[Trial]) -> float:
+def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None]) -> float:
     """Return the lowest cost of a legal plan with the customer at one of some places."""
-    others = None
+    judged = None
     if limit.kind is not None:
-        others = set(range(len(bench.problem.vehicle_types))) - {limit.kind}
-    here = [] if bench.found is None else [bench.found.place]
-    tried = [bench.put(place, limit.problem, others)
-             for place in dict.fromkeys([*here, *[trial.place for trial in places]])
-             if place is not None]
+        judged = bench.setting.judge_routes(limit.problem, bench.left_out.solution)
+    wanted = [None if bench.found is None else bench.found.place, *places]
+    if limit.gives_trips:
+        wanted = [*_further_trips(bench, limit)]
+    tried = [bench.finish(bench.draft(place, limit.problem), limit.problem, judged)
+             for place in dict.fromkeys(wanted) if place is not None]
     return min([trial.evaluation.cost.total for trial in tried if trial.evaluation.is_feasible],
                default=math.inf)
 
 
-def _limits(bench: Bench, places: Sequence[Trial]) -> Iterator[Limit]:
+def _further_trips(bench: Bench, limit: Limit) -> Iterator[Place]:
+    """Yield trips that a limit allows the customer for himself."""
+    screen = Screen(limit.problem, bench.left_out.solution, bench.node, bench.setting.past)
+    for (vehicle, _), guesses in screen.guesses().items():
+        own = [guess.place for guess in guesses if guess.place.own_trip]
+        if vehicle.type == limit.kind:
+            yield from own[:1]
+
+
+def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
     """Yield the limits of the customer, and of the types of vehicles that might serve him."""
     yield from _customer_limits(bench)
     kinds = [place.vehicle.type for place in (
-        None if bench.found is None else bench.found.place, *[trial.place for trial in places])
-        if place is not None]
+        None if bench.found is None else bench.found.place, *places) if place is not None]
     for kind in dict.fromkeys(kinds):
         yield from _type_limits(bench, kind)
 
@@ -147,10 +163,11 @@ def _type_limits(bench: Bench, kind: int) -> Iterator[Limit]:
     vehicle_type = problem.vehicle_types[kind]
     is_here = found is not None and found.place.vehicle.type == kind
     for field, unit, slack, changed in (*_truck_limits(bench, vehicle_type, is_here),
-                                        *_drone_limits(bench, vehicle_type, is_here)):
+                                        *_drone_limits(bench, vehicle_type, is_here),
+                                        *_trip_limits(bench, kind)):
         kinds = (*problem.vehicle_types[:kind], changed, *problem.vehicle_types[kind + 1:])
         yield Limit(field, "vehicle_type", kind, unit, slack,
-                    replace(problem, vehicle_types=kinds))
+                    replace(problem, vehicle_types=kinds), unit in ("vehicle", "trip"))
 
 
 _Changed = tuple[str, Unit, float | None, VehicleType]
@@ -181,6 +198,19 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         slack = None if trip is None else (kind.max_trip_distance - trip.distance) / MM_PER_KM
         yield ("max_trip_distance", "km", slack,
                replace(kind, max_trip_distance=kind.max_trip_distance + MM_PER_KM))
+
+
+def _trip_limits(bench: Bench, kind: int) -> Iterator[_Changed]:
+    """Yield how many vehicles there are of a type, and how many trips each makes, if reached."""
+    vehicle_type = bench.problem.vehicle_types[kind]
+    trips = [len(route.trips) for route in bench.left_out.solution.routes
+             if route.vehicle_type == kind]
+    if len(trips) == vehicle_type.count:
+        yield "count", "vehicle", 0.0, replace(vehicle_type, count=vehicle_type.count + 1)
+    stays = (vehicle_type.begins_at == vehicle_type.ends_at == vehicle_type.depot
+             and not any(vehicle_type.initial_load) and not vehicle_type.busy_until)
+    if max(trips, default=0) == vehicle_type.max_trips and stays:
+        yield "max_trips", "trip", 0.0, replace(vehicle_type, max_trips=vehicle_type.max_trips + 1)
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:

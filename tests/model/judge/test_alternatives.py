@@ -127,8 +127,8 @@ def greedy(problem):
     solution = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     for node in range(problem.num_depots, problem.num_nodes):
         bench = Bench(problem, solution, node)
-        legal = [trial for trial in find_alternatives(bench).trials
-                 if trial.evaluation.is_feasible]
+        legal = [each.trial for each in find_alternatives(bench).alternatives
+                 if each.window is None and each.trial.evaluation.is_feasible]
         best = min(legal, key=lambda trial: trial.rank, default=None)
         if best is not None:
             solution = best.solution

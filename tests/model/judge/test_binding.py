@@ -13,7 +13,7 @@ from tests.model.tiny import draw_tiny
 
 def binding(problem, solution, node):
     bench = Bench(problem, solution, node)
-    found, is_complete = find_binding(bench, find_alternatives(bench).trials)
+    found, is_complete = find_binding(bench, find_alternatives(bench))
     assert is_complete
     return {each.limit.field: (each.limit.slack, each.saves_per_unit) for each in found}
 
@@ -58,7 +58,9 @@ def test_minute_of_endurance_lets_a_drone_go(tiny_problem, customers, truck, dro
 def test_customer_left_out_is_told_what_would_let_him_in(tiny_problem, customers, truck):
     problem = tiny_problem(*customers, truck=replace(truck, count=1, capacity=(3000,)))
     solution = plan(problem, route(A, B, C), unassigned=(D,))
-    assert binding(problem, solution, D) == {"capacity": (None, pytest.approx(1000.0))}
+    found = binding(problem, solution, D)
+    assert found["capacity"] == (None, pytest.approx(1000.0))
+    assert found["count"] == found["max_trips"] == (0.0, pytest.approx(1000.0))
 
 
 @pytest.mark.parametrize("seed", range(15))
@@ -68,7 +70,7 @@ def test_what_is_saved_is_saved_by_a_plan_that_the_judge_accepts(seed):
     solution = greedy(problem)
     for node in range(problem.num_depots, problem.num_nodes):
         bench = Bench(problem, solution, node)
-        found, _ = find_binding(bench, find_alternatives(bench).trials)
+        found, _ = find_binding(bench, find_alternatives(bench))
         for each in found:
             slack = each.limit.slack
             assert each.saves_per_unit > 0 or (slack is not None and slack <= 0)

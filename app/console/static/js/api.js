@@ -99,6 +99,9 @@ export async function getReadiness() {
 export const postPlan = (request, signal) =>
   json('plan', { method: 'POST', body: request, signal });
 
+/** Return why a customer of a plan is served where it is, or what drones save. */
+export const postExplain = (question) => json('explain', { method: 'POST', body: question });
+
 /** Start a job: `kind` is `jobs`, `compare` or `sweep`. Return it. */
 export const startJob = (kind, body) => json(kind, { method: 'POST', body });
 

@@ -29,6 +29,7 @@ export const store = createStore({
   plans: [], // {number, request, plan}, the newest last
   shown: null, // number of the plan that is looked at
   besides: null, // number of the plan that stands beside it
+  why: { plan: null, answers: new Map() }, // what was asked about a plan, by customer
   run: { state: 'idle', points: [], message: '' },
   errors: [], // {keys, path, message, code} of a refused request
   failure: null, // {title, detail}

@@ -5,6 +5,7 @@ import { duration, km, money, number, percent } from '../core/format.js';
 import { costTerms } from '../core/terms.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
+import { DronesWorth } from './drones-worth.js';
 import { ShareBar } from './parts.js';
 
 /** The tab. */
@@ -36,6 +37,7 @@ export function CostsTab() {
           </tr>`,
       )}
       </tbody></table></section>
+    <${DronesWorth} />
     <${Summary} summary=${plan.summary} />`;
 }
 

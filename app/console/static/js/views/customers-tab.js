@@ -10,6 +10,7 @@ import { store, useStore } from '../store.js';
 import { Field, Fields } from './form.js';
 import { LongTable, Name } from './parts.js';
 import { SheetPreview } from './sheet-preview.js';
+import { WhyHere } from './why-here.js';
 
 /** The tab. */
 export function CustomersTab() {
@@ -121,7 +122,7 @@ function SelectedCustomer({ request }) {
   };
   return html`<details class="card" open><summary>Customer ${request.customers[position].id}
       <span class="right"></span></summary>
-    <div class="inside">
+    <div class="inside"><${WhyHere} id=${request.customers[position].id} />
       <${Fields} schema=${schemas.CustomerInput} keys=${['customers', position]} request=${request}
         onChange=${change} skip=${request.matrices ? [] : ['location_index']} />
       <div class="buttons"><button type="button" onClick=${() => {

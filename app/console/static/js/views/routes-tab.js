@@ -7,7 +7,9 @@ import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
+import { useSavesNothing } from './drones-worth.js';
 import { Badge, Facts, linked, SelectButton, ShareBar } from './parts.js';
+import { WhyHere } from './why-here.js';
 
 /** Vehicles are unfolded at first if there are fewer. */
 const MOST_OPEN = 3;
@@ -32,7 +34,9 @@ function Selected({ index }) {
     return html`<p class="help">Select a stop, flight or trip here, on the map or in the timeline.
       </p>`;
   return html`<section class="card"><header><strong>${about.title}</strong></header>
-    <div class="inside"><${Facts} facts=${about.facts} /></div></section>`;
+    <div class="inside"><${Facts} facts=${about.facts} />
+      ${selection.startsWith('c:') && html`<${WhyHere} id=${selection.slice(2)} />`}
+    </div></section>`;
 }
 
 function Rates({ index }) {
@@ -131,12 +135,14 @@ function Stop({ index, halt, selection, hovered }) {
 
 function Sortie({ index, sortie, selection, hovered }) {
   const { reply } = sortie;
+  const isUseless = useSavesNothing(sortie);
   const drone = sortie.drone.slice(sortie.drone.lastIndexOf('/') + 1);
   return html`<tr ...${linked(index, sortie.key, selection, hovered)}>
       <td colspan="5" class="help"><${SelectButton}
         of=${sortie.key}>${drone} flies</${SelectButton}>
         ${' '}${clock(reply.launch_time)} to ${clock(reply.recovery_time)}, ${km(reply.distance)},
-        back at ${sortie.to.id}</td></tr>
+        back at ${sortie.to.id}${isUseless && html`<strong class="late-text">, saves
+          nothing</strong>`}</td></tr>
     ${sortie.visits.map(
       (halt) => html`<${Stop} key=${halt.key} index=${index} halt=${halt}
       selection=${selection} hovered=${hovered} />`,

@@ -7,6 +7,7 @@ import { html } from '../libraries.js';
 import { plan } from '../planning.js';
 import { useStore } from '../store.js';
 import { linked, SelectButton } from './parts.js';
+import { WhyHere } from './why-here.js';
 
 /** The tab. */
 export function UnassignedTab() {
@@ -36,7 +37,7 @@ function Unassigned({ customer, index, request }) {
       ${reason.remedy && html`<${Remedy} customer=${customer} reason=${reason}
         request=${request} />`}
     </div>`,
-    )}</div></article>`;
+    )}<${WhyHere} id=${customer.id} /></div></article>`;
 }
 
 function Remedy({ customer, reason, request }) {

@@ -1,0 +1,55 @@
+/** What the plan's drones save: in sum, and which sorties save nothing. */
+
+import { indexOf, shownPlan } from '../actions.js';
+import { count, money } from '../core/format.js';
+import { countWorth, drones, savesNothing } from '../core/why.js';
+import { askDrones, toldOf } from '../explaining.js';
+import { html } from '../libraries.js';
+import { useStore } from '../store.js';
+import { SelectButton } from './parts.js';
+
+/** The section, for plans with sorties. */
+export function DronesWorth() {
+  const entry = useStore(shownPlan);
+  const answer = toldOf(useStore((state) => state.why), entry, null);
+  if (!entry || !entry.plan.summary.sorties) return null;
+  const isAsking = answer?.state === 'asking';
+  return html`<section class="section" id="drones-worth"><h3>What drones save</h3>
+    <div class="buttons"><button type="button" disabled=${isAsking}
+      onClick=${() => askDrones(entry)}>Compare with trucks alone</button>
+      <span role="status">${isAsking ? 'Searching, with drones and without' : ''}</span></div>
+    ${answer?.told && html`<${Told} told=${answer.told.drones} entry=${entry} />`}</section>`;
+}
+
+function Told({ told, entry }) {
+  const { useless, needed, untried } = countWorth(told.sorties);
+  const total = told.sorties.length;
+  return html`${drones(told, entry.plan.cost.total).map(
+      (sentence) => html`<p key=${sentence}>${sentence}</p>`,
+    )}
+    <p>${useless ? `${count(useless, 'sortie')} of ${total} save nothing: trucks would serve their
+      customers for no more, all others staying.` : 'No sortie was found that saves nothing.'}
+      ${needed > 0 && ` ${count(needed, 'sortie')} ${needed === 1 ? 'has' : 'have'} to be flown.`}
+      ${untried > 0 && ` There was no time to try ${untried}.`}</p>
+    <ul>${told.sorties.filter(savesNothing).map(
+      (sortie) => html`<${Useless} key=${`${sortie.vehicle}/${sortie.trip}/${sortie.sortie}`}
+        sortie=${sortie} index=${indexOf(entry)} />`,
+    )}</ul>`;
+}
+
+function Useless({ sortie, index }) {
+  const vehicle = index.vehicles.find(({ name }) => name === sortie.vehicle);
+  const key = `s:${vehicle.index}/${sortie.trip}/${sortie.sortie}`;
+  const gain = -sortie.saves;
+  return html`<li><${SelectButton} of=${key}>${sortie.vehicle} to
+    ${' '}${sortie.customers.join(', ')}</${SelectButton}>: by truck ${
+      gain < 0.005 ? 'the same' : `${money(gain)} less`}</li>`;
+}
+
+/** Return whether a sortie of the plan that is looked at was found to save nothing. */
+export function useSavesNothing({ trip, key }) {
+  const entry = useStore(shownPlan);
+  const told = toldOf(useStore((state) => state.why), entry, null)?.told;
+  return Boolean(told?.drones.sorties.some((each) => each.vehicle === trip.vehicle.name
+    && key === `s:${trip.vehicle.index}/${each.trip}/${each.sortie}` && savesNothing(each)));
+}

@@ -1,0 +1,55 @@
+/** Why a customer is served where it is: what else there is, what that costs, and what binds. */
+
+import { shownPlan } from '../actions.js';
+import { money } from '../core/format.js';
+import { alternativeRows, bindingInWords, FIRST_SHOWN } from '../core/why.js';
+import { askWhy, toldOf } from '../explaining.js';
+import { html } from '../libraries.js';
+import { useStore } from '../store.js';
+
+/** The button of a customer of the plan that is looked at, and what came of it. */
+export function WhyHere({ id }) {
+  const entry = useStore(shownPlan);
+  const answer = toldOf(useStore((state) => state.why), entry, id);
+  const customer = entry?.request.customers.find((each) => each.id === id);
+  if (!customer) return null;
+  const isOut = entry.plan.unassigned.some((each) => each.id === id);
+  const isAsking = answer?.state === 'asking';
+  return html`<div class="section"><div class="buttons"><button type="button" disabled=${isAsking}
+      onClick=${() => askWhy(entry, id)}>${isOut ? 'What would it cost?' : 'Why here?'}</button>
+      <span role="status">${isAsking ? 'Trying other places' : ''}</span></div>
+    ${answer?.told && html`<${Told} told=${answer.told} customer=${customer} />`}</div>`;
+}
+
+function Told({ told, customer }) {
+  const rows = alternativeRows(told.alternatives, customer);
+  const vehicles = rows.filter(({ kind }) => kind === 'vehicle');
+  const more = vehicles.slice(FIRST_SHOWN);
+  const first = rows.filter((row) => !more.includes(row));
+  return html`
+    ${told.here && html`<p>Without it the plan would cost
+      ${' '}${money(told.here.saving.total)} less.</p>`}
+    ${rows.length > 0
+      ? html`<${Alternatives} rows=${first} id=${customer.id} />`
+      : html`<p>Nothing else was found in the time there was.</p>`}
+    ${more.length > 0 && html`<details><summary>${more.length} more vehicles</summary>
+      <${Alternatives} rows=${more} id=${`${customer.id}, more vehicles`} /></details>`}
+    ${told.binding.length > 0 && html`<h4>What binds</h4><ul>${told.binding.map(
+      (limit) => html`<li key=${limit.rule + limit.at}>${bindingInWords(limit)}</li>`,
+    )}</ul>`}
+    <p class="help">All others stay where they are, in their order.${
+      told.complete ? '' : ' There was not time to try every place.'}</p>`;
+}
+
+function Alternatives({ rows, id }) {
+  return html`<table aria-label=${`Instead, for ${id}`}><thead><tr><th scope="col">Instead</th>
+      <th scope="col" class="number">Costs</th></tr></thead>
+    <tbody>${rows.map(
+      (row) => html`<tr key=${row.key}>
+      <th scope="row">${row.what} <span class="help">${row.where}</span>
+        ${!row.feasible && html`<ul class="help">${row.reasons.map(
+          (reason) => html`<li key=${reason}>${reason}</li>`,
+        )}</ul>`}</th>
+      <td class="number" title=${row.terms}>${row.feasible ? row.cost : 'not allowed'}</td></tr>`,
+    )}</tbody></table>`;
+}

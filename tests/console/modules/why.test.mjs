@@ -1,0 +1,77 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {
+  alternativeRows,
+  bindingInWords,
+  countWorth,
+  drones,
+} from '../../../app/console/static/js/core/why.js';
+
+const cost = (total, terms = {}) => ({ total, fixed: 0, distance: total, ...terms });
+const position = (after, rest = {}) => ({
+  trip: 0, own_trip: false, stop: 1, after, recovery_stop: null, recovered_at: null, ...rest,
+});
+const item = (kind, rest) => ({
+  kind, vehicle: 'truck-1', by: 'truck', window: null, position: position('A'),
+  service_start: 29100, cost: cost(12.4), feasible: true, reasons: [], ...rest,
+});
+
+test('an alternative is told with who comes, where and for how much', () => {
+  const customer = { time_windows: [{ latest: 100 }, { earliest: 28800, latest: 36000 }] };
+  const rows = alternativeRows([
+    item('place', {}),
+    item('by', { by: 'drone', position: position('B', { recovered_at: 'C' }) }),
+    item('window', { window: 1, cost: cost(-3) }),
+    item('vehicle', { vehicle: 'van-2', position: position('hub', { own_trip: true }) }),
+    item('unassigned', { vehicle: null, by: null, position: null, service_start: null }),
+  ], customer);
+  assert.deepEqual(rows.map(({ what, where }) => [what, where]), [
+    ['Elsewhere with truck-1', 'after A, 8:05'],
+    ['By a drone of truck-1', 'from B, back at C, 8:05'],
+    ['Only 8:00 to 10:00, by truck-1', 'after A, 8:05'],
+    ['By van-2', 'on a trip of its own, 8:05'],
+    ['Not at all', ''],
+  ]);
+  assert.deepEqual(rows.map((row) => row.cost), ['+12.40', '+12.40', '−3.00', '+12.40', '+12.40']);
+  assert.equal(rows[0].terms, 'Distance +12.40');
+  assert.equal(new Set(rows.map(({ key }) => key)).size, rows.length);
+});
+
+test('what forbids an alternative is told with times', () => {
+  const reasons = [{ code: 'TIME_WINDOW', message: 'customer A is reached at 36000 s' }];
+  const [row] = alternativeRows([item('vehicle', { feasible: false, reasons })], {});
+  assert.deepEqual(row.reasons, ['customer A is reached at 10:00']);
+});
+
+test('what binds is told with what a unit more would save', () => {
+  const limit = { at: 'van', slack: 0, unit: 'minute', saves_per_unit: 1.25 };
+  assert.equal(bindingInWords({ ...limit, rule: 'time_windows[-1].latest', at: 'A' }),
+    'The end of its window: one minute later would save 1.25.');
+  assert.equal(bindingInWords({ ...limit, rule: 'shift.latest', saves_per_unit: 0 }),
+    'The end of the shift of van is reached: one minute later would save nothing.');
+  assert.equal(bindingInWords({ ...limit, rule: 'capacity[1]', unit: 'unit', slack: 2 }),
+    'The capacity of van (2 units left): one more would save 1.25.');
+  assert.equal(bindingInWords({ ...limit, rule: 'max_trip_distance', unit: 'km', slack: null }),
+    'The longest trip of van: one km more would save 1.25.');
+});
+
+test('what drones save in sum is told with how that is known', () => {
+  const told = { saves: 10, saves_at_most: 12, seconds: 1.25 };
+  assert.deepEqual(drones(told, 100), [
+    'Drones save 10.00 against trucks alone: two searches of 1.3 s from the same plan, ' +
+      'one without drones.',
+    'Against this plan trucks alone cost +12.00 (12 % of this plan): at most that much is saved, ' +
+      'as this plan may have been searched for longer.',
+  ]);
+  const unknown = { saves: null, saves_at_most: null, seconds: 0 };
+  assert.equal(drones(unknown, 1).length, 1);
+  assert.match(drones({ ...unknown, trucks_alone: { unassigned: 2 }, with_drones:
+    { unassigned: 0 } }, 1)[0], /leave out more/);
+});
+
+test('sorties that save nothing are counted apart from those that were not tried', () => {
+  assert.deepEqual(countWorth([
+    { tried: true, saves: -1 }, { tried: true, saves: 3 }, { tried: true, saves: null },
+    { tried: false, saves: null },
+  ]), { useless: 1, needed: 1, untried: 1 });
+});
