@@ -98,7 +98,7 @@ class BindingReply(_Reply):
     slack: float | None = Field(
         description="How much is left until it, in units. 0: none. Null: the customer isn't "
         "served where it counts.")
-    unit: Literal["minute", "unit", "km", "vehicle", "trip"] = Field(
+    unit: Literal["minute", "unit", "km", "vehicle", "trip", "Wh"] = Field(
         description="What `slack` is counted in.")
     saves_per_unit: float = Field(
         description="What the plan would cost less with one unit more, the customer being served "

@@ -114,7 +114,7 @@ def _try_groups(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], b
     guesses = {group: [guess for guess in some if not _is_here(bench, guess.place)]
                for group, some in _guesses(bench, bench.problem).items()}
     order = sorted([group for group, some in guesses.items() if some],
-                   key=lambda group: guesses[group][0][:2])
+                   key=lambda group: guesses[group][0].rank)
     tried: dict[Group, list[Draft]] = {}
     for turn in range(MORE_TRIES):
         for group in order:
@@ -160,7 +160,7 @@ def _windows(bench: Bench, until: float) -> tuple[list[Alternative], bool]:
             continue
         problem = with_customer(bench.problem, bench.node, in_window(customer, window))
         guesses = sorted([guess for some in _guesses(bench, problem).values() for guess in some],
-                         key=lambda guess: guess[:2])
+                         key=lambda guess: guess.rank)
         drafts: list[Draft] = []
         for turn, guess in enumerate(guesses[:MORE_TRIES]):
             if time.perf_counter() >= until:

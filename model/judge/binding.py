@@ -10,16 +10,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
+from model.energy import MICROJOULES_PER_WH, Energy
 from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import opening
+from model.judge.energy import sortie_energy
 from model.judge.places import Place
 from model.judge.rules import airborne_duration
 from model.judge.screening import Screen
 from model.problem import MM_PER_KM, UNLIMITED, Problem, VehicleType
 from model.solution import Trip
 
-Unit = Literal["minute", "unit", "km", "vehicle", "trip"]
+Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh"]
 Whose = Literal["customer", "vehicle_type"]
 
 MS_PER_MINUTE = 60_000
@@ -228,6 +230,14 @@ def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         longer = min(drones.endurance + MS_PER_MINUTE, UNLIMITED)
         yield ("drones.endurance", "minute", slack,
                replace(kind, drones=replace(drones, endurance=longer)))
+    if drones.energy is not None:
+        slack = None
+        if sortie is not None and trip is not None:
+            taken = sortie_energy(bench.problem, drones, drones.energy, trip, sortie)
+            slack = (drones.energy.available - taken) / (
+                drones.energy.usable_share * MICROJOULES_PER_WH)
+        yield "drones.energy.battery_wh", "Wh", slack, replace(
+            kind, drones=replace(drones, energy=_one_wh_more(drones.energy)))
     for dimension, (most, places) in enumerate(zip(drones.capacity, bench.problem.amount_decimals,
                                                    strict=True)):
         slack = None
@@ -238,6 +248,12 @@ def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         more = _one_more(drones.capacity, dimension, 10**places)
         yield (_capacity_field("drones.capacity", kind, dimension), "unit", slack,
                replace(kind, drones=replace(drones, capacity=more)))
+
+
+def _one_wh_more(energy: Energy) -> Energy:
+    """Return the battery with a watt-hour more, as heavy as it is."""
+    more = round(energy.usable_share * MICROJOULES_PER_WH)
+    return replace(energy, available=energy.available + more)
 
 
 def _capacity_field(name: str, kind: VehicleType, dimension: int) -> str:

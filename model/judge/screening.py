@@ -22,11 +22,17 @@ SPANS = 4
 
 
 class Guess(NamedTuple):
-    """A place, and how good it looks: first that it is not too late, then what it costs."""
+    """A place, and how good it looks, by what comes first here."""
 
     late: int  # ms, too late there or afterwards
     cost: float
+    duration: int  # ms of detour or flight
     place: Place
+
+    @property
+    def rank(self) -> tuple[int, float, int]:
+        """What is smaller for a better guess."""
+        return self.late, self.cost, self.duration
 
 
 class _Legs:
@@ -86,7 +92,7 @@ class Screen:
             for guess in self._alone(vehicle, number, is_new=vehicle not in trips):
                 found[vehicle, guess.place.by].append(guess)
         for guesses in found.values():
-            guesses.sort(key=lambda guess: guess[:2])
+            guesses.sort(key=lambda guess: guess.rank)
         return found
 
     def _num_trips(self) -> dict[Vehicle, int]:
@@ -120,14 +126,14 @@ class Screen:
         hours = legs.there[begin] + self._customer.service_duration + legs.back[end]
         cost = (fixed + (legs.far_there[begin] + legs.far_back[end]) * kind.cost_per_km / MM_PER_KM
                 + hours * kind.cost_per_hour / MS_PER_HOUR)
-        yield Guess(0, cost, Place(vehicle, number, "truck", 1, own_trip=True))
+        yield Guess(0, cost, hours, Place(vehicle, number, "truck", 1, own_trip=True))
         drones = kind.drones
         if drones is not None and "drone" in self._means:
             for recovery, place in enumerate((begin, end)):
                 duration, price = self._flight(drones, begin, place)
                 if duration < UNREACHABLE:
                     price += fixed + duration * kind.cost_per_hour / MS_PER_HOUR
-                    yield Guess(max(0, duration - drones.endurance), price,
+                    yield Guess(max(0, duration - drones.endurance), price, duration,
                                 Place(vehicle, number, "drone", 0, recovery, own_trip=True))
 
     def _on_trip(self, vehicle: Vehicle, number: int, trip: Trip, first_stop: int,
@@ -157,7 +163,7 @@ class Screen:
             cost = (detour * kind.cost_per_km / MM_PER_KM + push * kind.cost_per_hour / MS_PER_HOUR
                     + too_late * (customer.late_cost_per_hour or 0.0) / MS_PER_HOUR
                     + (start - arrival) * customer.early_cost_per_hour / MS_PER_HOUR)
-            yield Guess(late, cost, Place(vehicle, number, "truck", index))
+            yield Guess(late, cost, push, Place(vehicle, number, "truck", index))
 
     def _flight(self, drones: DroneType, launch: int, recovery: int) -> tuple[int, float]:
         """Return how long a flight between two nodes takes, and its cost."""
@@ -192,7 +198,7 @@ class Screen:
                     continue
                 held = begin.arrival + duration - end.departure
                 yield Guess(too_late + max(0, duration - drones.endurance),
-                            cost + max(0, held) * per_hour / MS_PER_HOUR,
+                            cost + max(0, held) * per_hour / MS_PER_HOUR, duration,
                             Place(vehicle, number, "drone", launch, recovery, drone))
 
     def _by_shared_flight(self, vehicle: Vehicle, number: int, trip: Trip, drones: DroneType,
@@ -212,7 +218,7 @@ class Screen:
                     cost = (detour * drones.cost_per_km / MM_PER_KM
                             + added * drones.cost_per_hour / MS_PER_HOUR)
                     airborne = sortie.recovery_start - sortie.launch_time
-                    yield Guess(max(0, airborne + added - drones.endurance), cost,
+                    yield Guess(max(0, airborne + added - drones.endurance), cost, added,
                                 Place(vehicle, number, "drone", sortie.launch_stop,
                                       sortie.recovery_stop, sortie.drone, index, visit))
 

@@ -68,7 +68,7 @@ def _best_by_truck(bench: Bench) -> Trial | None:
     screen = Screen(bench.problem, bench.left_out.solution, bench.node, bench.setting.past,
                     BY_TRUCK)
     guesses = sorted([guess for some in screen.guesses().values() for guess in some],
-                     key=lambda guess: guess[:2])
+                     key=lambda guess: guess.rank)
     legal: list[Trial] = []
     for turn, guess in enumerate(guesses[:MORE_TRIES]):
         if turn < TRIES or not legal:

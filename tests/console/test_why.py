@@ -7,6 +7,7 @@ from playwright.sync_api import Page, expect
 from tests.console.steps import (
     EXAMPLES, open_example, open_file, open_tab, place_of, planned, state,
 )
+from tests.console.test_everyone import findings
 from tests.console.test_looking import UNSERVABLE
 
 
@@ -21,6 +22,7 @@ def test_clicked_customer_tells_what_else_it_would_cost(console: Page) -> None:
     expect(table.get_by_role("row", name="Not at all")).to_contain_text("+")
     assert table.get_by_role("row").count() > 2
     expect(console.get_by_text("All others stay where they are")).to_be_visible()
+    assert findings(console, ".panel") == []
     # Another customer is another question; the answer stays with the first.
     console.mouse.click(*place_of(console, "c:A"))
     expect(table).to_have_count(0)

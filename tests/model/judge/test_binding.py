@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from model.energy import MICROJOULES_PER_WH, Energy
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench
 from model.judge.binding import find_binding
@@ -53,6 +54,16 @@ def test_minute_of_endurance_lets_a_drone_go(tiny_problem, customers, truck, dro
     # From c to d and back: one minute each way and five of service.
     solution = plan(problem, route(A, B, C, D))
     assert binding(problem, solution, D)["drones.endurance"] == (None, pytest.approx(2.0))
+
+
+def test_watt_hour_lets_a_drone_go(tiny_problem, customers, truck, drones):
+    watts = (30_000, 30_000)
+    # A minute there and one back: a watt-hour.
+    energy = Energy(MICROJOULES_PER_WH // 2, 0.5, (0, 1000), watts, watts, watts, watts)
+    carrier = replace(truck, count=1, cost_per_km=1.0, drones=replace(drones, energy=energy))
+    problem = tiny_problem(*customers, truck=carrier)
+    solution = plan(problem, route(A, B, C, D))
+    assert binding(problem, solution, D)["drones.energy.battery_wh"] == (None, pytest.approx(2.0))
 
 
 def test_customer_left_out_is_told_what_would_let_him_in(tiny_problem, customers, truck):

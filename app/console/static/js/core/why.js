@@ -17,6 +17,7 @@ const RULES = {
   max_working_duration: ['the longest working duration', 'more'],
   max_trip_distance: ['the longest trip', 'more'],
   'drones.endurance': ['the endurance', 'more'],
+  'drones.energy.battery_wh': ['the battery of drones', 'more'],
   'drones.capacity': ['the drone capacity', 'more'],
   count: ['the number', 'more'],
   max_trips: ['the most trips', 'more'],
@@ -66,7 +67,7 @@ export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves })
 }
 
 function plural(unit, value) {
-  return unit === 'km' || value === 1 ? unit : `${unit}s`;
+  return unit === 'km' || unit === 'Wh' || value === 1 ? unit : `${unit}s`;
 }
 
 /** Return sentences on what drones save in sum. */
