@@ -12,7 +12,7 @@ from model.problem import Problem, Travel
 from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
-from tests.model.tiny import draw_late, draw_tiny, with_table
+from tests.model.tiny import draw_late, draw_tiny, with_energy, with_table
 from training.instances import VARIANTS, generate
 
 OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=40)
@@ -185,6 +185,13 @@ def test_tiny_plans_whose_launches_are_held_back_go_on(planner: Planner, seed: i
 def test_tiny_plans_go_on_by_the_table(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 9))
     replan_and_check(planner, with_table(rng, draw_tiny(rng)), rng)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_tiny_plans_on_batteries_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 10))
+    draw = draw_late if seed % 2 else draw_tiny
+    replan_and_check(planner, with_energy(rng, draw(rng)), rng)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
