@@ -7,6 +7,7 @@ vehicle type alone; then a plan must serve the customer. Fails if one doesn't.
 
 import json
 import random
+import re
 import subprocess
 import tempfile
 from collections import Counter
@@ -104,13 +105,30 @@ def alone(request: Data, customer: str, reason: Data) -> Data:
     What the customer and the type say stays.
     """
     price = request.get("unassigned_cost") if reason["code"] == "COST" else None
+    kind, = (kind for kind in request["fleet"] if kind["id"] == reason["vehicle_type"])
     return request | {
-        "customers": [each for each in request["customers"] if each["id"] == customer],
-        "fleet": [kind for kind in request["fleet"] if kind["id"] == reason["vehicle_type"]],
+        "customers": [_of_one_type(each, kind) for each in request["customers"]
+                      if each["id"] == customer],
+        "fleet": [kind],
         "unassigned_cost": price, "replan": None,
         # Numbers in JavaScript hold no larger seeds exactly.
         "options": request.get("options", {}) | {
             "time_limit": SECONDS, "search_iterations": None, "seed": 0}}
+
+
+def _of_one_type(customer: Data, kind: Data) -> Data:
+    """Return a customer who names vehicles of one type alone; whoever may serve it still may."""
+    vehicles = customer.get("vehicles") or {}
+    listed = [name for name in vehicles.values() if name is not None]
+    if not listed:
+        return customer
+    own = [name for name in listed[0] if name == kind["id"]
+           or re.fullmatch(re.escape(kind["id"]) + "-[1-9][0-9]*", name)]
+    if own:
+        return customer | {"vehicles": dict.fromkeys(vehicles, own)}
+    if "allowed" in vehicles:
+        return customer | {"vehicles": {"forbidden": [kind["id"]]}}
+    return customer | {"vehicles": None}
 
 
 @dataclass

@@ -39,6 +39,8 @@ def wild_request(rng: random.Random) -> Data:
         "coordinate_system": system, "planar_unit": unit, "depots": depots, "customers": customers,
         "fleet": fleet, "airspace": _airspace(rng, place, system), "options": _options(rng),
         "unassigned_cost": rng.choice((None, None, 0, 1e-9, 1.0, 1000, RICHEST))}
+    if rng.random() < 0.3:
+        _choose_vehicles(rng, request)
     if rng.random() < 0.25:
         _add_matrices(rng, request)
     if rng.random() < 0.5:
@@ -222,6 +224,19 @@ def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
                 kind.pop(name, None)
         if kind.get("drones") is not None:
             kind["drones"]["capacity"] = [4] * dimensions
+
+
+def _choose_vehicles(rng: random.Random, request: Data) -> None:
+    """Let some customers say who may serve them, now and then somebody unknown. In place."""
+    names = [kind["id"] for kind in request["fleet"]]
+    names += [f"{kind['id']}-{rng.randint(1, min(kind['count'], 5))}"
+              for kind in request["fleet"] for _ in range(2)]
+    if rng.random() < 0.02:
+        names.append(f"{names[0]}-0")
+    for customer in request["customers"]:
+        if rng.random() < 0.5:
+            which = rng.choice(("allowed", "forbidden"))
+            customer["vehicles"] = {which: rng.sample(names, rng.randint(1, min(3, len(names))))}
 
 
 def _add_matrices(rng: random.Random, request: Data) -> None:

@@ -5,6 +5,7 @@ amounts integer thousandths or smaller parts, so that simulator, search and chec
 Costs are floats.
 """
 
+from bisect import bisect_left
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -181,10 +182,14 @@ class VehicleType:
     initial_load: tuple[int, ...] = ()  # what its trip carries beside its customers'; (): nothing
     busy_until: int = 0  # its trip may begin sooner, and drones take off, but no truck leave
     works_since: int | None = None  # its work counts from then; None: from its departure
+    part_of: str | None = None  # id of the type of which these are some vehicles; None: all
+    numbers: tuple[int, ...] = ()  # of these there, from 0, ascending; (): all
 
     def __post_init__(self) -> None:
         _require(self.count >= 1, f"vehicle type {self.id} count", self.count)
         _require(self.max_trips >= 1, f"vehicle type {self.id} max_trips", self.max_trips)
+        _require(len(self.numbers) in (0, self.count), f"vehicle type {self.id} numbers",
+                 self.numbers)
         for amount in self.capacity:
             _require_quantity(f"vehicle type {self.id} capacity", amount)
         _require_quantity(f"vehicle type {self.id} earliest", self.earliest)
@@ -212,6 +217,15 @@ class VehicleType:
                  or any(self.initial_load) or self.busy_until > 0)
         _require(self.max_trips == 1 or not apart, f"vehicle type {self.id} max_trips",
                  self.max_trips)
+
+    @property
+    def type_id(self) -> str:
+        """The id of the type of which these are some vehicles, or all."""
+        return self.id if self.part_of is None else self.part_of
+
+    def vehicle_name(self, vehicle: int) -> str:
+        """Return the name of a vehicle, such as `truck-1`."""
+        return f"{self.type_id}-{(self.numbers[vehicle] if self.numbers else vehicle) + 1}"
 
     @property
     def begins_at(self) -> int:
@@ -331,6 +345,26 @@ class Problem:
     def allows(self, vehicle_type: int, node: int) -> bool:
         """Tell whether the table lets vehicles of a type serve the customer at a node."""
         return self.may_serve is None or bool(self.may_serve[vehicle_type, node - self.num_depots])
+
+    def find_vehicle(self, type_id: str, number: int) -> tuple[int, int]:
+        """Return the index of a vehicle's type, and its number there, from 0.
+
+        A number that there isn't is one that the first type of that id hasn't either.
+
+        Raises
+        ------
+        KeyError
+            If there is no such type.
+        """
+        parts = [index for index, kind in enumerate(self.vehicle_types) if kind.type_id == type_id]
+        for index in parts:
+            numbers = self.vehicle_types[index].numbers
+            place = bisect_left(numbers, number)
+            if numbers[place:place + 1] == (number,):
+                return index, place
+        if not parts:
+            raise KeyError(type_id)
+        return parts[0], number
 
     def cost_of_leaving_out(self, customer: Customer) -> float:
         """Return what leaving a customer out costs."""

@@ -75,6 +75,20 @@ def test_same_request_gets_the_same_plan(client: httpx.Client) -> None:
     assert plans[0] == plans[1]
 
 
+def test_whoever_must_be_served_comes_before_the_dearest_others(client: httpx.Client) -> None:
+    others: list[dict[str, Any]] = [
+        {"id": name, "location": [1, number], "demand": [5], "unassigned_cost": 1e6}
+        for number, name in enumerate("AB")]
+    request = {"depots": [{"id": "hub", "location": [0, 0]}],
+               "customers": [*others, {"id": "must", "location": [30, 40], "demand": [10]}],
+               "fleet": [{"id": "van", "count": 1, "capacity": [10]}],
+               "options": {"time_limit": 5, "search_iterations": 200}}
+    plan = client.post("/plan", json=request).json()
+    assert [left_out["id"] for left_out in plan["unassigned"]] == ["A", "B"]
+    assert plan["summary"]["must_unserved"] == 0
+    assert plan["cost"]["unassigned"] == 2e6
+
+
 def test_documents_examples_run_as_they_stand(client: httpx.Client) -> None:
     document = client.get("/openapi.json").json()
     body = document["paths"]["/plan"]["post"]["requestBody"]["content"]["application/json"]

@@ -1,7 +1,10 @@
 """`PlanRequest` -> `Problem` and planning options; quantities are rounded here, once."""
 
+import numpy as np
+
 from app.conversion.amounts import decimals_of
 from app.conversion.customer import to_customer
+from app.conversion.groups import groups_of, part_of
 from app.conversion.leaving_out import default_unassigned_cost
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.travels import Ground, Travels
@@ -24,6 +27,9 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
                         decimals, demands)
         for stated in request.fleet
     )
+    groups = list(groups_of(request.fleet, request.customers))
+    if groups:
+        vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
     unassigned_cost = request.unassigned_cost
     if unassigned_cost is None:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built())
@@ -35,5 +41,6 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
         coordinates=travels.coordinates(),
         unassigned_cost=unassigned_cost,
         amount_decimals=decimals,
+        may_serve=np.array([group.serves for group in groups]) if groups else None,
         must_serve=request.unassigned_cost is None,
     )

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from app.conversion.units import whole
-from app.plans.replies import Data, cost_reply, reason_reply, vehicle_name
+from app.plans.replies import Data, cost_reply, one_per_type, reason_reply, vehicle_name
 from model.judge.alternatives import Alternative, halt_of, window_of
 from model.judge.bench import Bench, Trial
 from model.judge.binding import Binding
@@ -25,7 +25,7 @@ def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: I
         "here": _here(bench),
         "alternatives": [_alternative(bench, each) for each in alternatives],
         "binding": [_binding(bench, each) for each in binding],
-        "reasons": [reason_reply(problem, reason) for reason in reasons],
+        "reasons": [reason_reply(problem, reason) for reason in one_per_type(problem, reasons)],
     }
 
 
@@ -101,7 +101,7 @@ def _binding(bench: Bench, each: Binding) -> Data:
     return {
         "rule": limit.field,
         "at": (problem.customer_at(bench.node).id if limit.kind is None
-               else problem.vehicle_types[limit.kind].id),
+               else problem.vehicle_types[limit.kind].type_id),
         "slack": limit.slack,
         "unit": limit.unit,
         "saves_per_unit": each.saves_per_unit,

@@ -1,7 +1,7 @@
 """A plan -> the reply of `POST /plan`, as plain data (see `app.schemas.response`)."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
@@ -61,7 +61,7 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
 
 def vehicle_name(problem: Problem, route: Route) -> str:
     """Return the name of a vehicle, such as `truck-1`."""
-    return f"{problem.vehicle_types[route.vehicle_type].id}-{route.vehicle + 1}"
+    return problem.vehicle_types[route.vehicle_type].vehicle_name(route.vehicle)
 
 
 def cost_reply(cost: Cost) -> Data:
@@ -73,7 +73,7 @@ def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
     name = vehicle_name(problem, route)
     return {
         "vehicle": name,
-        "type": problem.vehicle_types[route.vehicle_type].id,
+        "type": problem.vehicle_types[route.vehicle_type].type_id,
         "working_duration": whole(metrics.working_duration),
         "working_rate": metrics.working_rate,
         "cost": metrics.cost,
@@ -148,17 +148,33 @@ def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetri
 
 def _unassigned(problem: Problem, node: int, reasons: tuple[Reason, ...]) -> Data:
     return {"id": problem.customer_at(node).id,
-            "reasons": [reason_reply(problem, reason) for reason in reasons]}
+            "reasons": [reason_reply(problem, reason)
+                        for reason in one_per_type(problem, reasons)]}
 
 
 def reason_reply(problem: Problem, reason: Reason) -> Data:
     """Return why vehicles of a type don't serve a customer."""
     return {
-        "vehicle_type": problem.vehicle_types[reason.vehicle_type].id,
+        "vehicle_type": problem.vehicle_types[reason.vehicle_type].type_id,
         "code": reason.code,
         "message": reason.message,
         "remedy": reason.remedy,
     }
+
+
+def one_per_type(problem: Problem, reasons: Iterable[Reason]) -> list[Reason]:
+    """Return one reason for each type of the request, of those for its parts.
+
+    That of vehicles which may serve the customer, and a remedy, tell more.
+    """
+    if all(kind.part_of is None for kind in problem.vehicle_types):
+        return list(reasons)
+    told: dict[str, Reason] = {}
+    for reason in reasons:
+        name = problem.vehicle_types[reason.vehicle_type].type_id
+        told[name] = max(told.get(name, reason), reason,
+                         key=lambda reason: (reason.code != "VEHICLE", reason.remedy is not None))
+    return list(told.values())
 
 
 def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) -> Data:

@@ -142,10 +142,10 @@ def _terms(replan: ReplanInput, problem: Problem) -> Terms:
     names = set(replan.pinned)
     pinned = frozenset(node for node, customer in enumerate(problem.customers, problem.num_depots)
                        if replan.pin_all or customer.id in names)
+    types = {kind.type_id for kind in problem.vehicle_types}
     unavailable = frozenset(
-        Vehicle(index, number) for name in replan.unavailable
-        for index, kind in enumerate(problem.vehicle_types)
-        if (number := number_in(f"{kind.id}-", name)) is not None)
+        Vehicle(*problem.find_vehicle(type_id, number)) for name in replan.unavailable
+        for type_id in types if (number := number_in(f"{type_id}-", name)) is not None)
     return Terms(plan, optional_thousandths(replan.freeze_before), pinned, unavailable,
                  optional_thousandths(replan.parcels_back))
 

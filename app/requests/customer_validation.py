@@ -1,10 +1,18 @@
 """What the schema can't tell of a customer."""
 
-from itertools import pairwise
+from collections.abc import Sequence
+from itertools import islice, pairwise
+from typing import TypeVar
 
+from app.conversion.groups import Roster, groups_of
 from app.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
 from app.schemas.customer import TimeWindowInput
+
+Entry = TypeVar("Entry")
+
+MAX_GROUPS = 200
+"""Most groups of vehicles that customers tell apart; memory and time grow by them."""
 
 
 def window_errors(draft: Draft) -> Errors:
@@ -19,6 +27,43 @@ def window_errors(draft: Draft) -> Errors:
         for index, window in enumerate(customer.time_windows):
             yield from _order_errors((*path, "time_windows", index), window)
         yield from _sequence_errors((*path, "time_windows"), customer.time_windows)
+
+
+def vehicle_errors(draft: Draft) -> Errors:
+    """Say which vehicles that customers name aren't there, and which are told in two ways."""
+    fleet = _whole(draft.fleet)
+    roster = None if fleet is None else Roster(fleet)
+    for path, customer in draft.known_customers():
+        vehicles = customer.vehicles
+        if vehicles is None:
+            continue
+        if vehicles.allowed is not None and vehicles.forbidden is not None:
+            yield error_at("TWO_LISTS_OF_VEHICLES", (*path, "vehicles"),
+                           "Vehicles are either allowed or forbidden: state one of both.")
+            continue
+        listed = "forbidden" if vehicles.allowed is None else "allowed"
+        for index, name in enumerate(vehicles.names):
+            if roster is not None and roster.find(name) is None:
+                yield error_at("UNKNOWN_VEHICLE", (*path, "vehicles", listed, index),
+                               f"The fleet has no type or vehicle {name!r}: use a type's id, or "
+                               "that, '-' and a number from 1 to its count.")
+
+
+def group_errors(draft: Draft) -> Errors:
+    """Say whether customers tell too many groups of vehicles apart, if all else is right."""
+    fleet, customers = _whole(draft.fleet), _whole(draft.customers)
+    if fleet is None or customers is None:
+        return
+    if sum(1 for _ in islice(groups_of(fleet, customers), MAX_GROUPS + 1)) > MAX_GROUPS:
+        yield error_at("TOO_MANY_GROUPS", ("customers",),
+                       f"By their vehicles, customers tell more than {MAX_GROUPS} groups of "
+                       "vehicles apart: name types, or fewer vehicles.")
+
+
+def _whole(entries: Sequence[Entry | None] | None) -> list[Entry] | None:
+    """Return entries, if none is broken."""
+    known = [entry for entry in entries or () if entry is not None]
+    return known if entries is not None and len(known) == len(entries) else None
 
 
 def _order_errors(path: Path, window: TimeWindowInput) -> Errors:

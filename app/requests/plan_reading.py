@@ -1,7 +1,7 @@
 """A plan as `POST /plan` sent it -> `Solution`, so that it can be checked again or gone on from."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from pydantic import ValidationError
@@ -74,7 +74,7 @@ def read_plan(plan: PlanInput, problem: Problem, path: Path = ()) -> Solution:
     solution = reader.plan(plan, path)
     if reader.errors:
         raise InvalidRequestError(reader.errors)
-    return solution
+    return _by_parts(problem, solution)
 
 
 def plan_errors(plan: PlanInput, known: "Known", path: Path = ()) -> list[InputError]:
@@ -96,7 +96,17 @@ def read_earlier_plan(plan: PlanInput, problem: Problem) -> Solution:
     solution = reader.plan(plan, ())
     if reader.errors:
         raise ValueError(f"plan: {reader.errors[0].message}")
-    return solution
+    return _by_parts(problem, solution)
+
+
+def _by_parts(problem: Problem, solution: Solution) -> Solution:
+    """Return a plan whose vehicles are told by the parts of their types, if these have any."""
+    kinds = problem.vehicle_types
+    if all(kind.part_of is None for kind in kinds):
+        return solution
+    return replace(solution, routes=tuple([
+        Route(*problem.find_vehicle(kinds[route.vehicle_type].type_id, route.vehicle), route.trips)
+        for route in solution.routes]))
 
 
 @dataclass(frozen=True)
@@ -117,7 +127,7 @@ class Known:
             {depot.id: node for node, depot in enumerate(problem.depots)},
             {customer.id: node
              for node, customer in enumerate(problem.customers, problem.num_depots)},
-            {kind.id: (index, 0 if kind.drones is None else kind.drones.recovery_duration)
+            {kind.type_id: (index, 0 if kind.drones is None else kind.drones.recovery_duration)
              for index, kind in enumerate(problem.vehicle_types)})
 
     @classmethod

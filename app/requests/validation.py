@@ -5,7 +5,7 @@ from collections.abc import Collection, Sequence
 from app.conversion.amounts import amount_errors
 from app.errors import InputError, json_path
 from app.requests.airspace_validation import airspace_errors
-from app.requests.customer_validation import window_errors
+from app.requests.customer_validation import group_errors, vehicle_errors, window_errors
 from app.requests.draft import Draft, Errors, Path, Place, error_at, point_errors
 from app.requests.fleet_validation import depot_errors, energy_errors, shift_errors, speed_errors
 from app.requests.plan_validation import Names, replan_errors
@@ -17,12 +17,14 @@ MAX_MATRIX_ERRORS = 20
 
 def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[InputError]:
     """Return every error that the schema can't tell."""
+    of_vehicles = list(vehicle_errors(draft))
     return [
         *_id_errors("depots", draft.depots),
         *_id_errors("customers", draft.customers),
         *_id_errors("fleet", draft.fleet),
         *_emptiness_errors(draft),
         *window_errors(draft),
+        *(of_vehicles or group_errors(draft)),
         *shift_errors(draft),
         *_dimension_errors(draft),
         *amount_errors(draft.customers or (), draft.fleet or ()),

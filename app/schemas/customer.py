@@ -36,6 +36,27 @@ class TimeWindowInput(Input):
     )
 
 
+Vehicles = Annotated[list[Name], Field(min_length=1, max_length=1000)]
+
+
+class VehiclesInput(Input):
+    """Who may serve a customer: vehicle types, or single vehicles such as `truck-2`."""
+
+    allowed: Vehicles | None = Field(
+        None, description="Ids of vehicle types or names of vehicles that may serve it, no others. "
+        "Null: all but those forbidden."
+    )
+    forbidden: Vehicles | None = Field(
+        None, description="Ids of vehicle types or names of vehicles that may not serve it. State "
+        "this or `allowed`, not both."
+    )
+
+    @property
+    def names(self) -> list[str]:
+        """What is named, allowed or forbidden."""
+        return self.allowed or self.forbidden or []
+
+
 Windows = Annotated[list[TimeWindowInput], Field(min_length=1, max_length=8)]
 
 
@@ -72,6 +93,11 @@ class CustomerInput(Input):
         None,
         description="Cost of leaving the customer out. Null: the request's; if that is null too, "
         "the customer must be served, and is left out only if no plan found serves all who must.",
+    )
+
+    vehicles: VehiclesInput | None = Field(
+        None, description="Vehicles that may serve the customer. Null: all. A name that is both a "
+        "type's and a vehicle's means the type."
     )
 
     @property

@@ -105,11 +105,12 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
     price = f"{ceil(cost * 100) / 100:.2f}"
     at_price = f"{way} at a cost of {price}; leaving it out costs {left_out:.2f}"
     if used >= vehicle_type.count:
+        why = "it is" if vehicle_type.count == 1 else f"all {vehicle_type.count} are"
         if is_dear:
-            return Reason(index, "COST", f"{at_price}, and all {vehicle_type.count} are in use.")
-        message = f"{way}, but all {vehicle_type.count} are in use."
-        return Reason(index, "FLEET_EXHAUSTED", message,
-                      None if hosts else "fits with one more vehicle")
+            return Reason(index, "COST", f"{at_price}, and {why} in use.")
+        would_do = not hosts and vehicle_type.part_of in (None, vehicle_type.id)
+        return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.",
+                      "fits with one more vehicle" if would_do else None)
     if is_dear:
         whose = "" if attempt.customer.unassigned_cost is None else "its "
         remedy = (f"served if {whose}unassigned_cost were above {price}" if cost < MAX_MONEY

@@ -93,7 +93,7 @@ def _plain_types(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
         count = kind.count - sum(vehicle.type == index for vehicle in taken)
         earliest = max(kind.earliest, past.now)
         if count > 0 and earliest <= kind.latest:
-            plain[index] = replace(kind, count=count, earliest=earliest)
+            plain[index] = replace(kind, count=count, numbers=(), earliest=earliest)
     return plain
 
 

@@ -40,7 +40,7 @@ class Worker:
 
 def vehicle_name(problem: Problem, vehicle: Vehicle) -> str:
     """Return the name of a vehicle, such as `truck-1`."""
-    return f"{problem.vehicle_types[vehicle.type].id}-{vehicle.number + 1}"
+    return problem.vehicle_types[vehicle.type].vehicle_name(vehicle.number)
 
 
 def find_workers(problem: Problem, past: Past,
@@ -79,7 +79,7 @@ def _with_customers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) 
         earliest = max(kind.earliest, past.now)
         if vehicle not in kept and vehicle not in past.unavailable and earliest <= kind.latest:
             workers.append(Worker(vehicle, replace(kind, id=vehicle_name(problem, vehicle),
-                                                   count=1, earliest=earliest)))
+                                                   count=1, numbers=(), earliest=earliest)))
     return workers
 
 
@@ -143,5 +143,6 @@ def _own_type(problem: Problem, route: Kept, earliest: int, home_by: int,
               trips: int) -> VehicleType:
     """Return a vehicle that has begun to work as a type of its own."""
     kind = problem.vehicle_types[route.vehicle.type]
-    return replace(kind, id=vehicle_name(problem, route.vehicle), count=1, fixed_cost=0.0,
+    return replace(kind, id=vehicle_name(problem, route.vehicle), count=1, numbers=(),
+                   fixed_cost=0.0,
                    earliest=earliest, latest=home_by, max_working_duration=None, max_trips=trips)

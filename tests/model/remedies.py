@@ -26,6 +26,10 @@ def applied(problem: Problem, reason: Reason, node: int) -> Problem:
             index = node - problem.num_depots
             customers[index] = alter(customers[index], found[1])
             return replace(problem, customers=tuple(customers))
+    if re.fullmatch("fits if .+ may serve it", remedy) and problem.may_serve is not None:
+        table = problem.may_serve.copy()
+        table[reason.vehicle_type, node - problem.num_depots] = True
+        return replace(problem, may_serve=table)
     found = re.fullmatch("served if unassigned_cost were above (.+)", remedy)
     assert found, remedy
     return replace(problem, unassigned_cost=float(found[1]) + 0.01)

@@ -21,8 +21,8 @@ test('columns are recognised by the names that people give them', () => {
 
 test('a line becomes a customer', () => {
   const { customers, errors } = readSheet([
-    ['id', 'x', 'y', 'demand', 'service_min', 'from', 'until', 'served_by', 'skills', 'Prize'],
-    ['A', '1.5', '2', '3', '5', '8:00', '36000', 'Drone', 'cooled; heavy', '12.5'],
+    ['id', 'x', 'y', 'demand', 'service_min', 'from', 'until', 'served_by', 'skills', 'Prize', 'Vehicles'],
+    ['A', '1.5', '2', '3', '5', '8:00', '36000', 'Drone', 'cooled; heavy', '12.5', 'van-1; truck'],
   ]);
   assert.deepEqual(errors, []);
   assert.deepEqual(customers, [
@@ -35,6 +35,7 @@ test('a line becomes a customer', () => {
       served_by: 'drone',
       skills: ['cooled', 'heavy'],
       unassigned_cost: 12.5,
+      vehicles: { allowed: ['van-1', 'truck'] },
     },
   ]);
 });

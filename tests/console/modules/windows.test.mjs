@@ -58,6 +58,20 @@ test('a remedy widens the window that it names', () => {
   assert.equal(widened('B', 'fits if its window closed 1 minute later')[1].time_window.latest, 660);
 });
 
+test('a remedy lets a type serve the customer', () => {
+  const allowed = (vehicles) =>
+    applyRemedy(
+      { customers: [{ id: 'A', vehicles }], fleet: [{ id: 'van' }, { id: 'van-2' }] },
+      'A',
+      { vehicle_type: 'van', code: 'VEHICLE', remedy: 'fits if van may serve it' },
+    ).customers[0];
+  assert.deepEqual(allowed({ allowed: ['van-2'] }).vehicles, { allowed: ['van-2', 'van'] });
+  assert.deepEqual(allowed({ forbidden: ['van', 'van-1', 'van-2'] }).vehicles, {
+    forbidden: ['van-2'],
+  });
+  assert.deepEqual(allowed({ forbidden: ['van', 'van-1'] }), { id: 'A' });
+});
+
 test('a remedy raises the price of the customer that it names', () => {
   const remedy = 'served if its unassigned_cost were above 20.50';
   const changed = applyRemedy({ ...request, fleet: [{ id: 'van' }] }, 'A', {

@@ -33,6 +33,9 @@ function customerFacts(customer) {
   }
   if (customer.skills?.length) facts.push(['Skills', customer.skills.join(', ')]);
   if (customer.release_time) facts.push(['Parcel there', `from ${clock(customer.release_time)}`]);
+  const { allowed, forbidden } = customer.vehicles ?? {};
+  if (allowed) facts.push(['Only by', allowed.join(', ')]);
+  if (forbidden) facts.push(['Not by', forbidden.join(', ')]);
   const price = customer.unassigned_cost;
   if (price !== null && price !== undefined) facts.push(['Left out', `costs ${money(price)}`]);
   return facts;

@@ -1,6 +1,6 @@
 /** Remedies of unassigned customers as changes of the problem. */
 
-import { getIn, setIn } from './paths.js';
+import { getIn, removeIn, setIn } from './paths.js';
 import { closingLater, windowsOf } from './windows.js';
 
 const NUMBER = '([\\d.,]+)';
@@ -9,6 +9,7 @@ const METRES_PER_KM = 1000;
 
 /** Remedies by what they say; each returns the changed request. */
 const CHANGES = [
+  [/^fits if .+ may serve it$/, allowType, 'VEHICLE'],
   [/^fits with one more vehicle$/, (request, { type }) => add(request, [...type, 'count'], 1)],
   [
     new RegExp(`^served if unassigned_cost were above ${NUMBER}$`),
@@ -82,6 +83,20 @@ function numberOf(text) {
   return Number(text.replaceAll(',', ''));
 }
 
+/** Let all vehicles of a type serve a customer. */
+function allowType(request, { type, customer }) {
+  const { id } = getIn(request, type);
+  const { allowed, forbidden } = getIn(request, [...customer, 'vehicles']) ?? {};
+  if (allowed) return union(request, [...customer, 'vehicles', 'allowed'], [id]);
+  const types = new Set(request.fleet.map((other) => other.id));
+  const isOfType = (name) =>
+    name === id || (!types.has(name) && name.replace(/-[1-9]\d*$/, '') === id);
+  const others = (forbidden ?? []).filter((name) => !isOfType(name));
+  return others.length
+    ? setIn(request, [...customer, 'vehicles', 'forbidden'], others)
+    : removeIn(request, [...customer, 'vehicles']);
+}
+
 function closeLater(request, keys, position, minutes) {
   const later = numberOf(minutes) * SECONDS_PER_MINUTE;
   return setIn(request, keys, closingLater(getIn(request, keys), position, later));
@@ -120,9 +135,9 @@ export function applyRemedy(request, id, reason) {
     customer: ['customers', request.customers.findIndex((customer) => customer.id === id)],
   };
   if (!reason.remedy || places.type[1] < 0 || places.customer[1] < 0) return null;
-  for (const [pattern, change] of CHANGES) {
+  for (const [pattern, change, code] of CHANGES) {
     const match = pattern.exec(reason.remedy);
-    if (match) return change(request, places, ...match.slice(1));
+    if (match && (!code || code === reason.code)) return change(request, places, ...match.slice(1));
   }
   return null;
 }

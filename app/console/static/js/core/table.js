@@ -43,6 +43,8 @@ const NAMES = {
   early_cost_per_hour: ['early_cost_per_hour', 'early_cost'],
   served_by: ['served_by', 'vehicle', 'by', 'mode'],
   skills: ['skills', 'skill', 'requires'],
+  vehicles: ['vehicles', 'allowed_vehicles', 'vehicles_allowed'],
+  forbidden_vehicles: ['forbidden_vehicles', 'vehicles_forbidden'],
   release_time: ['release_time', 'release', 'released'],
   unassigned_cost: ['unassigned_cost', 'cost_of_leaving_out', 'penalty', 'prize'],
   kind: ['kind', 'type'],
@@ -167,6 +169,11 @@ function windows(cell) {
     : { message: `"${cell}" are no windows: state them as 8:00-9:30; 14:00-15:00.` };
 }
 
+function names(cell) {
+  const parts = String(cell).split(/[,;|]/);
+  return { value: parts.map((name) => name.trim()).filter(Boolean) };
+}
+
 const text = (cell) => ({ value: String(cell).trim() });
 const amount = numeric(0, 1e9);
 const READERS = {
@@ -191,12 +198,9 @@ const READERS = {
       ? { value }
       : { message: `"${cell}" is none of ${SERVED_BY.join(', ')}: use one of these.` };
   },
-  skills: (cell) => ({
-    value: String(cell)
-      .split(/[,;|]/)
-      .map((skill) => skill.trim())
-      .filter(Boolean),
-  }),
+  skills: names,
+  vehicles: names,
+  forbidden_vehicles: names,
   release_time: time,
   unassigned_cost: numeric(0, 1e12),
   kind: text,
@@ -235,6 +239,8 @@ function customerOf(id, line) {
   for (const name of ['served_by', 'skills', 'release_time', 'unassigned_cost']) {
     if (line[name] !== undefined) customer[name] = line[name];
   }
+  if (line.vehicles) customer.vehicles = { allowed: line.vehicles };
+  else if (line.forbidden_vehicles) customer.vehicles = { forbidden: line.forbidden_vehicles };
   return customer;
 }
 

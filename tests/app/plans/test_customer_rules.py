@@ -1,0 +1,111 @@
+"""What customers ask for, over HTTP and back: prices, windows and vehicles."""
+
+from typing import Any
+
+import httpx
+import pytest
+
+from app.schemas.response import PlanReply
+
+Request = dict[str, Any]
+
+
+def test_single_vehicles_serve_whom_they_may(client: httpx.Client, smallest: Request) -> None:
+    smallest["fleet"][0] |= {"count": 3, "drones": {"count": 1, "capacity": [1]}}
+    first, second = smallest["customers"]
+    first["vehicles"] = {"allowed": ["truck-3"]}
+    second["vehicles"] = {"forbidden": ["truck-1", "truck-3"]}
+    plan = client.post("/plan", json=smallest).json()
+    PlanReply.model_validate(plan)
+    served = {route["vehicle"]: [stop["id"] for stop in route["trips"][0]["stops"][1:-1]]
+              for route in plan["routes"]}
+    assert served == {"truck-3": ["A"], "truck-2": ["B"]}
+    assert {route["type"] for route in plan["routes"]} == {"truck"}
+    checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
+    assert checked["feasible"], checked
+    assert checked["summary"] == plan["summary"]
+    plan["routes"][0]["vehicle"] = "truck-1"
+    checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
+    assert [violation["code"] for violation in checked["violations"]] == ["VEHICLE"]
+    plan["routes"][0]["vehicle"] = "truck-9"
+    checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
+    assert "COUNT" in {violation["code"] for violation in checked["violations"]}
+
+
+def test_each_type_has_one_reason_though_its_vehicles_differ(client: httpx.Client,
+                                                             smallest: Request) -> None:
+    smallest["fleet"][0]["count"] = 3
+    first, second = smallest["customers"]
+    first |= {"vehicles": {"allowed": ["truck-2"]}, "skills": ["crane"]}
+    second["vehicles"] = {"forbidden": ["truck"]}
+    plan = client.post("/plan", json=smallest).json()
+    reasons = {left["id"]: left["reasons"] for left in plan["unassigned"]}
+    assert reasons == {
+        "A": [{"vehicle_type": "truck", "code": "SKILLS", "message": "truck-2 lacks crane.",
+               "remedy": "fits if truck-2 had crane"}],
+        "B": [{"vehicle_type": "truck", "code": "VEHICLE", "message": "truck may not serve it.",
+               "remedy": "fits if truck may serve it"}]}
+
+
+def test_a_named_vehicle_is_replanned_by_its_name(client: httpx.Client, smallest: Request) -> None:
+    smallest["fleet"][0]["count"] = 3
+    first, second = smallest["customers"]
+    first["vehicles"] = {"allowed": ["truck-3"]}
+    second["vehicles"] = {"allowed": ["truck-3", "truck-1"]}
+    plan = client.post("/plan", json=smallest).json()
+    assert [route["vehicle"] for route in plan["routes"]] == ["truck-3"]
+    third = {"id": "C", "location": [1, 1], "demand": [1], "unassigned_cost": 1,
+             "vehicles": {"forbidden": ["truck-3"]}}
+    days = smallest | {"customers": [first, second, third], "replan": {
+        "plan": plan, "freeze_before": 100}}
+    on = client.post("/plan", json=days)
+    assert on.status_code == 200, on.text
+    assert on.json()["replan"]["settled"][0]["vehicle"] == "truck-3"
+    served = {stop["id"]: route["vehicle"] for route in on.json()["routes"]
+              for trip in route["trips"] for stop in trip["stops"][1:-1]}
+    assert served["A"] == served["B"] == "truck-3"
+    assert served.get("C") != "truck-3"
+    days["replan"] |= {"unavailable": ["truck-3"]}
+    out = client.post("/plan", json=days).json()
+    assert {stop["id"]: route["vehicle"] for route in out["routes"]
+            for trip in route["trips"] for stop in trip["stops"][1:-1]}.get("B") != "truck-2"
+
+
+def test_leaving_out_costs_what_each_customer_says(client: httpx.Client,
+                                                   smallest: Request) -> None:
+    for customer, price in zip(smallest["customers"], (7, None), strict=True):
+        customer |= {"skills": ["crane"], "unassigned_cost": price}
+    plan = client.post("/plan", json=smallest | {"unassigned_cost": 5}).json()
+    assert (plan["cost"]["unassigned"], plan["summary"]["must_unserved"]) == (12, 0)
+    plan = client.post("/plan", json=smallest).json()
+    PlanReply.model_validate(plan)
+    assert plan["cost"]["unassigned"] > 14
+    assert plan["summary"]["must_unserved"] == 1
+    checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
+    assert checked["feasible"]
+    assert checked["cost"] == plan["cost"]
+    assert checked["summary"] == plan["summary"]
+
+
+def test_one_customer_has_one_kind_of_window(client: httpx.Client, smallest: Request) -> None:
+    smallest["customers"][0] |= {"time_window": {}, "time_windows": [{"latest": 900}]}
+    assert client.post("/plan", json=smallest).status_code == 200
+    smallest["customers"][0]["time_window"] = {"latest": 900}
+    (error,) = client.post("/plan", json=smallest).json()["errors"]
+    assert (error["code"], error["path"]) == (
+        "TWO_KINDS_OF_WINDOWS", "$.customers[0].time_windows")
+
+
+def test_whoever_comes_between_two_windows_waits(client: httpx.Client, smallest: Request) -> None:
+    # 5 km at 40 km/h: from 600 on it is reached at 1050, after the first window.
+    smallest["fleet"][0]["shift"] = {"earliest": 600}
+    smallest["customers"] = [smallest["customers"][0] | {"time_windows": [
+        {"earliest": 0, "latest": 1000, "early_cost_per_hour": 6},
+        {"earliest": 1650, "latest": 1700, "early_cost_per_hour": 6, "late_cost_per_hour": 5}]}]
+    plan = client.post("/plan", json=smallest).json()
+    (late,) = [stop for stop in plan["routes"][0]["trips"][0]["stops"] if stop["id"] == "A"]
+    assert (late["service_start"], late["lateness"]) == (1650, 0)
+    assert plan["cost"]["earliness"] == pytest.approx(late["waiting"] / 600)
+    plan["routes"][0]["trips"][0]["stops"][1]["service_start"] = late["arrival"] + 1
+    checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
+    assert not checked["feasible"]
