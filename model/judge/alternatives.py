@@ -23,6 +23,9 @@ TRIES, MORE_TRIES = 3, 8
 """Places that are tried of a vehicle's best by truck, and so by drone; and more if none is legal.
 """
 
+ALL_TRIES, ALL_MORE_TRIES = 120, 600
+"""Places that are tried in all, if there are no more ways than that: small plans have all tried."""
+
 EVERYWHERE = frozenset({"VEHICLE", "SKILLS", "SERVED_BY"})
 """Rules that whoever breaks them with a vehicle breaks at all its places."""
 
@@ -116,9 +119,10 @@ def _try_groups(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], b
     order = sorted([group for group, some in guesses.items() if some],
                    key=lambda group: guesses[group][0].rank)
     tried: dict[Group, list[Draft]] = {}
-    for turn in range(MORE_TRIES):
+    enough = max(TRIES, ALL_TRIES // max(1, len(order)))
+    for turn in range(max(MORE_TRIES, ALL_MORE_TRIES // max(1, len(order)))):
         for group in order:
-            if turn >= len(guesses[group]) or _is_settled(tried.get(group, ()), turn):
+            if turn >= len(guesses[group]) or _is_settled(tried.get(group, ()), turn, enough):
                 continue
             if time.perf_counter() >= until:
                 return tried, False
@@ -130,10 +134,10 @@ def _guesses(bench: Bench, problem: Problem) -> dict[Group, list[Guess]]:
     return Screen(problem, bench.left_out.solution, bench.node, bench.setting.past).guesses()
 
 
-def _is_settled(drafts: Sequence[Draft], turn: int) -> bool:
-    """Tell whether a vehicle's further places needn't be tried."""
+def _is_settled(drafts: Sequence[Draft], turn: int, enough: int) -> bool:
+    """Tell whether a vehicle's further places needn't be tried; `enough` are if any is legal."""
     if any(not draft.timed.judged.violations for draft in drafts):
-        return turn >= TRIES
+        return turn >= enough
     return any(violation.code in EVERYWHERE
                for draft in drafts for violation in draft.timed.judged.violations)
 
@@ -162,10 +166,10 @@ def _windows(bench: Bench, until: float) -> tuple[list[Alternative], bool]:
         guesses = sorted([guess for some in _guesses(bench, problem).values() for guess in some],
                          key=lambda guess: guess.rank)
         drafts: list[Draft] = []
-        for turn, guess in enumerate(guesses[:MORE_TRIES]):
+        for turn, guess in enumerate(guesses[:ALL_TRIES]):
             if time.perf_counter() >= until:
                 return found, False
-            if not _is_settled(drafts, turn):
+            if not _is_settled(drafts, turn, MORE_TRIES):
                 drafts.append(bench.draft(guess.place, problem))
         found += [replace(each, window=window)
                   for each in _best(bench, "window", drafts, problem)]

@@ -7,6 +7,7 @@ from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench
 from model.judge.check import check
 from model.judge.past import Vehicle
+from model.judge.screening import Screen
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Solution
 from tests.model.tiny import draw_tiny, with_gaps, with_own_costs, with_table
@@ -168,3 +169,23 @@ def test_whoever_is_put_back_costs_what_he_did(seed):
         back = bench.put(bench.found.place)
         assert back.evaluation.is_feasible
         assert back.evaluation.cost.total <= bench.plan.evaluation.cost.total + 1e-9
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_small_plan_has_the_cheapest_place_of_each_vehicle_found(seed):
+    rng = np.random.default_rng(200 + seed)
+    problem = with_gaps(rng, draw_tiny(rng), 0.3)
+    solution = greedy(problem)
+    for node in range(problem.num_depots, problem.num_nodes):
+        bench = Bench(problem, solution, node)
+        told = {each.trial.place.vehicle: each.trial
+                for each in find_alternatives(bench).alternatives
+                if each.kind == "vehicle" and each.trial.place is not None}
+        screen = Screen(problem, bench.left_out.solution, node, bench.setting.past)
+        for (vehicle, _), guesses in screen.guesses().items():
+            trials = [bench.put(guess.place) for guess in guesses] if vehicle in told else []
+            for trial in trials:
+                if trial.evaluation.is_feasible:
+                    assert told[vehicle].evaluation.is_feasible
+                    assert (told[vehicle].evaluation.cost.total
+                            <= trial.evaluation.cost.total + 1e-9)
