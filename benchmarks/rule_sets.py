@@ -17,7 +17,7 @@ import typer
 from numpy.typing import ArrayLike
 from vrplib import read_instance  # type: ignore[import-untyped]
 
-from app.files.instance import ROUNDINGS
+from app.conversion.rounding import rounded
 from benchmarks.peers import judge, stated_cost
 from benchmarks.published import (
     NO_LIMIT,
@@ -106,7 +106,7 @@ def _units(values: ArrayLike, scale: int) -> IntArray:
 def _travel(coordinates: FloatArray, convention: Convention) -> IntArray:
     x, y = coordinates.T
     straight = np.sqrt((x[:, None] - x) ** 2 + (y[:, None] - y) ** 2)
-    return _units(ROUNDINGS[convention.rounding](straight), convention.scale)
+    return _units(rounded(straight, convention.rounding), convention.scale)
 
 
 def _read_vrplib(path: Path, rules: RuleSet) -> Published:

@@ -39,6 +39,9 @@ def wild_request(rng: random.Random) -> Data:
         "coordinate_system": system, "planar_unit": unit, "depots": depots, "customers": customers,
         "fleet": fleet, "airspace": _airspace(rng, place, system), "options": _options(rng),
         "unassigned_cost": rng.choice((None, None, 0, 1e-9, 1.0, 1000, RICHEST))}
+    if system == "planar" and rng.random() < 0.2:
+        request["planar_rounding"] = rng.choice(
+            ("exact", "round", "trunc", "dimacs", "thousandths"))
     if rng.random() < 0.3:
         _choose_vehicles(rng, request)
     if rng.random() < 0.25:

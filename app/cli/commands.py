@@ -15,13 +15,13 @@ from app.cli.serving import run_server
 from app.cli.settings_page import settings_page
 from app.errors import RequestError
 from app.files.importers import FileFormat, convert_file
-from app.files.instance import Rounding
 from app.load.bodies import ReceivedBody
 from app.plans.service import answer
 from app.plans.task import task_of
 from app.plans.warming import showing
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
+from app.schemas.fields import Rounding
 from app.settings import Settings
 from model.judge.check import Evaluation
 from model.planner import Planner, load_planner

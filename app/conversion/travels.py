@@ -7,6 +7,7 @@ import numpy as np
 
 from app.conversion.energy import climb_duration
 from app.conversion.preparing import UNHURRIED, Preparing
+from app.conversion.rounding import rounded
 from app.conversion.units import thousandths
 from app.conversion.work import legs_seconds, sights_seconds
 from app.schemas.customer import CustomerInput
@@ -53,8 +54,9 @@ class Ground:
         """Tell whether a request has its places and areas at the same points."""
         mine = self._request
         return (
-            (mine.coordinate_system, mine.planar_unit, mine.airspace)
-            == (request.coordinate_system, request.planar_unit, request.airspace)
+            (mine.coordinate_system, mine.planar_unit, mine.planar_rounding, mine.airspace)
+            == (request.coordinate_system, request.planar_unit, request.planar_rounding,
+                request.airspace)
             and [place.location for place in self.places]
             == [place.location for place in _places(request)])
 
@@ -81,6 +83,15 @@ class Ground:
     def points_m(self) -> FloatArray:
         """Planar metres."""
         return self._planar(self.locations)
+
+    @cached_property
+    def legs_m(self) -> FloatArray:
+        """What trucks drive from each place to each, as the request rounds it."""
+        request = self._request
+        if self.is_geographic or request.planar_rounding == "exact":
+            return self.distances_m
+        straight = planar_distances(self.locations, self._preparing.pause)
+        return rounded(straight, request.planar_rounding) * request.planar_unit
 
     @cached_property
     def distances_m(self) -> FloatArray:
@@ -206,11 +217,11 @@ class Travels:
         matrix = self._matrix(key.profile) if key.means == "matrix" else None
         if matrix is not None:
             durations = self._at_places(matrix.durations) / key.speed
-            distances = (self._ground.distances_m if matrix.distances is None
+            distances = (self._ground.legs_m if matrix.distances is None
                          else self._at_places(matrix.distances))
             return matrix_travel(durations, distances, self._preparing.pause)
         if key.means == "drive":
-            return truck_travel(self._ground.distances_m, key.speed, self._preparing.pause)
+            return truck_travel(self._ground.legs_m, key.speed, self._preparing.pause)
         return flight_travel(*self._ground.flights.legs(key.speed), self._preparing.pause)
 
     def _at_places(self, table: list[list[float]]) -> FloatArray:

@@ -6,10 +6,11 @@ from typing import Any, Literal
 import numpy as np
 from pydantic_core import to_json
 
-from app.files.instance import FileVehicles, InstanceFile, InstanceFileError, Rounding, distances
+from app.files.instance import FileVehicles, InstanceFile, InstanceFileError, distances
 from app.files.solomon import is_solomon, read_solomon
 from app.files.vrplib import read_vrplib
 from app.requests.reading import read_request
+from app.schemas.fields import Rounding
 from app.settings import MAX_CUSTOMERS
 from model.problem import FloatArray
 
@@ -62,7 +63,9 @@ def convert_file(path: Path, file_format: FileFormat = "auto",
 
 
 def _request(file: InstanceFile, rounding: Rounding) -> dict[str, Any]:
-    has_matrices = rounding != "exact" or file.edge_weight != "EUC_2D"
+    if file.edge_weight == "FLOOR_2D":
+        rounding = "trunc"  # what is whole stays as it is, however it is rounded
+    has_matrices = file.edge_weight not in ("EUC_2D", "FLOOR_2D")
     names = {node: "depot" if len(file.depots) == 1 else f"depot-{number}"
              for number, node in enumerate(file.depots, start=1)}
     request: dict[str, Any] = {
@@ -75,6 +78,8 @@ def _request(file: InstanceFile, rounding: Rounding) -> dict[str, Any]:
             for number, vehicles in enumerate(file.vehicles, start=1)
         ],
     }
+    if not has_matrices and rounding != "exact":
+        request["planar_rounding"] = rounding
     if has_matrices:
         table = _table(distances(file, rounding))
         request["matrices"] = {"truck": {"durations": table, "distances": table}}

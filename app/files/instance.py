@@ -1,17 +1,17 @@
 """A published instance as its file states it, and the ways to round its distances."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from app.conversion.rounding import rounded
 from app.errors import RequestError
+from app.schemas.fields import Rounding
 from model.problem import FloatArray
+from model.travel.matrices import planar_distances
 
 EdgeWeight = Literal["EUC_2D", "FLOOR_2D", "CEIL_2D", "EXACT_2D", "EXPLICIT"]
-
-Rounding = Literal["exact", "round", "trunc", "dimacs", "thousandths"]
 
 
 class InstanceFileError(RequestError):
@@ -68,7 +68,7 @@ class InstanceFile:
 
 def distances(file: InstanceFile, rounding: Rounding) -> FloatArray:
     """Return the (node, node) distances, which are travel durations too, in the file's unit."""
-    return ROUNDINGS[rounding](_weights(file))
+    return rounded(_weights(file), rounding)
 
 
 def _weights(file: InstanceFile) -> FloatArray:
@@ -77,40 +77,11 @@ def _weights(file: InstanceFile) -> FloatArray:
         return file.explicit_weights
     if file.coordinates is None:
         raise InstanceFileError(f"EDGE_WEIGHT_TYPE {file.edge_weight} needs NODE_COORD_SECTION.")
-    x, y = file.coordinates.T
-    # Unlike hypot's, the root of an exact square is exact, and so is what is truncated from it.
-    straight = np.sqrt((x[:, None] - x) ** 2 + (y[:, None] - y) ** 2)
+    straight = planar_distances(file.coordinates)
     if file.edge_weight == "FLOOR_2D":
         return np.floor(straight)
     if file.edge_weight == "CEIL_2D":
         return np.ceil(straight)
     if file.edge_weight == "EXACT_2D":
-        return _round(straight * 1000)
+        return rounded(straight * 1000, "round")
     return straight
-
-
-def _exact(weights: FloatArray) -> FloatArray:
-    return weights
-
-
-def _round(weights: FloatArray) -> FloatArray:
-    """Round to the nearest integer, halves up."""
-    return np.floor(weights + 0.5)
-
-
-def _dimacs(weights: FloatArray) -> FloatArray:
-    return np.trunc(weights * 10) / 10
-
-
-def _thousandths(weights: FloatArray) -> FloatArray:
-    return _round(weights * 1000) / 1000
-
-
-ROUNDINGS: dict[Rounding, Callable[[FloatArray], FloatArray]] = {
-    "exact": _exact,
-    "round": _round,  # CVRPLIB's capacitated instances
-    "trunc": np.trunc,
-    "dimacs": _dimacs,  # time windows, 12th DIMACS challenge
-    "thousandths": _thousandths,  # heterogeneous fleets
-}
-"""What a distance becomes, in the unit of the file."""

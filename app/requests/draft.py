@@ -34,6 +34,7 @@ class Draft:
     airspace: AirspaceInput | None
     options: OptionsInput | None
     replan: ReplanInput | None = None
+    planar_rounding: str = "exact"
 
     def places(self) -> Iterator[tuple[Path, Place]]:
         """Yield depots and customers with their paths."""

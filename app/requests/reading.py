@@ -115,6 +115,7 @@ def _whole_draft(request: PlanRequest) -> Draft:
         airspace=request.airspace,
         options=request.options,
         replan=request.replan,
+        planar_rounding=request.planar_rounding,
     )
 
 
@@ -134,6 +135,7 @@ def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails]) -> Draft
         options=_section(raw, broken, "options", OptionsInput),
         replan=(None if raw.get("replan") is None
                 else _section(raw, broken, "replan", ReplanInput)),
+        planar_rounding=raw.get("planar_rounding", "exact"),
     )
 
 

@@ -31,6 +31,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *depot_errors(draft),
         *_matrix_errors(draft),
         *_location_errors(draft),
+        *_rounding_errors(draft),
         *_index_errors(draft),
         *speed_errors(draft),
         *energy_errors(draft),
@@ -118,6 +119,13 @@ def _location_errors(draft: Draft) -> Errors:
         elif needed_for is not None:
             yield error_at("MISSING_LOCATION", (*path, "location"),
                            f"{needed_for}: add a location, or the matrix.")
+
+
+def _rounding_errors(draft: Draft) -> Errors:
+    if draft.coordinate_system == "geographic" and draft.planar_rounding != "exact":
+        yield error_at("ROUNDED_ON_GLOBE", ("planar_rounding",),
+                       "Distances between geographic locations are not rounded: leave it out, or "
+                       "state exact.")
 
 
 def _profile_without_matrix(draft: Draft) -> str | None:

@@ -1,6 +1,6 @@
 """What fields of a request have in common: their types, bounds and strictness."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -22,6 +22,7 @@ Speed = Annotated[float, Field(ge=1, le=1000)]
 Demand = Annotated[list[Amount], Field(min_length=1, max_length=3)]
 Location = tuple[float, float]
 LocationIndex = Annotated[int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS)]
+Rounding = Literal["exact", "round", "trunc", "dimacs", "thousandths"]
 Skills = Annotated[list[Name], Field(max_length=100)]
 MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + 1
 """Most rows of a matrix, and columns: what `location_index` can name."""

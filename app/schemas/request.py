@@ -18,7 +18,7 @@ from app.schemas.fields import (
     LocationIndex,
     Money,
     Name,
-    Seconds,
+    Rounding, Seconds,
     Table,
 )
 from app.schemas.plan import PlanInput
@@ -154,6 +154,13 @@ class PlanRequest(Input):
     )
     planar_unit: Annotated[float, Field(ge=1e-3, le=1e6)] = Field(
         1.0, description="Metres per planar unit."
+    )
+    planar_rounding: Rounding = Field(
+        "exact",
+        description="What distances between planar locations become, in planar units: `round` to "
+        "whole ones, `trunc` down to whole ones, `dimacs` down to tenths, `thousandths` to the "
+        "nearest. Durations follow from them. Flights around no-fly areas or in wind stay exact, "
+        "and matrices as they are.",
     )
     depots: Annotated[list[DepotInput], Field(max_length=MAX_DEPOTS)] = Field(
         description="Depots, at least one."

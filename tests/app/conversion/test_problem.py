@@ -30,6 +30,33 @@ def test_defaults_of_the_smallest_request(smallest: Request) -> None:
     assert (first.earliest, first.latest, first.late_cost_per_hour) == (0, UNLIMITED, None)
 
 
+@pytest.mark.parametrize(("rounding", "legs"), [
+    ("exact", [5000, 3606, 1414]), ("round", [5000, 4000, 1000]), ("trunc", [5000, 3000, 1000]),
+    ("dimacs", [5000, 3600, 1400]), ("thousandths", [5000, 3606, 1414])])
+def test_planar_legs_are_rounded_in_planar_units(smallest: Request, rounding: str,
+                                                 legs: list[int]) -> None:
+    smallest["customers"][1]["location"] = [2, 3]
+    smallest["fleet"][0] |= {"speed_kmh": 3.6, "drones": {
+        "count": 1, "capacity": [1], "speed_kmh": 36}}
+    for unit in (1, 1000):
+        problem = problem_of(smallest | {"planar_rounding": rounding, "planar_unit": unit})
+        drive, flight = problem.travel
+        first = [drive.distance.item(leg) for leg in ((0, 1), (0, 2), (1, 2))]
+        assert first == pytest.approx([unit * leg for leg in legs], abs=0.5 * unit)
+        if rounding != "exact":
+            assert first == [unit * leg for leg in legs]
+            assert drive.duration.tolist() == drive.distance.tolist()
+            assert (flight.distance == drive.distance).all()
+
+
+def test_flights_around_areas_stay_exact(smallest: Request) -> None:
+    smallest["customers"][1]["location"] = [2, 3]
+    smallest["fleet"][0]["drones"] = {"count": 1, "capacity": [1]}
+    smallest |= {"planar_rounding": "round", "airspace": {"wind": {"speed_kmh": 1}}}
+    drive, flight = problem_of(smallest).travel
+    assert (drive.distance.item(0, 2), flight.distance.item(0, 2)) == (4_000_000, 3_605_551)
+
+
 def test_several_windows_are_one_after_another(smallest: Request) -> None:
     first, second = smallest["customers"]
     first["time_windows"] = [

@@ -13,8 +13,9 @@ from app.conversion.problem import to_problem
 from app.errors import RequestError
 from app.files import importers
 from app.files.importers import FileFormat, convert_file
-from app.files.instance import InstanceFileError, Rounding
+from app.files.instance import InstanceFileError
 from app.requests.reading import read_request
+from app.schemas.fields import Rounding
 from model.planner import Planner
 from model.problem import UNLIMITED, Problem
 
@@ -89,8 +90,11 @@ def test_unit_is_a_metre_a_second_and_a_cost(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("rounding", "diagonal", "across"), [
     ("round", 1000, 4000), ("trunc", 1000, 3000), ("dimacs", 1400, 3600),
     ("thousandths", 1414, 3606)])
-def test_rounded_distances_are_matrices(tmp_path: Path, rounding: Rounding, diagonal: int,
-                                        across: int) -> None:
+def test_distances_are_rounded_without_matrices(tmp_path: Path, rounding: Rounding, diagonal: int,
+                                                across: int) -> None:
+    request = _request(tmp_path, _vrplib(), rounding)
+    assert request["planar_rounding"] == rounding
+    assert "matrices" not in request
     travel = _problem(tmp_path, _vrplib(), rounding).travel[0]
     assert travel.distance.tolist() == travel.duration.tolist() == [
         [0, 5000, diagonal], [5000, 0, across], [diagonal, across, 0]]

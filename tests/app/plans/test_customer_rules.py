@@ -71,6 +71,15 @@ def test_a_named_vehicle_is_replanned_by_its_name(client: httpx.Client, smallest
             for trip in route["trips"] for stop in trip["stops"][1:-1]}.get("B") != "truck-2"
 
 
+def test_nothing_is_rounded_on_the_globe(client: httpx.Client, smallest: Request) -> None:
+    smallest |= {"planar_rounding": "round", "planar_unit": 1}
+    plan = client.post("/plan", json=smallest).json()
+    assert plan["summary"]["distance"] % 1 == 0
+    (error,) = client.post("/plan", json=smallest | {
+        "coordinate_system": "geographic"}).json()["errors"]
+    assert (error["code"], error["path"]) == ("ROUNDED_ON_GLOBE", "$.planar_rounding")
+
+
 def test_leaving_out_costs_what_each_customer_says(client: httpx.Client,
                                                    smallest: Request) -> None:
     for customer, price in zip(smallest["customers"], (7, None), strict=True):

@@ -162,6 +162,7 @@ def _set(request: Request, path: str, value: Any) -> None:
     ("customers.0.served_by", "bike", "UNKNOWN_VALUE", "$.customers[0].served_by"),
     ("customers.0.time_window", {"earliest": 5, "latest": 4}, "WINDOW_ENDS_BEFORE_START",
      "$.customers[0].time_window.latest"),
+    ("planar_rounding", "up", "UNKNOWN_VALUE", "$.planar_rounding"),
     ("customers.0.vehicles", {"allowed": []}, "WRONG_LENGTH", "$.customers[0].vehicles.allowed"),
     ("customers.0.vehicles", {"allowed": ["truck"], "forbidden": ["truck-1"]},
      "TWO_LISTS_OF_VEHICLES", "$.customers[0].vehicles"),

@@ -149,9 +149,11 @@ function Places({ request }) {
         keys=${['coordinate_system']} request=${request} onChange=${edit} />
       ${
         request.coordinate_system !== 'geographic' &&
-        html`<${Field} name="planar_unit"
-        schema=${properties.planar_unit} keys=${['planar_unit']} request=${request}
-          onChange=${edit} />`
+        ['planar_unit', 'planar_rounding'].map(
+          (name) => html`<${Field} key=${name} name=${name}
+        schema=${properties[name]} keys=${[name]} request=${request}
+          onChange=${edit} />`,
+        )
       }
       ${request.depots.map(
         (_, position) => html`<fieldset class="group" key=${position}>
