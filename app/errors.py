@@ -97,6 +97,9 @@ _CODES: dict[str, ErrorCode] = {
     "string_too_long": "WRONG_LENGTH",
 }
 
+IN_WORDS, IN_PLACE = "(word)", "(place)"
+"""Tags of values that may be one or the other; no part of a path."""
+
 _TYPE_NAMES = {
     "float_type": "a JSON number",
     "int_type": "a whole JSON number",
@@ -230,7 +233,7 @@ def json_path(location: Iterable[str | int]) -> str:
 def schema_error(details: ErrorDetails) -> InputError:
     """Return what pydantic found, in our words."""
     kind = details["type"]
-    location = details["loc"]
+    location = tuple(key for key in details["loc"] if key not in (IN_WORDS, IN_PLACE))
     context: dict[str, Any] = details.get("ctx", {})
     if kind in _TYPE_NAMES:
         message = f"The value must be {_TYPE_NAMES[kind]}: state one, not {_shown(details)}."

@@ -41,6 +41,7 @@ MS_PER_HOUR = 3_600_000
 MM_PER_KM = 1_000_000
 
 ServedBy = Literal["truck", "drone", "either"]
+DepotKind = Literal["depot", "start", "end", "nowhere"]
 
 
 def _require(condition: bool, name: str, value: object) -> None:
@@ -62,6 +63,8 @@ class Depot:
     """A place where trips may begin or end."""
 
     id: str
+    kind: DepotKind = "depot"
+    """Where vehicles of type `id` start or end; nowhere: at a customer, which no drone flies to."""
 
 
 @dataclass(frozen=True)
@@ -164,7 +167,7 @@ class VehicleType:
     count: int
     capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
     travel: int  # index into Problem.travel
-    depot: int = 0  # home depot, a node
+    depot: int = 0  # home depot, a node: where a trip may end and the next begin
     fixed_cost: float = 0.0  # per vehicle used
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0  # of working time
@@ -177,8 +180,9 @@ class VehicleType:
     reload_duration: int = 0  # at the depot between trips
     skills: frozenset[str] = frozenset()
     drones: DroneType | None = None
-    start: int | None = None  # where its trip begins, a node; None: at the depot
-    end: int | None = None  # where its trip ends
+    start: int | None = None  # where its first trip begins, a node; None: at the depot
+    end: int | None = None  # where its last trip ends
+    reload_depots: tuple[int, ...] = ()  # other nodes where a trip may end and the next begin
     initial_load: tuple[int, ...] = ()  # what its trip carries beside its customers'; (): nothing
     busy_until: int = 0  # its trip may begin sooner, and drones take off, but no truck leave
     works_since: int | None = None  # its work counts from then; None: from its departure
@@ -212,10 +216,8 @@ class VehicleType:
         if self.works_since is not None:
             _require_quantity(f"vehicle type {self.id} works_since", self.works_since,
                               self.earliest)
-        # One trip's end would be another's start, which the search takes for the same place.
-        apart = (self.begins_at != self.depot or self.ends_at != self.depot
-                 or any(self.initial_load) or self.busy_until > 0)
-        _require(self.max_trips == 1 or not apart, f"vehicle type {self.id} max_trips",
+        begun = any(self.initial_load) or self.busy_until > 0
+        _require(self.max_trips == 1 or not begun, f"vehicle type {self.id} max_trips",
                  self.max_trips)
 
     @property
@@ -229,13 +231,18 @@ class VehicleType:
 
     @property
     def begins_at(self) -> int:
-        """The node where a trip begins."""
+        """The node where the first trip begins."""
         return self.depot if self.start is None else self.start
 
     @property
     def ends_at(self) -> int:
-        """The node where a trip ends."""
+        """The node where the last trip ends."""
         return self.depot if self.end is None else self.end
+
+    @property
+    def reload_places(self) -> tuple[int, ...]:
+        """The nodes where a trip may end and the next begin."""
+        return (self.depot, *self.reload_depots)
 
 
 @dataclass(frozen=True, eq=False)
@@ -314,6 +321,8 @@ class Problem:
         for place in ("depot", "begins_at", "ends_at"):
             node = getattr(vehicle_type, place)
             _require(0 <= node < self.num_depots, f"{name} {place}", node)
+        _require(set(vehicle_type.reload_places) <= set(range(self.num_depots)),
+                 f"{name} reload_depots", vehicle_type.reload_depots)
         _require(len(vehicle_type.initial_load) in (0, self.num_dimensions), f"{name} initial_load",
                  vehicle_type.initial_load)
         _require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
@@ -341,6 +350,10 @@ class Problem:
     def num_nodes(self) -> int:
         """Depots and customers."""
         return len(self.depots) + len(self.customers)
+
+    def is_nowhere(self, node: int) -> bool:
+        """Tell whether a node is no place: who begins or ends there does so at a customer."""
+        return node < len(self.depots) and self.depots[node].kind == "nowhere"
 
     def allows(self, vehicle_type: int, node: int) -> bool:
         """Tell whether the table lets vehicles of a type serve the customer at a node."""

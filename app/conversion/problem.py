@@ -6,11 +6,12 @@ from app.conversion.amounts import decimals_of
 from app.conversion.customer import to_customer
 from app.conversion.groups import groups_of, part_of
 from app.conversion.leaving_out import default_unassigned_cost
+from app.conversion.places import depots_of
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.travels import Ground, Travels
 from app.conversion.vehicle import to_vehicle_type
 from app.schemas.request import PlanRequest
-from model.problem import Depot, Problem
+from model.problem import Problem
 
 
 def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
@@ -18,15 +19,12 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
     """Convert a valid request, unless the work on it is to end; `ground` may be known already."""
     travels = Travels(request, preparing, ground)
     travels.expect_legs()
-    depots = {depot.id: node for node, depot in enumerate(request.depots)}
+    depots = depots_of(request)
     decimals = decimals_of(request.customers, request.fleet)
     customers = tuple([to_customer(customer, decimals) for customer in request.customers])
     demands = [customer.demand for customer in customers]
-    vehicle_types = tuple(
-        to_vehicle_type(stated, 0 if stated.depot is None else depots[stated.depot], travels,
-                        decimals, demands)
-        for stated in request.fleet
-    )
+    vehicle_types = tuple([to_vehicle_type(stated, depots, travels, decimals, demands)
+                           for stated in request.fleet])
     groups = list(groups_of(request.fleet, request.customers))
     if groups:
         vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
@@ -34,7 +32,7 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
     if unassigned_cost is None:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built())
     return Problem(
-        depots=tuple(Depot(depot.id) for depot in request.depots),
+        depots=depots,
         customers=customers,
         vehicle_types=vehicle_types,
         travel=travels.built(),

@@ -6,13 +6,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from app.conversion.energy import climb_duration
+from app.conversion.places import nowhere_of, places_of
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.rounding import rounded
 from app.conversion.units import thousandths
 from app.conversion.work import legs_seconds, sights_seconds
-from app.schemas.customer import CustomerInput
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
-from app.schemas.request import DepotInput, MatrixInput, PlanRequest
+from app.schemas.request import MatrixInput, PlanRequest
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
 from model.problem import FloatArray, SpeedProfile, Travel
 from model.travel.airspace import Airspace, Flights
@@ -26,6 +26,7 @@ from model.travel.matrices import (
     planar_distances,
     speed_profile,
     truck_travel,
+    with_nowhere,
 )
 
 
@@ -36,19 +37,16 @@ class _Key(NamedTuple):
     profile: str  # of the client's matrix, else empty
     speed: float  # km/h, or a multiple of the matrix speed
     climb: int = 0  # ms more for each leg
-
-
-def _places(request: PlanRequest) -> list[DepotInput | CustomerInput]:
-    return [*request.depots, *request.customers]
+    flown: bool = False  # which matters where some end nowhere
 
 
 class Ground:
-    """Where a request's places and no-fly areas are, whatever its fleet."""
+    """Where a request's places and no-fly areas are, however its fleet travels."""
 
     def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED) -> None:
         self._request = request
         self._preparing = preparing
-        self.places = _places(request)
+        self.places = places_of(request)
 
     def is_that_of(self, request: PlanRequest) -> bool:
         """Tell whether a request has its places and areas at the same points."""
@@ -58,7 +56,7 @@ class Ground:
             == (request.coordinate_system, request.planar_unit, request.planar_rounding,
                 request.airspace)
             and [place.location for place in self.places]
-            == [place.location for place in _places(request)])
+            == [place.location for place in places_of(request)])
 
     @cached_property
     def locations(self) -> FloatArray:
@@ -128,7 +126,8 @@ class Travels:
         self._request = request
         self._preparing = preparing
         self._ground = ground or Ground(request, preparing)
-        self._places = _places(request)
+        self._places = places_of(request)
+        self._nowhere = nowhere_of(request)
         self._index: dict[_Key, int] = {}
         self._travels: list[Travel] = []
 
@@ -164,9 +163,16 @@ class Travels:
 
     def coordinates(self) -> FloatArray:
         """Return the (node, 2) coordinates that the policy sees, in any planar unit."""
+        nowhere = self._nowhere
         if all(place.location is not None for place in self._places):
-            return self._ground.points_m
-        return embed(self._travels[0].duration)
+            points = self._ground.points_m
+        else:
+            duration = self._travels[0].duration
+            if nowhere is not None:
+                duration = np.delete(np.delete(duration, nowhere, 0), nowhere, 1)
+            points = embed(duration)
+        # Whoever ends anywhere is seen to do so amid all places.
+        return points if nowhere is None else np.insert(points, nowhere, points.mean(axis=0), 0)
 
     def _keys(self) -> set[_Key]:
         fleet = self._request.fleet
@@ -188,13 +194,15 @@ class Travels:
         return self._driving_at(vehicle_type.profile, fastest), profile
 
     def _flying(self, drones: DronesInput) -> _Key:
-        if self._matrix(drones.profile) is not None:
-            return self._driving_at(drones.profile, 1.0)
-        speed, climb = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH, climb_duration(drones)
         airspace = self._request.airspace
-        if not airspace.no_fly and not airspace.wind.speed_kmh:
-            return self._driving_at(drones.profile, speed)._replace(climb=climb)
-        return _Key("flight", "", speed, climb)
+        speed, climb = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH, climb_duration(drones)
+        if self._matrix(drones.profile) is not None:
+            key = self._driving_at(drones.profile, 1.0)
+        elif not airspace.no_fly and not airspace.wind.speed_kmh:
+            key = self._driving_at(drones.profile, speed)._replace(climb=climb)
+        else:
+            key = _Key("flight", "", speed, climb)
+        return key._replace(flown=self._nowhere is not None)
 
     def _driving_at(self, profile: str, speed: float) -> _Key:
         return (_Key("drive", "", speed) if self._matrix(profile) is None
@@ -207,7 +215,10 @@ class Travels:
         """Return the index of a pair of matrices, which is built the first time."""
         if key not in self._index:
             self._index[key] = len(self._travels)
-            self._travels.append(self._build(key))
+            travel = self._build(key)
+            if self._nowhere is not None:
+                travel = with_nowhere(travel, self._nowhere, key.flown)
+            self._travels.append(travel)
         return self._index[key]
 
     def _build(self, key: _Key) -> Travel:

@@ -4,25 +4,30 @@ from collections.abc import Collection, Sequence
 
 from app.conversion.amounts import counted
 from app.conversion.energy import to_energy
+from app.conversion.places import places_of_type
 from app.conversion.travels import Travels
 from app.conversion.units import optional_thousandths, thousandths
 from app.schemas.drones import DronesInput
 from app.schemas.vehicle import VehicleTypeInput
-from model.problem import UNLIMITED, DroneType, VehicleType
+from model.problem import UNLIMITED, Depot, DroneType, VehicleType
 
 
-def to_vehicle_type(stated: VehicleTypeInput, depot: int, travels: Travels,
+def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: Travels,
                     decimals: Sequence[int],
                     demands: Collection[Sequence[int]]) -> VehicleType:
-    """Convert a valid vehicle type, whose home is the node `depot`; `demands` are customers'."""
+    """Convert a valid vehicle type; `depots` are the problem's, `demands` customers'."""
     travel, speed_profile = travels.drive(stated)
+    places = places_of_type(stated, depots)
     shift = stated.shift
     return VehicleType(
         id=stated.id,
         count=stated.count,
         capacity=counted(stated.capacity, decimals),
         travel=travel,
-        depot=depot,
+        depot=places.depot,
+        start=places.start,
+        end=places.end,
+        reload_depots=places.reload,
         fixed_cost=stated.costs.fixed,
         cost_per_km=stated.costs.per_km,
         cost_per_hour=stated.costs.per_hour,

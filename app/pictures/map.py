@@ -80,7 +80,7 @@ def _draw_trips(axes: Axes, scene: Scene, layout: Layout, thin: bool) -> None:
         xs, ys = zip(*points, strict=True)
         axes.plot(xs, ys, color=colour, linewidth=1.0 if thin else 1.6, zorder=3,
                   solid_joinstyle="round", gid=f"trip-{index}-{number}")
-        if not thin:
+        if not thin and len(points) > 1:
             for start, end in ((points[0], points[1]), (points[-2], points[-1])):
                 _draw_arrow(axes, start, end, colour)
 
@@ -133,10 +133,10 @@ def _draw_places(axes: Axes, scene: Scene, layout: Layout, size: float) -> None:
                 xs, ys = zip(*(layout.points[place] for place in places), strict=True)
                 axes.plot(xs, ys, linestyle="none", marker=marker, markersize=size,
                           markerfacecolor=fill, markeredgecolor=colour, zorder=5)
-    for depot in scene.request.depots:
-        x, y = layout.points["depot", depot.id]
-        axes.plot([x], [y], marker="s", markersize=10, color=BLACK, markeredgecolor="white",
-                  zorder=6)
+    for (kind, _), (x, y) in layout.points.items():
+        if kind != "customer":
+            axes.plot([x], [y], marker="s", markersize=10 if kind == "depot" else 6, color=BLACK,
+                      markeredgecolor="white", zorder=6)
 
 
 def _draw_unassigned(axes: Axes, scene: Scene, layout: Layout) -> None:
@@ -174,7 +174,8 @@ def _trip_handles(scene: Scene) -> list[Line2D]:
     trips = list(all_trips(scene.plan.routes))
     handles = []
     for index, number, route, trip in trips[:MAX_LEGEND]:
-        served = len(trip.stops) - 2 + sum(len(sortie.customers) for sortie in trip.sorties)
+        served = sum(stop.kind == "customer" for stop in trip.stops)
+        served += sum(len(sortie.customers) for sortie in trip.sorties)
         name = label(route.vehicle)
         if len(route.trips) > 1:
             name += f", trip {number + 1}"

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 from pydantic_core import from_json
 
+from app.conversion.places import depots_of, places_of
 from app.errors import InputError, InvalidRequestError, json_path
 from app.plans.replies import cost_reply, summary_reply
 from app.plans.task import task_of
 from app.requests.plan_reading import read_plan
 from app.schemas.customer import CustomerInput
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, TripInput
-from app.schemas.request import DepotInput, PlanRequest
+from app.schemas.request import PlanRequest
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray
 from model.travel.matrices import LocalProjection
@@ -58,7 +59,7 @@ class Scene:
         """
         task = task_of(request)
         solution = read_plan(plan, task.problem)
-        shapeless = list(_shape_errors(plan))
+        shapeless = list(_shape_errors(request, plan))
         if shapeless:
             raise InvalidRequestError(shapeless)
         evaluation = task.check(solution)
@@ -86,7 +87,7 @@ class Scene:
     @cached_property
     def layout(self) -> Layout | None:
         """Where things are; None if some place has no location."""
-        places: list[DepotInput | CustomerInput] = [*self.request.depots, *self.request.customers]
+        places = places_of(self.request)
         located = [place.location for place in places if place.location is not None]
         if len(located) < len(places):
             return None
@@ -99,7 +100,8 @@ class Scene:
             return (points * scale if projection is None
                     else projection.project(points) / METRES_PER_KM)
 
-        names: list[Place] = [("depot", depot.id) for depot in self.request.depots]
+        names: list[Place] = [(depot.kind, depot.id) for depot in depots_of(self.request)
+                              if depot.kind != "nowhere"]
         names += [("customer", customer.id) for customer in self.request.customers]
         points = planar(degrees_or_units)
         return Layout(
@@ -172,14 +174,17 @@ def all_trips(routes: Iterable[RouteInput]) -> Iterator[tuple[int, int, RouteInp
             yield index, number, route, trip
 
 
-def _shape_errors(plan: PlanInput) -> Iterator[InputError]:
-    """Yield what has no two ends that a line could be drawn between."""
-    for index, number, _, trip in all_trips(plan.routes):
+def _shape_errors(request: PlanRequest, plan: PlanInput) -> Iterator[InputError]:
+    """Yield what has no two ends that a line could be drawn between, unless it is open."""
+    is_open = {kind.id: kind.end == "open" for kind in request.fleet}
+    for index, number, route, trip in all_trips(plan.routes):
         path = ("routes", index, "trips", number)
         stops = len(trip.stops)
-        if stops < 2:
+        least = 1 if is_open[route.type] and number == len(route.trips) - 1 else 2
+        if stops < least:
             yield InputError(code="TRIP_SHAPE", path=json_path(path),
-                             message="A trip has two stops at least: correct it.")
+                             message="A trip has two stops at least, of an open route one: correct "
+                             "it.")
         for flight, sortie in enumerate(trip.sorties):
             if not 0 <= sortie.launch_stop <= sortie.recovery_stop < stops:
                 yield InputError(

@@ -89,7 +89,8 @@ def _trip(problem: Problem, vehicle: str, trip: Trip, metrics: TripMetrics) -> D
         "distance": whole(metrics.distance),
         "duration": whole(metrics.duration),
         "stops": [_stop(problem, stop, load)
-                  for stop, load in zip(trip.stops, metrics.stop_loads, strict=True)],
+                  for stop, load in zip(trip.stops, metrics.stop_loads, strict=True)
+                  if not problem.is_nowhere(stop.node)],
         "sorties": [_sortie(problem, vehicle, sortie, measured)
                     for sortie, measured in zip(trip.sorties, metrics.sorties, strict=True)],
         "energy_wh": energy_wh([sortie.energy for sortie in metrics.sorties]),
@@ -101,7 +102,7 @@ def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
     place = (problem.depots[stop.node] if is_depot
              else problem.customers[stop.node - len(problem.depots)])
     return {
-        "kind": "depot" if is_depot else "customer",
+        "kind": problem.depots[stop.node].kind if is_depot else "customer",
         "id": place.id,
         "arrival": stop.arrival / 1000,
         "service_start": stop.service_start / 1000,

@@ -19,6 +19,7 @@ from model.judge.past import Vehicle
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
+from model.replanning.kept import Kept
 from model.replanning.replan import Replanning, SettledPartError, Terms
 from model.replanning.workers import TooManyTypesError
 from model.solution import Solution
@@ -131,10 +132,17 @@ def _replan_reply(problem: Problem, replanning: Replanning) -> Data:
     return {
         "settled": [{"vehicle": vehicle_name(problem, kept.route),
                      "trip": len(kept.route.trips) - 1,
-                     "stop": len(kept.route.trips[-1].stops) - (1 if kept.way_on is None else 2)}
+                     "stop": _last_settled(problem, kept)}
                     for kept in replanning.kept],
         "excused": [violation_reply(violation, "$", "$") for violation in replanning.excused],
     }
+
+
+def _last_settled(problem: Problem, kept: Kept) -> int:
+    """Return the last stop of a vehicle's trip that stays, of those that a reply shows."""
+    stops = kept.route.trips[-1].stops
+    last = len(stops) - 1
+    return last if kept.way_on is None and not problem.is_nowhere(stops[last].node) else last - 1
 
 
 def _terms(replan: ReplanInput, problem: Problem) -> Terms:

@@ -42,7 +42,7 @@ def _rings_m(draft: Draft, no_fly: list[list[Location]]) -> list[Ring]:
     """Return the areas' corners in planar metres."""
     corners = np.array([corner for ring in no_fly for corner in ring]) * draft.planar_unit
     if draft.coordinate_system == "geographic":
-        places = [place.location for _, place in draft.places() if place.location is not None]
+        places = [place.location for place, *_ in draft.places() if place.location is not None]
         on_globe = [(x, y) for x, y in places if abs(x) <= 180 and abs(y) <= 90]
         projection = LocalProjection.around(np.array(on_globe or no_fly[0]))
         corners = projection.project(corners / draft.planar_unit)

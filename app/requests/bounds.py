@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from app.conversion.places import nowhere_of, places_of
 from app.conversion.travels import Travels
 from app.errors import InputError
 from app.requests.draft import Draft
@@ -70,7 +71,7 @@ def leg_errors(request: PlanRequest, bounds: Bounds) -> Iterator[InputError]:
     """Yield an error if the matrices of a valid request would take too much memory."""
     travels = Travels(request)
     kinds = travels.count()
-    places = len(request.depots) + len(request.customers)
+    places = len(places_of(request)) + (nowhere_of(request) is not None)
     legs = kinds * places**2
     once_more = ""
     if request.replan is not None:

@@ -2,7 +2,9 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from app.conversion.places import Place, stands_of
 from app.errors import ErrorCode, InputError, json_path
 from app.schemas.customer import CustomerInput
 from app.schemas.fields import Location
@@ -13,8 +15,15 @@ MAX_COORDINATE_M = 1e7
 """Farthest planar coordinate from the origin in metres, a quarter of the way round the earth."""
 
 Path = tuple[str | int, ...]
-Place = DepotInput | CustomerInput
 Errors = Iterator[InputError]
+
+
+class Placed(NamedTuple):
+    """A place of a request, and the paths of where it is."""
+
+    place: Place
+    location: Path
+    location_index: Path
 
 
 @dataclass(frozen=True)
@@ -36,12 +45,15 @@ class Draft:
     replan: ReplanInput | None = None
     planar_rounding: str = "exact"
 
-    def places(self) -> Iterator[tuple[Path, Place]]:
-        """Yield depots and customers with their paths."""
+    def places(self) -> Iterator[Placed]:
+        """Yield depots, customers, and where vehicles start and end."""
         for name, entries in (("depots", self.depots), ("customers", self.customers)):
             for index, entry in enumerate(entries or ()):
                 if entry is not None:
-                    yield (name, index), entry
+                    yield Placed(entry, (name, index, "location"), (name, index, "location_index"))
+        for path, kind in self.vehicle_types():
+            for stand in stands_of(kind):
+                yield Placed(stand.place, (*path, *stand.location), (*path, *stand.location_index))
 
     def known_customers(self) -> Iterator[tuple[Path, CustomerInput]]:
         """Yield customers with their paths."""

@@ -29,6 +29,11 @@ def depot_errors(draft: Draft) -> Errors:
             yield error_at("UNKNOWN_DEPOT", (*path, "depot"),
                            f"No depot has the id {vehicle_type.depot!r}: use the id of one in "
                            "depots, or add it there.")
+        for index, name in enumerate(vehicle_type.reload_depots):
+            if name not in known:
+                yield error_at("UNKNOWN_DEPOT", (*path, "reload_depots", index),
+                               f"No depot has the id {name!r}: use the id of one in depots, or "
+                               "add it there.")
 
 
 def energy_errors(draft: Draft) -> Errors:

@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
 from app.conversion.names import number_in
+from app.conversion.places import stands_of
 from app.conversion.units import thousandths
 from app.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_error
 from app.requests.reading import read_json
@@ -21,12 +22,15 @@ NO_MORE = -1
 """Node of a customer whom a plan serves and the problem no longer has."""
 
 Path = tuple[str | int, ...]
+Key = TypeVar("Key")
 Value = TypeVar("Value")
 Entries = Sequence[DepotInput | CustomerInput | VehicleTypeInput | None] | None
 
 _UNKNOWN: dict[str, ErrorCode] = {
     "customer": "UNKNOWN_CUSTOMER",
     "depot": "UNKNOWN_DEPOT",
+    "start": "UNKNOWN_DEPOT",
+    "end": "UNKNOWN_DEPOT",
     "vehicle type": "UNKNOWN_VEHICLE_TYPE",
 }
 
@@ -109,33 +113,51 @@ def _by_parts(problem: Problem, solution: Solution) -> Solution:
         for route in solution.routes]))
 
 
+class KnownType(NamedTuple):
+    """A vehicle type: its number, the time that a recovery takes in ms, and an open route's end."""
+
+    index: int = 0
+    recovery_duration: int = 0
+    nowhere: int | None = None
+
+
 @dataclass(frozen=True)
 class Known:
-    """What a problem has by name: nodes, and types with the time that a recovery takes in ms.
+    """What a problem has by name: nodes, those where types start and end by which of it, and types.
 
     None where some of it is broken, so that nothing can be said to be missing.
     """
 
     depots: Mapping[str, int] | None
+    stands: Mapping[tuple[str, str], int] | None
     customers: Mapping[str, int] | None
-    types: Mapping[str, tuple[int, int]] | None
+    types: Mapping[str, KnownType] | None
 
     @classmethod
     def by(cls, problem: Problem) -> "Known":
         """Return what a problem has."""
         return cls(
-            {depot.id: node for node, depot in enumerate(problem.depots)},
+            {depot.id: node for node, depot in enumerate(problem.depots) if depot.kind == "depot"},
+            {(depot.kind, depot.id): node for node, depot in enumerate(problem.depots)},
             {customer.id: node
              for node, customer in enumerate(problem.customers, problem.num_depots)},
-            {kind.type_id: (index, 0 if kind.drones is None else kind.drones.recovery_duration)
+            {kind.type_id: KnownType(
+                index, 0 if kind.drones is None else kind.drones.recovery_duration,
+                kind.ends_at if problem.is_nowhere(kind.ends_at) else None)
              for index, kind in enumerate(problem.vehicle_types)})
 
     @classmethod
-    def of(cls, depots: Entries, customers: Entries, fleet: Entries) -> "Known":
+    def of(cls, depots: Sequence[DepotInput | None] | None,
+           customers: Sequence[CustomerInput | None] | None,
+           fleet: Sequence[VehicleTypeInput | None] | None) -> "Known":
         """Return what the parts of a request have; their numbers mean nothing."""
+        stands = None
+        if fleet is not None and None not in fleet:
+            stands = {(stand.depot.kind, stand.depot.id): 0 for kind in fleet if kind is not None
+                      for stand in stands_of(kind)}
         kinds = _by_name(fleet)
-        return cls(_by_name(depots), _by_name(customers),
-                   None if kinds is None else dict.fromkeys(kinds, (0, 0)))
+        return cls(_by_name(depots), stands, _by_name(customers),
+                   None if kinds is None else dict.fromkeys(kinds, KnownType()))
 
 
 def _by_name(entries: Entries) -> dict[str, int] | None:
@@ -163,20 +185,27 @@ class _PlanReader:
         return Solution(routes, tuple(node for node in unassigned if node != self._cancelled))
 
     def _route(self, path: Path, route: RouteInput) -> Route:
-        vehicle_type, recovery_duration = self._find(
-            (*path, "type"), "vehicle type", self._known.types, route.type, (0, 0))
+        kind = self._find((*path, "type"), "vehicle type", self._known.types, route.type,
+                          route.type, KnownType())
         vehicle = self._number((*path, "vehicle"), f"{route.type}-", route.vehicle)
-        trips = tuple(
-            self._trip((*path, "trips", index), trip, route.vehicle, recovery_duration)
-            for index, trip in enumerate(route.trips)
-        )
-        return Route(vehicle_type, vehicle, trips)
+        trips = [self._trip((*path, "trips", index), trip, route.vehicle, kind.recovery_duration)
+                 for index, trip in enumerate(route.trips)]
+        if trips and kind.nowhere is not None:
+            trips[-1] = self._open_ended(trips[-1], route.trips[-1], kind.nowhere)
+        return Route(kind.index, vehicle, tuple(trips))
+
+    def _open_ended(self, trip: Trip, stated: TripInput, nowhere: int) -> Trip:
+        """Return a trip that ends nowhere, if it ends at its last stop."""
+        if not trip.stops or (len(trip.stops) > 1 and stated.stops[-1].kind != "customer"):
+            return trip
+        end = trip.stops[-1].departure
+        return replace(trip, stops=(*trip.stops, Stop(nowhere, end, end, end)))
 
     def _customer(self, path: Path, name: str) -> int:
         customers = self._known.customers
         if self._cancelled is not None and customers is not None:
             return customers.get(name, self._cancelled)
-        return self._find(path, "customer", customers, name, 0)
+        return self._find(path, "customer", customers, name, name, 0)
 
     def _trip(self, path: Path, trip: TripInput, vehicle: str, recovery_duration: int) -> Trip:
         return Trip(
@@ -189,12 +218,18 @@ class _PlanReader:
 
     def _stop(self, path: Path, stop: StopInput) -> Stop:
         return Stop(
-            node=(self._customer((*path, "id"), stop.id) if stop.kind == "customer"
-                  else self._find((*path, "id"), stop.kind, self._known.depots, stop.id, 0)),
+            node=self._place((*path, "id"), stop),
             arrival=thousandths(stop.arrival),
             service_start=thousandths(stop.service_start),
             departure=thousandths(stop.departure),
         )
+
+    def _place(self, path: Path, stop: StopInput) -> int:
+        if stop.kind == "customer":
+            return self._customer(path, stop.id)
+        if stop.kind == "depot":
+            return self._find(path, "depot", self._known.depots, stop.id, stop.id, 0)
+        return self._find(path, stop.kind, self._known.stands, (stop.kind, stop.id), stop.id, 0)
 
     def _sortie(self, path: Path, sortie: SortieInput, vehicle: str,
                 recovery_duration: int) -> Sortie:
@@ -220,15 +255,15 @@ class _PlanReader:
             for index, visit in enumerate(visits)
         )
 
-    def _find(self, path: Path, kind: str, known: Mapping[str, Value] | None, name: str,
+    def _find(self, path: Path, kind: str, known: Mapping[Key, Value] | None, key: Key, name: str,
               otherwise: Value) -> Value:
         if known is None:
             return otherwise
-        if name not in known:
+        if key not in known:
             message = f"The problem has no {kind} {name!r}: use the id of one it has."
             self.errors.append(InputError(code=_UNKNOWN[kind], path=json_path(path),
                                           message=message))
-        return known.get(name, otherwise)
+        return known.get(key, otherwise)
 
     def _number(self, path: Path, prefix: str, name: str) -> int:
         """Return the 0-based number at the end of a vehicle's or drone's name."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from app.conversion.names import number_in
+from app.conversion.places import stands_of
 from app.conversion.units import thousandths
 from app.errors import ErrorCode, InputError, json_path
 from app.schemas.customer import CustomerInput
@@ -14,6 +15,8 @@ from app.schemas.request import DepotInput, ReplanInput
 from app.schemas.vehicle import VehicleTypeInput
 
 Path = tuple[str | int, ...]
+PlaceName = tuple[str, str]
+"""Kind and id of a stop."""
 Errors = Iterator[InputError]
 Entry = TypeVar("Entry")
 
@@ -36,11 +39,28 @@ class Names:
                    None if known is None else frozenset(customer.id for customer in known),
                    None if kinds is None else {kind.id: kind for kind in kinds})
 
-    def home(self, vehicle_type: VehicleTypeInput) -> str | None:
+    def _home(self, vehicle_type: VehicleTypeInput) -> PlaceName | None:
         """Return the depot of a type."""
-        if vehicle_type.depot is not None or not self.depots:
-            return vehicle_type.depot
-        return self.depots[0].id
+        home = vehicle_type.depot
+        if home is None and self.depots:
+            home = self.depots[0].id
+        return None if home is None else ("depot", home)
+
+    def begin(self, kind: VehicleTypeInput, before: TripInput | None) -> PlaceName | None:
+        """Return where a type's trip begins, by the one before; None: that isn't known."""
+        if before is not None:
+            return before.stops[-1].kind, before.stops[-1].id
+        stands = {stand.depot.kind for stand in stands_of(kind)}
+        return ("start", kind.id) if "start" in stands else self._home(kind)
+
+    def ends(self, kind: VehicleTypeInput, is_last: bool) -> list[PlaceName] | None:
+        """Return where a type's trip may end; None: that isn't known, or at a customer."""
+        home = self._home(kind)
+        if home is None or (is_last and kind.end == "open"):
+            return None
+        # A vehicle may stay where its last trip was to end.
+        places = [home, *(("depot", name) for name in kind.reload_depots)]
+        return [("end", kind.id), *places] if is_last and kind.end != "depot" else places
 
 
 def _unbroken(entries: Sequence[Entry | None] | None) -> list[Entry] | None:
@@ -124,7 +144,10 @@ class _Checker:
         free = last_end = 0
         for number, trip in enumerate(route.trips):
             here = (*path, "trips", number)
-            shape = list(self._shape_errors(here, trip, route.vehicle))
+            is_last = number == len(route.trips) - 1
+            is_open = (is_last and kind is not None and kind.end == "open"
+                       and (len(trip.stops) < 2 or trip.stops[-1].kind == "customer"))
+            shape = list(self._shape_errors(here, trip, route.vehicle, is_open))
             yield from shape
             begun = _begun(trip, launch_duration, self._now)
             if shape or not begun:
@@ -134,19 +157,25 @@ class _Checker:
                 yield _error("TIMES_DISORDERED", here,
                              "The trip has begun before the one ahead of it: order their times.")
             if kind is not None:
+                begin = self._names.begin(kind, route.trips[number - 1] if number else None)
+                yield from _place_errors(here, trip, kind, None if begin is None else [begin],
+                                         self._names.ends(kind, is_last))
                 yield from self._begun_errors(here, trip, kind, begun)
             yield from _order_errors(here, trip, begun, launch_duration, last_end)
             last_end = thousandths(trip.stops[-1].departure)
             # What follows a trip that is not over has not begun.
             free += begun.left < len(trip.stops)
 
-    def _shape_errors(self, path: Path, trip: TripInput, vehicle: str) -> Errors:
+    def _shape_errors(self, path: Path, trip: TripInput, vehicle: str, is_open: bool) -> Errors:
         kinds = [stop.kind for stop in trip.stops]
-        if (len(kinds) < 2 or (kinds[0], kinds[-1]) != ("depot", "depot")
-                or "depot" in kinds[1:-1]):
+        inner = kinds[1:] if is_open else kinds[1:-1]
+        if (len(kinds) < 2 - is_open or kinds[0] not in ("depot", "start")
+                or (not is_open and kinds[-1] not in ("depot", "end"))
+                or any(kind != "customer" for kind in inner)):
             yield _error("TRIP_SHAPE", (*path, "stops"),
-                         "A trip begins and ends at a depot, with customers between: state it so.")
-        if len(kinds) == 2 and not trip.sorties:
+                         "A trip begins and ends at a depot, or where its vehicle does, with "
+                         "customers between: state it so.")
+        if not inner and not trip.sorties:
             yield _error("TRIP_SHAPE", path, "The trip serves nobody: leave it out.")
         for index, stop in enumerate(trip.stops):
             if (stop.kind == "depot" and self._names.depots is not None
@@ -169,12 +198,6 @@ class _Checker:
     def _begun_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
                       begun: _Begun) -> Errors:
         """What of a trip that has begun the request doesn't have."""
-        home = self._names.home(kind)
-        for index in (0, len(trip.stops) - 1):
-            if home is not None and trip.stops[index].id != home:
-                yield _error("WRONG_DEPOT", (*path, "stops", index, "id"),
-                             f"The trip has begun, and vehicles of {kind.id} start and end at "
-                             f"{home!r}: correct one of the two.")
         count = 0 if kind.drones is None else kind.drones.count
         for index in begun.launched:
             number = number_in("", trip.sorties[index].drone.rpartition("-")[2])
@@ -244,6 +267,18 @@ class _Checker:
             yield _error("OUT_OF_RANGE", ("parcels_back",),
                          f"The parcels are back before {now:g} s, when the vehicles stop: raise "
                          "it.")
+
+
+def _place_errors(path: Path, trip: TripInput, kind: VehicleTypeInput,
+                  begins: list[PlaceName] | None, ends: list[PlaceName] | None) -> Errors:
+    """What of a trip that has begun begins or ends elsewhere than vehicles of its type do."""
+    for index, places in ((0, begins), (len(trip.stops) - 1, ends)):
+        stop = trip.stops[index]
+        if places and (stop.kind, stop.id) not in places:
+            yield _error("WRONG_DEPOT", (*path, "stops", index, "id"),
+                         f"The trip has begun, and vehicles of {kind.id} "
+                         f"{'end' if index else 'begin'} it at the {places[0][0]} "
+                         f"{places[0][1]!r}: correct one of the two.")
 
 
 def _planned(routes: Sequence[RouteInput]) -> Iterator[tuple[Path, str]]:

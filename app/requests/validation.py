@@ -6,9 +6,11 @@ from app.conversion.amounts import amount_errors
 from app.errors import InputError, json_path
 from app.requests.airspace_validation import airspace_errors
 from app.requests.customer_validation import group_errors, vehicle_errors, window_errors
-from app.requests.draft import Draft, Errors, Path, Place, error_at, point_errors
+from app.requests.draft import Draft, Errors, Path, error_at, point_errors
 from app.requests.fleet_validation import depot_errors, energy_errors, shift_errors, speed_errors
 from app.requests.plan_validation import Names, replan_errors
+from app.schemas.customer import CustomerInput
+from app.schemas.request import DepotInput
 from app.schemas.vehicle import VehicleTypeInput
 
 MAX_MATRIX_ERRORS = 20
@@ -41,7 +43,9 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
     ]
 
 
-def _id_errors(name: str, entries: Sequence[Place | VehicleTypeInput | None] | None) -> Errors:
+def _id_errors(name: str,
+               entries: Sequence[DepotInput | CustomerInput | VehicleTypeInput | None] | None,
+               ) -> Errors:
     seen: dict[str, int] = {}
     for index, entry in enumerate(entries or ()):
         if entry is None:
@@ -113,11 +117,11 @@ def _table_errors(path: Path, table: list[list[float]]) -> Errors:
 
 def _location_errors(draft: Draft) -> Errors:
     needed_for = _profile_without_matrix(draft) if draft.matrices_known else None
-    for path, place in draft.places():
+    for place, path, _ in draft.places():
         if place.location is not None:
-            yield from point_errors(draft, (*path, "location"), place.location)
+            yield from point_errors(draft, path, place.location)
         elif needed_for is not None:
-            yield error_at("MISSING_LOCATION", (*path, "location"),
+            yield error_at("MISSING_LOCATION", path,
                            f"{needed_for}: add a location, or the matrix.")
 
 
@@ -131,7 +135,7 @@ def _rounding_errors(draft: Draft) -> Errors:
 def _profile_without_matrix(draft: Draft) -> str | None:
     """Say which profile needs locations, or None if none is known to."""
     if draft.matrices is None:
-        return "Without matrices, every depot and customer needs a location"
+        return "Without matrices, every place needs a location"
     for _, vehicle_type in draft.vehicle_types():
         for profile in _profiles(vehicle_type):
             if profile not in draft.matrices:
@@ -152,14 +156,13 @@ def _index_errors(draft: Draft) -> Errors:
     if not draft.matrices:
         return
     sizes = [len(matrix.durations) for matrix in draft.matrices.values() if matrix is not None]
-    for path, place in draft.places():
+    for place, _, path in draft.places():
         index = place.location_index
         if index is None:
-            yield error_at("MISSING_LOCATION_INDEX", (*path, "location_index"),
-                           "With matrices, every depot and customer needs its row: add "
-                           "location_index.")
+            yield error_at("MISSING_LOCATION_INDEX", path,
+                           f"With matrices, every place needs its row: add {path[-1]}.")
         elif sizes and index >= min(sizes):
-            yield error_at("MATRIX_SIZE", (*path, "location_index"),
+            yield error_at("MATRIX_SIZE", path,
                            f"The smallest matrix has {min(sizes)} rows, numbered from 0: use a "
                            "smaller index, or send larger matrices.")
 

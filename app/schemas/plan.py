@@ -41,8 +41,10 @@ class VisitInput(_Plan):
 class StopInput(_Plan):
     """A place where the truck halts. Times in seconds since plan start."""
 
-    kind: Literal["depot", "customer"] = Field(description="What the place is.")
-    id: str = Field(description="Id of the depot or customer.")
+    kind: Literal["depot", "customer", "start", "end"] = Field(
+        description="What the place is: `start` and `end` are those of a vehicle type."
+    )
+    id: str = Field(description="Id of the depot, the customer or the vehicle type.")
     arrival: Instant = Field(
         description="Arrival; at the trip's first stop, when loading is done."
     )
@@ -70,7 +72,10 @@ class SortieInput(_Plan):
 class TripInput(_Plan):
     """Depot to depot on one loading."""
 
-    stops: list[StopInput] = Field(description="Stops in order, the depot first and last.")
+    stops: list[StopInput] = Field(
+        description="Stops in order, where the trip begins first, where it ends last; an open "
+        "route's last trip ends at its last customer."
+    )
     sorties: list[SortieInput] = Field([], description="Drone flights of this trip.")
     load: Loads = None
     load_rate: Number = None

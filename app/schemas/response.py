@@ -28,8 +28,10 @@ class CostReply(_Reply):
 class StopReply(_Reply):
     """A place where the truck halts. Times in seconds since plan start."""
 
-    kind: Literal["depot", "customer"] = Field(description="What the place is.")
-    id: str = Field(description="Id of the depot or customer.")
+    kind: Literal["depot", "customer", "start", "end"] = Field(
+        description="What the place is: `start` and `end` are those of a vehicle type."
+    )
+    id: str = Field(description="Id of the depot, the customer or the vehicle type.")
     arrival: float = Field(description="Arrival; at the trip's first stop, when loading is done.")
     service_start: float = Field(description="Start of service; at depots the arrival.")
     departure: float = Field(

@@ -1,13 +1,45 @@
 """A vehicle type of a request."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
+from app.errors import IN_PLACE, IN_WORDS
 from app.schemas.drones import DronesInput
-from app.schemas.fields import Demand, Input, Metres, Money, Name, Seconds, Skills, Speed
+from app.schemas.fields import (
+    LOCATION_INDEX_TEXT,
+    LOCATION_TEXT,
+    MAX_DEPOTS,
+    Demand,
+    Input,
+    Location,
+    LocationIndex,
+    Metres,
+    Money,
+    Name,
+    Seconds,
+    Skills,
+    Speed,
+)
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
+
+
+class PlaceInput(Input):
+    """A place of its own."""
+
+    location: Location | None = Field(None, description=LOCATION_TEXT)
+    location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
+
+
+def _tag_of_end(value: object) -> str:
+    return IN_WORDS if isinstance(value, str) else IN_PLACE
+
+
+End = Annotated[
+    Annotated[Literal["depot", "open"], Tag(IN_WORDS)] | Annotated[PlaceInput, Tag(IN_PLACE)],
+    Discriminator(_tag_of_end),
+]
 
 
 class CostsInput(Input):
@@ -48,7 +80,25 @@ class VehicleTypeInput(Input):
 
     id: Name = Field(description="Name of the type, unique in the fleet; vehicles are `<id>-1`, …")
     depot: Name | None = Field(
-        None, description="Depot where the vehicles start and end. Null: the first depot."
+        None, description="Depot where trips begin and end. Null: the first depot."
+    )
+    start_location: Location | None = Field(
+        None,
+        description="Where the vehicles begin, loaded, in the coordinates of `location`; further "
+        "trips begin at the depot. Null: at the depot.",
+    )
+    start_location_index: LocationIndex | None = Field(
+        None, description="Row and column of that place in `matrices`. Needed with them."
+    )
+    end: End = Field(
+        "depot",
+        description="Where the last trip ends: `depot`, `open` (at its last stop, drones aboard), "
+        "or at a place of its own.",
+    )
+    reload_depots: Annotated[list[Name], Field(max_length=MAX_DEPOTS)] = Field(
+        [],
+        description="Depots where a trip may end and the next begin, besides `depot`. Which one "
+        "it is between two trips is the plan's choice.",
     )
     count: int = Field(ge=1, le=10_000, description="Vehicles of this type.")
     capacity: Demand = Field(

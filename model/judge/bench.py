@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, JudgedRoute, check, judge_route
+from model.judge.ends import with_ends
 from model.judge.past import EVERYTHING_OPEN, Past
 from model.judge.places import Found, Place, changed, find_place, route_with, routes_without
 from model.judge.retiming import TimedRoute, read_route, time_route
@@ -90,11 +91,15 @@ class Bench:
         index = found.route
         decision = read_route(self.problem, solution.routes[index])
         unassigned = (*solution.unassigned, self.node)
-        if all(not way.trips for way in routes_without(decision, found)):
+        ways = [*routes_without(decision, found)]
+        if all(not way.trips for way in ways):
             plan = changed(solution, index, None, unassigned)
             judged = self.setting.judge_routes(self.problem, plan)
         else:
-            timed = self._best(self.problem, [*routes_without(decision, found)], index)
+            kind = self.problem.vehicle_types[decision.vehicle_type]
+            ways = [way if len(way.trips) == len(decision.trips)
+                    else replace(way, trips=with_ends(kind, way.trips)) for way in ways]
+            timed = self._best(self.problem, ways, index)
             plan = changed(solution, index, timed.route, unassigned)
             judged = {**judged, index: timed.judged}
         return Trial(None, plan, self.setting.judge(self.problem, plan, judged)), judged
@@ -123,6 +128,8 @@ class Bench:
         else:
             decision = RouteDecision(place.vehicle.type, place.vehicle.number, ())
         decision = route_with(decision, place, self.node, (kind.begins_at, kind.ends_at))
+        if place.own_trip:
+            decision = replace(decision, trips=with_ends(kind, decision.trips))
         timed = self._best(problem, [decision], index)
         return Draft(place, index, timed, timed.judged.cost.total - before)
 

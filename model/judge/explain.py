@@ -312,11 +312,12 @@ def _missed_window(attempt: Attempt) -> _Diagnosis | None:
 def _shift(attempt: Attempt) -> _Diagnosis:
     vehicle_type = attempt.vehicle_type
     late = _up_to_tenth(attempt.evaluation.makespan - vehicle_type.latest, MS_PER_MINUTE)
+    home = "done" if attempt.problem.is_nowhere(vehicle_type.ends_at) else "back"
     enough = vehicle_type.latest + late
     changed = replace(vehicle_type, latest=min(enough, UNLIMITED))
     return _Diagnosis(
         "SHIFT",
-        f"{vehicle_type.id} would be back {_minutes(late)} after its shift ends.",
+        f"{vehicle_type.id} would be {home} {_minutes(late)} after its shift ends.",
         _if_stated(f"fits if {vehicle_type.id}'s shift ended {_minutes(late)} later", enough),
         _with_type(attempt, changed),
     )

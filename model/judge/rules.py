@@ -62,10 +62,6 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     trip, metrics, path = timed.trip, timed.metrics, timed.path
     if len(trip.stops) == 2 and not any(sortie.visits for sortie in trip.sorties):
         yield Violation("EMPTY_TRIP", "a trip without customers", path)
-    for index, place in ((0, vehicle_type.begins_at), (-1, vehicle_type.ends_at)):
-        if trip.stops[index].node != place:
-            message = f"depot {trip.stops[index].node} is not home of {vehicle_type.id}"
-            yield Violation("DEPOT", message, f"{path}.stops[{index % len(trip.stops)}]")
     if _exceeds(metrics.load, vehicle_type.capacity):
         message = (f"load {amounts(problem, metrics.load)} exceeds "
                    f"{amounts(problem, vehicle_type.capacity)}")
@@ -169,10 +165,33 @@ def airborne_duration(problem: Problem, drones: DroneType, trip: Trip, sortie: S
     return last.departure + homeward - sortie.launch_time
 
 
+def _place_violations(vehicle_type: VehicleType, trips: list[TimedTrip],
+                      has_begun: bool) -> Iterator[Violation]:
+    """Each trip begins where the one before ended, at a depot; the outer ends have places.
+
+    Vehicles all of whose trips had begun may stay where the last one was to end.
+    """
+    begin = vehicle_type.begins_at
+    for index, timed in enumerate(trips):
+        first, *_, last = [stop.node for stop in timed.trip.stops]
+        ends = [*vehicle_type.reload_places]
+        if index == len(trips) - 1:
+            ends = [vehicle_type.ends_at, *(ends if has_begun else ())]
+        if first != begin:
+            message = f"{vehicle_type.id} begins the trip at depot {begin}, not {first}"
+            yield Violation("DEPOT", message, f"{timed.path}.stops[0]")
+        if last not in ends:
+            message = f"{vehicle_type.id} ends the trip at depot {ends[0]}, not {last}"
+            yield Violation("DEPOT", message, f"{timed.path}.stops[{len(timed.trip.stops) - 1}]")
+        begin = last
+
+
 def route_violations(
-    vehicle_type: VehicleType, trips: list[TimedTrip], metrics: RouteMetrics, path: str
+    vehicle_type: VehicleType, trips: list[TimedTrip], metrics: RouteMetrics, path: str,
+    has_begun: bool = False,
 ) -> Iterator[Violation]:
-    """What trips break together: shift, reloading and working duration."""
+    """What trips break together: where they begin and end, shift, reloading, working duration."""
+    yield from _place_violations(vehicle_type, trips, has_begun)
     ready = vehicle_type.earliest
     for index, timed in enumerate(trips):
         begin, end = timed.trip.stops[0].arrival, timed.trip.stops[-1].departure

@@ -60,7 +60,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int]) -> Problem:
         depots=tuple([problem.depots[depot] for depot in depots]),
         customers=tuple([problem.customer_at(node) for node in nodes]),
         vehicle_types=(replace(vehicle_type, depot=0, start=0, end=len(depots) - 1, travel=0,
-                               drones=drones),),
+                               drones=drones, reload_depots=()),),
         travel=tuple([Travel(each.duration[grid], each.distance[grid]) for each in travels]),
         coordinates=problem.coordinates[places],
         unassigned_cost=problem.unassigned_cost,

@@ -26,11 +26,11 @@ SOURCES = (
         "flight", "load", "clock", "leg")),
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (
-        "vehicle_log", "cost", "meeting", "transition", "simulator")),
+        "vehicle_log", "cost", "meeting", "transition", "trial", "simulator")),
     *(f"policy/{part}" for part in (
         "tokens", "observation", "lookahead", "features", "resampling", "rollouts")),
     *(f"search/route/{part}" for part in (
-        "layout", "randomness", "block", "routes", "lean", "refresh", "edit", "state",
+        "layout", "ends", "randomness", "block", "routes", "lean", "refresh", "edit", "state",
         "vehicles")),
     *(f"search/insertion/{part}" for part in (
         "evaluate", "cheapest_stop", "new_trips", "offers", "places")),

@@ -44,7 +44,8 @@ PRICE = record(lateness=float, waiting=float)
 """What lateness and waiting at a node cost per hour."""
 
 TYPE = record(
-    "count", "travel", "begins_at", "ends_at", "shift_earliest", "busy_until", "begun",
+    "count", "travel", "depot", "begins_at", "ends_at", "changes_ends", "shift_earliest",
+    "busy_until", "begun",
     "shift_latest", "max_working_duration", "max_trip_distance", "max_trips", "reload_duration",
     "speed_changes", "drones", "drone_travel", "endurance", "waiting_counts", "launch_duration",
     "recovery_duration", "drone_service_duration", "points", "battery", "lands", "climb_duration",
@@ -71,6 +72,7 @@ class Instance(NamedTuple):
     price: Records  # (problem, node) PRICE
     type: Records  # (problem, type) TYPE
     rate: Records  # (problem, type) RATE
+    reload: BoolArray  # (problem, type, node) where a trip may end and the next begin
     can_drive: BoolArray  # (problem, type, node) table, kind, skills and capacity allow a truck
     can_fly: BoolArray  # (problem, type, node) likewise for its drones
     profile_time: IntArray  # (problem, type, change)
@@ -107,6 +109,7 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
         price=np.zeros((rows, nodes), PRICE),
         type=np.zeros((rows, types), TYPE),
         rate=np.zeros((rows, types), RATE),
+        reload=np.zeros((rows, types, nodes), np.bool_),
         can_drive=np.zeros((rows, types, nodes), np.bool_),
         can_fly=np.zeros((rows, types, nodes), np.bool_),
         profile_time=np.zeros((rows, types, changes), np.int64),
@@ -150,6 +153,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
         instance.unassigned_more[row, depots:nodes] = costs - costs.min()
     for index, kind in enumerate(problem.vehicle_types):
         instance.type[row, index] = _type_row(kind)
+        instance.reload[row, index, list(kind.reload_places)] = True
         drones = kind.drones
         worked = _worked(kind) / MS_PER_HOUR * kind.cost_per_hour
         instance.rate[row, index] = (
@@ -195,7 +199,8 @@ def _type_row(kind: VehicleType) -> tuple[Any, ...]:
     free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
     energy = None if drones is None else drones.energy
     return (
-        kind.count, kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.busy_until,
+        kind.count, kind.travel, kind.depot, kind.begins_at, kind.ends_at,
+        _changes_ends(kind), kind.earliest, kind.busy_until,
         int(kind.works_since is not None), kind.latest,
         UNLIMITED if kind.max_working_duration is None else kind.max_working_duration - worked,
         UNLIMITED if kind.max_trip_distance is None else kind.max_trip_distance,
@@ -204,6 +209,12 @@ def _type_row(kind: VehicleType) -> tuple[Any, ...]:
         *(NO_DRONES if drones is None else _drones(drones)),
         *_battery(energy), _padded(free), _padded(() if drones is None else drones.capacity),
         *_powers(energy))
+
+
+def _changes_ends(kind: VehicleType) -> int:
+    """Tell whether trips of a type, if there are several, don't all begin and end at one place."""
+    places = {kind.begins_at, kind.ends_at, *kind.reload_places}
+    return int(kind.max_trips > 1 and places != {kind.depot})
 
 
 def _drones(drones: DroneType) -> tuple[int, ...]:

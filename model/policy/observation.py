@@ -10,7 +10,8 @@ import numpy as np
 from model.kernel.records import Records, row_of_floats
 from model.policy.tokens import NUM_TYPE_FEATURES, Float32Array
 from model.problem import IntArray
-from model.simulation.simulator import NUM_KINDS, OUTLOOK
+from model.simulation.simulator import NUM_KINDS
+from model.simulation.trial import OUTLOOK
 
 ACTION = row_of_floats(
     ("kind", NUM_KINDS), "duration", "nearness", "cost", "waiting", "window_slack", "lateness",

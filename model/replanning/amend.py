@@ -6,6 +6,7 @@ from dataclasses import replace
 from operator import gt
 
 from model.judge.check import judge_route
+from model.judge.ends import with_ends
 from model.judge.past import EVERYTHING_OPEN, Past
 from model.judge.rules import Violation
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
@@ -68,6 +69,8 @@ def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],
     step = 1
     for round_number in range(len(_customers_of_route(decision)) + 1):
         trips = tuple(trip for trip in decision.trips if customers_of(trip))
+        if len(trips) < len(decision.trips):
+            trips = with_ends(problem.vehicle_types[decision.vehicle_type], trips)
         decision = replace(decision, trips=trips)
         if not trips:
             return None

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import count
 
+from model.judge.ends import with_ends
 from model.judge.past import Past, Vehicle
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
@@ -36,9 +37,10 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
             continue
         trips = [_moved(trip, here) for trip in _trips_left(problem, route, kept.get(vehicle))]
         trips = [trip for trip in trips if customers_of(trip)]
-        trips = trips[:left.problem.vehicle_types[kind].max_trips]
+        own = left.problem.vehicle_types[kind]
         if trips:
-            decisions.append(RouteDecision(kind, used[kind], tuple(trips)))
+            decisions.append(RouteDecision(kind, used[kind],
+                                           with_ends(own, trips[:own.max_trips])))
             used[kind] += 1
     return _scheduled(left, decisions)
 
@@ -53,8 +55,7 @@ def _trips_left(problem: Problem, route: Route, kept: Kept | None) -> list[TripD
     for trip in trips:
         flown = tuple(sortie for sortie in trip.sorties if sortie.drone < number)
         decision = read_decision(Trip(trip.stops, flown), launch_duration)
-        nodes = (kind.begins_at, *decision.nodes[1:-1], kind.ends_at)
-        decisions.append(replace(decision, nodes=nodes))
+        decisions.append(decision)
     return decisions
 
 

@@ -119,12 +119,13 @@ def _can_go_on(problem: Problem, route: Kept, home_by: int) -> bool:
 def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> Worker:
     """Return what a vehicle can do on the trip that it is on."""
     limit = problem.vehicle_types[route.vehicle.type].max_trip_distance
+    trip = route.decision.trips[-1]
     own = replace(
-        _own_type(problem, route, way_on.ready, home_by, 1),
+        _own_type(problem, route, way_on.ready, home_by, 1), end=trip.nodes[-1],
         max_trip_distance=None if limit is None else limit - _driven(problem, route)[0],
         initial_load=_load(problem, route),
         busy_until=way_on.ready + way_on.service_left, works_since=way_on.ready)
-    place = route.decision.trips[-1].nodes[way_on.position]
+    place = trip.nodes[way_on.position]
     return Worker(route.vehicle, own, way_on.aboard, place)
 
 
@@ -133,9 +134,11 @@ def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int) -
     kind = problem.vehicle_types[route.vehicle.type]
     ready = max(past.now, home + kind.reload_duration)
     trips_left = kind.max_trips - len(route.route.trips)
-    if route.vehicle in past.unavailable or trips_left < 1 or ready > home_by:
+    place = route.decision.trips[-1].nodes[-1]
+    if (route.vehicle in past.unavailable or trips_left < 1 or ready > home_by
+            or place not in kind.reload_places):
         return None
-    own = _own_type(problem, route, ready, home_by, trips_left)
+    own = replace(_own_type(problem, route, ready, home_by, trips_left), start=place)
     return Worker(route.vehicle, replace(own, works_since=home) if kind.cost_per_hour else own)
 
 

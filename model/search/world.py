@@ -15,7 +15,8 @@ from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
 from model.search.route.layout import (
-    MODE_LEAN, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED, World, MOST_VISITS,
+    MODE_APART, MODE_LEAN, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED,
+    MOST_VISITS, World,
 )
 
 NEAR_RUIN = 128
@@ -118,7 +119,8 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         unequal=bool(instance.unassigned_more[0].any()),
         must_serve=_must_serve(problem, instance),
         place=place, price=_per_ms(instance.price[0]),
-        type=types, rate=_per_unit(rates), mode=mode, visits=visits,
+        type=types, rate=_per_unit(rates), mode=mode,
+        reload=instance.reload[0], visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
         swap=swap, leg=ground.leg, back=ground.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
@@ -177,7 +179,7 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
             & (types["max_trips"] == 1) & (types["drones"] == 0))
     mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
                       + MODE_RETIMED * retimed + MODE_SIMPLE * simple
-                      + MODE_LEAN * lean).astype(np.int64)
+                      + MODE_LEAN * lean + MODE_APART * types["changes_ends"]).astype(np.int64)
     return mode
 
 

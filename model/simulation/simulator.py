@@ -1,23 +1,23 @@
 """The decision process, compiled: begin, list the legal actions, act, over a batch of rollouts.
 
 One action per step, vehicle after vehicle: drive to a customer, launch a drone to a customer,
-return to the depot, open a vehicle of a type. A sortie is recovered at the next stop, or at the
+return to a depot, open a vehicle of a type. A sortie is recovered at the next stop, or at the
 stop that launched it when it could not be met at the next within endurance. An action is legal
 exactly when the plan so far, that action and a direct return to the depot make a legal plan, all
 as soon as possible but the first departure, which is as late as costs nothing: a working duration
-is not kept by being late. So no legal action leads into an illegal plan.
+is not kept by being late. So no legal action leads into an illegal plan. Where a route may not end
+at a depot, a trip may only if a further one can follow.
 """
 
 import numpy as np
 
 from model.kernel.clock import is_steady
 from model.kernel.compiled import compiled, inlined
-from model.kernel.copying import copy_records
 from model.kernel.flight import take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, release_of, within
-from model.kernel.records import Record, Records, record
+from model.kernel.records import Record, Records
 from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
@@ -26,18 +26,15 @@ from model.simulation.transition import (
     State, board, clear_vehicle, close_vehicle, drive, empty_state, improve_departure, launch,
     load_left, open_vehicle,
 )
+from model.simulation.trial import OUTLOOK, legal_by_trial, may_reload
 from model.simulation.vehicle_log import (
-    IN_FLIGHT, Setting, VehicleLog, first_departure, log_of, replay, setting_of, start_to_depart,
-    travel_arrival,
+    IN_FLIGHT, Setting, first_departure, log_of, setting_of, travel_arrival,
 )
 
 DRIVE, LAUNCH, RETURN, OPEN = range(4)
 NUM_KINDS = 4
 
 NO, YES, UNSURE = range(3)
-OUTLOOK = record("arrival", "start", "end")
-"""What an action on a customer leads to: the arrival, the start of service, and the end of the trip
-if the vehicle went home afterwards."""
 
 
 def encode_action(kind: int, target: int) -> int:
@@ -121,62 +118,10 @@ def _judge_launch(setting: Setting, vehicle: Record, drones: Records, departure:
 
 
 @inlined
-def _copy_vehicle(state: State, r: int, to: int) -> None:
-    """Copy the open vehicle of one row to another. In place."""
-    logs = state.log
-    count = logs.count[r]
-    state.vehicle[to], logs.count[to] = state.vehicle[r], count
-    copy_records(state.drone[r], state.drone[to], state.drone.shape[1])
-    copy_records(logs.trip[r], logs.trip[to], count.trips)
-    copy_records(logs.stop[r], logs.stop[to], count.stops)
-    copy_records(logs.op[r], logs.op[to], count.ops)
-    copy_records(logs.sortie[r], logs.sortie[to], count.sorties)
-
-
-@inlined
-def _works_within(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record) -> bool:
-    """Tell whether a vehicle come home could have left so late as to keep its working duration.
-
-    Cheaper than `improve_departure`: one start is tried, since all before one that costs nothing
-    cost nothing.
-    """
-    needed = vehicle.free - setting.type.max_working_duration
-    if first_departure(setting, log, vehicle.start_best) >= needed:
-        return True
-    if has_begun(setting.type):
-        return False
-    return replay(setting, num_depots, log, 0, start_to_depart(setting, log, needed), False)
-
-
-@compiled
-def legal_by_trial(instance: Instance, state: State, r: int, scratch: int, kind: int, node: int,
-                   outlook: Record) -> bool:
-    """Tell whether an action on a customer is legal by doing it and the return home on scratch.
-
-    Exact for every customer that the load, the kind and the number of trips allow.
-    """
-    b, k = state.problem[r], state.vehicle[r].type
-    setting = setting_of(instance, b, k)
-    num_depots = instance.size[b].depots
-    _copy_vehicle(state, r, scratch)
-    vehicle, log = state.vehicle[scratch], log_of(state.log, scratch)
-    drones = state.drone[scratch, : setting.type.drones]
-    if kind == LAUNCH:
-        if not launch(setting, num_depots, log, vehicle, drones, node):
-            return False
-    elif not drive(setting, num_depots, log, vehicle, drones, node):
-        return False
-    here = log.count.stops - 1
-    if not drive(setting, num_depots, log, vehicle, drones, setting.type.ends_at):
-        return False
-    arrival, start = log.stop[here].arrival, log.stop[here].start
-    if kind == LAUNCH:
-        sortie = log.sortie[log.count.sorties - 1]
-        arrival, start = sortie.arrival, sortie.start
-    end = vehicle.free
-    outlook.arrival, outlook.start, outlook.end = arrival, start, end
-    return (end <= setting.type.shift_latest
-            and _works_within(setting, num_depots, log, vehicle))
+def _may_go_on(instance: Instance, setting: Setting, b: int, k: int, vehicle: Record,
+               trips: int) -> bool:
+    """Tell whether a vehicle may begin a further trip where it is."""
+    return trips < setting.type.max_trips and instance.reload[b, k, vehicle.node]
 
 
 @compiled
@@ -188,7 +133,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     setting = setting_of(instance, b, k)
     trips = state.log.count[r].trips
     idle = vehicle.idle == 1
-    if idle and trips >= setting.type.max_trips:
+    if idle and trips > 0 and not _may_go_on(instance, setting, b, k, vehicle, trips):
         return 0
     legs = matrix_of(instance.distance, b, setting.type.travel)
     here, home = vehicle.node, setting.type.ends_at
@@ -211,7 +156,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
                 verdict = _judge_drive(setting, vehicle, drones, earliest, node,
                                        outlooks[found])
             if verdict == YES or (verdict == UNSURE and legal_by_trial(
-                    instance, state, r, scratch, DRIVE, node, outlooks[found])):
+                    instance, state, r, scratch, -1, False, node, outlooks[found])):
                 actions[found] = node * NUM_KINDS + DRIVE
                 found += 1
         if may_launch and can_fly[node]:
@@ -219,8 +164,25 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
             if not held and not idle:
                 verdict = _judge_launch(setting, vehicle, drones, earliest, node, outlooks[found])
             if verdict == YES or (verdict == UNSURE and legal_by_trial(
-                    instance, state, r, scratch, LAUNCH, node, outlooks[found])):
+                    instance, state, r, scratch, -1, True, node, outlooks[found])):
                 actions[found] = node * NUM_KINDS + LAUNCH
+                found += 1
+    return found
+
+
+@compiled
+def _legal_returns(instance: Instance, state: State, r: int, scratch: int, actions: IntArray,
+                   outlooks: Records, found: int) -> int:
+    """Write, behind those found, where the vehicle's trip may end; return how many there are."""
+    b, k = state.problem[r], state.vehicle[r].type
+    kind = instance.type[b, k]
+    actions[found] = kind.ends_at * NUM_KINDS + RETURN
+    found += 1
+    if kind.changes_ends == 1 and state.log.count[r].trips < kind.max_trips:
+        for place in range(instance.size[b].depots):
+            if (place != kind.ends_at and instance.reload[b, k, place]
+                    and may_reload(instance, state, r, scratch, place, outlooks[found])):
+                actions[found] = place * NUM_KINDS + RETURN
                 found += 1
     return found
 
@@ -252,10 +214,9 @@ def legal_actions(instance: Instance, state: State, r: int, scratch: int, action
     if vehicle.type != NO_VEHICLE:
         found = _legal_services(instance, state, r, scratch, actions, outlooks)
         if not vehicle.idle:
-            home = instance.type[state.problem[r], vehicle.type].ends_at
-            actions[found] = home * NUM_KINDS + RETURN
-            return found + 1
-        if state.log.count[r].trips == 0:
+            return _legal_returns(instance, state, r, scratch, actions, outlooks, found)
+        if (state.log.count[r].trips == 0
+                or vehicle.node != instance.type[state.problem[r], vehicle.type].ends_at):
             return found
     for k in range(instance.size[state.problem[r]].types):
         if _open_legal(instance, state, r, k):

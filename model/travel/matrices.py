@@ -121,6 +121,23 @@ def matrix_travel(durations_s: FloatArray, distances_m: FloatArray,
                   _whole(distances_m, _rounded_mm, pause))
 
 
+def with_nowhere(travel: Travel, node: int, flown: bool) -> Travel:
+    """Return legs with one more node, nowhere: none leads there if `flown`, else none takes time.
+    """
+    leg = UNREACHABLE if flown else 0
+
+    def larger(matrix: IntArray) -> IntArray:
+        size = len(matrix) + 1
+        legs = np.full((size, size), leg, np.int64)
+        before, behind = slice(None, node), slice(node + 1, None)
+        legs[before, before], legs[before, behind] = matrix[:node, :node], matrix[:node, node:]
+        legs[behind, before], legs[behind, behind] = matrix[node:, :node], matrix[node:, node:]
+        legs[node, node] = 0
+        return legs
+
+    return Travel(larger(travel.duration), larger(travel.distance))
+
+
 def flight_travel(distances_m: FloatArray, durations_s: FloatArray,
                   pause: Pause = go_on) -> Travel:
     """Take the legs of a drone: infinite, or longer than any plan, means no flight.

@@ -74,7 +74,7 @@ def _candidates(problem: Problem, routes: list[RouteDecision],
             yield [*routes[:index], longer, *routes[index + 1:]]
     for index, kind in enumerate(problem.vehicle_types):
         used = sum(route.vehicle_type == index for route in routes)
-        for trip in _with_customer(TripDecision((kind.depot, kind.depot)), node):
+        for trip in _with_customer(TripDecision((kind.begins_at, kind.ends_at)), node):
             yield [*routes, RouteDecision(index, used, (trip,))]
 
 

@@ -200,6 +200,8 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
 def after(problem: Problem, vehicle: Vehicle, kind: int, node: int) -> Vehicle | None:
     """Return the vehicle after one more action, None if the action cannot be done at all."""
     start = problem.vehicle_types[vehicle.kind].begins_at
+    if vehicle.trips:
+        start = vehicle.trips[-1].nodes[-1]
     if vehicle.is_idle:
         if kind == RETURN:
             return None
@@ -290,18 +292,24 @@ def legal_codes(problem: Problem, vehicle: Vehicle | None, served: set[int], use
     customers = [node for node in range(problem.num_depots, problem.num_nodes)
                  if node not in served]
     if vehicle is not None:
-        home = problem.vehicle_types[vehicle.kind].ends_at
+        vehicle_type = problem.vehicle_types[vehicle.kind]
+        home = vehicle_type.ends_at
         actions = [(kind, node) for node in customers for kind in (DRIVE, LAUNCH)]
         for kind, node in [*actions, (RETURN, home)]:
             if can_end(problem, after(problem, vehicle, kind, node), any_start):
                 yield node * NUM_KINDS + kind
-    if vehicle is None or (vehicle.is_idle and vehicle.trips):
+        for place in {*vehicle_type.reload_places} - {home}:
+            reloaded = after(problem, vehicle, RETURN, place)
+            if reloaded is not None and _is_useful(problem, reloaded, customers, any_start):
+                yield place * NUM_KINDS + RETURN
+    if vehicle is None or (vehicle.is_idle and vehicle.trips
+                           and vehicle.trips[-1].nodes[-1] == home):
         for kind, vehicle_type in enumerate(problem.vehicle_types):
             if used[kind] < vehicle_type.count and _is_useful(
                     problem, Vehicle(kind, used[kind]), customers, any_start):
                 yield kind * NUM_KINDS + OPEN
 
 
-def _is_useful(problem: Problem, fresh: Vehicle, customers: list[int], any_start: bool) -> bool:
-    return any(can_end(problem, after(problem, fresh, kind, node), any_start)
+def _is_useful(problem: Problem, idle: Vehicle, customers: list[int], any_start: bool) -> bool:
+    return any(can_end(problem, after(problem, idle, kind, node), any_start)
                for kind in (DRIVE, LAUNCH) for node in customers)

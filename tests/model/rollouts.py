@@ -15,8 +15,9 @@ from model.problem import (
     VehicleType,
 )
 from model.simulation.cost import by_term
-from model.simulation.simulator import NUM_KINDS, OUTLOOK, RETURN, legal_actions, reset
+from model.simulation.simulator import NUM_KINDS, RETURN, legal_actions, reset
 from model.simulation.transition import State
+from model.simulation.trial import OUTLOOK
 from model.solution import COST_TERMS
 from training.instances import VARIANTS, generate
 

@@ -27,8 +27,7 @@ def test_leaving_a_customer_out_costs_no_less_than_nothing(cost, customers):
         replace(customers[0], unassigned_cost=cost)
 
 
-@pytest.mark.parametrize("field", [{"start": 1}, {"end": 1}, {"initial_load": (1,)},
-                                   {"busy_until": 1}])
+@pytest.mark.parametrize("field", [{"initial_load": (1,)}, {"busy_until": 1}])
 def test_a_beginning_of_its_own_is_for_one_trip(field, truck):
     replace(truck, **field)
     with pytest.raises(ValueError, match="max_trips: 2"):

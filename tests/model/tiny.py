@@ -9,6 +9,7 @@ from model.problem import (
     FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Problem,
     SpeedProfile, Travel, VehicleType,
 )
+from model.travel.matrices import with_nowhere
 
 MINUTE = 60_000
 
@@ -160,6 +161,32 @@ def with_places(rng: np.random.Generator, problem: Problem) -> Problem:
         problem, depots=tuple(Depot(str(index)) for index in range(3)), vehicle_types=kinds,
         travel=tuple(Travel(each.duration[grid], each.distance[grid]) for each in problem.travel),
         coordinates=problem.coordinates[nodes])
+
+
+def with_reloads(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem whose vehicles begin, reload and end at several of three depots."""
+    problem = with_places(rng, problem)
+    return replace(problem, vehicle_types=tuple(
+        replace(kind, max_trips=int(rng.integers(1, 4)), depot=int(rng.integers(3)),
+                reload_depots=tuple(np.flatnonzero(rng.random(3) < 0.3).tolist()))
+        for kind in problem.vehicle_types))
+
+
+def with_open_reloads(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem of open routes of several trips that may reload at several depots."""
+    return with_open_ends(rng, with_reloads(rng, problem))
+
+
+def with_open_ends(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem many of whose vehicles end at their last stop."""
+    nowhere = problem.num_depots
+    drive, fly = problem.travel
+    return replace(
+        problem, depots=(*problem.depots, Depot("nowhere", "nowhere")),
+        vehicle_types=tuple(replace(kind, end=nowhere) if rng.random() < 0.7 else kind
+                            for kind in problem.vehicle_types),
+        travel=(with_nowhere(drive, nowhere, False), with_nowhere(fly, nowhere, True)),
+        coordinates=np.insert(problem.coordinates, nowhere, 0.5, axis=0))
 
 
 def with_beginnings(rng: np.random.Generator, problem: Problem) -> Problem:

@@ -10,7 +10,7 @@ from model.dialects.vroom.errors import RefusedError, TooLargeError
 from model.dialects.vroom.kinds import Loads, find_kinds, find_loads
 from model.dialects.vroom.models import Model
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.places import NOWHERE, Places
 from model.dialects.vroom.request import Request, Window
 from model.dialects.vroom.timing import TIME_SCALE
 from model.dialects.vroom.work import (
@@ -113,7 +113,9 @@ class Converter:
             for job, service in zip(nodes.jobs, services, strict=True))
         travels = tuple(drives.travels)
         return Problem(
-            depots=tuple(Depot(str(node)) for node in range(len(depots))), customers=customers,
+            depots=tuple(Depot(str(node), "nowhere" if site == NOWHERE else "depot")
+                         for node, site in enumerate(nodes.depots)),
+            customers=customers,
             vehicle_types=vehicle_types, travel=travels,
             coordinates=self._coordinates(nodes, travels),
             unassigned_cost=dearest_plan(vehicle_types, travels, len(depots), drives.pause),
@@ -193,9 +195,11 @@ class Converter:
     def _coordinates(self, nodes: Nodes, travels: Sequence[Travel]) -> FloatArray:
         """Return where the policy sees the nodes: on the map, or as the legs place them."""
         placed = self._places.map
-        if placed is None:
-            return _by_landmarks(travels[0].duration)
         # Vehicles that start or end anywhere are seen to do so amid all places.
+        if placed is None:
+            points, is_nowhere = _by_landmarks(travels[0].duration), nodes.sites == NOWHERE
+            points[is_nowhere] = points[~is_nowhere].mean(axis=0)
+            return points
         return np.vstack([placed, placed.mean(axis=0)])[nodes.sites]
 
 

@@ -11,6 +11,7 @@ from model.search.route.block import make_ready, plain_block, time_block
 from model.search.route.edit import (
     BY_SORTIE, BY_TRUCK, FLIGHT_TRIP, FROM_START, NEW_TRIP, ON_SORTIE, WAYS, apply, begin_route,
 )
+from model.search.route.ends import is_apart
 from model.search.route.layout import (
     CUSTOMER, END, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, START, Fleet, World, copy_sequence,
 )
@@ -188,8 +189,8 @@ def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record)
     slot, to = move.slot, len(fleet.route) - 1
     route = fleet.route[slot]
     k = route.type
-    depot = world.type[k].ends_at
-    if world.mode[k] & MODE_PRICED:
+    depot = world.type[k].depot
+    if world.mode[k] & MODE_PRICED or (is_apart(world, k) and move.kind >= NEW_TRIP):
         copy_part(fleet, slot, 0, route.length - 1, to)
         apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0)
         if not refresh(world, fleet, to, acc):

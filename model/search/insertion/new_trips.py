@@ -52,7 +52,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     """
     stops = fleet.stop[slot]
     kind, trip = world.type[fleet.route[slot].type], fleet.trip[slot, stops[p].trip]
-    legs, depot = legs_of(world.leg, kind.travel), kind.ends_at
+    legs, depot = legs_of(world.leg, kind.travel), kind.depot
     first, last = trip.first, trip.last
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
@@ -95,7 +95,7 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     """Tell whether a customer can be served by a trip of its own behind stop `p`, or -1."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     kind = world.type[route.type]
-    legs, depot = legs_of(world.leg, kind.travel), kind.ends_at
+    legs, depot = legs_of(world.leg, kind.travel), kind.depot
     time = kind.shift_earliest
     if p >= 0:
         time = stops[p].leave + kind.reload_duration

@@ -16,6 +16,7 @@ from model.search.insertion.new_trips import more_trips_fit, part_fits
 from model.search.route.edit import (
     AT_STOP, BY_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL, copy_move,
 )
+from model.search.route.ends import detour_by_reload, is_apart
 from model.search.route.layout import END, MODE_PRICED, MODE_TIMED, NOWHERE, START, Fleet, World
 from model.search.route.randomness import uniform
 from model.search.route.refresh import idle_time
@@ -195,7 +196,7 @@ def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -
     route, stops = searcher.now.route[slot], searcher.now.stop[slot]
     k = route.type
     flights = legs_of(world.leg, world.type[k].drone_travel)
-    depot = world.type[k].ends_at
+    depot = world.type[k].depot
     out, home = leg(flights, depot, node), leg(flights, node, depot)
     cost = (out.distance + home.distance) * world.rate[k].drone_distance - searcher.now.early[slot]
     if (world.loops and not unreachable(max(out.duration, home.duration))
@@ -212,7 +213,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
     now = searcher.now
     route, stops, best = now.route[slot], now.stop[slot], searcher.bound.best
     k = route.type
-    m, depot, rate = world.type[k].travel, world.type[k].ends_at, world.rate[k].distance
+    m, depot, rate = world.type[k].travel, world.type[k].depot, world.rate[k].distance
     legs, inward = legs_of(world.leg, m), legs_to(world.back, m, node)
     out, home = leg_at(inward, depot).distance, leg(legs, node, depot).distance
     for p in range(-1, route.length):
@@ -237,6 +238,35 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 
 
+@pasted
+def offer_trips_apart(world: World, searcher: Searcher, slot: int, node: int) -> None:
+    """As `offer_trips`, where trips don't all begin and end at one place."""
+    now = searcher.now
+    route, stops, best = now.route[slot], now.stop[slot], searcher.bound.best
+    k = route.type
+    rate, end = world.rate[k].distance, route.length - 1
+    for p in range(-1, route.length):
+        kind, first = NEW_TRIP, True
+        if p < 0:
+            here, there = stops[0].node, stops[1].node
+        elif p == end:
+            here, there, first = stops[p - 1].node, stops[p].node, False
+        elif stops[p].kind == END:
+            here, there = stops[p].node, stops[p + 2].node
+        elif stops[p].flying > 0 or stops[p].kind == START or stops[p + 1].kind == END:
+            continue
+        else:
+            here, there, kind = stops[p].node, stops[p + 1].node, TRIP_UNTIL
+        cost = detour_by_reload(world, k, here, node, there, first) * rate
+        if kind == TRIP_UNTIL:
+            behind = detour_by_reload(world, k, here, node, there, False) * rate
+            if behind < cost:
+                kind, cost = TRIP_FROM, behind
+        cost -= now.early[slot]
+        if cost < best:
+            add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
+
+
 @inlined
 def price_offer(world: World, fleet: Fleet, move: Record, node: int, least: float,
                 acc: Record) -> float:
@@ -252,7 +282,8 @@ def price_offer(world: World, fleet: Fleet, move: Record, node: int, least: floa
     elif kind == AT_STOP:
         if stands_alone(world, fleet, slot, p, node):
             return price_stop(world, fleet, slot, p, node)
-    elif kind in (NEW_TRIP, TRIP_FROM, TRIP_UNTIL) and is_simple(world, fleet, slot):
+    elif (kind in (NEW_TRIP, TRIP_FROM, TRIP_UNTIL) and is_simple(world, fleet, slot)
+          and not is_apart(world, fleet.route[slot].type)):
         return least if more_trips_fit(world, fleet, slot, p, node, kind) else INFEASIBLE
     return price_move(world, fleet, move, node, acc)
 

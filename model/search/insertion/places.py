@@ -10,9 +10,11 @@ from model.search.insertion.cheapest_stop import (
 )
 from model.search.insertion.evaluate import INFEASIBLE
 from model.search.insertion.offers import (
-    offer_flight_trips, offer_joining, offer_sorties, offer_stops, offer_trips, take_cheapest,
+    offer_flight_trips, offer_joining, offer_sorties, offer_stops, offer_trips, offer_trips_apart,
+    take_cheapest,
 )
 from model.search.route.edit import NEW_ROUTE, copy_move
+from model.search.route.ends import is_apart
 from model.search.route.layout import CHANGING, NOWHERE, World
 from model.search.route.randomness import uniform
 from model.search.route.refresh import stop_beside
@@ -156,7 +158,9 @@ def find_place(world: World, searcher: Searcher, node: int, enlarge: bool) -> fl
             k = now.route[slot].type
             if now.route[slot].trips >= world.type[k].max_trips or rung(world.stop):
                 continue
-            if world.can[k, 0, node]:
+            if world.can[k, 0, node] and is_apart(world, k):
+                offer_trips_apart(world, searcher, slot, node)
+            elif world.can[k, 0, node]:
                 offer_trips(world, searcher, slot, node)
             if world.can[k, 1, node]:
                 offer_flight_trips(world, searcher, slot, node)

@@ -105,7 +105,7 @@ def insert(world: World, searcher: Searcher, node: int) -> bool:
         return True
     spare = len(now.route) - 2
     keep_aside(now, slot, spare)
-    depot = world.type[route.type].ends_at
+    depot = world.type[route.type].depot
     apply(depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0)
     done = refresh(world, now, slot, searcher.acc)
     if not done:

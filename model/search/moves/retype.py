@@ -55,7 +55,8 @@ def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
     former = world.type[route.type]
     if (world.type[k].begins_at != former.begins_at
             or world.type[k].ends_at != former.ends_at
-            or route.trips > world.type[k].max_trips):
+            or route.trips > world.type[k].max_trips
+            or (route.trips > 1 and world.type[k].depot != former.depot)):
         return False
     for p in range(route.length):
         if stops[p].kind == CUSTOMER and not world.can[k, 0, stops[p].node]:

@@ -60,11 +60,13 @@ PLACE = record("slot", "position", "sortie")
 NOWHERE, ELSEWHERE = -1, -2
 """Slot of a customer who is left out; of one whom another thread deals with."""
 
-MODE_TIMED, MODE_PRICED, MODE_SETTLED, MODE_RETIMED, MODE_SIMPLE, MODE_LEAN = 1, 2, 4, 8, 16, 32
+(MODE_TIMED, MODE_PRICED, MODE_SETTLED, MODE_RETIMED, MODE_SIMPLE, MODE_LEAN,
+ MODE_APART) = 1, 2, 4, 8, 16, 32, 64
 """Flags of a type: working time costs or is limited; lateness or waiting cost, or all is retimed;
 trips must be held back to know the cost; all behind a change is timed again, since speed changes,
 or who comes later may have to wait for another window; an insertion's cost is that of its distance
-alone; as that, with one trip of any distance, no releases and no drones."""
+alone; as that, with one trip of any distance, no releases and no drones; several trips don't all
+begin and end at one place."""
 
 
 class World(NamedTuple):
@@ -94,6 +96,7 @@ class World(NamedTuple):
     type: Records  # (type,) TYPE
     rate: Records  # (type,) RATE, per mm and per ms
     mode: IntArray  # (type,) MODE_ flags
+    reload: BoolArray  # (type, node) where a trip may end and the next begin
     visits: IntArray  # (type,) customers on a sortie
     can: BoolArray  # (type, 2, node) by truck, by drone
     swap: BoolArray  # (type, type) may drive each other's routes at a cost by distance alone

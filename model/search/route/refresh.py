@@ -7,8 +7,9 @@ from model.kernel.records import Record, Records
 from model.kernel.start import counted_from, leaves_first
 from model.kernel.stop import latest_free_arrival
 from model.problem import UIntArray
+from model.search.route.ends import is_apart, nearest_reload
 from model.search.route.layout import (
-    CUSTOMER, ELSEWHERE, MODE_LEAN, MODE_RETIMED,
+    CUSTOMER, ELSEWHERE, END, MODE_LEAN, MODE_RETIMED,
     MODE_SETTLED, NOWHERE, START, Fleet, World,
 )
 from model.search.route.lean import refresh_lean
@@ -123,7 +124,38 @@ def settled_departure(world: World, route: Record, stops: Records, sorties: Reco
 
 @inlined
 def refresh(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
-    """Write all that follows from the sequence of a route. In place; False if it breaks a rule."""
+    """Write all that follows from the sequence of a route. In place; False if it breaks a rule.
+
+    Where trips may end at several places, that which costs least is chosen between two.
+    """
+    if not refresh_as_is(world, fleet, slot, acc):
+        return False
+    route = fleet.route[slot]
+    if is_apart(world, route.type) and route.trips > 1:
+        choose_reloads(world, fleet, slot, acc)
+    return True
+
+
+@inlined
+def choose_reloads(world: World, fleet: Fleet, slot: int, acc: Record) -> None:
+    """Let the trips of a route end, and the next begin, where that costs least. In place."""
+    route, stops = fleet.route[slot], fleet.stop[slot]
+    for p in range(1, route.length - 1):
+        if stops[p].kind != END:
+            continue
+        node, cost = stops[p].node, fleet.cost[slot]
+        _, place = nearest_reload(world, route.type, stops[p - 1].node, stops[p + 2].node)
+        if place == node:
+            continue
+        stops[p].node = place
+        if not refresh_as_is(world, fleet, slot, acc) or fleet.cost[slot] >= cost:
+            stops[p].node = node
+            refresh_as_is(world, fleet, slot, acc)
+
+
+@inlined
+def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
+    """As `refresh`, with trips that end where they do."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     trips, sorties = fleet.trip[slot], fleet.sortie[slot]
     mode = world.mode[route.type]

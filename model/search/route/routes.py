@@ -9,6 +9,7 @@ from model.kernel.records import Record, Records
 from model.kernel.start import counted_from, has_begun
 from model.kernel.stop import are_single, latest_arrival, lateness, waiting
 from model.search.route.block import make_ready, plain_block, time_block, travel
+from model.search.route.ends import is_apart, place_ends
 from model.search.route.layout import CUSTOMER, END, MODE_PRICED, START, World, clear_trip
 from model.search.route.vehicles import add_load, load_of
 
@@ -29,6 +30,8 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
     vehicle_type = world.type[k]
     legs = legs_of(world.leg, vehicle_type.travel)
     index, s = -1, 0
+    if is_apart(world, k):
+        place_ends(world, k, route, stops)
     most_trips, most_distance = len(trips), vehicle_type.max_trip_distance
     for p in range(route.length):
         stop = stops[p]

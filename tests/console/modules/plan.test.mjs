@@ -182,3 +182,22 @@ test('events are read however the stream is cut', () => {
     ]);
   }
 });
+
+test('an open route begins at its place and is drawn to its last stop', () => {
+  const request = {
+    ...REQUEST,
+    fleet: [{ ...REQUEST.fleet[0], start_location: [5, 5], end: 'open' }],
+  };
+  const trip = { ...PLAN.routes[0].trips[0], sorties: [] };
+  trip.stops = [{ ...trip.stops[0], kind: 'start', id: 'van' }, trip.stops[1]];
+  const plan = { ...PLAN, routes: [{ ...PLAN.routes[0], trips: [trip] }] };
+  const { features } = geoJson(indexPlan(request, plan), flightLines(request));
+  const of = (kind) => features.find(({ properties }) => properties.kind === kind);
+  assert.deepEqual(of('start').geometry.coordinates, [5, 5]);
+  assert.deepEqual(of('trip').geometry.coordinates, [
+    [5, 5],
+    [10, 0],
+  ]);
+  const text = toSvg(pictureOf(indexPlan(request, plan), flightLines(request)));
+  assert.ok(text.includes('van'));
+});

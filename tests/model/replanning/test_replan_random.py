@@ -1,5 +1,6 @@
 """Random problems, planned, changed while under way, and planned on."""
 
+from collections.abc import Callable, Collection
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,9 @@ from model.problem import Problem, Travel
 from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
-from tests.model.tiny import draw_late, draw_tiny, with_energy, with_table
+from tests.model.tiny import (
+    draw_late, draw_tiny, with_energy, with_open_ends, with_open_reloads, with_reloads, with_table,
+)
 from training.instances import VARIANTS, generate
 
 OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=40)
@@ -118,8 +121,12 @@ def something_happens(rng: np.random.Generator, problem: Problem, latest: int) -
     return replace(problem, customers=tuple(customers), vehicle_types=kinds)
 
 
-def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator) -> None:
-    """Plan a part of a problem, let things happen, and plan on."""
+def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator,
+                     allowed: Collection[str] = ("TIME_MISMATCH", "RELEASE")) -> None:
+    """Plan a part of a problem, let things happen, and plan on.
+
+    `allowed` are plain rules that a plan may break which goes on.
+    """
     customers = np.arange(whole.num_depots, whole.num_nodes)
     new = set(rng.choice(customers, max(1, len(customers) // 6), replace=False).tolist())
     first = [int(node) for node in customers if node not in new]
@@ -152,7 +159,7 @@ def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator)
     excused = {(item.code, item.path) for item in replanning.excused}
     # By the plain rules, only what had happened breaks any, or waited for the present.
     for item in check(problem, result.solution).violations:
-        assert (item.code, item.path) in excused or item.code in ("TIME_MISMATCH", "RELEASE")
+        assert (item.code, item.path) in excused or item.code in allowed
     for node in result.solution.unassigned:
         assert len(replanning.reasons(result.solution, node)) == len(problem.vehicle_types)
     again = replanning.plan(planner, replace(OPTIONS, search_iterations=0), start=result.solution)
@@ -192,6 +199,17 @@ def test_tiny_plans_on_batteries_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     draw = draw_late if seed % 2 else draw_tiny
     replan_and_check(planner, with_energy(rng, draw(rng)), rng)
+
+
+@pytest.mark.parametrize("change", [with_open_ends, with_reloads, with_open_reloads])
+@pytest.mark.parametrize("seed", range(20))
+def test_tiny_plans_go_on_from_place_to_place(
+        planner: Planner, seed: int,
+        change: Callable[[np.random.Generator, Problem], Problem]) -> None:
+    rng = np.random.default_rng((seed, 11))
+    # Who begins no more trips may stay where the last one was to end.
+    replan_and_check(planner, change(rng, draw_tiny(rng)), rng,
+                     ("TIME_MISMATCH", "RELEASE", "DEPOT"))
 
 
 @pytest.mark.parametrize("variant", VARIANTS)

@@ -54,7 +54,8 @@ def cheapest_cost(problem: Problem) -> float:
 def _cheapest_route(problem: Problem, kind: int, nodes: Nodes) -> float:
     """Return the cost of the cheapest route that serves exactly these; infinite without one."""
     best, vehicle_type = math.inf, problem.vehicle_types[kind]
-    for trips in _trip_lists(problem, vehicle_type, nodes, vehicle_type.max_trips):
+    for trips in _trip_lists(problem, vehicle_type, nodes, vehicle_type.max_trips,
+                             vehicle_type.begins_at):
         if _least_cost(problem, vehicle_type, trips) >= best:
             continue
         decision = RouteDecision(kind, 0, trips)
@@ -113,21 +114,23 @@ def _cost_begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> 
 
 
 def _trip_lists(problem: Problem, kind: VehicleType, nodes: Nodes,
-                most: int) -> Iterator[tuple[TripDecision, ...]]:
-    """Yield all ways to serve customers by at most `most` trips, one after another."""
+                most: int, begin: int) -> Iterator[tuple[TripDecision, ...]]:
+    """Yield all ways to serve customers by at most `most` trips, the first from `begin`."""
     if not nodes:
         yield ()
     elif most > 0:
         for size in range(1, len(nodes) + 1):
             for served in combinations(nodes, size):
                 rest = tuple(node for node in nodes if node not in served)
-                for trip in _trips(problem, kind, served):
-                    for others in _trip_lists(problem, kind, rest, most - 1):
-                        yield (trip, *others)
+                for end in {*kind.reload_places} if rest else (kind.ends_at,):
+                    for trip in _trips(problem, kind, served, (begin, end)):
+                        for others in _trip_lists(problem, kind, rest, most - 1, end):
+                            yield (trip, *others)
 
 
-def _trips(problem: Problem, kind: VehicleType, nodes: Nodes) -> Iterator[TripDecision]:
-    """Yield all trips that serve exactly these customers by truck and drones."""
+def _trips(problem: Problem, kind: VehicleType, nodes: Nodes,
+           ends: tuple[int, int]) -> Iterator[TripDecision]:
+    """Yield all trips between two depots that serve exactly these customers by truck and drones."""
     for size in range(len(nodes) + 1 if kind.drones else 1):
         for flown in combinations(nodes, size):
             driven = [node for node in nodes if node not in flown]
@@ -135,7 +138,7 @@ def _trips(problem: Problem, kind: VehicleType, nodes: Nodes) -> Iterator[TripDe
                     or any(problem.customer_at(node).served_by == "drone" for node in driven)):
                 continue
             for order in permutations(driven):
-                stops = (kind.begins_at, *order, kind.ends_at)
+                stops = (ends[0], *order, ends[1])
                 for queue in permutations(flown):
                     for sorties in _sorties(kind.drones, queue, len(stops), 0):
                         yield TripDecision(stops, sorties)

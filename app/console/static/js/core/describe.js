@@ -54,7 +54,7 @@ export function haltFacts(halt) {
     ['Served by', halt.sortie ? halt.sortie.drone : halt.vehicle.name],
     ['Arrival', clock(halt.arrival, { precise: true })],
   ];
-  if (halt.kind === 'depot') facts[0][0] = 'Vehicle';
+  if (halt.kind !== 'customer') facts[0][0] = 'Vehicle';
   if (halt.waiting > 0) {
     facts.push([
       'Waits',

@@ -1,6 +1,7 @@
 /** A plan as CSV, GeoJSON and GPX. */
 
 import { clock } from './format.js';
+import { standsOf } from './stands.js';
 
 const COLUMNS = [
   'vehicle',
@@ -74,6 +75,7 @@ export function geoJson(index, legsOf) {
   const { request } = index;
   const features = [
     ...request.depots.flatMap((depot) => point(depot, { kind: 'depot', id: depot.id })),
+    ...standsOf(request).flatMap(({ kind, id, location }) => point({ location }, { kind, id })),
     ...request.customers.flatMap((customer) =>
       point(customer, customerProperties(index, customer)),
     ),

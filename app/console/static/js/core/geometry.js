@@ -1,5 +1,7 @@
 /** Points `[x, y]` on a plane in metres, lines of them, and arcs for flights. */
 
+import { standsOf } from './stands.js';
+
 const EARTH_RADIUS_M = 6371008.8;
 const RADIANS = Math.PI / 180;
 
@@ -20,9 +22,8 @@ export function planeOf(request) {
       fromPlane: ([x, y]) => [x / unit, y / unit],
     };
   }
-  const places = [...request.depots, ...request.customers].flatMap(({ location }) =>
-    location ? [location] : [],
-  );
+  const all = [...request.depots, ...standsOf(request), ...request.customers];
+  const places = all.flatMap(({ location }) => (location ? [location] : []));
   const [west, south, east, north] = boundsOf(places) ?? [0, 0, 0, 0];
   const origin = [(west + east) / 2, (south + north) / 2];
   const perDegree = EARTH_RADIUS_M * RADIANS;

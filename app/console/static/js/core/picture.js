@@ -4,6 +4,7 @@ import { boundsOf, planeOf } from './geometry.js';
 import { clock, count, money } from './format.js';
 import { tripDash, vehicleColour } from './palette.js';
 import { spanOf } from './plan.js';
+import { standsOf } from './stands.js';
 import { rowWindows, tickStep, timelineRows } from './timeline.js';
 import { escaped } from './exports.js';
 
@@ -38,9 +39,8 @@ function titleShapes({ plan: { cost, summary } }) {
 function mapShapes(index, legsOf) {
   const { request } = index;
   const { toPlane } = planeOf(request);
-  const known = [...request.depots, ...request.customers].flatMap(({ location }) =>
-    location ? [location] : [],
-  );
+  const places = [...request.depots, ...standsOf(request), ...request.customers];
+  const known = places.flatMap(({ location }) => (location ? [location] : []));
   const rings = request.airspace?.no_fly ?? [];
   const bounds = boundsOf([...known, ...rings.flat()].map(toPlane));
   if (!bounds) return [];
@@ -51,7 +51,7 @@ function mapShapes(index, legsOf) {
       vehicle.trips.flatMap((trip) => tripShapes(trip, legsOf, at)),
     ),
     ...request.customers.flatMap((customer) => customerShapes(index, customer, at)),
-    ...request.depots.flatMap(({ id, location }) =>
+    ...[...request.depots, ...standsOf(request)].flatMap(({ id, location }) =>
       location
         ? [
             { kind: 'box', at: move(at(location), -6, -6), size: [12, 12], colour: INK },

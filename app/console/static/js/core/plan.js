@@ -5,13 +5,15 @@
  * `t:<vehicle>/<trip>` and `s:<vehicle>/<trip>/<sortie>`; vehicles count in the fleet's order.
  */
 
+import { standsOf } from './stands.js';
 import { windowAt } from './windows.js';
 
 /** Return the index of a plan, or null without one. */
 export function indexPlan(request, plan) {
   if (!plan) return null;
   const customers = new Map(request.customers.map((customer) => [customer.id, customer]));
-  const depots = new Map(request.depots.map((depot) => [depot.id, depot]));
+  const depots = new Map(request.depots.map((depot) => [`depot ${depot.id}`, depot]));
+  standsOf(request).forEach((stand) => depots.set(`${stand.kind} ${stand.id}`, stand));
   const types = new Map(request.fleet.map((type) => [type.id, type]));
   const index = { request, plan, customers, depots, types, vehicles: [], halts: new Map() };
   // Replies put vehicles under way first; here each keeps its row, number and colour.
@@ -80,7 +82,9 @@ function indexTrip(index, vehicle, reply, number) {
   trip.stops = reply.stops.map((stop, position) => {
     const isCustomer = stop.kind === 'customer';
     const key = isCustomer ? `c:${stop.id}` : `d:${place}/${position}`;
-    const source = isCustomer ? index.customers.get(stop.id) : index.depots.get(stop.id);
+    const source = isCustomer
+      ? index.customers.get(stop.id)
+      : index.depots.get(`${stop.kind} ${stop.id}`);
     return remember(index, {
       ...haltOf(key, stop, trip, source),
       stop: position,

@@ -23,11 +23,12 @@ export function resolve(schemas, schema) {
     const found = resolve(schemas, schemas[$ref.slice($ref.lastIndexOf('/') + 1)]);
     return { ...found, schema: { ...found.schema, ...own } };
   }
-  if (!schema.anyOf) return { schema, nullable: false };
-  const { anyOf, ...own } = schema;
-  const kinds = anyOf.filter(({ type }) => type !== 'null');
+  const { anyOf, oneOf, ...own } = schema;
+  const all = anyOf ?? oneOf;
+  if (!all) return { schema, nullable: false };
+  const kinds = all.filter(({ type }) => type !== 'null');
   const found = resolve(schemas, kinds[0]);
-  return { schema: { ...found.schema, ...own }, nullable: kinds.length < anyOf.length };
+  return { schema: { ...found.schema, ...own }, nullable: kinds.length < all.length };
 }
 
 /** Return the kind of input that a schema asks for. */

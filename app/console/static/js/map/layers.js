@@ -3,6 +3,7 @@
 import { flightLines } from '../core/flights.js';
 import { tripDash, vehicleColour } from '../core/palette.js';
 import { standingIn } from '../core/replanning.js';
+import { standsOf } from '../core/stands.js';
 import { leaflet } from '../libraries.js';
 
 const L = leaflet();
@@ -124,9 +125,9 @@ function customerStyle(index, customer, parts, dark, radius) {
   return [L.CircleMarker, { ...plain, color: ground, fillColor: colour }];
 }
 
-/** Return the depots' marks. */
+/** Return the marks of depots, and of where vehicles start and end elsewhere. */
 export function depotMarks(request) {
-  return request.depots
+  return [...request.depots, ...standsOf(request)]
     .filter(({ location }) => location)
     .map((depot) =>
       L.marker(latLng(depot.location), {

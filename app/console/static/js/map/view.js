@@ -3,6 +3,7 @@
 import { contains, partsOf } from '../core/plan.js';
 import { boundsOf } from '../core/geometry.js';
 import { vehicleColour } from '../core/palette.js';
+import { standsOf } from '../core/stands.js';
 import { leaflet } from '../libraries.js';
 import {
   customerMarks,
@@ -107,7 +108,11 @@ export class MapView {
 
   /** Show everything. */
   fit() {
-    const places = [...this.request.depots, ...this.request.customers].flatMap(({ location }) =>
+    const places = [
+      ...this.request.depots,
+      ...standsOf(this.request),
+      ...this.request.customers,
+    ].flatMap(({ location }) =>
       location ? [location] : [],
     );
     const bounds = boundsOf([...places, ...(this.request.airspace?.no_fly ?? []).flat()]);

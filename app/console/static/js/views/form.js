@@ -90,11 +90,16 @@ function Readable({ schema, value }) {
   return html`<span class="readable"> = ${clock(value, { precise: true })} h</span>`;
 }
 
+/** Shown for a value that is no choice but an object. */
+const OWN_PLACE = 'a place of its own';
+
 function ChoiceInput({ id, schema, value, set, choices, describedBy, nullable }) {
   const values = choices ?? schema.enum;
-  const shown = value ?? schema.default ?? '';
+  const own = typeof value === 'object' && value !== null;
+  const shown = own ? OWN_PLACE : (value ?? schema.default ?? '');
   return html`<select id=${id} aria-describedby=${describedBy} value=${shown}
     onChange=${(event) => set(event.target.value === '' ? undefined : event.target.value)}>
+    ${own && html`<option value=${OWN_PLACE}>${OWN_PLACE}</option>`}
     ${nullable && html`<option value="">${emptyMeans(schema, true) || 'none'}</option>`}
     ${values.map((entry) => html`<option key=${entry} value=${entry}>${entry}</option>`)}
   </select>`;
