@@ -45,8 +45,7 @@ InstanceFormat = Annotated[FileFormat, typer.Option(
 RoundingOption = Annotated[Rounding, typer.Option(help=(
     "How distances are rounded. exact: as the crow flies; round: to whole units, as CVRPLIB does "
     "without time windows; trunc: to whole units, downwards; dimacs: to tenths, downwards, as is "
-    "usual with time windows; thousandths: as is usual with mixed fleets. All but exact write "
-    "matrices, large ones for many customers."))]
+    "usual with time windows; thousandths: as is usual with mixed fleets."))]
 
 
 @cli.command()

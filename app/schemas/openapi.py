@@ -21,6 +21,7 @@ EXAMPLES = {
     "table1": "The paper's hundred customers, four trucks with a drone each",
     "hetero_day": "A heterogeneous fleet on several trips within working hours",
     "city_day": "A city: geographic, rush hours, a no-fly area, wind",
+    "choosy": "Several windows, a price of leaving out, customers who name vehicles",
     "replan": "A truck is under way: an order has come in, another was cancelled",
 }
 ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {
