@@ -4,9 +4,8 @@ A set is a folder with `reference_values.csv`, whose rows name the instances. Un
 and amount of a set are `UNIT` millimetres, milliseconds and thousandths, and rates are such that
 the total cost of a plan is the set's own objective. Customers carry the node numbers of the files.
 
-The set of Murray and Raj (mFSTSP) is left out. Its endurance follows from an energy model, so that
-each sortie has a limit of its own, by the parcel's weight and both legs, and there truck service,
-launches and recoveries at a stop come one after another, not side by side.
+The set of Murray and Raj (mFSTSP) has a benchmark of its own, `flying_sidekicks`: there truck
+service, launches and recoveries at a stop come one after another, not side by side.
 """
 
 import csv
