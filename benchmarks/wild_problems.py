@@ -97,7 +97,7 @@ def _windows(rng: random.Random) -> Data:
     if several < 0.7:
         return {}
     price = rng.choice((0, 0, 7, RICHEST))
-    times = sorted(rng.sample((0, 1, 1.0005, 60, 600, 3600, 7200, 30000, 1e6, LONGEST),
+    times = sorted(rng.sample((0, 1, 2.0005, 60, 600, 3600, 7200, 30000, 1e6, LONGEST),
                               2 * rng.randint(1, 4)))
     if rng.random() < 0.02:
         times.reverse()
