@@ -124,11 +124,16 @@ def _vehicle_type(rng: random.Random, dimensions: int) -> Data:
         "capacity": _amounts(rng, dimensions, (0, 5, 10, 10, 40, 1e-3, LONGEST)),
         **_maybe(rng, 0.6, costs={"fixed": rng.choice((0, 20, RICHEST)),
                                   "per_km": rng.choice((0, 1, 1e-9, RICHEST)),
-                                  "per_hour": rng.choice((0, 0, 30, RICHEST))}),
+                                  "per_hour": rng.choice((0, 0, 30, RICHEST)),
+                                  "per_stop": rng.choice((0, 0, 2, RICHEST))}),
         **_maybe(rng, 0.5, speed_kmh=rng.choice((1, 30, 50.123, 1000))),
         **_maybe(rng, 0.3, speed_profile=_speed_profile(rng)),
         **_maybe(rng, 0.5, shift=_shift(rng)),
         **_maybe(rng, 0.3, max_working_duration=rng.choice((0, 1, 1800, 28800, LONGEST))),
+        **_maybe(rng, 0.2, overtime={"max_duration": rng.choice((None, 0, 600, 1e5, LONGEST)),
+                                     "cost_per_hour": rng.choice((0, 20, RICHEST))}),
+        **_maybe(rng, 0.2, max_stops=rng.choice((0, 1, 3, 1_000_000))),
+        **_maybe(rng, 0.2, max_sorties=rng.choice((0, 1, 2, 1_000_000))),
         **_maybe(rng, 0.3, max_trip_distance=rng.choice((0, 1, 1e4, 1e5, LONGEST))),
         **_maybe(rng, 0.4, max_trips=rng.choice((1, 2, 3, 1000)),
                  reload_duration=rng.choice((0, 0, 600, LONGEST))),
@@ -222,7 +227,8 @@ def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
             customer.pop("service_duration", None)
     for kind in request["fleet"]:
         kind["capacity"] = [20] * dimensions
-        for name in ("max_working_duration", "max_trip_distance", "shift", "speed_profile"):
+        for name in ("max_working_duration", "max_trip_distance", "shift", "speed_profile",
+                     "max_stops"):
             if rng.random() < 0.6:
                 kind.pop(name, None)
         if kind.get("drones") is not None:

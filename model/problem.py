@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.energy import Energy
+from model.overtime import Overtime as Overtime
 
 IntArray = NDArray[np.int64]
 FloatArray = NDArray[np.float64]
@@ -99,10 +100,8 @@ class Customer:
             opens = reopens
         _require(opens <= self.latest, f"customer {self.id} gaps", self.gaps)
         _require_rate(f"customer {self.id} early_cost_per_hour", self.early_cost_per_hour)
-        if self.late_cost_per_hour is not None:
-            _require_rate(f"customer {self.id} late_cost_per_hour", self.late_cost_per_hour)
-        if self.unassigned_cost is not None:
-            _require_rate(f"customer {self.id} unassigned_cost", self.unassigned_cost)
+        _require_rate(f"customer {self.id} late_cost_per_hour", self.late_cost_per_hour or 0.0)
+        _require_rate(f"customer {self.id} unassigned_cost", self.unassigned_cost or 0.0)
 
     @property
     def openings(self) -> tuple[int, ...]:
@@ -153,8 +152,7 @@ class DroneType:
         _require_quantity("drone endurance", self.endurance, UNLIMITED)
         _require_quantity("drone launch_duration", self.launch_duration)
         _require_quantity("drone recovery_duration", self.recovery_duration)
-        if self.service_duration is not None:
-            _require_quantity("drone service_duration", self.service_duration)
+        _require_quantity("drone service_duration", self.service_duration or 0)
         _require_rate("drone cost_per_km", self.cost_per_km)
         _require_rate("drone cost_per_hour", self.cost_per_hour)
 
@@ -171,12 +169,16 @@ class VehicleType:
     fixed_cost: float = 0.0  # per vehicle used
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0  # of working time
+    cost_per_stop: float = 0.0  # per customer served by the truck
     speed_profile: SpeedProfile | None = None
     earliest: int = 0  # shift
     latest: int = UNLIMITED
     max_working_duration: int | None = None
     max_trip_distance: int | None = None
+    overtime: Overtime | None = None  # None: shift and working duration can't be exceeded
     max_trips: int = 1
+    max_stops: int | None = None  # customers that the truck itself serves on a trip
+    max_sorties: int | None = None  # on a trip, of all drones together
     reload_duration: int = 0  # at the depot between trips
     skills: frozenset[str] = frozenset()
     drones: DroneType | None = None
@@ -188,34 +190,32 @@ class VehicleType:
     works_since: int | None = None  # its work counts from then; None: from its departure
     part_of: str | None = None  # id of the type of which these are some vehicles; None: all
     numbers: tuple[int, ...] = ()  # of these there, from 0, ascending; (): all
+    co2_kg_per_km: float | None = None  # of the truck, for replies alone
+    co2_kg_per_kwh: float | None = None  # of the energy that its drones use
 
     def __post_init__(self) -> None:
         _require(self.count >= 1, f"vehicle type {self.id} count", self.count)
         _require(self.max_trips >= 1, f"vehicle type {self.id} max_trips", self.max_trips)
-        _require(len(self.numbers) in (0, self.count), f"vehicle type {self.id} numbers",
-                 self.numbers)
+        has_numbers = len(self.numbers) in (0, self.count)
+        _require(has_numbers, f"vehicle type {self.id} numbers", self.numbers)
         for amount in self.capacity:
             _require_quantity(f"vehicle type {self.id} capacity", amount)
-        _require_quantity(f"vehicle type {self.id} earliest", self.earliest)
         _require(self.earliest <= self.latest <= UNLIMITED, f"vehicle type {self.id} latest",
                  self.latest)
-        _require_quantity(f"vehicle type {self.id} reload_duration", self.reload_duration)
-        for name in ("max_working_duration", "max_trip_distance"):
-            limit = getattr(self, name)
-            if limit is not None:
-                _require_quantity(f"vehicle type {self.id} {name}", limit)
-        for name in ("fixed_cost", "cost_per_km", "cost_per_hour"):
-            _require_rate(f"vehicle type {self.id} {name}", getattr(self, name))
+        for name in ("earliest", "reload_duration", "busy_until", "max_working_duration",
+                     "max_trip_distance", "max_stops", "max_sorties"):
+            _require_quantity(f"vehicle type {self.id} {name}", getattr(self, name) or 0)
+        for name in ("fixed_cost", "cost_per_km", "cost_per_hour", "cost_per_stop",
+                     "co2_kg_per_km", "co2_kg_per_kwh"):
+            _require_rate(f"vehicle type {self.id} {name}", getattr(self, name) or 0.0)
         self._require_beginning()
 
     def _require_beginning(self) -> None:
         """Raise `ValueError` unless what is said of a vehicle's only trip makes sense."""
         for load, most in zip(self.initial_load, self.capacity, strict=bool(self.initial_load)):
             _require_quantity(f"vehicle type {self.id} initial_load", load, most)
-        _require_quantity(f"vehicle type {self.id} busy_until", self.busy_until)
-        if self.works_since is not None:
-            _require_quantity(f"vehicle type {self.id} works_since", self.works_since,
-                              self.earliest)
+        since = self.works_since or 0
+        _require_quantity(f"vehicle type {self.id} works_since", since, self.earliest)
         begun = any(self.initial_load) or self.busy_until > 0
         _require(self.max_trips == 1 or not begun, f"vehicle type {self.id} max_trips",
                  self.max_trips)

@@ -72,7 +72,9 @@ class Cost:
 
     fixed: float = 0.0
     distance: float = 0.0  # vehicles and drones
+    stops: float = 0.0  # by trucks
     time: float = 0.0  # vehicles and drones
+    overtime: float = 0.0
     lateness: float = 0.0
     earliness: float = 0.0
     unassigned: float = 0.0

@@ -30,7 +30,8 @@ APP_ORDER = (
 
 MODEL = {
     "energy": (),
-    "problem": ("energy",),
+    "overtime": (),
+    "problem": ("energy", "overtime"),
     "solution": (),
     "judge": ("energy", "problem", "solution"),
     "kernel": ("energy", "problem"),
@@ -44,7 +45,7 @@ MODEL = {
     "dialects": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
-MOST_ARROWS = 33
+MOST_ARROWS = 34
 
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
@@ -55,6 +56,7 @@ COMPILED_FOLDERS = ("kernel", "simulation", "policy", "search")
 
 HOMES = {
     "kernel/start": {".begun", ".busy_until"},
+    "kernel/shift": {".max_sorties", ".max_stops", ".usual_end", ".usual_working"},
     "kernel/stop": {".arrival_limit", ".service_duration", ".window_earliest", ".window_latest"},
     "kernel/flight": {".drone_service_duration", ".endurance", ".launch_duration",
                       ".recovery_duration", ".waiting_counts", "UNREACHABLE"},
@@ -73,7 +75,7 @@ DESCRIBING = {
     "policy/tokens": set.union(*HOMES.values()),
     "policy/features": {".capacity", ".demand", ".endurance"},
     "search/world": set.union(*HOMES.values()),
-    "search/beginning/translate": {".capacity", ".demand"},
+    "search/beginning/translate": {".capacity", ".demand", ".max_sorties", ".max_stops"},
 }
 """What states a limit but applies none: packs it, shows it to a network, ranks or makes room by it.
 """

@@ -41,8 +41,9 @@ def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],
     """
     slowest = min(kind.speed_profile.factors) / FULL_SPEED if kind.speed_profile else 1.0
     kilometres, hours = longest[kind.travel]
-    cost = (kind.fixed_cost + 2 * kilometres * kind.cost_per_km
-            + (2 * hours / slowest + other_hours) * kind.cost_per_hour)
+    per_hour = kind.cost_per_hour + (kind.overtime.cost_per_hour if kind.overtime else 0.0)
+    cost = (kind.fixed_cost + kind.cost_per_stop + 2 * kilometres * kind.cost_per_km
+            + (2 * hours / slowest + other_hours) * per_hour)
     if kind.drones is not None:
         kilometres, hours = longest[kind.drones.travel]
         cost += (2 * kilometres * kind.drones.cost_per_km

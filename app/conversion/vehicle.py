@@ -8,8 +8,8 @@ from app.conversion.places import places_of_type
 from app.conversion.travels import Travels
 from app.conversion.units import optional_thousandths, thousandths
 from app.schemas.drones import DronesInput
-from app.schemas.vehicle import VehicleTypeInput
-from model.problem import UNLIMITED, Depot, DroneType, VehicleType
+from app.schemas.vehicle import OvertimeInput, VehicleTypeInput
+from model.problem import UNLIMITED, Depot, DroneType, Overtime, VehicleType
 
 
 def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: Travels,
@@ -31,16 +31,29 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         fixed_cost=stated.costs.fixed,
         cost_per_km=stated.costs.per_km,
         cost_per_hour=stated.costs.per_hour,
+        cost_per_stop=stated.costs.per_stop,
         speed_profile=speed_profile,
         earliest=thousandths(shift.earliest),
         latest=UNLIMITED if shift.latest is None else thousandths(shift.latest),
         max_working_duration=optional_thousandths(stated.max_working_duration),
         max_trip_distance=optional_thousandths(stated.max_trip_distance),
+        overtime=_overtime(stated.overtime),
         max_trips=stated.max_trips,
+        max_stops=stated.max_stops,
+        max_sorties=stated.max_sorties,
         reload_duration=thousandths(stated.reload_duration),
         skills=frozenset(stated.skills),
         drones=_drones(stated.drones, travels, decimals, demands),
+        co2_kg_per_km=stated.co2_kg_per_km,
+        co2_kg_per_kwh=stated.co2_kg_per_kwh,
     )
+
+
+def _overtime(stated: OvertimeInput | None) -> Overtime | None:
+    if stated is None:
+        return None
+    longest = stated.max_duration
+    return Overtime(stated.cost_per_hour, UNLIMITED if longest is None else thousandths(longest))
 
 
 def _drones(stated: DronesInput | None, travels: Travels, decimals: Sequence[int],

@@ -11,10 +11,12 @@ from model.judge.check import Evaluation
 from model.judge.explain import Reason, explain
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
-from model.problem import Problem
+from model.problem import MM_PER_KM, Problem
 from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Stop, Trip, Visit
 
 Data = dict[str, Any]
+
+WH_PER_KWH = 1000
 
 MAX_LOAD_RATE = 1e9
 """Stands for any load where there is no capacity, since JSON knows no infinity."""
@@ -76,6 +78,7 @@ def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
         "type": problem.vehicle_types[route.vehicle_type].type_id,
         "working_duration": whole(metrics.working_duration),
         "working_rate": metrics.working_rate,
+        "overtime": whole(metrics.overtime),
         "cost": metrics.cost,
         "trips": [_trip(problem, name, trip, measured)
                   for trip, measured in zip(route.trips, metrics.trips, strict=True)],
@@ -198,7 +201,23 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
         "energy_wh": energy_wh([sortie.energy for sortie in sorties]),
         "load_rate": {"min": min(rates), "mean": sum(rates) / len(rates), "max": max(rates)},
         "makespan": whole(evaluation.makespan),
+        "co2_kg": _co2(problem, solution, evaluation),
     }
+
+
+def _co2(problem: Problem, solution: Solution, evaluation: Evaluation) -> float | None:
+    """Return the kilograms of CO2 of a plan; None if no vehicle type states any."""
+    kinds = problem.vehicle_types
+    if all(kind.co2_kg_per_km is None and kind.co2_kg_per_kwh is None for kind in kinds):
+        return None
+    total = 0.0
+    for route, metrics in zip(solution.routes, evaluation.routes, strict=True):
+        kind = kinds[route.vehicle_type]
+        driven = sum(trip.distance for trip in metrics.trips) / MM_PER_KM
+        flown = energy_wh([sortie.energy for trip in metrics.trips for sortie in trip.sorties])
+        total += driven * (kind.co2_kg_per_km or 0.0)
+        total += (flown or 0.0) / WH_PER_KWH * (kind.co2_kg_per_kwh or 0.0)
+    return total
 
 
 def _served(problem: Problem, solution: Solution) -> set[int]:

@@ -92,6 +92,7 @@ class RouteInput(_Plan):
     trips: list[TripInput] = Field(description="Trips in order.")
     working_duration: Number = None
     working_rate: Number = None
+    overtime: Number = None
     cost: Number = None
 
 

@@ -19,7 +19,11 @@ class CostReply(_Reply):
     total: float = Field(description="Sum of all terms.")
     fixed: float = Field(description="Vehicles used.")
     distance: float = Field(description="Kilometres driven and flown.")
+    stops: float = Field(description="Customers served by trucks.")
     time: float = Field(description="Hours worked and flown.")
+    overtime: float = Field(
+        description="Hours past shifts or longest working durations, on top of `time`."
+    )
     lateness: float = Field(description="Late arrivals.")
     earliness: float = Field(description="Waiting for windows to open.")
     unassigned: float = Field(description="Customers left out.")
@@ -92,7 +96,11 @@ class RouteReply(_Reply):
         description="From first departure to last return in seconds, waiting included."
     )
     working_rate: float | None = Field(
-        description="Working duration / longest allowed, 0 to 1. Null without a longest."
+        description="Working duration / longest without overtime, above 1 only with it. Null "
+        "without a longest."
+    )
+    overtime: float = Field(
+        description="Seconds past the end of the shift or the longest working duration, the longer."
     )
     cost: float = Field(description="Cost of the vehicle and its drones.")
     trips: list[TripReply] = Field(description="Trips in order.")
@@ -140,6 +148,10 @@ class SummaryReply(_Reply):
     )
     load_rate: LoadRateReply = Field(description="Load rates of the trips.")
     makespan: float = Field(description="Last return of any vehicle, seconds since plan start.")
+    co2_kg: float | None = Field(
+        description="CO2 of trucks' kilometres and drones' energy in kilograms, as far as vehicle "
+        "types state it. Null if none does."
+    )
 
 
 class ElapsedReply(_Reply):

@@ -24,6 +24,9 @@ from app.schemas.fields import (
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
 
+Count = Annotated[int, Field(ge=0, le=1_000_000)]
+Kilograms = Annotated[float, Field(ge=0, le=1_000_000)]
+
 
 class PlaceInput(Input):
     """A place of its own."""
@@ -50,6 +53,9 @@ class CostsInput(Input):
     per_hour: Money = Field(
         0.0, description="Cost per hour from first departure to last return, waiting included."
     )
+    per_stop: Money = Field(
+        0.0, description="Cost per customer whom the truck itself serves, not a drone."
+    )
 
 
 class SpeedChangeInput(Input):
@@ -72,6 +78,18 @@ class ShiftInput(Input):
     )
     latest: Seconds | None = Field(
         None, description="Latest return in seconds since plan start. Null: no limit."
+    )
+
+
+class OvertimeInput(Input):
+    """How far vehicles of a type may work past their shift and their longest working duration."""
+
+    max_duration: Seconds | None = Field(
+        None, description="Longest overtime in seconds. Null: no limit."
+    )
+    cost_per_hour: Money = Field(
+        description="Cost per hour of overtime, on top of `per_hour`. Past both limits, the longer "
+        "time counts, once."
     )
 
 
@@ -121,12 +139,32 @@ class VehicleTypeInput(Input):
         None,
         description="Longest time from first departure to last return in seconds. Null: no limit.",
     )
+    overtime: OvertimeInput | None = Field(
+        None,
+        description="Work past `shift.latest` or `max_working_duration`, at a price. Null: none is "
+        "allowed.",
+    )
     max_trip_distance: Metres | None = Field(
         None, description="Longest drive of one trip in metres. Null: no limit."
     )
     max_trips: int = Field(1, ge=1, le=1000, description="Most trips of one vehicle.")
+    max_stops: Count | None = Field(
+        None,
+        description="Most customers whom the truck itself serves on one trip; whom drones serve "
+        "doesn't count. Null: no limit.",
+    )
+    max_sorties: Count | None = Field(
+        None, description="Most sorties of one trip, of all its drones. Null: no limit."
+    )
     reload_duration: Seconds = Field(
         0.0, description="Time at the depot between two trips in seconds."
     )
     skills: Skills = Field([], description="Skills of the vehicles, and of their drones.")
     drones: DronesInput | None = Field(None, description="Drones on every truck. Null: none.")
+    co2_kg_per_km: Kilograms | None = Field(
+        None, description="CO2 of the truck per kilometre, for `summary.co2_kg` alone, in kg."
+    )
+    co2_kg_per_kwh: Kilograms | None = Field(
+        None,
+        description="CO2 of its drones' energy per kWh, for `summary.co2_kg` alone, in kg.",
+    )

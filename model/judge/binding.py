@@ -15,6 +15,7 @@ from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import opening
 from model.judge.energy import sortie_energy
+from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.places import Place
 from model.judge.rules import airborne_duration
 from model.judge.screening import Screen
@@ -196,6 +197,7 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
                  else _in_minutes(kind.max_working_duration - measured.working_duration))
         longer = kind.max_working_duration + MS_PER_MINUTE
         yield ("max_working_duration", "minute", slack, replace(kind, max_working_duration=longer))
+    yield from _duty_limits(kind, measured, trip)
     if kind.max_trip_distance is not None:
         slack = None if trip is None else (kind.max_trip_distance - trip.distance) / MM_PER_KM
         yield ("max_trip_distance", "km", slack,
@@ -213,6 +215,22 @@ def _trip_limits(bench: Bench, kind: int) -> Iterator[_Changed]:
              and not any(vehicle_type.initial_load) and not vehicle_type.busy_until)
     if max(trips, default=0) == vehicle_type.max_trips and stays:
         yield "max_trips", "trip", 0.0, replace(vehicle_type, max_trips=vehicle_type.max_trips + 1)
+
+
+def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
+                 trip: TripMetrics | None) -> Iterator[_Changed]:
+    """Yield what a type of vehicle may work overtime, and have on a trip."""
+    if kind.overtime is not None and kind.overtime.max_duration < UNLIMITED:
+        most = kind.overtime.max_duration
+        longer = replace(kind.overtime, max_duration=most + MS_PER_MINUTE)
+        slack = None if measured is None else _in_minutes(most - measured.overtime)
+        yield "overtime.max_duration", "minute", slack, replace(kind, overtime=longer)
+    if kind.max_stops is not None:
+        slack = None if trip is None else float(kind.max_stops - len(trip.stop_loads) + 2)
+        yield "max_stops", "unit", slack, replace(kind, max_stops=kind.max_stops + 1)
+    if kind.max_sorties is not None:
+        slack = None if trip is None else float(kind.max_sorties - len(trip.sorties))
+        yield "max_sorties", "unit", slack, replace(kind, max_sorties=kind.max_sorties + 1)
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:

@@ -16,10 +16,11 @@ from typing import NamedTuple
 from model.energy import MICROJOULES_PER_WH
 from model.judge.check import check
 from model.judge.energy import sortie_energy
+from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
 from model.judge.trial import Attempt, attempts, small_problem, try_truck
 from model.problem import (
-    MAX_MONEY, MAX_QUANTITY, MM_PER_KM, UNLIMITED, DroneType, Problem, VehicleType,
+    MAX_MONEY, MAX_QUANTITY, MM_PER_KM, UNLIMITED, DroneType, Overtime, Problem, VehicleType,
 )
 from model.solution import Solution
 
@@ -268,6 +269,20 @@ def _arrival(attempt: Attempt) -> int:
     return (trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]).arrival
 
 
+def _stops(attempt: Attempt) -> _Diagnosis:
+    vehicle_type = attempt.vehicle_type
+    return _Diagnosis("STOPS", f"{vehicle_type.id} serves nobody itself, by its max_stops.",
+                      f"fits if {vehicle_type.id} could make 1 stop",
+                      _with_type(attempt, replace(vehicle_type, max_stops=1)))
+
+
+def _sorties(attempt: Attempt) -> _Diagnosis:
+    vehicle_type = attempt.vehicle_type
+    return _Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its max_sorties.",
+                      f"fits if {vehicle_type.id} could launch 1 sortie",
+                      _with_type(attempt, replace(vehicle_type, max_sorties=1)))
+
+
 def _time_window(attempt: Attempt) -> _Diagnosis:
     customer = attempt.customer
     late = _up_to_tenth(_arrival(attempt) - customer.latest, MS_PER_MINUTE)
@@ -309,8 +324,27 @@ def _missed_window(attempt: Attempt) -> _Diagnosis | None:
     )
 
 
+def _more_overtime(attempt: Attempt, overtime: Overtime, limit: int, excess: int,
+                   code: str, message: str) -> _Diagnosis:
+    """Say what more overtime would do, which goes on from a limit that is exceeded by so much."""
+    vehicle_type, enough = attempt.vehicle_type, overtime.max_duration + excess
+    changed = replace(overtime, max_duration=min(enough, UNLIMITED))
+    return _Diagnosis(
+        code, message,
+        _if_stated(f"fits if {vehicle_type.id} could work {_minutes(excess)} more overtime",
+                   max(enough, limit + enough)),
+        _with_type(attempt, replace(vehicle_type, overtime=changed)))
+
+
 def _shift(attempt: Attempt) -> _Diagnosis:
-    vehicle_type = attempt.vehicle_type
+    vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
+    if overtime is not None:
+        end = vehicle_type.latest + overtime.max_duration
+        excess = _up_to_tenth(attempt.evaluation.makespan - end, MS_PER_MINUTE)
+        return _more_overtime(
+            attempt, overtime, vehicle_type.latest, excess, "SHIFT",
+            f"{vehicle_type.id} would be back {_minutes(excess)} after its shift and all the "
+            "overtime allowed.")
     late = _up_to_tenth(attempt.evaluation.makespan - vehicle_type.latest, MS_PER_MINUTE)
     home = "done" if attempt.problem.is_nowhere(vehicle_type.ends_at) else "back"
     enough = vehicle_type.latest + late
@@ -324,9 +358,15 @@ def _shift(attempt: Attempt) -> _Diagnosis:
 
 
 def _working_hours(attempt: Attempt) -> _Diagnosis:
-    vehicle_type = attempt.vehicle_type
+    vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
     limit = vehicle_type.max_working_duration or 0
-    excess = _up_to_tenth(attempt.evaluation.routes[0].working_duration - limit, MS_PER_MINUTE)
+    most = limit + allowed_overtime(vehicle_type)
+    excess = _up_to_tenth(attempt.evaluation.routes[0].working_duration - most, MS_PER_MINUTE)
+    if overtime is not None:
+        return _more_overtime(
+            attempt, overtime, limit, excess, "WORKING_HOURS",
+            f"Serving it alone takes {_minutes(excess)} more than {vehicle_type.id} may work with "
+            "all the overtime allowed.")
     enough = limit + excess
     changed = replace(vehicle_type, max_working_duration=min(enough, MAX_QUANTITY))
     return _Diagnosis(
@@ -346,6 +386,8 @@ DIAGNOSES: dict[str, Callable[[Attempt], _Diagnosis]] = {
     "ENDURANCE": _endurance,
     "ENERGY": _energy,
     "TRIP_DISTANCE": _trip_distance,
+    "MAX_STOPS": _stops,
+    "MAX_SORTIES": _sorties,
     "TIME_WINDOW": _time_window,
     "SHIFT": _shift,
     "WORKING_DURATION": _working_hours,

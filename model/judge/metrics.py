@@ -35,7 +35,8 @@ class RouteMetrics:
     """One vehicle."""
 
     working_duration: int = 0  # ms from first departure to last return
-    working_rate: float | None = None  # of the longest allowed; None without a limit
+    working_rate: float | None = None  # of the longest without overtime; None without a limit
+    overtime: int = 0  # ms past shift or working duration, the longer
     cost: float = 0.0
     trips: tuple[TripMetrics, ...] = ()
 
@@ -129,6 +130,20 @@ def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
     return lateness, earliness
 
 
+def overtime(kind: VehicleType, end: int, working: int) -> int:
+    """Return how long a vehicle works past its shift or its longest working duration.
+
+    The longer of both, whether that is allowed or not.
+    """
+    limit = kind.max_working_duration
+    return max(0, end - kind.latest, 0 if limit is None else working - limit)
+
+
+def allowed_overtime(kind: VehicleType) -> int:
+    """Return how far a vehicle may work past its shift, and its longest working duration."""
+    return 0 if kind.overtime is None else kind.overtime.max_duration
+
+
 def unassigned_cost(problem: Problem, nodes: Sequence[int]) -> float:
     """Return what leaving out the customers at some nodes costs; others there cost as most do."""
     first, end = problem.num_depots, problem.num_nodes
@@ -145,7 +160,11 @@ def measure_route(
     begin = vehicle_type.works_since
     if begin is None:
         begin = first_departure(route.trips[0])
-    working = route.trips[-1].stops[-1].departure - begin
+    end = route.trips[-1].stops[-1].departure
+    working = end - begin
+    over = overtime(vehicle_type, end, working)
+    over_rate = vehicle_type.overtime.cost_per_hour if vehicle_type.overtime else 0.0
+    stops = sum([len(trip.stops) - 2 for trip in route.trips])
     distance = sum([trip.distance for trip in trips]) * vehicle_type.cost_per_km
     time = working * vehicle_type.cost_per_hour
     drones = vehicle_type.drones
@@ -154,8 +173,10 @@ def measure_route(
         distance += sum([flight.distance for flight in flights]) * drones.cost_per_km
         time += sum([flight.duration for flight in flights]) * drones.cost_per_hour
     lateness, earliness = _window_costs(problem, route)
-    cost = Cost(vehicle_type.fixed_cost, distance / MM_PER_KM, time / MS_PER_HOUR, lateness,
-                earliness)
+    cost = Cost(
+        fixed=vehicle_type.fixed_cost, distance=distance / MM_PER_KM,
+        stops=stops * vehicle_type.cost_per_stop, time=time / MS_PER_HOUR,
+        overtime=over * over_rate / MS_PER_HOUR, lateness=lateness, earliness=earliness)
     limit = vehicle_type.max_working_duration
     rate = None if limit is None else _rate(working, limit)
-    return RouteMetrics(working, rate, cost.total, trips), cost
+    return RouteMetrics(working, rate, over, cost.total, trips), cost

@@ -6,9 +6,9 @@ from operator import gt
 
 from model.energy import MICROJOULES_PER_WH
 from model.judge.energy import sortie_energy
-from model.judge.metrics import RouteMetrics, TripMetrics
+from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
 from model.judge.timing import TripDecision, latest_release
-from model.problem import USUAL_DECIMALS, DroneType, Problem, VehicleType
+from model.problem import UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType
 from model.solution import Sortie, Stop, Trip, Visit
 
 
@@ -70,6 +70,7 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     if limit is not None and metrics.distance > limit:
         message = f"{decimal(metrics.distance)} m, at most {decimal(limit)} m are allowed"
         yield Violation("TRIP_DISTANCE", message, path)
+    yield from _count_violations(vehicle_type, trip, path)
     release = latest_release(problem, timed.decision)
     if trip.stops[0].arrival < release:
         message = f"begins at {seconds(trip.stops[0].arrival)}, released at {seconds(release)}"
@@ -81,6 +82,15 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
         for index, sortie in enumerate(trip.sorties):
             sortie_path = f"{path}.sorties[{index}]"
             yield from _sortie_violations(problem, kind, drones, trip, sortie, sortie_path)
+
+
+def _count_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
+    """What a trip has too many of."""
+    for code, count, limit in (("MAX_STOPS", len(trip.stops) - 2, vehicle_type.max_stops),
+                               ("MAX_SORTIES", len(trip.sorties), vehicle_type.max_sorties)):
+        if limit is not None and count > limit:
+            what = "customers of the truck" if code == "MAX_STOPS" else "sorties"
+            yield Violation(code, f"{count} {what}, at most {limit} are allowed", path)
 
 
 def _halt_violations(
@@ -192,18 +202,20 @@ def route_violations(
 ) -> Iterator[Violation]:
     """What trips break together: where they begin and end, shift, reloading, working duration."""
     yield from _place_violations(vehicle_type, trips, has_begun)
-    ready = vehicle_type.earliest
+    ready, over = vehicle_type.earliest, allowed_overtime(vehicle_type)
+    more = f", with {seconds(over)} of overtime" if 0 < over < UNLIMITED else ""
     for index, timed in enumerate(trips):
         begin, end = timed.trip.stops[0].arrival, timed.trip.stops[-1].departure
         if begin < ready:
             code, cause = ("RELOAD", "reloaded") if index else ("SHIFT", "on shift")
             message = f"begins at {seconds(begin)}, {cause} at {seconds(ready)}"
             yield Violation(code, message, timed.path)
-        if end > vehicle_type.latest:
-            message = f"ends at {seconds(end)}, shift ends at {seconds(vehicle_type.latest)}"
+        if end > vehicle_type.latest + over:
+            message = f"ends at {seconds(end)}, shift ends at {seconds(vehicle_type.latest)}{more}"
             yield Violation("SHIFT", message, timed.path)
         ready = end + vehicle_type.reload_duration
     limit = vehicle_type.max_working_duration
-    if limit is not None and metrics.working_duration > limit:
-        message = f"works {seconds(metrics.working_duration)}, at most {seconds(limit)} are allowed"
+    if limit is not None and metrics.working_duration > limit + over:
+        message = (f"works {seconds(metrics.working_duration)}, at most {seconds(limit)} are "
+                   f"allowed{more}")
         yield Violation("WORKING_DURATION", message, path)

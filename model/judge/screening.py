@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from model.judge.clock import service_start
+from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, DroneType, Problem
@@ -125,7 +126,7 @@ class Screen:
         legs = self._legs_of(kind.travel)
         hours = legs.there[begin] + self._customer.service_duration + legs.back[end]
         cost = (fixed + (legs.far_there[begin] + legs.far_back[end]) * kind.cost_per_km / MM_PER_KM
-                + hours * kind.cost_per_hour / MS_PER_HOUR)
+                + kind.cost_per_stop + hours * kind.cost_per_hour / MS_PER_HOUR)
         yield Guess(0, cost, hours, Place(vehicle, number, "truck", 1, own_trip=True))
         drones = kind.drones
         if drones is not None and "drone" in self._means:
@@ -139,7 +140,7 @@ class Screen:
     def _on_trip(self, vehicle: Vehicle, number: int, trip: Trip, first_stop: int,
                  first_flight: int) -> Iterator[Guess]:
         kind = self._problem.vehicle_types[vehicle.type]
-        slacks = _slacks(self._problem, kind.latest, trip)
+        slacks = _slacks(self._problem, kind.latest + allowed_overtime(kind), trip)
         yield from self._by_truck(vehicle, number, trip, slacks, first_stop)
         drones = kind.drones
         if drones is not None and "drone" in self._means:
@@ -161,6 +162,7 @@ class Screen:
             too_late = max(0, arrival - customer.latest)
             late = (too_late if hard else 0) + max(0, push - slacks[index])
             cost = (detour * kind.cost_per_km / MM_PER_KM + push * kind.cost_per_hour / MS_PER_HOUR
+                    + kind.cost_per_stop
                     + too_late * (customer.late_cost_per_hour or 0.0) / MS_PER_HOUR
                     + (start - arrival) * customer.early_cost_per_hour / MS_PER_HOUR)
             yield Guess(late, cost, push, Place(vehicle, number, "truck", index))

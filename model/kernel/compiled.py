@@ -22,7 +22,7 @@ from numba.core.compiler import Compiler
 SOURCES = (
     "problem",
     *(f"kernel/{part}" for part in (
-        "compiled", "records", "alarm", "copying", "instance", "start", "stop", "energy",
+        "compiled", "records", "alarm", "copying", "instance", "start", "shift", "stop", "energy",
         "flight", "load", "clock", "leg")),
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (

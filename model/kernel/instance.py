@@ -45,23 +45,26 @@ PRICE = record(lateness=float, waiting=float)
 
 TYPE = record(
     "count", "travel", "depot", "begins_at", "ends_at", "changes_ends", "shift_earliest",
-    "busy_until", "begun",
-    "shift_latest", "max_working_duration", "max_trip_distance", "max_trips", "reload_duration",
+    "busy_until", "begun", "shift_latest", "max_working_duration", "usual_end", "usual_working",
+    "max_trip_distance", "max_trips", "max_stops", "max_sorties", "reload_duration",
     "speed_changes", "drones", "drone_travel", "endurance", "waiting_counts", "launch_duration",
     "recovery_duration", "drone_service_duration", "points", "battery", "lands", "climb_duration",
     "descent_duration", "weight_dimension", capacity=MAX_DIMENSIONS, payload=MAX_DIMENSIONS,
     weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
-its working duration, and costs as if it were fixed. Its drones' powers are known at so many
+its working duration, and costs as if it were fixed. The end of the shift and the longest working
+duration are with overtime; what is `usual` is without. Its drones' powers are known at so many
 `points`, by weight; none if no battery limits them."""
 
 NO_PROFILE = -1
 NO_DRONES = (0,) * 7
 NO_ENERGY = (0,) * 6
 
-RATE = record(fixed=float, distance=float, time=float, drone_distance=float, drone_time=float)
-"""What a vehicle costs, and what per km and per hour, its drones' apart."""
+RATE = record(fixed=float, distance=float, stop=float, time=float, overtime=float,
+              drone_distance=float, drone_time=float)
+"""What a vehicle costs, and what per km, per customer of the truck and per hour, its drones'
+apart."""
 
 
 class Instance(NamedTuple):
@@ -157,7 +160,8 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
         drones = kind.drones
         worked = _worked(kind) / MS_PER_HOUR * kind.cost_per_hour
         instance.rate[row, index] = (
-            kind.fixed_cost + worked, kind.cost_per_km, kind.cost_per_hour,
+            kind.fixed_cost + worked, kind.cost_per_km, kind.cost_per_stop, kind.cost_per_hour,
+            kind.overtime.cost_per_hour if kind.overtime else 0.0,
             drones.cost_per_km if drones else 0.0, drones.cost_per_hour if drones else 0.0)
         if kind.speed_profile is not None:
             changes = len(kind.speed_profile.times)
@@ -194,17 +198,16 @@ def _padded(amount: Sequence[int]) -> tuple[int, ...]:
 
 
 def _type_row(kind: VehicleType) -> tuple[Any, ...]:
-    drones, worked = kind.drones, _worked(kind)
+    drones = kind.drones
     load = kind.initial_load or (0,) * len(kind.capacity)
     free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
     energy = None if drones is None else drones.energy
     return (
         kind.count, kind.travel, kind.depot, kind.begins_at, kind.ends_at,
         _changes_ends(kind), kind.earliest, kind.busy_until,
-        int(kind.works_since is not None), kind.latest,
-        UNLIMITED if kind.max_working_duration is None else kind.max_working_duration - worked,
-        UNLIMITED if kind.max_trip_distance is None else kind.max_trip_distance,
-        kind.max_trips, kind.reload_duration,
+        int(kind.works_since is not None), *_limits_of_work(kind),
+        _limit(kind.max_trip_distance), kind.max_trips, _limit(kind.max_stops),
+        _limit(kind.max_sorties), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
         *(NO_DRONES if drones is None else _drones(drones)),
         *_battery(energy), _padded(free), _padded(() if drones is None else drones.capacity),
@@ -215,6 +218,22 @@ def _changes_ends(kind: VehicleType) -> int:
     """Tell whether trips of a type, if there are several, don't all begin and end at one place."""
     places = {kind.begins_at, kind.ends_at, *kind.reload_places}
     return int(kind.max_trips > 1 and places != {kind.depot})
+
+
+def _limit(stated: int | None) -> int:
+    return UNLIMITED if stated is None else stated
+
+
+def _limits_of_work(kind: VehicleType) -> tuple[int, int, int, int]:
+    """Return the last end and the longest working duration, with overtime and without.
+
+    The working duration is what is left of it when a vehicle may begin.
+    """
+    longest, over = kind.max_working_duration, kind.overtime.max_duration if kind.overtime else 0
+    usual = UNLIMITED if longest is None else longest - _worked(kind)
+    return (min(UNLIMITED, kind.latest + over),
+            UNLIMITED if longest is None or over == UNLIMITED else usual + over,
+            kind.latest, usual)
 
 
 def _drones(drones: DroneType) -> tuple[int, ...]:
@@ -260,8 +279,8 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
                 fits[customers_asking] = False
         if problem.may_serve is not None:
             fits &= problem.may_serve[index]
-        instance.can_drive[row, index, customers] = fits & by_truck
-        if kind.drones is not None:
+        instance.can_drive[row, index, customers] = fits & by_truck & (kind.max_stops != 0)
+        if kind.drones is not None and kind.max_sorties != 0:
             payload = instance.type[row, index].payload
             liftable = (demand <= payload).all(axis=1)
             instance.can_fly[row, index, customers] = fits & by_drone & liftable

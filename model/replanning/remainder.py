@@ -12,7 +12,7 @@ import numpy as np
 from model.judge.past import Past, Vehicle
 from model.problem import BoolArray, Customer, Depot, Problem, Travel, VehicleType
 from model.replanning.kept import Kept
-from model.replanning.workers import Worker
+from model.replanning.workers import Worker, from_now_on
 
 NOBODY, ANYBODY = -1, -2
 """Instead of the only type that may serve a customer."""
@@ -91,9 +91,9 @@ def _plain_types(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     plain = {}
     for index, kind in enumerate(problem.vehicle_types):
         count = kind.count - sum(vehicle.type == index for vehicle in taken)
-        earliest = max(kind.earliest, past.now)
-        if count > 0 and earliest <= kind.latest:
-            plain[index] = replace(kind, count=count, numbers=(), earliest=earliest)
+        begun = from_now_on(kind, past.now)
+        if count > 0 and begun is not None:
+            plain[index] = replace(begun, count=count, numbers=())
     return plain
 
 

@@ -9,9 +9,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from operator import le
 
-from model.judge.metrics import first_departure
+from model.judge.metrics import allowed_overtime, first_departure
 from model.judge.past import Past, Vehicle
-from model.problem import MAX_QUANTITY, Problem, VehicleType
+from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType
 from model.replanning.amend import customers_of
 from model.replanning.kept import Kept, WayOn
 
@@ -75,20 +75,40 @@ def _with_customers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) 
     """Return the vehicles that have done nothing yet, and have customers pinned to them."""
     workers = []
     for vehicle in dict.fromkeys(past.pinned.values()):
-        kind = problem.vehicle_types[vehicle.type]
-        earliest = max(kind.earliest, past.now)
-        if vehicle not in kept and vehicle not in past.unavailable and earliest <= kind.latest:
+        kind = from_now_on(problem.vehicle_types[vehicle.type], past.now)
+        if vehicle not in kept and vehicle not in past.unavailable and kind is not None:
             workers.append(Worker(vehicle, replace(kind, id=vehicle_name(problem, vehicle),
-                                                   count=1, numbers=(), earliest=earliest)))
+                                                   count=1, numbers=())))
     return workers
 
 
+def from_now_on(kind: VehicleType, now: int) -> VehicleType | None:
+    """Return vehicles that begin no sooner than now; None if their work would be over by then.
+
+    Whoever begins in overtime pays for that since the end of the shift, whatever else it does.
+    """
+    earliest, overtime = max(kind.earliest, now), kind.overtime
+    over = earliest - kind.latest
+    if over <= 0:
+        return replace(kind, earliest=earliest)
+    if overtime is None or over > overtime.max_duration:
+        return None
+    return replace(
+        kind, earliest=earliest, latest=earliest,
+        overtime=replace(overtime, max_duration=overtime.max_duration - over),
+        fixed_cost=kind.fixed_cost + over / MS_PER_HOUR * overtime.cost_per_hour)
+
+
 def _home_by(kind: VehicleType, route: Kept) -> int:
-    """Return when a vehicle has to be home that has begun to work."""
-    latest = min(kind.latest, MAX_QUANTITY - 1)
+    """Return when a vehicle has to be home that has begun to work, with all its overtime."""
+    return min(_home_in_time(kind, route) + allowed_overtime(kind), MAX_QUANTITY - 1)
+
+
+def _home_in_time(kind: VehicleType, route: Kept) -> int:
+    """Return when a vehicle that has begun to work would be home without overtime."""
     if kind.max_working_duration is None:
-        return latest
-    return min(latest, first_departure(route.route.trips[0]) + kind.max_working_duration)
+        return kind.latest
+    return min(kind.latest, first_departure(route.route.trips[0]) + kind.max_working_duration)
 
 
 def _driven(problem: Problem, route: Kept) -> tuple[int, int]:
@@ -107,11 +127,23 @@ def _load(problem: Problem, route: Kept) -> tuple[int, ...]:
     return tuple(map(sum, zip(own, *demands, strict=True)))
 
 
+def _left(limit: int | None, done: int) -> int | None:
+    """Return what is left of a limit, below 0 if it is exceeded; None without a limit."""
+    return None if limit is None else limit - done
+
+
+def _counts_left(problem: Problem, route: Kept) -> tuple[int | None, int | None]:
+    """Return how many stops and sorties a vehicle may add to its last trip."""
+    kind, trip = problem.vehicle_types[route.vehicle.type], route.decision.trips[-1]
+    return (_left(kind.max_stops, len(trip.nodes) - 2), _left(kind.max_sorties, len(trip.sorties)))
+
+
 def _can_go_on(problem: Problem, route: Kept, home_by: int) -> bool:
     """Tell whether a vehicle can deliver some of what it carries."""
     kind = problem.vehicle_types[route.vehicle.type]
     limit = kind.max_trip_distance
     return (route.end <= home_by
+            and all(count is None or count >= 0 for count in _counts_left(problem, route))
             and all(map(le, _load(problem, route), kind.capacity))
             and (limit is None or sum(_driven(problem, route)) <= limit))
 
@@ -120,9 +152,11 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
     """Return what a vehicle can do on the trip that it is on."""
     limit = problem.vehicle_types[route.vehicle.type].max_trip_distance
     trip = route.decision.trips[-1]
+    stops, sorties = _counts_left(problem, route)
     own = replace(
         _own_type(problem, route, way_on.ready, home_by, 1), end=trip.nodes[-1],
-        max_trip_distance=None if limit is None else limit - _driven(problem, route)[0],
+        max_trip_distance=_left(limit, _driven(problem, route)[0]),
+        max_stops=stops, max_sorties=sorties,
         initial_load=_load(problem, route),
         busy_until=way_on.ready + way_on.service_left, works_since=way_on.ready)
     place = trip.nodes[way_on.position]
@@ -144,8 +178,15 @@ def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int) -
 
 def _own_type(problem: Problem, route: Kept, earliest: int, home_by: int,
               trips: int) -> VehicleType:
-    """Return a vehicle that has begun to work as a type of its own."""
+    """Return a vehicle that has begun to work as a type of its own.
+
+    Its overtime begins when it would be home in time, or after what of it has passed.
+    """
     kind = problem.vehicle_types[route.vehicle.type]
+    latest, overtime = home_by, None
+    if kind.overtime is not None:
+        latest = min(home_by, max(earliest, _home_in_time(kind, route)))
+        overtime = replace(kind.overtime, max_duration=home_by - latest)
     return replace(kind, id=vehicle_name(problem, route.vehicle), count=1, numbers=(),
-                   fixed_cost=0.0,
-                   earliest=earliest, latest=home_by, max_working_duration=None, max_trips=trips)
+                   fixed_cost=0.0, earliest=earliest, latest=latest, overtime=overtime,
+                   max_working_duration=None, max_trips=trips)

@@ -145,6 +145,7 @@ def _per_unit(rates: Records) -> Records:
     for name, unit in (("distance", MM_PER_KM), ("time", MS_PER_HOUR)):
         for field in (name, f"drone_{name}"):
             rate[field] = rates[field] / unit
+    rate["overtime"] = rates["overtime"] / MS_PER_HOUR
     return rate
 
 
@@ -166,7 +167,9 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     rates = instance.rate[0]
     late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
     soft = bool((place["arrival_limit"] == FAR).any()) and late
-    timed = (rates["time"] > 0) | (types["max_working_duration"] < UNLIMITED)
+    over = np.minimum(types["usual_end"], types["usual_working"]) < UNLIMITED
+    timed = ((rates["time"] > 0) | (types["max_working_duration"] < UNLIMITED)
+             | ((rates["overtime"] > 0) & over))
     retimed = types["speed_changes"] != NO_PROFILE
     if place.shape[1] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
@@ -192,7 +195,8 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
         if ends not in longest:
             distance = problem.travel[kind.travel].distance
             longest[ends] = float(distance[kind.begins_at].max() + distance[:, kind.ends_at].max())
-        dearest = max(dearest, kind.fixed_cost + longest[ends] / MM_PER_KM * kind.cost_per_km)
+        dearest = max(dearest, kind.fixed_cost + kind.cost_per_stop
+                      + longest[ends] / MM_PER_KM * kind.cost_per_km)
     must_serve: BoolArray = instance.unassigned_cost[0] + instance.unassigned_more[0] > dearest
     return must_serve
 
@@ -203,7 +207,8 @@ def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
     numbers: dict[Hashable, int] = {}
     group = np.array([
         numbers.setdefault((kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
-                            kind.skills, None if table is None else table[index].tobytes()),
+                            kind.overtime, kind.skills,
+                            None if table is None else table[index].tobytes()),
                            len(numbers))
         for index, kind in enumerate(problem.vehicle_types)])
     lean = mode & MODE_LEAN > 0

@@ -6,6 +6,7 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.records import Record, Records, record
+from model.kernel.shift import overtime
 from model.kernel.stop import lateness
 from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray
 from model.simulation.vehicle_log import Setting, VehicleLog, first_departure
@@ -50,7 +51,10 @@ def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: i
     cost.fixed += rate.fixed
     cost.distance += driven / MM_PER_KM * rate.distance
     cost.distance += flown / MM_PER_KM * rate.drone_distance
+    served = log.count.stops - 2 * log.count.trips
+    cost.stops += served * rate.stop
     cost.time += working / MS_PER_HOUR * rate.time
+    cost.overtime += overtime(setting.type, end, working) / MS_PER_HOUR * rate.overtime
     cost.time += airborne / MS_PER_HOUR * rate.drone_time
 
 

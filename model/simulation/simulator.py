@@ -18,6 +18,7 @@ from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, release_of, within
 from model.kernel.records import Record, Records
+from model.kernel.shift import allows_sorties, allows_stops
 from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
@@ -28,7 +29,7 @@ from model.simulation.transition import (
 )
 from model.simulation.trial import OUTLOOK, legal_by_trial, may_reload
 from model.simulation.vehicle_log import (
-    IN_FLIGHT, Setting, first_departure, log_of, setting_of, travel_arrival,
+    IN_FLIGHT, Setting, VehicleLog, first_departure, log_of, setting_of, travel_arrival,
 )
 
 DRIVE, LAUNCH, RETURN, OPEN = range(4)
@@ -124,6 +125,15 @@ def _may_go_on(instance: Instance, setting: Setting, b: int, k: int, vehicle: Re
     return trips < setting.type.max_trips and instance.reload[b, k, vehicle.node]
 
 
+@inlined
+def _trip_so_far(log: VehicleLog) -> tuple[int, int]:
+    """Return how many customers the truck has served, and sorties begun, on its last trip."""
+    first, flown = log.trip[log.count.trips - 1].first_stop, log.count.sorties
+    while flown > 0 and log.sortie[flown - 1].launch_stop >= first:
+        flown -= 1
+    return log.count.stops - first - 1, log.count.sorties - flown
+
+
 @compiled
 def _legal_services(instance: Instance, state: State, r: int, scratch: int, actions: IntArray,
                     outlooks: Records) -> int:
@@ -140,7 +150,10 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     reach = setting.type.max_trip_distance - vehicle.distance
     began = 0 if idle else state.log.trip[r, trips - 1].start
     drones = state.drone[r, : setting.type.drones]
-    may_launch = vehicle.flying < setting.type.drones
+    begun, flown = (0, 0) if idle else _trip_so_far(log_of(state.log, r))
+    may_drive = allows_stops(setting.type, begun + 1)
+    may_launch = (vehicle.flying < setting.type.drones
+                  and allows_sorties(setting.type, flown + 1))
     can_drive, can_fly, served = instance.can_drive[b, k], instance.can_fly[b, k], state.served[r]
     earliest = -1
     if trips > 0:
@@ -150,7 +163,8 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
         if served[node] or not within(demand_of(setting.node[node]), load_left(vehicle)):
             continue
         held = not idle and began < release_of(setting.node[node])
-        if can_drive[node] and lookup(legs, here, node) + lookup(legs, node, home) <= reach:
+        if (may_drive and can_drive[node]
+                and lookup(legs, here, node) + lookup(legs, node, home) <= reach):
             verdict = UNSURE
             if not held:
                 verdict = _judge_drive(setting, vehicle, drones, earliest, node,

@@ -45,6 +45,10 @@ PROBLEMS = {
     "window closed": problem([{"time_window": {"latest": 300}}]),
     "shift ended": problem([{}], shift={"latest": 600}),
     "could work": problem([{}], max_working_duration=600),
+    "more overtime": problem([{}], max_working_duration=300,
+                             overtime={"max_duration": 300, "cost_per_hour": 1}),
+    "make 1 stop": problem([{}], max_stops=0),
+    "launch 1 sortie": problem([{"served_by": "drone"}], drones=DRONES, max_sorties=0),
     "a truck may serve": problem([{"served_by": "drone"}]),
 }
 

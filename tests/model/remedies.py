@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from model.energy import MICROJOULES_PER_WH
 from model.judge.explain import Reason
-from model.problem import Customer, DroneType, Problem, VehicleType
+from model.problem import Customer, DroneType, Overtime, Problem, VehicleType
 
 MINUTE = 60_000
 KM = 1_000_000
@@ -70,6 +70,11 @@ def _larger_battery(kind: VehicleType, text: str) -> VehicleType:
     return replace(kind, drones=replace(_drones(kind), energy=replace(energy, available=available)))
 
 
+def _longer(overtime: Overtime | None, text: str) -> Overtime:
+    assert overtime is not None
+    return replace(overtime, max_duration=overtime.max_duration + _units(text, MINUTE))
+
+
 ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
     "fits if endurance were (.+) minutes? longer": _longer_endurance,
     "fits with a battery of (.+) Wh more": _larger_battery,
@@ -81,6 +86,10 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
         kind, skills=kind.skills | set(text.split(", "))),
     "fits if .+'s shift ended (.+) minutes? later": lambda kind, text: replace(
         kind, latest=kind.latest + _units(text, MINUTE)),
+    "fits if .+ could work (.+) minutes? more overtime": lambda kind, text: replace(
+        kind, overtime=_longer(kind.overtime, text)),
+    "fits if .+ could make (.+) stop": lambda kind, text: replace(kind, max_stops=int(text)),
+    "fits if .+ could launch (.+) sortie": lambda kind, text: replace(kind, max_sorties=int(text)),
     "fits if .+ could work (.+) minutes? longer": lambda kind, text: replace(
         kind, max_working_duration=(kind.max_working_duration or 0) + _units(text, MINUTE)),
     "fits if trips could be (.+) km longer": lambda kind, text: replace(

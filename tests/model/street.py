@@ -67,3 +67,9 @@ def with_customer(problem: Problem, node: int, **changes: object) -> Problem:
     customers = list(problem.customers)
     customers[node - 1] = replace(customers[node - 1], **changes)
     return replace(problem, customers=tuple(customers))
+
+
+def with_trucks(problem: Problem, **changes: Any) -> Problem:
+    """Return a problem whose trucks are others."""
+    return replace(problem, vehicle_types=tuple(replace(kind, **changes)
+                                                for kind in problem.vehicle_types))

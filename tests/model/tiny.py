@@ -6,8 +6,8 @@ import numpy as np
 
 from model.energy import Energy
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Problem,
-    SpeedProfile, Travel, VehicleType,
+    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Overtime,
+    Problem, SpeedProfile, Travel, VehicleType,
 )
 from model.travel.matrices import with_nowhere
 
@@ -142,6 +142,19 @@ def with_energy(rng: np.random.Generator, problem: Problem, share: float = 1.0) 
         replace(kind, drones=replace(kind.drones, energy=battery(problem.num_dimensions)))
         if kind.drones is not None and rng.random() < share else kind
         for kind in problem.vehicle_types))
+
+
+def with_duty(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem with overtime, whose stops cost and are limited, as are sorties."""
+    def tired(kind: VehicleType) -> VehicleType:
+        longest = _maybe(rng, 0.7, 0, 20)
+        overtime = Overtime(float(rng.integers(0, 60)), UNLIMITED if longest is None else longest)
+        return replace(
+            kind, overtime=overtime if rng.random() < 0.7 else None,
+            cost_per_stop=float(rng.integers(0, 5)), max_stops=_maybe(rng, 0.5, 0, 3, 1),
+            max_sorties=_maybe(rng, 0.5, 0, 3, 1))
+
+    return replace(problem, vehicle_types=tuple(map(tired, problem.vehicle_types)))
 
 
 def with_table(rng: np.random.Generator, problem: Problem) -> Problem:

@@ -152,7 +152,7 @@ class Converter:
     def _vehicle_type(self, number: int, start: int, end: int, drive: Drive,
                       loads: Loads) -> VehicleType:
         kind = self.kinds[number]
-        window = kind.stated.time_window
+        window, most = kind.stated.time_window, kind.stated.max_tasks
         return VehicleType(
             id=str(kind.stated.id), count=len(kind.vehicles),
             capacity=tuple(loads.capacity[number].tolist()), travel=drive.travel, depot=start,
@@ -162,6 +162,7 @@ class Converter:
             earliest=0 if window is None else self._instant(window[0]),
             latest=UNLIMITED if window is None else self._last_instant(window[1]),
             max_working_duration=drive.max_working, max_trip_distance=drive.max_distance,
+            max_stops=None if most is None else min(most, len(self._request.jobs)),
             skills=frozenset(map(str, kind.stated.skills)))
 
     def _customer(self, job: int, service: int, loads: Loads) -> Customer:

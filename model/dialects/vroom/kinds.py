@@ -59,7 +59,7 @@ def _kind(request: Request, places: Places, members: list[int], named: set[str])
 
 
 def find_loads(request: Request, kinds: tuple[Kind, ...], relaxed: bool) -> Loads:
-    """Return the amounts that may fill a vehicle, and the number of jobs if that is limited.
+    """Return the amounts that may fill a vehicle.
 
     Parameters
     ----------
@@ -78,7 +78,8 @@ def find_loads(request: Request, kinds: tuple[Kind, ...], relaxed: bool) -> Load
     brought = np.array([job.delivery or nothing for job in request.jobs], np.int64)
     taken = np.array([job.pickup or nothing for job in request.jobs], np.int64)
     capacities = np.array([kind.stated.capacity for kind in kinds], np.int64)
-    strict, loose, looser = (_tasks(len(request.jobs), kinds) for _ in range(3))
+    strict: list[tuple[IntArray, IntArray]] = []
+    loose, looser = strict.copy(), strict.copy()
     surplus = np.zeros(len(request.jobs))
     is_mixed = False
     for more, less, capacity in zip(brought.T, taken.T, capacities.T, strict=True):
@@ -94,8 +95,8 @@ def find_loads(request: Request, kinds: tuple[Kind, ...], relaxed: bool) -> Load
             loose.append(strict[-1])
             looser.append(strict[-1])
     if len(strict) > MAX_DIMENSIONS:
-        raise RefusedError(f"capacity: {len(strict)} amounts may fill a vehicle, max_tasks "
-                           f"counted as one, and {MAX_DIMENSIONS} can be planned here.")
+        raise RefusedError(f"capacity: {len(strict)} amounts may fill a vehicle, and "
+                           f"{MAX_DIMENSIONS} can be planned here.")
     columns = strict
     if relaxed:
         columns = loose if len(loose) <= MAX_DIMENSIONS else looser
@@ -104,10 +105,3 @@ def find_loads(request: Request, kinds: tuple[Kind, ...], relaxed: bool) -> Load
     return Loads(np.stack([demand for demand, _ in columns], axis=1),
                  np.stack([capacity for _, capacity in columns], axis=1),
                  surplus if is_mixed else None)
-
-
-def _tasks(num_jobs: int, kinds: tuple[Kind, ...]) -> list[tuple[IntArray, IntArray]]:
-    """Return the number of jobs as an amount, if it is limited."""
-    limits = [kind.stated.max_tasks for kind in kinds]
-    most = np.array([num_jobs if limit is None else limit for limit in limits], np.int64)
-    return [(np.ones(num_jobs, np.int64), most)] if most.min() < num_jobs else []

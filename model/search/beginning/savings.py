@@ -13,6 +13,7 @@ from model.kernel.instance import MAX_DIMENSIONS
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import Amount, demand_of, holds, plus, release_of
 from model.kernel.records import Record, Records, record
+from model.kernel.shift import allows_stops
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival
 from model.problem import IntArray
@@ -21,15 +22,16 @@ from model.search.route.layout import NOWHERE, World
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
 
-CHAIN = record("before", "behind", "route", "leave", "latest", "last", load=MAX_DIMENSIONS)
+CHAIN = record("before", "behind", "route", "leave", "latest", "last", "length",
+               load=MAX_DIMENSIONS)
 """A customer in a chain: who comes before and behind; of its last, who comes first; the
-departure and the latest arrival; of its first, who comes last, and the load."""
+departure and the latest arrival; of its first, who comes last, how many there are, and the load."""
 
 
 def savings_routes(world: World, k: int) -> list[list[int]]:
     """Join the customers that a truck of type `k` may serve to routes.
 
-    Loads, hard windows and the shift are kept; what else is asked for is not looked at.
+    Loads, stops, hard windows and the shift are kept; what else is asked for is not looked at.
 
     Returns
     -------
@@ -85,6 +87,7 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
         place, link = world.place[node], chain[node]
         link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
         set_chain_load(link, demand_of(place))
+        link.length = 1
         ready = max(leaves_first(kind, kind.shift_earliest), release_of(place))
         link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
         leave = kind.shift_latest - leg(legs, node, end).duration
@@ -97,9 +100,11 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
             continue
         head, tail = chain[a].route, chain[b].last
         load = plus(chain_load(chain[head]), chain_load(chain[b]))
-        if head != b and holds(kind, load):
+        length = chain[head].length + chain[b].length
+        if head != b and holds(kind, load) and allows_stops(kind, length):
             link_up(world, legs, chain, a, b, head, tail)
             set_chain_load(chain[head], load)
+            chain[head].length = length
 
 
 @compiled

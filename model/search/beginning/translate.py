@@ -18,7 +18,7 @@ from model.search.moves.split import LINE
 from model.search.route.block import SUMS
 from model.search.route.edit import MOVE
 from model.search.route.layout import (
-    CUSTOMER, END, NOWHERE, START, Fleet, World, empty_fleet, BOUND, KEPT,
+    CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, World, empty_fleet, BOUND, KEPT,
 )
 from model.search.route.refresh import clear_holds, locate, refresh, settle
 from model.search.route.routes import drive_forward, load_trips
@@ -97,7 +97,8 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
         capacity = kind.capacity * trips
         most = max(most, int((demand <= capacity).all(axis=1).sum()))
         largest = np.maximum(capacity, 1)
-        fewest = min(fewest, int(np.ceil(demand[-1] / largest).max()) if number else 0)
+        needed = int(np.ceil(demand[-1] / largest).max()) if number else 0
+        fewest = min(fewest, max(needed, -(-number // max(1, _most_served(kind)))))
     count = int(types["count"].sum())
     wanted = 2 * max(len(solution.routes), 2 * fewest) + SPARE_SLOTS
     if not solution.routes:
@@ -106,6 +107,12 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
     flown = most if world.visits.any() else 0
     return (max(1, min(count, number, wanted), len(solution.routes)),
             most + 2 * trips + STOPS_OPENED, trips, flown + 1)
+
+
+def _most_served(kind: Record) -> int:
+    """Return how many customers a vehicle of a type serves at most, by stops and sorties."""
+    flown = int(kind.max_sorties) * MOST_VISITS if kind.drones else 0
+    return int(kind.max_trips) * (int(kind.max_stops) + flown)
 
 
 @compiled

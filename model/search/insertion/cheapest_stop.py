@@ -3,14 +3,14 @@
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import FAR
 from model.kernel.leg import leg_at, legs_from, legs_to
-from model.kernel.load import fits, release_of
+from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, too_late
 from model.problem import IntArray, UIntArray
 from model.search.route.edit import AT_STOP
 from model.search.route.layout import CHANGING, MODE_SIMPLE, NOWHERE, Fleet, World
 from model.search.route.randomness import uniform
-from model.search.route.vehicles import larger_type, load_of, route_cost
+from model.search.route.vehicles import larger_type, route_cost, takes
 
 
 @spliced
@@ -100,14 +100,15 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
     A larger one if `enlarge`; or `NOWHERE`.
     """
     k = fleet.route[slot].type
-    if fits(world.type[k], load_of(fleet.trip[slot, index]), world.place[node]):
-        return k, 0.0
+    if takes(world.type[k], fleet.trip[slot, index], world.place[node]):
+        return k, world.rate[k].stop
     if not enlarge:
         return NOWHERE, 0.0
     by = larger_type(world, fleet, slot, node)
     if by < 0:
         return NOWHERE, 0.0
-    return by, route_cost(world, by, fleet.trip[slot, 0].distance) - fleet.cost[slot]
+    cost = route_cost(world, by, fleet.trip[slot, 0]) + world.rate[by].stop
+    return by, cost - fleet.cost[slot]
 
 
 @spliced

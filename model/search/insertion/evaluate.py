@@ -9,14 +9,15 @@ from model.kernel.start import counted_from
 from model.kernel.stop import as_late, end_of_service, service_duration, too_late
 from model.search.route.block import make_ready, plain_block, time_block
 from model.search.route.edit import (
-    BY_SORTIE, BY_TRUCK, FLIGHT_TRIP, FROM_START, NEW_TRIP, ON_SORTIE, WAYS, apply, begin_route,
+    AT_STOP, BY_SORTIE, BY_TRUCK, FLIGHT_TRIP, FROM_START, NEW_TRIP, ON_SORTIE, TRIP_FROM,
+    TRIP_UNTIL, WAYS, apply, begin_route,
 )
 from model.search.route.ends import is_apart
 from model.search.route.layout import (
     CUSTOMER, END, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, START, Fleet, World, copy_sequence,
 )
 from model.search.route.refresh import refresh
-from model.search.route.routes import sortie_cost, window_cost
+from model.search.route.routes import longer_cost, sortie_cost, window_cost
 
 INFEASIBLE = 1e300
 
@@ -135,7 +136,8 @@ def price_part(world: World, fleet: Fleet, slot: int, first: int, last: int, to:
         return INFEASIBLE
     for p in range(first, last):
         driven -= old[p].leg
-    cost = driven * world.rate[k].distance + (working - route.working) * world.rate[k].time
+    cost = driven * world.rate[k].distance + longer_cost(
+        world.type[k], world.rate[k], route, end, working)
     for s in range(fleet.route[to].sorties):
         cost += sortie_cost(world, k, fleet.stop[to], fleet.sortie[to, s])
     for s in range(route.sorties):
@@ -207,7 +209,10 @@ def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record)
     skipped = copy_part(fleet, slot, first, last, to)
     apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, first, skipped)
     give_releases(fleet, to, alone, trip, release)
-    return price_part(world, fleet, slot, first, last, to, acc)
+    cost = price_part(world, fleet, slot, first, last, to, acc)
+    if kind in (AT_STOP, NEW_TRIP, TRIP_FROM, TRIP_UNTIL):
+        cost += world.rate[k].stop
+    return cost
 
 
 @spliced
@@ -282,4 +287,5 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     working = end - counted_from(world.type[k], min(depart, end - cum)) - route.offset
     if working > world.type[k].max_working_duration:
         return INFEASIBLE
-    return cost + (working - route.working) * world.rate[k].time
+    return cost + world.rate[k].stop + longer_cost(
+        world.type[k], world.rate[k], route, end, working)

@@ -5,6 +5,7 @@ from model.kernel.instance import FAR
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of, holds, plus, release_of
 from model.kernel.records import Records
+from model.kernel.shift import allows_stops
 from model.kernel.stop import end_of_service, too_late
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
 from model.search.route.layout import CUSTOMER, Fleet, World
@@ -13,18 +14,20 @@ from model.search.route.vehicles import payload
 
 @spliced
 def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: bool) -> bool:
-    """Tell whether a customer's demand fits on top of a trip's up to stop `p`, or of the rest."""
+    """Tell whether a customer may join a trip's up to stop `p`, or the rest, by load and number."""
     stops, sorties = fleet.stop[slot], fleet.sortie[slot]
     trip = fleet.trip[slot, stops[p].trip]
     first, last = (trip.first, p) if front else (p + 1, trip.last)
-    load = demand_of(world.place[node])
+    load, count = demand_of(world.place[node]), 1
     for q in range(first, last + 1):
         if stops[q].kind == CUSTOMER:
+            count += 1
             load = plus(load, demand_of(world.place[stops[q].node]))
     for s in range(fleet.route[slot].sorties):
         if first <= sorties[s].launch <= last:
             load = plus(load, payload(world, sorties[s]))
-    return holds(world.type[fleet.route[slot].type], load)
+    kind = world.type[fleet.route[slot].type]
+    return holds(kind, load) and allows_stops(kind, count)
 
 
 @spliced

@@ -53,6 +53,7 @@ def stop_costs(world: World, k: int, inward: IntArray, onward: IntArray, stops: 
     place, here, there = world.place[node], stops[p].node, stops[p + 1].node
     out, on = leg_at(inward, here), leg_at(onward, there)
     cost = (out.distance + on.distance - stops[p].leg) * world.rate[k].distance - early
+    cost += world.rate[k].stop
     mode = world.mode[k]
     if mode & MODE_TIMED:
         # While drones fly, the truck may have time before they are back.
@@ -233,7 +234,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
                 kind, cost = TRIP_UNTIL, until
             if cost < best and not part_fits(world, now, slot, p, node, kind == TRIP_UNTIL):
                 continue
-        cost -= now.early[slot]
+        cost += world.rate[k].stop - now.early[slot]
         if cost < best and (p < 0 or not too_late(world.place[node], stops[p].leave)):
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 

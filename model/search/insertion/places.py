@@ -4,6 +4,7 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import pasted
 from model.kernel.flight import endurance_of, held_until
 from model.kernel.load import fits
+from model.kernel.shift import allows_stops
 from model.kernel.stop import opening
 from model.search.insertion.cheapest_stop import (
     is_simple, scan_beside, scan_beside_lean, scan_lean, scan_simple,
@@ -19,7 +20,7 @@ from model.search.route.layout import CHANGING, NOWHERE, World
 from model.search.route.randomness import uniform
 from model.search.route.refresh import stop_beside
 from model.search.route.state import Searcher
-from model.search.route.vehicles import load_of
+from model.search.route.vehicles import load_of, may_launch, stops_on
 
 MORE_TRIPS = 0.2
 """How often a customer who can go on a trip as it is may begin or split one."""
@@ -57,13 +58,14 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
         scan_simple(world, now, slot, node, enlarge, searcher.bound, searcher.move, searcher.rng)
     if simple and not by_drone:
         return
-    for trip in range(now.route[slot].trips):
-        if not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node]):
+    for index in range(now.route[slot].trips):
+        trip = now.trip[slot, index]
+        if not fits(world.type[k], load_of(trip), world.place[node]):
             continue
-        first, last = now.trip[slot, trip].first, now.trip[slot, trip].last
-        if by_truck and not simple:
+        first, last = trip.first, trip.last
+        if by_truck and not simple and allows_stops(world.type[k], stops_on(trip) + 1):
             offer_stops(world, searcher, slot, first, last - 1, node)
-        if by_drone:
+        if by_drone and may_launch(world.type[k], now.route[slot], now.sortie[slot], trip):
             for p in range(first, last):
                 offer_sorties(world, searcher, slot, p, node)
             leave = now.stop[slot, first].leave
@@ -183,18 +185,20 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
         if slot < 0:
             continue
         k = now.route[slot].type
-        by_truck = world.can[k, 0, node] and not is_simple(world, now, slot)
         p = stop_beside(now, other)
-        trip = now.stop[slot, p].trip
-        if (not (by_truck or world.can[k, 1, node])
-                or not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node])):
+        trip = now.trip[slot, now.stop[slot, p].trip]
+        by_truck = (world.can[k, 0, node] and not is_simple(world, now, slot)
+                    and allows_stops(world.type[k], stops_on(trip) + 1))
+        by_drone = world.can[k, 1, node] and may_launch(
+            world.type[k], now.route[slot], now.sortie[slot], trip)
+        if (not (by_truck or by_drone)
+                or not fits(world.type[k], load_of(trip), world.place[node])):
             continue
-        first = max(p - 1, now.trip[slot, trip].first)
+        first = max(p - 1, trip.first)
         if by_truck:
             # Nobody is served behind the depot.
-            offer_stops(world, searcher, slot, first, min(p, now.trip[slot, trip].last - 1),
-                        node)
-        if world.can[k, 1, node]:
+            offer_stops(world, searcher, slot, first, min(p, trip.last - 1), node)
+        if by_drone:
             for q in range(first, p + 1):
                 offer_sorties(world, searcher, slot, q, node)
     take_cheapest(world, searcher, node)

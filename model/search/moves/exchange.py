@@ -5,6 +5,7 @@ import math
 from model.kernel.compiled import inlined, spliced
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import NOTHING, demand_of, holds, plus
+from model.kernel.shift import allows_stops
 from model.search.route.edit import put
 from model.search.route.layout import CUSTOMER, END, NOWHERE, START, Fleet, World
 from model.search.route.refresh import any_customer, locate, refresh
@@ -44,7 +45,8 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
     if rate != rate_by:
         longer = rest_distance(fleet, b, q + 1) - rest_distance(fleet, a, p + 1)
         cost += longer * (rate - rate_by)
-    return cost
+    more = (fleet.route[b].length - q) - (fleet.route[a].length - p)
+    return cost + more * (world.rate[k].stop - world.rate[by].stop)
 
 
 @spliced
@@ -145,11 +147,12 @@ def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> boo
     while fleet.stop[a, index].kind == CUSTOMER:
         load = plus(load, demand_of(world.place[fleet.stop[a, index].node]))
         index -= 1
-    index = q + 1
+    count, index = p - index, q + 1
     while fleet.stop[b, index].kind == CUSTOMER:
         load = plus(load, demand_of(world.place[fleet.stop[b, index].node]))
         index += 1
-    return not holds(world.type[fleet.route[a].type], load)
+    kind = world.type[fleet.route[a].type]
+    return not (holds(kind, load) and allows_stops(kind, count + index - q - 1))
 
 
 @inlined

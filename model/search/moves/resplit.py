@@ -9,6 +9,7 @@ import math
 from model.kernel.compiled import inlined, spliced
 from model.kernel.load import NOTHING, demand_of, holds, plus
 from model.kernel.records import Record, Records
+from model.kernel.shift import overtime
 from model.search.moves.exchange import append
 from model.search.moves.split import (
     NEIGHBOURS, NO_FLIGHT, measure, present_cost, shift, shuffle, split,
@@ -83,13 +84,19 @@ def line_up(fleet: Fleet, slot: int, first: int, last: int, line: Records) -> tu
     return length, exact
 
 
+@inlined
+def beside(rate: Record) -> float:
+    """Return what a route costs beside its operations, of which the last ends at no customer."""
+    return rate.fixed - rate.stop
+
+
 @spliced
 def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first: int, last: int,
                 line: Records) -> tuple[int, float, bool, int]:
     """Write the places of stops `first` to `last` of a route, then those of the other, if any.
 
     Returns how many places there are, 0 if that can't be, what the operations cost if that is all
-    that the drones do, whether it is, and how long (ms) trucks wait.
+    that the drones do, whether it is, and how long (ms) trucks wait, or work overtime.
     """
     length, before, exact, idle = 1, 0.0, True, 0
     member = slot
@@ -100,9 +107,12 @@ def line_up_all(world: World, fleet: Fleet, k: int, slot: int, other: int, first
             if count == 0:
                 return 0, 0.0, False, 0
             exact, idle = exact and whole, idle + idle_time(fleet.route[member])
+            if world.rate[k].overtime > 0.0:
+                idle += overtime(world.type[k], fleet.route[member].end,
+                                 fleet.route[member].working)
             if exact:
                 measure(world, k, line[begin:], count)
-                before += present_cost(world, k, line[begin:], count) + world.rate[k].fixed
+                before += present_cost(world, k, line[begin:], count) + beside(world.rate[k])
             length = begin + count
         else:
             line[length].node = line[begin].node
@@ -158,7 +168,8 @@ def depot_between(world: World, line: Records, length: int) -> int:
 def is_worth(world: World, k: int, idle: int, before: float, after: float, limit: float) -> bool:
     """Tell whether operations that cost so much before and after may cost less than `limit` more.
 
-    Where windows make trucks wait (`idle`, ms), or count themselves, that says nothing.
+    Where windows make trucks wait (`idle`, ms), or count themselves, that says nothing; nor where
+    time saved is overtime.
     """
     if world.mode[k] & MODE_PRICED or idle > 0:
         return True
@@ -193,7 +204,7 @@ def split_all(world: World, searcher: Searcher, k: int, cut: int, length: int) -
             measure(world, k, line[begin:], count)
             if not split(world, k, line[begin:], cost[begin:], count):
                 return math.inf
-            total += cost[end] + world.rate[k].fixed
+            total += cost[end] + beside(world.rate[k])
         begin, end = end, length - 1
     return total
 

@@ -3,12 +3,12 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined
-from model.kernel.load import holds, lifts
+from model.kernel.load import lifts
 from model.search.route.layout import CUSTOMER, MODE_LEAN, Fleet, World
 from model.search.route.randomness import below
 from model.search.route.refresh import refresh
 from model.search.route.state import Searcher, keep_aside, touch
-from model.search.route.vehicles import change_type, load_of, payload, route_cost
+from model.search.route.vehicles import change_type, may_make, payload, route_cost
 
 
 @inlined
@@ -20,11 +20,11 @@ def trade(world: World, searcher: Searcher, slot: int) -> None:
         k, by = now.route[slot].type, now.route[other].type
         if by == k or not world.swap[k, by]:
             continue
-        cost = (route_cost(world, by, now.trip[slot, 0].distance)
-                + route_cost(world, k, now.trip[other, 0].distance))
+        cost = (route_cost(world, by, now.trip[slot, 0])
+                + route_cost(world, k, now.trip[other, 0]))
         if (cost < now.cost[slot] + now.cost[other] - 1e-9
-                and holds(world.type[by], load_of(now.trip[slot, 0]))
-                and holds(world.type[k], load_of(now.trip[other, 0]))):
+                and may_make(world.type[by], now.trip[slot, 0])
+                and may_make(world.type[k], now.trip[other, 0])):
             touch(searcher, other)
             change_type(world, now, slot, by)
             change_type(world, now, other, k)
@@ -42,8 +42,8 @@ def improve_types(world: World, searcher: Searcher) -> None:
         for k in range(world.num_types):
             if (world.swap[now.route[slot].type, k]
                     and now.used[k] < world.type[k].count
-                    and route_cost(world, k, trip.distance) < now.cost[slot] - 1e-9
-                    and holds(world.type[k], load_of(trip))):
+                    and route_cost(world, k, trip) < now.cost[slot] - 1e-9
+                    and may_make(world.type[k], trip)):
                 change_type(world, now, slot, k)
         trade(world, searcher, slot)
 

@@ -117,7 +117,8 @@ def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: i
     distance = line[j].distance - line[i].distance - line[flown].spared_distance
     here, handled = service_duration(world.place[node]), handling_duration(kind)
     driven = drive - here + max(0, here - launch_duration(kind))
-    if (handled + driven) * rate.time + distance * rate.distance >= most:
+    ground = distance * rate.distance + (j - i - 1) * rate.stop
+    if (handled + driven) * rate.time + ground >= most:
         return math.inf
     flights = legs_of(world.leg, kind.drone_travel)
     service = drone_service(kind, world.place[customer])
@@ -127,7 +128,7 @@ def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: i
     if not within_endurance(kind, 0, flight, airborne) or not can_wait(
             kind, world.place[customer], out.duration, home.duration, airborne - flight):
         return math.inf
-    return ((handled + airborne) * rate.time + distance * rate.distance
+    return ((handled + airborne) * rate.time + ground
             + airborne * rate.drone_time
             + (out.distance + home.distance) * rate.drone_distance)
 
@@ -162,7 +163,7 @@ def extend(world: World, k: int, line: Records, cost: FloatArray, length: int, i
         if lands:
             way = leg(legs, here, to)
             total = (cost[i] + loops + (way.duration + service) * rate.time
-                     + way.distance * rate.distance)
+                     + way.distance * rate.distance + rate.stop)
             if total < cost[j]:
                 cost[j], line[j].before, line[j].flight = total, i, NO_FLIGHT
         if lands and grounded <= 1 and world.crossings:
@@ -206,6 +207,7 @@ def present_cost(world: World, k: int, line: Records, length: int) -> float:
             here = line[i].node
             way, service = leg(legs, here, line[j].node), service_duration(world.place[here])
             cost += (way.duration + service) * rate.time + way.distance * rate.distance
+            cost += rate.stop
             for place in range(i + 1, j):
                 cost += loop_cost(world, k, here, line[place].node)
         j = i

@@ -2,12 +2,12 @@
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import demand_of, holds
+from model.kernel.load import demand_of
 from model.kernel.records import Records
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival, too_late
 from model.search.route.layout import CUSTOMER, NOWHERE, Fleet, World, clear_trip, copy_lean
-from model.search.route.vehicles import add_load, load_of
+from model.search.route.vehicles import add_load, may_make, route_cost
 
 
 @inlined
@@ -36,7 +36,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
             add_load(trip, demand_of(place))
         stops[p].leave, stops[p].flying, stops[p].trip = time, 0, 0
     stops[last].leg = stops[last].gap = 0
-    if not holds(kind, load_of(trip)):
+    if not may_make(kind, trip):
         return False
     latest = kind.shift_latest
     stops[last].latest = latest
@@ -44,7 +44,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
         latest = latest_arrival(world.place[stops[p].node], latest - stops[p].gap)
         stops[p].latest = latest
     stops[0].latest = latest - stops[0].gap
-    fleet.cost[slot] = world.rate[k].fixed + trip.distance * world.rate[k].distance
+    fleet.cost[slot] = route_cost(world, k, trip)
     return time <= kind.shift_latest
 
 
@@ -76,7 +76,7 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     new.gap, new.leg = on.duration, on.distance
     trip.last += 1
     trip.distance += detour
-    fleet.cost[slot] += detour * world.rate[k].distance
+    fleet.cost[slot] += detour * world.rate[k].distance + world.rate[k].stop
     add_load(trip, demand_of(world.place[node]))
     spread(world, stops, trip.last, p + 1)
 

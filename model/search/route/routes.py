@@ -4,14 +4,15 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.flight import launch_duration, recovery_end
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import demand_of, holds, release_of
+from model.kernel.load import demand_of, release_of
 from model.kernel.records import Record, Records
+from model.kernel.shift import allows_sorties, overtime
 from model.kernel.start import counted_from, has_begun
 from model.kernel.stop import are_single, latest_arrival, lateness, waiting
 from model.search.route.block import make_ready, plain_block, time_block, travel
 from model.search.route.ends import is_apart, place_ends
 from model.search.route.layout import CUSTOMER, END, MODE_PRICED, START, World, clear_trip
-from model.search.route.vehicles import add_load, load_of
+from model.search.route.vehicles import add_load, may_make
 
 
 @inlined
@@ -29,7 +30,7 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
     k = route.type
     vehicle_type = world.type[k]
     legs = legs_of(world.leg, vehicle_type.travel)
-    index, s = -1, 0
+    index, s, flown = -1, 0, 0
     if is_apart(world, k):
         place_ends(world, k, route, stops)
     most_trips, most_distance = len(trips), vehicle_type.max_trip_distance
@@ -41,6 +42,7 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
             if index >= vehicle_type.max_trips or index >= most_trips:
                 return False
             clear_trip(trips[index])
+            flown = s
             trips[index].first = p
         trip = trips[index]
         stop.trip = index
@@ -53,7 +55,8 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
         if kind == END:
             trip.last = p
             stops[trip.first].release = trip.release
-            if trip.distance > most_distance or not holds(vehicle_type, load_of(trip)):
+            if (trip.distance > most_distance or not may_make(vehicle_type, trip)
+                    or not allows_sorties(vehicle_type, s - flown)):
                 return False
             stop.leg, stop.gap = 0, vehicle_type.reload_duration
         else:
@@ -206,6 +209,16 @@ def first_departure(world: World, route: Record, stops: Records, sorties: Record
 
 
 @inlined
+def longer_cost(kind: Record, rate: Record, route: Record, end: int, working: int) -> float:
+    """Return what it costs more that a route ends at `end` and works so long."""
+    cost = (working - route.working) * rate.time
+    if rate.overtime > 0.0:
+        more = overtime(kind, end, working) - overtime(kind, route.end, route.working)
+        cost += more * rate.overtime
+    return cost
+
+
+@inlined
 def price_route(world: World, route: Record, stops: Records, trips: Records,
                 sorties: Records) -> tuple[float, float]:
     """Return the cost of a timed route, and what waiting for windows costs of it."""
@@ -213,7 +226,10 @@ def price_route(world: World, route: Record, stops: Records, trips: Records,
     cost, early = world.rate[k].fixed, 0.0
     for index in range(route.trips):
         cost += trips[index].distance * world.rate[k].distance
+    cost += (route.length - 2 * route.trips) * world.rate[k].stop
     cost += route.working * world.rate[k].time
+    if world.rate[k].overtime > 0.0:
+        cost += overtime(world.type[k], route.end, route.working) * world.rate[k].overtime
     for s in range(route.sorties):
         cost += sortie_cost(world, k, stops, sorties[s])
     if world.mode[k] & MODE_PRICED:

@@ -3,15 +3,47 @@
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.load import NOTHING, Amount, demand_of, fits, plus
-from model.kernel.records import Record
+from model.kernel.load import NOTHING, Amount, demand_of, fits, holds, plus
+from model.kernel.records import Record, Records
+from model.kernel.shift import allows_sorties, allows_stops
 from model.search.route.layout import NOWHERE, Fleet, World
 
 
+@inlined
+def stops_on(trip: Record) -> int:
+    """Return how many customers the truck itself serves on a trip."""
+    return trip.last - trip.first - 1
+
+
+@inlined
+def may_launch(kind: Record, route: Record, sorties: Records, trip: Record) -> bool:
+    """Tell whether a sortie more may be flown on a trip of a route, by their number."""
+    if allows_sorties(kind, route.sorties + 1):
+        return True
+    count = 1
+    for s in range(route.sorties):
+        if trip.first <= sorties[s].launch <= trip.last:
+            count += 1
+    return allows_sorties(kind, count)
+
+
 @spliced
-def route_cost(world: World, k: int, distance: int) -> float:
-    """Return the cost of a lean route by a vehicle of type `k`."""
-    return world.rate[k].fixed + distance * world.rate[k].distance
+def route_cost(world: World, k: int, trip: Record) -> float:
+    """Return what a lean route's only trip costs by a vehicle of type `k`."""
+    rate = world.rate[k]
+    return rate.fixed + trip.distance * rate.distance + stops_on(trip) * rate.stop
+
+
+@inlined
+def may_make(kind: Record, trip: Record) -> bool:
+    """Tell whether a vehicle of a type holds what a trip carries, and may stop so often."""
+    return holds(kind, load_of(trip)) and allows_stops(kind, stops_on(trip))
+
+
+@inlined
+def takes(kind: Record, trip: Record, place: Records) -> bool:
+    """Tell whether a vehicle of a type holds a customer's parcel more, and may stop once more."""
+    return fits(kind, load_of(trip), place) and allows_stops(kind, stops_on(trip) + 1)
 
 
 @inlined
@@ -47,8 +79,8 @@ def larger_type(world: World, fleet: Fleet, slot: int, node: int) -> int:
         if (not world.swap[k, other] or other == k or not world.can[other, 0, node]
                 or fleet.used[other] >= world.type[other].count):
             continue
-        cost = route_cost(world, other, trip.distance)
-        if cost < best and fits(world.type[other], load_of(trip), world.place[node]):
+        cost = route_cost(world, other, trip) + world.rate[other].stop
+        if cost < best and takes(world.type[other], trip, world.place[node]):
             chosen, best = other, cost
     return chosen
 
@@ -59,4 +91,4 @@ def change_type(world: World, fleet: Fleet, slot: int, k: int) -> None:
     fleet.used[fleet.route[slot].type] -= 1
     fleet.used[k] += 1
     fleet.route[slot].type = k
-    fleet.cost[slot] = route_cost(world, k, fleet.trip[slot, 0].distance)
+    fleet.cost[slot] = route_cost(world, k, fleet.trip[slot, 0])

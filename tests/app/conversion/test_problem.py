@@ -9,7 +9,7 @@ import pytest
 from app.conversion.leaving_out import default_unassigned_cost
 from app.conversion.problem import to_problem
 from app.requests.reading import read_request
-from model.problem import UNLIMITED, UNREACHABLE, Problem, SpeedProfile
+from model.problem import UNLIMITED, UNREACHABLE, Overtime, Problem, SpeedProfile
 
 Request = dict[str, Any]
 
@@ -89,7 +89,9 @@ def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
     smallest["fleet"][0] |= {
         "shift": {"earliest": 1, "latest": 9}, "max_working_duration": 8.5,
         "max_trip_distance": 12.25, "max_trips": 2, "reload_duration": 3, "skills": ["cold"],
-        "costs": {"fixed": 5, "per_km": 6, "per_hour": 7},
+        "costs": {"fixed": 5, "per_km": 6, "per_hour": 7, "per_stop": 0.5},
+        "overtime": {"max_duration": 4.5, "cost_per_hour": 11}, "max_stops": 3, "max_sorties": 0,
+        "co2_kg_per_km": 0.25, "co2_kg_per_kwh": 0.4,
         "drones": {"count": 2, "capacity": [1.5], "speed_kmh": 30, "endurance": 1.25,
                    "endurance_includes_waiting": False, "launch_duration": 0.1,
                    "recovery_duration": 0.2, "service_duration": 0.3,
@@ -104,6 +106,9 @@ def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
     assert (truck.earliest, truck.latest, truck.reload_duration) == (1000, 9000, 3000)
     assert (truck.max_working_duration, truck.max_trip_distance) == (8500, 12250)
     assert (truck.fixed_cost, truck.cost_per_km, truck.cost_per_hour) == (5, 6, 7)
+    assert (truck.cost_per_stop, truck.max_stops, truck.max_sorties) == (0.5, 3, 0)
+    assert truck.overtime == Overtime(11, 4500)
+    assert (truck.co2_kg_per_km, truck.co2_kg_per_kwh) == (0.25, 0.4)
     drones = truck.drones
     assert drones is not None
     assert (drones.count, drones.capacity, drones.max_customers_per_sortie) == (2, (1500,), 3)

@@ -48,6 +48,37 @@ def test_a_reply_passed_back_unchanged_is_feasible_at_the_same_cost(
     assert verdict["summary"] == plan["summary"]
 
 
+def test_overtime_stops_and_co2_are_told_and_judged(client: httpx.Client,
+                                                    smallest: Request) -> None:
+    # A round of 16 km at 40 km/h takes 24 minutes.
+    smallest["fleet"][0] |= {
+        "costs": {"per_km": 0, "per_stop": 1.5}, "max_working_duration": 1200, "max_stops": 2,
+        "overtime": {"max_duration": 300, "cost_per_hour": 30}, "co2_kg_per_km": 0.25}
+    plan = planned(client, smallest)
+    assert plan["status"] == "complete"
+    assert plan["routes"][0]["overtime"] == 240
+    assert {term: cost for term, cost in plan["cost"].items() if cost} == {
+        "total": 5.0, "stops": 3.0, "overtime": 2.0}
+    assert plan["summary"]["co2_kg"] == 4.0
+    assert judged(client, smallest, plan)["summary"] == plan["summary"]
+    for change in ({"overtime": None}, {"max_stops": 1}):
+        stricter = smallest | {"fleet": [smallest["fleet"][0] | change]}
+        verdict = judged(client, stricter, plan)
+        assert [broken["code"] for broken in verdict["violations"]] == [
+            "WORKING_DURATION" if "overtime" in change else "MAX_STOPS"]
+
+
+@pytest.mark.parametrize(("change", "path"), [
+    ({"overtime": {}}, "overtime.cost_per_hour"), ({"max_stops": -1}, "max_stops"),
+    ({"max_sorties": 1.5}, "max_sorties"), ({"co2_kg_per_km": -1}, "co2_kg_per_km"),
+    ({"overtime": {"cost_per_hour": 1, "max_duration": -1}}, "overtime.max_duration")])
+def test_wrong_limits_of_work_are_refused(client: httpx.Client, smallest: Request,
+                                          change: Request, path: str) -> None:
+    smallest["fleet"][0] |= change
+    reply = client.post("/plan", json=smallest)
+    assert [error["path"] for error in reply.json()["errors"]] == [f"$.fleet[0].{path}"]
+
+
 def test_a_plan_of_routes_alone_is_enough(client: httpx.Client, smallest: Request) -> None:
     plan = planned(client, smallest)
     stops = [{key: stop[key] for key in ("kind", "id", "arrival", "service_start", "departure")}

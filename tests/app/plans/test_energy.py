@@ -40,8 +40,22 @@ def test_a_reply_tells_what_flights_take(client: httpx.Client, smallest: Request
     assert (again["feasible"], again["summary"]["energy_wh"]) == (True, sortie["energy_wh"])
 
 
+def test_co2_is_that_of_kilometres_and_of_what_flights_take(client: httpx.Client,
+                                                            smallest: Request) -> None:
+    request = flying(smallest, power={"cruise_w": 100, "cruise_w_per_kg": 20})
+    request["fleet"][0] |= {"co2_kg_per_km": 0.25, "co2_kg_per_kwh": 0.4}
+    summary = planned(client, request)["summary"]
+    assert summary["energy_wh"] > 0
+    assert summary["co2_kg"] == pytest.approx(
+        summary["distance"] / 1000 * 0.25 + summary["energy_wh"] / 1000 * 0.4)
+    del request["fleet"][0]["co2_kg_per_km"]
+    assert planned(client, request)["summary"]["co2_kg"] == pytest.approx(
+        summary["energy_wh"] / 1000 * 0.4)
+
+
 def test_nothing_is_said_where_nothing_is_known(client: httpx.Client, smallest: Request) -> None:
     plan = planned(client, smallest)
+    assert plan["summary"]["co2_kg"] is None
     assert plan["summary"]["energy_wh"] is plan["routes"][0]["trips"][0]["energy_wh"] is None
 
 

@@ -8,8 +8,9 @@ from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench
 from model.judge.binding import find_binding
 from model.judge.check import check
+from model.problem import Overtime
 from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
-from tests.model.tiny import draw_tiny
+from tests.model.tiny import draw_tiny, with_duty
 
 
 def binding(problem, solution, node):
@@ -48,6 +49,16 @@ def test_minute_of_the_shift_or_of_work_lets_others_stay_at_home(tiny_problem, c
     assert binding(problem, solution, D)["max_working_duration"] == (14.0, pytest.approx(6.0))
 
 
+def test_minute_of_overtime_or_a_stop_more_lets_others_stay_at_home(tiny_problem, customers,
+                                                                    truck):
+    tired = replace(truck, latest=30 * MINUTE, cost_per_km=1.0, overtime=Overtime(0.0, 5 * MINUTE))
+    solution = plan(tiny_problem(*customers, truck=tired), route(A, B, C), route(D, vehicle=1))
+    found = binding(tiny_problem(*customers, truck=tired), solution, D)
+    assert found["overtime.max_duration"] == (5.0, pytest.approx(6.0))
+    few = tiny_problem(*customers, truck=replace(truck, cost_per_km=1.0, max_stops=3))
+    assert binding(few, solution, D)["max_stops"] == (2.0, pytest.approx(6.0))
+
+
 def test_minute_of_endurance_lets_a_drone_go(tiny_problem, customers, truck, drones):
     carrier = replace(truck, count=1, cost_per_km=1.0, drones=replace(drones, endurance=6 * MINUTE))
     problem = tiny_problem(*customers, truck=carrier)
@@ -77,7 +88,7 @@ def test_customer_left_out_is_told_what_would_let_him_in(tiny_problem, customers
 @pytest.mark.parametrize("seed", range(15))
 def test_what_is_saved_is_saved_by_a_plan_that_the_judge_accepts(seed):
     rng = np.random.default_rng(seed)
-    problem = draw_tiny(rng)
+    problem = with_duty(rng, draw_tiny(rng))
     solution = greedy(problem)
     for node in range(problem.num_depots, problem.num_nodes):
         bench = Bench(problem, solution, node)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import UNREACHABLE, SpeedProfile, Travel
+from model.problem import UNREACHABLE, Overtime, SpeedProfile, Travel
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
 MINUTE = 60_000
@@ -42,11 +42,24 @@ def with_trip(solution, trip):
     ("WORKING_DURATION", {"max_working_duration": 18 * MINUTE},
      {"max_working_duration": 18 * MINUTE - 1}),
     ("TRIP_DISTANCE", {"max_trip_distance": 4 * KM}, {"max_trip_distance": 4 * KM - 1}),
+    ("MAX_STOPS", {"max_stops": 2}, {"max_stops": 1}),
+    ("SHIFT", {"latest": 10 * MINUTE, "overtime": Overtime(1.0, 8 * MINUTE)},
+     {"latest": 10 * MINUTE, "overtime": Overtime(1.0, 8 * MINUTE - 1)}),
+    ("WORKING_DURATION", {"max_working_duration": 10 * MINUTE, "overtime": Overtime(1.0)},
+     {"max_working_duration": 10 * MINUTE, "overtime": Overtime(1.0, 8 * MINUTE - 1)}),
 ])
 def test_limits_of_a_truck(code, kept, broken, tiny_problem, customers, truck):
     solution = plan(tiny_problem(*customers, truck=truck), A_THEN_B)
     assert codes(tiny_problem(*customers, truck=replace(truck, **kept)), solution) == []
     assert codes(tiny_problem(*customers, truck=replace(truck, **broken)), solution) == [code]
+
+
+def test_sorties_of_a_trip_are_counted_but_no_stops(tiny_problem, customers, truck, drones):
+    carrier = replace(truck, drones=drones, max_stops=2, max_sorties=1)
+    solution = plan(tiny_problem(*customers, truck=carrier), C_BY_DRONE)
+    assert codes(tiny_problem(*customers, truck=carrier), solution) == []
+    grounded = replace(carrier, max_sorties=0)
+    assert codes(tiny_problem(*customers, truck=grounded), solution) == ["MAX_SORTIES"]
 
 
 @pytest.mark.parametrize(("code", "kept", "broken"), [

@@ -5,7 +5,9 @@ import pytest
 
 from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import MAX_MONEY, MAX_QUANTITY, UNREACHABLE, SpeedProfile, Travel
+from model.problem import (
+    MAX_MONEY, MAX_QUANTITY, UNREACHABLE, Overtime, SpeedProfile, Travel,
+)
 from model.solution import Solution
 from tests.model.remedies import applied
 
@@ -41,6 +43,14 @@ def reason_for_d(problem, solution=NOBODY_SERVED):
     ("RANGE", {"max_trip_distance": 7 * KM - 1}, {},
      "A trip there and back is 1.1 km longer than a trip may be.",
      "fits if trips could be 1.1 km longer"),
+    ("SHIFT", {"latest": 10 * MINUTE, "overtime": Overtime(1.0, 9 * MINUTE)}, {},
+     "truck would be back 2 minutes after its shift and all the overtime allowed.",
+     "fits if truck could work 2 minutes more overtime"),
+    ("WORKING_HOURS", {"max_working_duration": 20 * MINUTE, "overtime": Overtime(1.0, 0)}, {},
+     "Serving it alone takes 1 minute more than truck may work with all the overtime allowed.",
+     "fits if truck could work 1 minute more overtime"),
+    ("STOPS", {"max_stops": 0}, {}, "truck serves nobody itself, by its max_stops.",
+     "fits if truck could make 1 stop"),
     ("SHIFT", {"latest": 19 * MINUTE, "max_working_duration": MINUTE}, {},
      "truck would be back 2 minutes after its shift ends.", None),
     ("KIND", {}, {"served_by": "drone"}, "Only a drone may serve it and truck carries none.",

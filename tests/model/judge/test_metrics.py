@@ -4,6 +4,7 @@ import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
+from model.problem import Overtime
 from model.solution import Cost, Solution
 
 MINUTE = 60_000
@@ -32,6 +33,28 @@ def test_cost_by_term(tiny_problem, customers, truck, drones):
     assert evaluation.cost.unassigned == 100.0
     assert evaluation.cost.total == pytest.approx(146.4)
     assert evaluation.routes[0].cost == pytest.approx(46.4)
+
+
+def test_each_customer_of_the_truck_costs_a_stop(tiny_problem, customers, truck, drones):
+    paid = replace(truck, cost_per_stop=2.5, drones=drones)
+    problem = tiny_problem(*customers[:3], truck=paid)
+    assert check(problem, plan(problem, C_BY_DRONE)).cost == Cost(stops=5.0)
+
+
+@pytest.mark.parametrize(("shift_ends", "longest", "expected"), [
+    (18, None, 0), (18, 18, 0), (15, None, 3), (17, 12, 6), (12, 17, 6), (100, 17, 1)])
+def test_overtime_is_what_is_past_shift_or_working_duration_the_longer(
+        shift_ends, longest, expected, tiny_problem, customers, truck, drones):
+    # 18 minutes of work, from 0 on
+    kind = replace(truck, drones=drones, cost_per_hour=60.0, latest=shift_ends * MINUTE,
+                   max_working_duration=longest and longest * MINUTE,
+                   overtime=Overtime(30.0, 10 * MINUTE))
+    problem = tiny_problem(*customers[:3], truck=kind)
+    evaluation = check(problem, plan(problem, C_BY_DRONE))
+    assert evaluation.violations == ()
+    assert evaluation.cost == Cost(time=18.0, overtime=0.5 * expected)
+    assert evaluation.routes[0].overtime == expected * MINUTE
+    assert evaluation.routes[0].working_rate == (longest and 18 / longest)
 
 
 def test_leaving_out_costs_what_the_customer_states(tiny_problem, customers, truck):

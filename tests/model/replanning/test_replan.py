@@ -8,14 +8,14 @@ import pytest
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision
 from model.planner import Listener, PlanCheckError, Planner
-from model.problem import MAX_QUANTITY, Customer, Problem, VehicleType
+from model.problem import MAX_QUANTITY, Customer, Overtime, Problem, VehicleType
 from model.replanning.replan import Replanning, Terms
 from model.replanning.workers import MAX_OWN_TYPES, TooManyTypesError
 from model.search.improve import Progress
 from model.solution import Route, Solution, Stop, Trip
 from tests.model.street import (
     MINUTE, NO_POLICY, ONE, OPTIONS, TWO, A, B, C, D, minutes, planned, replan, route_of, served,
-    solution_of, with_customer,
+    solution_of, with_customer, with_trucks,
 )
 
 
@@ -128,6 +128,37 @@ def test_closed_window_leaves_out_whom_nobody_reaches_in_time(planner: Planner,
     assert minutes(solution.routes[0].trips[0])[3:] == [(D, 18, 23), (0, 31, 31)]
     (reason,) = replanning.reasons(solution, C)
     assert (reason.code, "truck-1" in reason.message) == ("ABOARD", True)
+
+
+def test_overtime_counts_from_before_the_new_plan(planner: Planner, street: Problem) -> None:
+    # Home at 36 min, 8 after the shift, after 36 min of work, 6 more than usual.
+    tired = with_trucks(street, latest=28 * MINUTE, max_working_duration=30 * MINUTE,
+                        overtime=Overtime(60.0, 8 * MINUTE))
+    plan = planned(tired, ((A, B, C, D),))
+    for now in (10, 25):
+        replanning = Replanning(tired, Terms(plan, now * MINUTE))
+        result = replanning.plan(planner, OPTIONS)
+        assert result.solution.unassigned == ()
+        assert result.evaluation.routes[0].overtime == 8 * MINUTE
+        assert result.evaluation.cost.overtime == pytest.approx(8.0)
+    weary = with_trucks(tired, overtime=Overtime(60.0, 8 * MINUTE - 1))
+    assert len(replan(planner, weary, Terms(plan, 10 * MINUTE)).unassigned) == 1
+
+
+@pytest.mark.parametrize(("now", "left_out"), [(30, ()), (45, (C, D)), (55, (A, B, C, D))])
+def test_a_truck_may_begin_in_overtime(planner: Planner, street: Problem, now: int,
+                                       left_out: tuple[int, ...]) -> None:
+    # Home by 60 min: from 45 on, one reaches a and one b, which take 9 and 13.
+    tired = with_trucks(street, latest=20 * MINUTE, overtime=Overtime(60.0, 40 * MINUTE))
+    nobody = Solution((), (A, B, C, D))
+    assert replan(planner, tired, Terms(nobody, now * MINUTE)).unassigned == left_out
+
+
+def test_stops_made_count_for_the_rest_of_a_trip(planner: Planner, street: Problem) -> None:
+    fewer = with_trucks(street, max_stops=3)
+    solution = replan(planner, fewer, Terms(planned(street, ((A, B, C, D),)), 10 * MINUTE))
+    assert len(solution.unassigned) == 1
+    assert len(solution.routes[0].trips[0].stops) == 5
 
 
 def test_what_has_happened_is_excused(planner: Planner, street: Problem) -> None:

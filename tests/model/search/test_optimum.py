@@ -9,15 +9,15 @@ import pytest
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, Customer, Depot, DroneType, Problem, SpeedProfile, Travel,
-    VehicleType,
+    FULL_SPEED, MM_PER_KM, Customer, Depot, DroneType, Overtime, Problem, SpeedProfile,
+    Travel, VehicleType,
 )
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_energy, with_gaps, with_open_ends, with_open_reloads,
-    with_places, with_reloads,
+    draw_tiny, with_beginnings, with_duty, with_energy, with_gaps, with_open_ends,
+    with_open_reloads, with_places, with_reloads,
 )
 
 MINUTE = 60_000
@@ -155,10 +155,33 @@ def unequal_customers(rng: np.random.Generator) -> Problem:
                           unassigned_cost=100.0)
 
 
+def overtime(rng: np.random.Generator) -> Problem:
+    """Return a problem in which some have to work longer than usual, at half the price or more."""
+    customers = with_windows(rng, plain_customers(rng, 5), 5, None)
+    rate = float(rng.choice((0, 6, 60)))
+    return street_problem(rng, customers, replace(
+        TRUCK, count=2, cost_per_hour=12.0, latest=int(rng.integers(40, 70)) * MINUTE,
+        max_working_duration=35 * MINUTE, overtime=Overtime(rate, 20 * MINUTE)))
+
+
+def dear_stops(rng: np.random.Generator) -> Problem:
+    """Return types of vehicles of which each makes few stops, each at a price of its own."""
+    van = VehicleType("van", 2, (9000,), 0, fixed_cost=2.0, cost_per_km=1.0, cost_per_stop=3.0)
+    return street_problem(rng, plain_customers(rng, 5), replace(
+        TRUCK, fixed_cost=6.0, max_stops=2), replace(van, max_stops=3))
+
+
+def few_sorties(rng: np.random.Generator) -> Problem:
+    truck = replace(TRUCK, count=2, capacity=(20_000,), cost_per_hour=30.0, drones=DRONES,
+                    cost_per_stop=float(rng.choice((0, 4))), max_stops=int(rng.integers(1, 4)),
+                    max_sorties=int(rng.integers(1, 3)))
+    return street_problem(rng, one_by_truck(rng), truck)
+
+
 KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     plain, windows, timed_windows, soft_windows, costly_waiting, two_types, two_trips, one_drone,
     two_drones, long_sorties, rush_hour, optional_customers, unequal_customers,
-    two_types_by_table)
+    two_types_by_table, overtime, dear_stops, few_sorties)
 
 
 def searched_cost(problem: Problem, turns: int = TURNS) -> float:
@@ -220,6 +243,11 @@ def all_rules_open_reloading(rng: np.random.Generator) -> Problem:
     return with_open_reloads(rng, all_rules(rng))
 
 
+def all_rules_of_duty(rng: np.random.Generator) -> Problem:
+    problem = with_duty(rng, all_rules(rng))
+    return with_beginnings(rng, problem) if rng.random() < 0.3 else problem
+
+
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     # What many plans of two drones are compared with takes seconds each.
@@ -240,7 +268,8 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 
 @pytest.mark.parametrize("first", range(0, 60, SHARE))
 @pytest.mark.parametrize("draw", [
-    all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries],
+    all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
+    all_rules_of_duty],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem], first: int) -> None:

@@ -21,8 +21,8 @@ from model.simulation.simulator import (
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_energy, with_gaps, with_open_ends, with_open_reloads,
-    with_own_costs, with_places, with_reloads, with_table,
+    draw_tiny, with_beginnings, with_duty, with_energy, with_gaps, with_open_ends,
+    with_open_reloads, with_own_costs, with_places, with_reloads, with_table,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -85,7 +85,7 @@ def test_random_rollouts_of_all_rules_at_once_pass_the_checker() -> None:
 
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
-    with_open_reloads])
+    with_open_reloads, with_duty])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Callable[[np.random.Generator, Problem], Problem]) -> None:
     for seed in range(200):

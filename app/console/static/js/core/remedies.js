@@ -69,6 +69,19 @@ const CHANGES = [
       add(request, [...type, 'shift', 'latest'], numberOf(more) * SECONDS_PER_MINUTE),
   ],
   [
+    new RegExp(`^fits if .+ could work ${NUMBER} minutes? more overtime$`),
+    (request, { type }, more) =>
+      add(request, [...type, 'overtime', 'max_duration'], numberOf(more) * SECONDS_PER_MINUTE),
+  ],
+  [
+    /^fits if .+ could make 1 stop$/,
+    (request, { type }) => setIn(request, [...type, 'max_stops'], 1),
+  ],
+  [
+    /^fits if .+ could launch 1 sortie$/,
+    (request, { type }) => setIn(request, [...type, 'max_sorties'], 1),
+  ],
+  [
     new RegExp(`^fits if .+ could work ${NUMBER} minutes? longer$`),
     (request, { type }, more) =>
       add(request, [...type, 'max_working_duration'], numberOf(more) * SECONDS_PER_MINUTE),

@@ -5,6 +5,7 @@ import { labelOf } from './schema.js';
 /** Names of terms for people; a term without one is called as the service calls it. */
 const NAMES = {
   fixed: 'Vehicles used',
+  stops: 'Customers of trucks',
   time: 'Working time',
   earliness: 'Waiting for windows',
   unassigned: 'Left out',

@@ -55,6 +55,7 @@ function Summary({ summary }) {
       : [['Energy of flights', `${number(summary.energy_wh, 1)} Wh`]]),
     ['Trips', number(summary.trips, 0)],
     ['Flights', number(summary.sorties, 0)],
+    ...(summary.co2_kg == null ? [] : [['CO\u2082', `${number(summary.co2_kg, 1)} kg`]]),
     ['Load rate', `${percent(rates.min)} to ${percent(rates.max)}, mean ${percent(rates.mean)}`],
   ];
   return html`<section class="section"><h3>In numbers</h3><table><tbody>${rows.map(

@@ -82,6 +82,7 @@ function Vehicle({ index, vehicle }) {
       <span class="right">${[
         count(vehicle.trips.length, 'trip'),
         duration(route.working_duration) + rate,
+        ...(route.overtime > 0 ? [`${duration(route.overtime)} overtime`] : []),
         money(route.cost),
       ].join(', ')}</span></summary>
     ${

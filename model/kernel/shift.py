@@ -1,0 +1,29 @@
+"""How long a vehicle works past what is usual, and how much a trip may have. Compiled.
+
+`kind` is the row of the vehicle type, whose limits of the end and of the working duration are those
+with all the overtime allowed.
+"""
+
+from model.kernel.compiled import inlined
+from model.kernel.records import Record
+
+
+@inlined
+def overtime(kind: Record, end: int, working: int) -> int:
+    """Return how long a vehicle works that ends at `end`, and works so long, past what is usual.
+
+    Past the shift or its working duration, the longer.
+    """
+    return max(0, max(end - kind.usual_end, working - kind.usual_working))
+
+
+@inlined
+def allows_stops(kind: Record, count: int) -> bool:
+    """Tell whether the truck may serve so many customers itself on a trip."""
+    return count <= kind.max_stops
+
+
+@inlined
+def allows_sorties(kind: Record, count: int) -> bool:
+    """Tell whether so many sorties may be flown on a trip."""
+    return count <= kind.max_sorties
