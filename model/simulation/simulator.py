@@ -126,12 +126,17 @@ def _may_go_on(instance: Instance, setting: Setting, b: int, k: int, vehicle: Re
 
 
 @inlined
-def _trip_so_far(log: VehicleLog) -> tuple[int, int]:
-    """Return how many customers the truck has served, and sorties begun, on its last trip."""
-    first, flown = log.trip[log.count.trips - 1].first_stop, log.count.sorties
-    while flown > 0 and log.sortie[flown - 1].launch_stop >= first:
-        flown -= 1
-    return log.count.stops - first - 1, log.count.sorties - flown
+def _may_add(setting: Setting, vehicle: Record, log: VehicleLog) -> tuple[bool, bool]:
+    """Tell whether a trip, or the next one, may have a stop more, and a sortie, by their number."""
+    served = flown = 0
+    if vehicle.idle == 0:
+        first = log.trip[log.count.trips - 1].first_stop
+        served = log.count.stops - first - 1
+        while (flown < log.count.sorties
+               and log.sortie[log.count.sorties - 1 - flown].launch_stop >= first):
+            flown += 1
+    return (allows_stops(setting.type, served + 1),
+            vehicle.flying < setting.type.drones and allows_sorties(setting.type, flown + 1))
 
 
 @compiled
@@ -150,10 +155,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     reach = setting.type.max_trip_distance - vehicle.distance
     began = 0 if idle else state.log.trip[r, trips - 1].start
     drones = state.drone[r, : setting.type.drones]
-    begun, flown = (0, 0) if idle else _trip_so_far(log_of(state.log, r))
-    may_drive = allows_stops(setting.type, begun + 1)
-    may_launch = (vehicle.flying < setting.type.drones
-                  and allows_sorties(setting.type, flown + 1))
+    may_drive, may_launch = _may_add(setting, vehicle, log_of(state.log, r))
     can_drive, can_fly, served = instance.can_drive[b, k], instance.can_fly[b, k], state.served[r]
     earliest = -1
     if trips > 0:
@@ -167,8 +169,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
                 and lookup(legs, here, node) + lookup(legs, node, home) <= reach):
             verdict = UNSURE
             if not held:
-                verdict = _judge_drive(setting, vehicle, drones, earliest, node,
-                                       outlooks[found])
+                verdict = _judge_drive(setting, vehicle, drones, earliest, node, outlooks[found])
             if verdict == YES or (verdict == UNSURE and legal_by_trial(
                     instance, state, r, scratch, -1, False, node, outlooks[found])):
                 actions[found] = node * NUM_KINDS + DRIVE

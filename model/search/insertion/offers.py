@@ -263,7 +263,7 @@ def offer_trips_apart(world: World, searcher: Searcher, slot: int, node: int) ->
             behind = detour_by_reload(world, k, here, node, there, False) * rate
             if behind < cost:
                 kind, cost = TRIP_FROM, behind
-        cost -= now.early[slot]
+        cost += world.rate[k].stop - now.early[slot]
         if cost < best:
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 

@@ -54,14 +54,6 @@ def test_limits_of_a_truck(code, kept, broken, tiny_problem, customers, truck):
     assert codes(tiny_problem(*customers, truck=replace(truck, **broken)), solution) == [code]
 
 
-def test_sorties_of_a_trip_are_counted_but_no_stops(tiny_problem, customers, truck, drones):
-    carrier = replace(truck, drones=drones, max_stops=2, max_sorties=1)
-    solution = plan(tiny_problem(*customers, truck=carrier), C_BY_DRONE)
-    assert codes(tiny_problem(*customers, truck=carrier), solution) == []
-    grounded = replace(carrier, max_sorties=0)
-    assert codes(tiny_problem(*customers, truck=grounded), solution) == ["MAX_SORTIES"]
-
-
 @pytest.mark.parametrize(("code", "kept", "broken"), [
     ("TIME_WINDOW", {"latest": 9 * MINUTE}, {"latest": 9 * MINUTE - 1}),
     ("SKILLS", {"skills": frozenset({"lift"})}, {"skills": frozenset({"lift", "crane"})}),

@@ -57,6 +57,15 @@ def test_overtime_is_what_is_past_shift_or_working_duration_the_longer(
     assert evaluation.routes[0].working_rate == (longest and 18 / longest)
 
 
+def test_sorties_of_a_trip_are_counted_but_no_stops(tiny_problem, customers, truck, drones):
+    carrier = replace(truck, drones=drones, max_stops=2, max_sorties=1)
+    problem = tiny_problem(*customers, truck=carrier)
+    solution = plan(problem, C_BY_DRONE)
+    assert check(problem, solution).violations == ()
+    grounded = tiny_problem(*customers, truck=replace(carrier, max_sorties=0))
+    assert [item.code for item in check(grounded, solution).violations] == ["MAX_SORTIES"]
+
+
 def test_leaving_out_costs_what_the_customer_states(tiny_problem, customers, truck):
     problem = tiny_problem(replace(customers[0], unassigned_cost=0.0), *customers[1:3],
                            replace(customers[3], unassigned_cost=7.5), truck=truck,
