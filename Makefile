@@ -5,6 +5,7 @@ PORT ?= 8000
 MINUTES ?= 60
 DATA ?= ../shared/data
 CASES ?= 10000
+RULE_SETS ?= mdvrptw,sdvrptw,pcvrptw,vrpmtw
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
@@ -15,7 +16,7 @@ URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help serve plan test test-quick prepared lint train bench bench-quick latency study study-quick screenshots fuzz settings clean
+.PHONY: help serve plan test test-quick prepared lint train bench bench-quick bench-rules latency study study-quick screenshots fuzz settings clean
 
 help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -61,6 +62,12 @@ bench: .venv/benching ## Run other solvers and Tandem side by side (DATA=../shar
 bench-quick: .venv/benching ## The same on a few instances, in five minutes
 	$(BIN)/python -m benchmarks.versus --data $(DATA) --quick --output runs/bench/quick.csv
 	$(BIN)/python -m benchmarks.report --results runs/bench/quick.csv --output runs/bench/quick.md
+
+bench-rules: .venv/benching ## Tandem and PyVRP where instances have rules that few solvers know
+	$(BIN)/python -m benchmarks.rule_sets --data $(DATA)
+	$(BIN)/python -m benchmarks.versus --data $(DATA) --sets $(RULE_SETS) --solvers tandem,pyvrp \
+		--output runs/bench/rules.csv
+	$(BIN)/python -m benchmarks.report --results runs/bench/rules.csv --part rules
 
 latency: .venv/benching ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency

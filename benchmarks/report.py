@@ -1,7 +1,7 @@
 """Tables and plots of `benchmarks.versus`: `python -m benchmarks.report`.
 
-Writes `docs/benchmarks.md`, in it only what lies between two markers, and beside it two plots and
-all runs as a CSV, with which `benchmarks.versus` can go on.
+Writes `docs/benchmarks.md`, in it only what lies between two markers, and beside it all runs as a
+CSV, with which `benchmarks.versus` can go on; of the part `versus` two plots, too.
 """
 
 import math
@@ -17,8 +17,6 @@ from benchmarks.plots import draw_anytime, draw_by_size
 from benchmarks.results import Result
 from benchmarks.rows import append_rows, read_rows
 from benchmarks.workers import SOLVERS
-
-BEGIN, END = "<!-- versus: begin -->", "<!-- versus: end -->"
 
 OVERRUN = 1.2
 """Calls longer than this share of the budget are noted."""
@@ -36,6 +34,18 @@ Budgets are the wall-clock of the solver's call, code loaded and compiled before
 timed and judged by Tandem's checker; conventions and best known costs are those of the sets.
 VROOM is the better of exploration levels 0 and 5, OR-Tools (guided local search) the better of two
 first plans, each given the whole budget. HGS counts processor time."""
+
+RULE_NOTES = """\
+Mean gap to the best known cost in %, ± the standard deviation of the means of each seed, the best
+in bold; in brackets, as above, plans that don't count and calls well over the budget. A blank
+means that the solver can't plan such instances. Costs are the sets' own, counted once by the
+judge and once from the instance's numbers; the best known plans, judged, cost exactly what is
+stated. Of `vrpmtw` none are known: the gap is to plans that PyVRP found in 80 s, and may be
+negative. PyVRP takes several windows as clients of whom one is served, tables of who may serve
+whom and backhauls as legs far too long, open ends as legs home of no length."""
+
+PARTS = {"versus": NOTES, "rules": RULE_NOTES}
+"""Parts of the page, by the names in their markers, and what is said below their tables."""
 
 Group = tuple[str, float, str]
 """Set, budget, solver."""
@@ -120,41 +130,51 @@ def _circumstances(results: Sequence[Result]) -> str:
             f"Versions: {'; '.join(versions)}.")
 
 
-def write(results: Sequence[Result], page: Path) -> None:
-    """Write the page's part between the markers, keeping what is around it, the plots, the runs.
+def markers(part: str) -> tuple[str, str]:
+    """Return what stands before and after a part of the page."""
+    return f"<!-- {part}: begin -->", f"<!-- {part}: end -->"
+
+
+def write(results: Sequence[Result], page: Path, part: str = "versus") -> None:
+    """Write a part of the page between its markers, keeping what is around it, plots and runs.
 
     Raises
     ------
     ValueError
         If the page is there and has no markers.
     """
-    text = page.read_text(encoding="utf-8") if page.exists() else f"{TITLE}\n\n{BEGIN}\n{END}\n"
-    before, begin, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not (begin and end):
-        raise ValueError(f"{page}: has no part between {BEGIN} and {END}")
-    part = "\n".join([
-        BEGIN, "", _circumstances(results), "", *table(results), "", NOTES, "",
-        "![Mean gap over time for each set](anytime.svg)", "",
-        "![Gap over the number of customers](by_size.svg)", "",
-        "All runs: [versus.csv](versus.csv).", "", END])
+    begin, end = markers(part)
+    text = page.read_text(encoding="utf-8") if page.exists() else f"{TITLE}\n\n{begin}\n{end}\n"
+    before, begun, rest = text.partition(begin)
+    _, ended, after = rest.partition(end)
+    if not (begun and ended):
+        raise ValueError(f"{page}: has no part between {begin} and {end}")
+    plots = ["![Mean gap over time for each set](anytime.svg)", "",
+             "![Gap over the number of customers](by_size.svg)", ""] if part == "versus" else []
+    runs = page.with_name(f"{part}.csv")
+    written = "\n".join([
+        begin, "", _circumstances(results), "", *table(results), "", PARTS[part], "", *plots,
+        f"All runs: [{runs.name}]({runs.name}).", "", end])
     page.parent.mkdir(parents=True, exist_ok=True)
-    page.write_text(before + part + after, encoding="utf-8")
-    runs = page.with_name("versus.csv")
+    page.write_text(before + written + after, encoding="utf-8")
     runs.unlink(missing_ok=True)
     append_rows(runs, Result, results)
-    draw_anytime(by_group(results), page.with_name("anytime.svg"))
-    draw_by_size(results, page.with_name("by_size.svg"))
+    if plots:
+        draw_anytime(by_group(results), page.with_name("anytime.svg"))
+        draw_by_size(results, page.with_name("by_size.svg"))
 
 
 def main(
     results: Annotated[Path, typer.Option(help="CSV of benchmarks.versus", exists=True)]
     = Path("runs/bench/versus.csv"),
     output: Annotated[Path, typer.Option(help="Markdown page")] = Path("docs/benchmarks.md"),
+    part: Annotated[str, typer.Option(help=" or ".join(PARTS))] = "versus",
 ) -> None:
     """Write the page and its plots."""
     try:
-        write(read_rows(results, Result), output)
+        if part not in PARTS:
+            raise ValueError(f"part: {part!r} is none of {', '.join(PARTS)}")
+        write(read_rows(results, Result), output, part)
     except ValueError as error:
         raise typer.BadParameter(str(error)) from error
 

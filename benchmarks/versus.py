@@ -83,7 +83,7 @@ def machine() -> str:
     return f"{name}, {os.cpu_count()} cores"
 
 
-def result(run: Run, answer: PeerAnswer | None) -> Result:
+def result(run: Run, answer: PeerAnswer | None, clock: str = "") -> Result:
     """Return the row of a run; without an answer there is no plan."""
     instance = run.instance
     seconds = cost = gap = math.nan
@@ -98,7 +98,8 @@ def result(run: Run, answer: PeerAnswer | None) -> Result:
         instance.set_name, instance.name, instance.num_customers, run.solver,
         SOLVERS[run.solver].threads, run.budget, run.seed, round(seconds, 4), round(cost, 6),
         instance.best_known, round(gap, 4), feasible, complete,
-        "" if answer is None else answer.version, datetime.now(UTC).date().isoformat(), machine())
+        "" if answer is None else answer.version, datetime.now(UTC).date().isoformat(),
+        machine() + clock)
 
 
 def _require_stated_cost(instance: Published, answer: PeerAnswer, verdict: Verdict) -> None:
@@ -108,21 +109,23 @@ def _require_stated_cost(instance: Published, answer: PeerAnswer, verdict: Verdi
         raise ArithmeticError(f"{instance.name}: {verdict.cost} is judged, {stated} is stated")
 
 
-def measure(planned: Sequence[Run]) -> Iterator[Result]:
+def measure(planned: Sequence[Run], by_processor_time: bool = False) -> Iterator[Result]:
     """Yield the result of each run that its solver can make at all."""
     workers: dict[str, Worker] = {}
+    clock = ", processor time" if by_processor_time else ""
     try:
         for number, run in enumerate(planned, start=1):
-            worker = workers.setdefault(run.solver, Worker(SOLVERS[run.solver]))
+            worker = workers.setdefault(run.solver, Worker(
+                SOLVERS[run.solver], by_processor_time=by_processor_time))
             title = f"{number}/{len(planned)} {run.instance.name} {run.solver} {run.budget:g} s"
             try:
                 answer = worker.run(run.instance, run.budget, run.seed)
             except NoPlanError as error:
                 typer.echo(f"{title}: no plan, {error}", err=True)
-                yield result(run, None)
+                yield result(run, None, clock)
                 continue
             if answer is not None:
-                row = result(run, answer)
+                row = result(run, answer, clock)
                 found = (f"{row.gap_percent:.2f} %" if row.counts
                          else "incomplete" if row.feasible else "infeasible")
                 typer.echo(f"{title}: {found} in {row.wall_s:.2f} s")
@@ -155,6 +158,9 @@ def main(
     = Path("runs/bench/versus.csv"),
     quick: Annotated[bool, typer.Option(
         "--quick", help="six instances, budgets of 0.1 and 1 s, one seed: a few minutes")] = False,
+    processor_time: Annotated[bool, typer.Option(
+        "--processor-time", help="budgets of processor time, for a machine that does other things; "
+                                 "Tandem on one thread, and PyVRP")] = False,
 ) -> None:
     """Measure what isn't measured yet."""
     names = solvers.split(",")
@@ -168,7 +174,7 @@ def main(
     planned = [run for run in runs(instances, names, limits, 1 if quick else seeds)
                if run.key not in known]
     typer.echo(f"{len(known)} runs are in {output}, up to {len(planned)} are to come")
-    append_rows(output, Result, measure(planned))
+    append_rows(output, Result, measure(planned, processor_time))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import gc
 import multiprocessing
 import os
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -28,6 +29,9 @@ WARM_PATIENCE = 900.0
 
 GRACE_SECONDS = 30.0
 """Beside three times the limit, what a call may take before it is ended."""
+
+CROWDED = 30
+"""How many times longer all may take where limits are of processor time."""
 
 
 class NoPlanError(Exception):
@@ -79,9 +83,11 @@ def require_installed(names: list[str]) -> None:
 class Worker:
     """One solver's process; after a crash or an overrun the next run starts it anew."""
 
-    def __init__(self, solver: Solver, grace: float = GRACE_SECONDS) -> None:
+    def __init__(self, solver: Solver, grace: float = GRACE_SECONDS,
+                 by_processor_time: bool = False) -> None:
         self._solver = solver
         self._grace = grace
+        self._by_processor_time = by_processor_time
         self._running: tuple[BaseProcess, Connection] | None = None
 
     def run(self, instance: Published, seconds: float, seed: int) -> PeerAnswer | None:
@@ -97,8 +103,9 @@ class Worker:
         process, pipe = self._running
         try:
             pipe.send((instance, seconds, seed))
-            _receive(pipe, WARM_PATIENCE)
-            return _receive(pipe, 3 * seconds + self._grace)
+            patience = CROWDED if self._by_processor_time else 1
+            _receive(pipe, patience * WARM_PATIENCE)
+            return _receive(pipe, patience * (3 * seconds + self._grace))
         except (EOFError, OSError, NoPlanError) as error:
             self.close()
             raise NoPlanError(str(error) or f"it ended with code {process.exitcode}") from error
@@ -116,7 +123,8 @@ class Worker:
     def _start(self) -> tuple[BaseProcess, Connection]:
         context = multiprocessing.get_context("spawn")
         pipe, far_end = context.Pipe()
-        process = context.Process(target=_serve, args=(self._solver, far_end), daemon=True)
+        process = context.Process(target=_serve, daemon=True,
+                                  args=(self._solver, far_end, self._by_processor_time))
         process.start()
         far_end.close()  # or the process's end would go unnoticed
         return process, pipe
@@ -128,8 +136,11 @@ def _receive(pipe: Connection, patience: float) -> Any:
     return pipe.recv()
 
 
-def _serve(solver: Solver, pipe: Connection) -> None:
+def _serve(solver: Solver, pipe: Connection, by_processor_time: bool) -> None:
     """Answer calls until the other end is closed; say when a call begins to count."""
+    if by_processor_time:
+        # On one thread, the only clock that what else a machine does leaves alone.
+        time.perf_counter = time.process_time
     threads = str(solver.threads)
     os.environ.update(OMP_NUM_THREADS=threads, RAYON_NUM_THREADS=threads)
     warm: set[str] = set()

@@ -13,7 +13,7 @@ import typer
 from benchmarks import peer_hgs, peer_ortools, peer_pyvrp, peer_vroom, peer_vrpcli, versus
 from benchmarks.peers import PeerAnswer, PeerRoute, better, judge, useful_counts
 from benchmarks.published import NO_LIMIT, Published, PublishedVehicle, to_problem
-from benchmarks.report import BEGIN, END, table, write
+from benchmarks.report import markers, table, write
 from benchmarks.results import Result
 from benchmarks.rows import append_rows, columns, read_rows
 from benchmarks.versus import in_turn, runs
@@ -289,6 +289,7 @@ def test_table_shows_gaps_spread_failures_and_overruns() -> None:
 
 def test_page_keeps_what_is_around_its_part(tmp_path: Path) -> None:
     page = tmp_path / "docs" / "benchmarks.md"
+    begin, _ = markers("versus")
     results = [row("tandem", 1.0), row("pyvrp", 0.0, set="cvrp_x", budget_s=0.1)]
     write(results, page)
     plots = {path.name: path.read_bytes() for path in page.parent.glob("*.svg")}
@@ -296,15 +297,24 @@ def test_page_keeps_what_is_around_its_part(tmp_path: Path) -> None:
     text = page.read_text(encoding="utf-8")
     assert "Measured on 2026-01-01, a machine, 2 cores" in text
     assert read_rows(page.with_name("versus.csv"), Result) == results
-    page.write_text(text.replace(BEGIN, f"Before.\n{BEGIN}") + "After.\n", encoding="utf-8")
+    kept = text.replace(begin, f"Before.\n{begin}") + "After.\n"
+    page.write_text(kept, encoding="utf-8")
     write(results, page)
-    assert page.read_text(encoding="utf-8") == text.replace(BEGIN, f"Before.\n{BEGIN}") + "After.\n"
+    assert page.read_text(encoding="utf-8") == kept
     assert {path.name: path.read_bytes() for path in page.parent.glob("*.svg")} == plots
+
+
+def test_parts_of_a_page_are_written_one_by_one(tmp_path: Path) -> None:
+    page = tmp_path / "benchmarks.md"
+    page.write_text("\n".join([*markers("versus"), *markers("rules")]), encoding="utf-8")
+    write([row("tandem", 1.0)], page, "rules")
+    assert page.read_text(encoding="utf-8").startswith("\n".join(markers("versus")))
+    assert {path.name for path in tmp_path.iterdir()} == {"benchmarks.md", "rules.csv"}
 
 
 def test_page_without_a_part_of_its_own_is_refused(tmp_path: Path) -> None:
     page = tmp_path / "benchmarks.md"
-    page.write_text(f"# Mine\n\n{END}\n", encoding="utf-8")
+    page.write_text(f"# Mine\n\n{markers('versus')[1]}\n", encoding="utf-8")
     with pytest.raises(ValueError, match="has no part between"):
         write([row("tandem", 1.0)], page)
 
