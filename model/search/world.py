@@ -103,6 +103,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     swap = _swaps(problem, mode)
     general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
     blink = _blink(problem.num_customers, most_visits)
+    must_serve = _must_serve(problem, instance)
     return World(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
@@ -111,18 +112,18 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         loops=moves.loops, crossings=moves.crossings, general=general,
         traded=moves.types and bool(swap.any()),
         mixed=moves.types and len(problem.vehicle_types) > 1 and general,
-        scan_all=scan_all,
+        scan_all=scan_all, optional=not bool(must_serve.any()),
         adds_up=not bool((mode & (MODE_SETTLED | MODE_RETIMED)).any()),
         keeps=scan_all and (not general or blink <= LEAST_BLINK),
         blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_more=instance.unassigned_more[0],
         unequal=bool(instance.unassigned_more[0].any()),
-        must_serve=_must_serve(problem, instance),
+        must_serve=must_serve,
         place=place, price=_per_ms(instance.price[0]),
         type=types, rate=_per_unit(rates), mode=mode,
         reload=instance.reload[0], visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
-        swap=swap, leg=ground.leg, back=ground.back,
+        swap=swap, splice=_splices(problem, swap), leg=ground.leg, back=ground.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
         near=ground.near, fit=ground.fit, stop=silent() if stop is None else stop,
     )
@@ -168,8 +169,8 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
     soft = bool((place["arrival_limit"] == FAR).any()) and late
     over = np.minimum(types["usual_end"], types["usual_working"]) < UNLIMITED
-    timed = ((rates["time"] > 0) | (types["max_working_duration"] < UNLIMITED)
-             | ((rates["overtime"] > 0) & over))
+    costly = (rates["time"] > 0) | ((rates["overtime"] > 0) & over)
+    timed = costly | (types["max_working_duration"] < UNLIMITED)
     retimed = types["speed_changes"] != NO_PROFILE
     if place.shape[1] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
@@ -177,8 +178,11 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     settled = np.logical_or(early, retimed & timed)
     priced = np.logical_or(soft, settled | retimed)
     release = bool((place["release"] > 0).any())
-    simple = ~(timed | priced)
-    lean = (simple & ~(release | (types["max_trip_distance"] < UNLIMITED))
+    # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
+    # one trip that waits for nothing.
+    free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
+    simple = ~(timed if release else timed & ~free) & ~priced
+    lean = (simple & ~(timed | release | (types["max_trip_distance"] < UNLIMITED))
             & (types["max_trips"] == 1) & (types["drones"] == 0))
     mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
                       + MODE_RETIMED * retimed + MODE_SIMPLE * simple
@@ -204,17 +208,33 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
 def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
     """Mark the pairs of types whose vehicles may drive each other's routes."""
     table = problem.may_serve
-    numbers: dict[Hashable, int] = {}
-    group = np.array([
-        numbers.setdefault((kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
-                            kind.overtime, kind.skills,
-                            None if table is None else table[index].tobytes()),
-                           len(numbers))
-        for index, kind in enumerate(problem.vehicle_types)])
+    group = _numbered([(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
+                        kind.overtime, kind.skills,
+                        None if table is None else table[index].tobytes())
+                       for index, kind in enumerate(problem.vehicle_types)])
     lean = mode & MODE_LEAN > 0
     swaps: BoolArray = (group == group[:, None]) & lean & lean[:, None]
     np.fill_diagonal(swaps, False)
     return swaps
+
+
+def _numbered(keys: list[Hashable]) -> IntArray:
+    """Return numbers that are equal where keys are."""
+    numbers: dict[Hashable, int] = {}
+    return np.array([numbers.setdefault(key, len(numbers)) for key in keys])
+
+
+def _splices(problem: Problem, swap: BoolArray) -> BoolArray:
+    """Mark the pairs of types whose vehicles may end each other's routes.
+
+    They hold and cost the same, so that distance tells what that saves.
+    """
+    kinds = problem.vehicle_types
+    group = _numbered([(kind.travel, kind.capacity, kind.fixed_cost, kind.cost_per_km,
+                        kind.cost_per_hour, kind.cost_per_stop, kind.overtime) for kind in kinds])
+    plain = np.array([kind.drones is None and kind.max_trips == 1 for kind in kinds])
+    splices: BoolArray = (group[:, None] == group) & plain & plain[:, None]
+    return splices | swap
 
 
 def _near(problem: Problem, pause: Pause) -> IntArray:

@@ -7,8 +7,9 @@ from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, too_late
 from model.problem import IntArray, UIntArray
+from model.search.insertion.evaluate import INFEASIBLE, price_stop
 from model.search.route.edit import AT_STOP
-from model.search.route.layout import CHANGING, MODE_SIMPLE, NOWHERE, Fleet, World
+from model.search.route.layout import CHANGING, MODE_SIMPLE, MODE_TIMED, NOWHERE, Fleet, World
 from model.search.route.randomness import uniform
 from model.search.route.vehicles import larger_type, route_cost, takes
 
@@ -77,6 +78,27 @@ def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Record
     return best, chosen
 
 
+@inlined
+def scan_limited(world: World, fleet: Fleet, slot: int, first: int, last: int, node: int,
+                 spare: int, rate: float, best: float, blink: float, rng: UIntArray
+                 ) -> tuple[float, int]:
+    """As `scan_stops`, on a route whose vehicle may only work for some time."""
+    chosen, stops, place = -1, fleet.stop[slot], world.place[node]
+    m = world.type[fleet.route[slot].type].travel
+    inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
+    for p in range(first, last + 1):
+        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        detour = out.distance + on.distance - stops[p].leg
+        cost = detour * rate
+        if cost >= best or detour > spare:
+            continue
+        if too_late(place, stops[p].leave):
+            break
+        if price_stop(world, fleet, slot, p, node) < INFEASIBLE and uniform(rng) >= blink:
+            chosen, best = p, cost
+    return best, chosen
+
+
 @spliced
 def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, last: int, node: int,
               rate: float, best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
@@ -86,6 +108,8 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     place = world.place[node]
     spare = world.type[k].max_trip_distance - trip.distance
+    if world.mode[k] & MODE_TIMED:
+        return scan_limited(world, fleet, slot, first, last, node, spare, rate, best, blink, rng)
     if release_of(place) > stops[trip.first].leave:
         return scan_delayed(world, inward, onward, stops, trip.first, first, last, node, spare,
                             rate, best, blink, rng)

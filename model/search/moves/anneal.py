@@ -30,6 +30,9 @@ ANY = -1
 MOST_MISSING = 12
 """How many of the customers left out are tried again each turn."""
 
+TRIED_NEAR = 0.5
+"""How likely each of those near the ruin is among them, where there are more."""
+
 RESPLITS = 30
 """Trips with one drone planned anew from their order each turn."""
 
@@ -54,13 +57,39 @@ def begin_turn(searcher: Searcher, most: int) -> int:
 
 
 @spliced
+def try_near(world: World, searcher: Searcher, seed: int, first: int, total: int) -> None:
+    """Let those left out near a customer, who may be one of them, be tried before others.
+
+    They come last of the first `total` absent, of whom those from number `first` on are tried. Who
+    has to be served is tried by chance alone, everywhere as often. In place.
+    """
+    absent, marked, chosen = searcher.absent, searcher.marked, 0
+    for rank in range(-1, world.near.shape[1]):
+        node = seed if rank < 0 else world.near[seed, rank]
+        if node < 0 or chosen == total - first:
+            break
+        if (searcher.now.where[node].slot == NOWHERE and not world.must_serve[node]
+                and (rank < 0 or uniform(searcher.rng) < TRIED_NEAR)):
+            marked[node] = True
+            chosen += 1
+    last = total
+    for index in range(total - 1, -1, -1):
+        if marked[absent[index]]:
+            last -= 1
+            marked[absent[index]] = False
+            absent[index], absent[last] = absent[last], absent[index]
+
+
+@spliced
 def ruin(world: World, searcher: Searcher, first: int) -> None:
     """Remove strings of customers near each other. In place."""
     count, now = searcher.count, searcher.now
     before = count.absent
-    total, num_touched = choose(
+    total, num_touched, seed = choose(
         world, now, searcher.active, count.active, count.customers, searcher.marked,
         searcher.absent, before, searcher.moved, searcher.hit, count.turn, searcher.rng)
+    if first > 0:
+        try_near(world, searcher, seed, first, before)
     emptied = False
     for index in range(num_touched):
         touch(searcher, searcher.moved[index])
@@ -101,6 +130,16 @@ def rarer_absences(world: World, searcher: Searcher) -> bool:
     dearer = (left_out_cost(world, searcher.absent, count.absent)
               > left_out_cost(world, searcher.missing, count.missing))
     return more == 0 and after < before and not dearer
+
+
+@inlined
+def cost_to_insert(world: World, searcher: Searcher, first: int) -> float:
+    """Return what the routes cost before who is absent is inserted, from number `first` on."""
+    cost = served_cost(searcher)
+    if searcher.count.missing > 0:
+        cost += (left_out_cost(world, searcher.absent, first)
+                 - left_out_cost(world, searcher.missing, searcher.count.missing))
+    return cost
 
 
 @spliced
@@ -172,8 +211,9 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
         retyped = (not building and (world.traded or world.mixed)
                    and uniform(searcher.rng) < RETYPED)
         spare = math.inf
-        if world.adds_up and not (building or retyped) and count.missing == 0:
-            spare = limit - served_cost(searcher)
+        if (world.adds_up and not (building or retyped)
+                and (count.missing == 0 or world.optional)):
+            spare = limit - cost_to_insert(world, searcher, first)
         done = recreate(world, searcher, first, building or world.scan_all, spare)
         if rung(world.stop) and not building:
             undo(searcher)
@@ -185,7 +225,7 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
             if world.mixed:
                 cheapen_types(world, searcher)
         cost = turn_cost(world, searcher)
-        forced = (done and not building and count.absent > 0
+        forced = (done and not building and count.absent > 0 and not world.optional
                   and rarer_absences(world, searcher))
         if building or cost < limit or forced:
             accept(searcher, cost)

@@ -6,6 +6,7 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import NOTHING, demand_of, holds, plus
 from model.kernel.shift import allows_stops
+from model.problem import IntArray
 from model.search.route.edit import put
 from model.search.route.layout import CUSTOMER, END, NOWHERE, START, Fleet, World
 from model.search.route.refresh import any_customer, locate, refresh
@@ -24,6 +25,22 @@ def rest_distance(fleet: Fleet, slot: int, p: int) -> int:
     return distance
 
 
+@inlined
+def longer_home(legs: IntArray, fleet: Fleet, slot: int, end: int) -> int:
+    """Return how much longer a route's last leg is to another end."""
+    last = fleet.stop[slot, fleet.route[slot].length - 2]
+    return leg(legs, last.node, end).distance - last.leg
+
+
+@spliced
+def may_serve_tail(world: World, fleet: Fleet, k: int, slot: int, p: int) -> bool:
+    """Tell whether type `k` may serve all customers of a route of one trip behind stop `p`."""
+    for index in range(p + 1, fleet.route[slot].length - 1):
+        if not world.can[k, 0, fleet.stop[slot, index].node]:
+            return False
+    return True
+
+
 @spliced
 def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> float:
     """Return what it costs to swap what follows stop `p` of route `a` and stop `q` of route `b`.
@@ -35,6 +52,10 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
     one, other = fleet.stop[a], fleet.stop[b]
     here, there = one[p].node, other[q].node
     after_here, after_there = one[p + 1].node, other[q + 1].node
+    end, end_by = world.type[k].ends_at, world.type[by].ends_at
+    if end != end_by:
+        after_here = end_by if one[p + 1].kind == END else after_here
+        after_there = end if other[q + 1].kind == END else after_there
     to_other, to_one = leg(legs, here, after_there), leg(legs, there, after_here)
     if (one[p].leave + to_other.duration > other[q + 1].latest
             or other[q].leave + to_one.duration > one[p + 1].latest):
@@ -42,6 +63,11 @@ def tail_saving(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> f
     rate, rate_by = world.rate[k].distance, world.rate[by].distance
     cost = ((to_other.distance - one[p].leg) * rate
             + (to_one.distance - other[q].leg) * rate_by)
+    if end != end_by:
+        if other[q + 1].kind != END:
+            cost += longer_home(legs, fleet, b, end) * rate
+        if one[p + 1].kind != END:
+            cost += longer_home(legs, fleet, a, end_by) * rate_by
     if rate != rate_by:
         longer = rest_distance(fleet, b, q + 1) - rest_distance(fleet, a, p + 1)
         cost += longer * (rate - rate_by)
@@ -67,10 +93,12 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
         if b < 0 or q < 0 or b == a or now.stop[b, q].flying > 0:
             continue
         by = now.route[b].type
-        if by != k and not world.swap[k, by]:
+        if by != k and not world.splice[k, by]:
             continue
         cost = tail_saving(world, now, a, p, b, q)
-        if cost < best:
+        if cost < best and (by == k or world.swap[k, by]
+                            or (may_serve_tail(world, now, k, b, q)
+                                and may_serve_tail(world, now, by, a, p))):
             chosen, place, best = b, q, cost
     if now.stop[a, p + 1].kind == CUSTOMER:
         legs = legs_of(world.leg, world.type[k].travel)
@@ -125,6 +153,9 @@ def swap_tails(world: World, searcher: Searcher, a: int, p: int, b: int, q: int)
         now.route[slot].length = now.route[slot].sorties = 0
         append(now, mine, 0, keep, slot)
         append(now, others, cut, now.route[others].length, slot)
+        if world.splice[k, k]:
+            now.stop[slot, now.route[slot].length - 1].node = (
+                world.type[now.route[slot].type].ends_at)
     done = True
     for slot in (a, b):
         if now.route[slot].length == 2 and now.route[slot].sorties == 0:

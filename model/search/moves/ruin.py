@@ -79,10 +79,11 @@ def mark_around(fleet: Fleet, customer: int, longest: float, marked: BoolArray, 
 @spliced
 def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_customers: int,
            marked: BoolArray, absent: IntArray, num_absent: int, touched: IntArray, hit: IntArray,
-           turn: int, rng: UIntArray) -> tuple[int, int]:
+           turn: int, rng: UIntArray) -> tuple[int, int, int]:
     """Mark strings near a random customer, at most one a trip.
 
-    In place; returns how many customers are marked and how many routes are listed in `touched`.
+    In place; returns how many customers are marked, how many routes are listed in `touched`, and
+    the customer.
     """
     num_touched = trips = 0
     for index in range(num_active):
@@ -92,7 +93,7 @@ def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_cu
     customer = any_customer(world, fleet, rng)
     if num_absent > 0 and uniform(rng) < MAKE_ROOM:
         customer = absent[below(rng, num_absent)]
-    rank = -1
+    rank, seed = -1, customer
     while strings > 0 and customer >= 0:
         slot = fleet.where[customer].slot
         if slot >= 0 and not marked[customer]:
@@ -110,10 +111,8 @@ def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_cu
                     touched[num_touched] = slot
                     num_touched += 1
         rank += 1
-        if rank == 0:
-            seed = customer
         customer = world.near[seed, rank] if rank < world.near.shape[1] else NOWHERE
-    return num_absent, num_touched
+    return num_absent, num_touched, seed
 
 
 @spliced

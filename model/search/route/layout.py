@@ -84,6 +84,7 @@ class World(NamedTuple):
     traded: bool  # vehicles may drive each other's routes
     mixed: bool  # types of vehicles, some of whose routes are not lean, may drive each other's
     scan_all: bool  # else insertion looks beside neighbours only
+    optional: bool  # nobody has to be served
     adds_up: bool  # to insert a customer never saves anything, if no detour does
     keeps: bool  # customers' best places on routes are kept from turn to turn
     blink: float  # how often a better place for a customer is overlooked
@@ -99,6 +100,7 @@ class World(NamedTuple):
     reload: BoolArray  # (type, node) where a trip may end and the next begin
     visits: IntArray  # (type,) customers on a sortie
     can: BoolArray  # (type, 2, node) by truck, by drone
+    splice: BoolArray  # (type, type) vehicles may end each other's routes
     swap: BoolArray  # (type, type) may drive each other's routes at a cost by distance alone
     leg: IntArray  # (travel, origin, to, 2) duration, distance
     back: IntArray  # (travel, to, origin, 2) the same

@@ -130,6 +130,41 @@ def test_tails_are_exchanged(kind: VehicleType) -> None:
         assert improved_cost(problem, start, 2000, seed) <= straight * (1 + 1e-9)
 
 
+def test_tails_are_exchanged_between_trucks_of_other_depots() -> None:
+    yard = [(0.0, -6.0)]
+    north = [(float(x), 6.0) for x in range(1, 25)]
+    south = [(float(x), -6.0) for x in range(1, 25)]
+    trucks = tuple(replace(TRUCK, id=f"truck-{depot}", count=1, depot=depot, capacity=(24_000,))
+                   for depot in range(2))
+    # The first customer's place is the second depot.
+    problem = on_a_plane([*yard, *north, *south], TRUCK)
+    problem = replace(problem, depots=(Depot("hub"), Depot("yard")), vehicle_types=trucks,
+                      customers=problem.customers[1:])
+    up, down = list(range(2, 26)), list(range(26, 50))
+
+    def planned(*routes: list[int]) -> Solution:
+        return Solution(tuple(
+            schedule(problem, RouteDecision(kind, 0, (TripDecision((kind, *nodes, kind)),)))
+            for kind, nodes in enumerate(routes)))
+
+    start = planned(up[:12] + down[12:], down[:12] + up[12:])
+    straight = check(problem, planned(up, down)).cost.total
+    assert straight < check(problem, start).cost.total - 10
+    for seed in range(3):
+        assert improved_cost(problem, start, 2000, seed) <= straight * (1 + 1e-9)
+
+
+def test_customers_who_pay_together_are_served_though_more_are_left_out() -> None:
+    places = [(10.0 * x, 10.0 * y) for x, y in ((1, 1), (1, -1), (-1, 1), (-1, -1), (2, 0))]
+    groups = [(x + 0.1 * step, y) for x, y in places for step in range(8)]
+    truck = replace(TRUCK, count=5, capacity=(8000,))
+    problem = replace(on_a_plane(groups, truck), unassigned_cost=6.0)
+    start = Solution((), tuple(range(1, problem.num_nodes)))
+    for seed in range(3):
+        # Each place pays 48 and takes 28 to 42 to get to.
+        assert improved_cost(problem, start, 2000, seed) < 0.9 * 48 * len(places)
+
+
 def test_a_tail_becomes_a_route_of_its_own() -> None:
     morning = [(20.0 + x, 0.0) for x in range(14)]
     evening = [(-20.0 - x, 0.0) for x in range(14)]

@@ -85,6 +85,18 @@ def timed_windows(rng: np.random.Generator) -> Problem:
                                                   max_working_duration=75 * MINUTE))
 
 
+def limited_work(rng: np.random.Generator) -> Problem:
+    customers = with_windows(rng, plain_customers(rng, 5), 15, None)
+    return street_problem(rng, customers, replace(TRUCK, max_working_duration=50 * MINUTE))
+
+
+def two_depots(rng: np.random.Generator) -> Problem:
+    problem = limited_work(rng)
+    trucks = tuple(replace(TRUCK, id=f"truck-{depot}", count=2, depot=depot) for depot in range(2))
+    return replace(problem, depots=(Depot("hub"), Depot("yard")), vehicle_types=trucks,
+                   customers=problem.customers[1:])
+
+
 def soft_windows(rng: np.random.Generator) -> Problem:
     customers = with_windows(rng, plain_customers(rng, 5), 0, 60.0)
     return street_problem(rng, customers, replace(TRUCK, count=2, cost_per_hour=12.0,
@@ -179,9 +191,9 @@ def few_sorties(rng: np.random.Generator) -> Problem:
 
 
 KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
-    plain, windows, timed_windows, soft_windows, costly_waiting, two_types, two_trips, one_drone,
-    two_drones, long_sorties, rush_hour, optional_customers, unequal_customers,
-    two_types_by_table, overtime, dear_stops, few_sorties)
+    plain, windows, timed_windows, limited_work, two_depots, soft_windows, costly_waiting,
+    two_types, two_trips, one_drone, two_drones, long_sorties, rush_hour, optional_customers,
+    unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties)
 
 
 def searched_cost(problem: Problem, turns: int = TURNS) -> float:
