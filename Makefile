@@ -66,8 +66,8 @@ bench-quick: .venv/benching ## The same on a few instances, in five minutes
 bench-rules: .venv/benching ## Tandem and PyVRP where instances have rules that few solvers know
 	$(BIN)/python -m benchmarks.rule_sets --data $(DATA)
 	$(BIN)/python -m benchmarks.versus --data $(DATA) --sets $(RULE_SETS) --solvers tandem,pyvrp \
-		--output runs/bench/rules.csv
-	$(BIN)/python -m benchmarks.report --results runs/bench/rules.csv --part rules
+		--output runs/bench/rule-sets.csv
+	$(BIN)/python -m benchmarks.report --results runs/bench/rule-sets.csv --part rule-sets
 
 latency: .venv/benching ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency

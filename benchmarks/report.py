@@ -44,7 +44,7 @@ stated. Of `vrpmtw` none are known: the gap is to plans that PyVRP found in 80 s
 negative. PyVRP takes several windows as clients of whom one is served, tables of who may serve
 whom and backhauls as legs far too long, open ends as legs home of no length."""
 
-PARTS = {"versus": NOTES, "rules": RULE_NOTES}
+PARTS = {"versus": NOTES, "rule-sets": RULE_NOTES}
 """Parts of the page, by the names in their markers, and what is said below their tables."""
 
 Group = tuple[str, float, str]

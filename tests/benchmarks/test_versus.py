@@ -306,10 +306,10 @@ def test_page_keeps_what_is_around_its_part(tmp_path: Path) -> None:
 
 def test_parts_of_a_page_are_written_one_by_one(tmp_path: Path) -> None:
     page = tmp_path / "benchmarks.md"
-    page.write_text("\n".join([*markers("versus"), *markers("rules")]), encoding="utf-8")
-    write([row("tandem", 1.0)], page, "rules")
+    page.write_text("\n".join([*markers("versus"), *markers("rule-sets")]), encoding="utf-8")
+    write([row("tandem", 1.0)], page, "rule-sets")
     assert page.read_text(encoding="utf-8").startswith("\n".join(markers("versus")))
-    assert {path.name for path in tmp_path.iterdir()} == {"benchmarks.md", "rules.csv"}
+    assert {path.name for path in tmp_path.iterdir()} == {"benchmarks.md", "rule-sets.csv"}
 
 
 def test_page_without_a_part_of_its_own_is_refused(tmp_path: Path) -> None:
