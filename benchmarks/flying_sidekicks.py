@@ -27,12 +27,11 @@ from app.conversion.powers import murray_raj_flight, murray_raj_vertical
 from benchmarks.results import gap_percent
 from benchmarks.rows import appended, read_rows
 from benchmarks.versus import machine
-from model.energy import Energy
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.planner import keep_loaded
 from model.problem import (
-    MS_PER_HOUR, Customer, Depot, DroneType, FloatArray, Problem, Travel, VehicleType,
+    MS_PER_HOUR, Customer, Depot, DroneType, Energy, FloatArray, Problem, Travel, VehicleType,
 )
 from model.search.improve import SearchConfig, improve
 from model.search.world import Moves

@@ -29,12 +29,10 @@ APP_ORDER = (
 """Each folder or file of `app` imports only those to the left of its name."""
 
 MODEL = {
-    "energy": (),
-    "overtime": (),
-    "problem": ("energy", "overtime"),
+    "problem": (),
     "solution": (),
-    "judge": ("energy", "problem", "solution"),
-    "kernel": ("energy", "problem"),
+    "judge": ("problem", "solution"),
+    "kernel": ("problem",),
     "travel": ("problem", "kernel"),
     "simulation": ("problem", "solution", "kernel"),
     "policy": ("problem", "kernel", "simulation"),
@@ -45,7 +43,7 @@ MODEL = {
     "dialects": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
-MOST_ARROWS = 34
+MOST_ARROWS = 30
 
 INTERPRETED = {"solution"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
@@ -122,11 +120,18 @@ def imported_packages(path: Path) -> set[str]:
 
 
 def imported_files(package: str) -> dict[str, set[str]]:
-    """Return the files of a package that each of them imports, by path without suffix."""
+    """Return the files of a package that each of them imports, by path without suffix.
+
+    A folder that gathers names of its files stands for these.
+    """
     files = {path.relative_to(ROOT / package).with_suffix("").as_posix(): path
              for path in sources(package) if path.stem != "__init__"}
-    dotted = {f"{package}.{name.replace('/', '.')}": name for name in files}
-    return {name: {dotted[module] for module in imported_modules(path) if module in dotted}
+    dotted = {f"{package}.{name.replace('/', '.')}": {name} for name in files}
+    for path in sources(package):
+        if path.stem == "__init__":
+            gathered = [dotted[module] for module in imported_modules(path) if module in dotted]
+            dotted[".".join(path.parent.relative_to(ROOT).parts)] = set().union(*gathered)
+    return {name: set().union(*(dotted.get(module, set()) for module in imported_modules(path)))
             for name, path in files.items()}
 
 

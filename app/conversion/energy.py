@@ -6,7 +6,7 @@ from app.conversion.powers import Curve, climb_of, powers_of
 from app.conversion.units import thousandths
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
 from app.schemas.energy import EnergyInput
-from model.energy import MAX_POINTS, MICROJOULES_PER_WH, Energy
+from model.problem import MAX_POINTS, MICROJOULES_PER_WH, Energy
 
 MILLIWATTS = 1000.0
 

@@ -3,8 +3,7 @@
 from collections.abc import Iterable
 from typing import Any
 
-from model.energy import MICROJOULES_PER_WH, Energy
-from model.problem import Problem
+from model.problem import MICROJOULES_PER_WH, Energy, Problem
 
 Data = dict[str, Any]
 

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
-from model.energy import MICROJOULES_PER_WH, Energy
 from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import opening
@@ -19,7 +18,7 @@ from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.places import Place
 from model.judge.rules import airborne_duration
 from model.judge.screening import Screen
-from model.problem import MM_PER_KM, UNLIMITED, Problem, VehicleType
+from model.problem import MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy, Problem, VehicleType
 from model.solution import Trip
 
 Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh"]

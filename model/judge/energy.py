@@ -3,8 +3,7 @@
 from bisect import bisect_right
 from collections.abc import Sequence
 
-from model.energy import Energy
-from model.problem import DroneType, Problem
+from model.problem import DroneType, Energy, Problem
 from model.solution import Sortie, Trip
 
 

@@ -13,14 +13,14 @@ from itertools import chain
 from math import ceil
 from typing import NamedTuple
 
-from model.energy import MICROJOULES_PER_WH
 from model.judge.check import check
 from model.judge.energy import sortie_energy
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
 from model.judge.trial import Attempt, attempts, small_problem, try_truck
 from model.problem import (
-    MAX_MONEY, MAX_QUANTITY, MM_PER_KM, UNLIMITED, DroneType, Overtime, Problem, VehicleType,
+    MAX_MONEY, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Overtime, Problem,
+    VehicleType,
 )
 from model.solution import Solution
 

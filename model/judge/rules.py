@@ -4,11 +4,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from operator import gt
 
-from model.energy import MICROJOULES_PER_WH
 from model.judge.energy import sortie_energy
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
 from model.judge.timing import TripDecision, latest_release
-from model.problem import UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType
+from model.problem import (
+    MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType,
+)
 from model.solution import Sortie, Stop, Trip, Visit
 
 

@@ -20,7 +20,8 @@ from numba.core import event
 from numba.core.compiler import Compiler
 
 SOURCES = (
-    "problem",
+    *(f"problem/{part}" for part in (
+        "customer", "energy", "fleet", "overtime", "problem", "quantities")),
     *(f"kernel/{part}" for part in (
         "compiled", "records", "alarm", "copying", "instance", "start", "shift", "stop", "energy",
         "flight", "load", "clock", "leg")),

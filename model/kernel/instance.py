@@ -9,13 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.energy import MAX_POINTS, Energy
 from model.kernel.nearest import least_columns
 from model.kernel.pausing import Pause, go_on, matrix_blocks
 from model.kernel.records import Records, record
 from model.problem import (
-    MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray, IntArray, Problem,
-    VehicleType,
+    MAX_POINTS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, Energy, FloatArray,
+    IntArray, Problem, VehicleType,
 )
 
 MAX_DIMENSIONS = 3

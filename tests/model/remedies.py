@@ -4,9 +4,8 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from model.energy import MICROJOULES_PER_WH
 from model.judge.explain import Reason
-from model.problem import Customer, DroneType, Overtime, Problem, VehicleType
+from model.problem import MICROJOULES_PER_WH, Customer, DroneType, Overtime, Problem, VehicleType
 
 MINUTE = 60_000
 KM = 1_000_000

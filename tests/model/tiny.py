@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.energy import Energy
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Overtime,
+    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Energy, Overtime,
     Problem, SpeedProfile, Travel, VehicleType,
 )
 from model.travel.matrices import with_nowhere

@@ -133,6 +133,12 @@ def rarer_absences(world: World, searcher: Searcher) -> bool:
 
 
 @inlined
+def counts_up(world: World, searcher: Searcher) -> bool:
+    """Tell whether what a turn has inserted so far costs no more than all that it will insert."""
+    return world.adds_up and (searcher.count.missing == 0 or world.optional)
+
+
+@inlined
 def cost_to_insert(world: World, searcher: Searcher, first: int) -> float:
     """Return what the routes cost before who is absent is inserted, from number `first` on."""
     cost = served_cost(searcher)
@@ -205,14 +211,13 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
             ruin(world, searcher, first)
             if world.mixed and count.touched > 0 and uniform(searcher.rng) < RETYPED:
                 draw_type(world, searcher)
-        sort_absent(world, searcher, first,
-                    order if building else draw_order(world, searcher.rng))
+        inserted = order if building else draw_order(world, searcher.rng)
+        sort_absent(world, searcher, first, inserted)
         limit = value.cost - value.temperature * math.log(1.0 - uniform(searcher.rng))
-        retyped = (not building and (world.traded or world.mixed)
-                   and uniform(searcher.rng) < RETYPED)
+        trades = not building and (world.traded or world.mixed)
+        retyped = trades and uniform(searcher.rng) < RETYPED
         spare = math.inf
-        if (world.adds_up and not (building or retyped)
-                and (count.missing == 0 or world.optional)):
+        if not (building or retyped) and counts_up(world, searcher):
             spare = limit - cost_to_insert(world, searcher, first)
         done = recreate(world, searcher, first, building or world.scan_all, spare)
         if rung(world.stop) and not building:
@@ -225,8 +230,8 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
             if world.mixed:
                 cheapen_types(world, searcher)
         cost = turn_cost(world, searcher)
-        forced = (done and not building and count.absent > 0 and not world.optional
-                  and rarer_absences(world, searcher))
+        scarce = not (building or world.optional) and count.absent > 0
+        forced = done and scarce and rarer_absences(world, searcher)
         if building or cost < limit or forced:
             accept(searcher, cost)
             if cost < value.best:

@@ -11,9 +11,8 @@ from app.conversion.problem import to_problem
 from app.errors import RequestError
 from app.requests.reading import read_request
 from app.schemas.energy import EnergyInput
-from model.energy import MAX_POINTS, Energy
 from model.judge.energy import hover_energy, leg_energy
-from model.problem import Problem
+from model.problem import MAX_POINTS, Energy, Problem
 
 Request = dict[str, Any]
 LB = 0.453592

@@ -3,12 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.energy import MICROJOULES_PER_WH, Energy
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench
 from model.judge.binding import find_binding
 from model.judge.check import check
-from model.problem import Overtime
+from model.problem import MICROJOULES_PER_WH, Energy, Overtime
 from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
 from tests.model.tiny import draw_tiny, with_duty
 

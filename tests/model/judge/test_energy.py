@@ -4,12 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from model.energy import Energy
 from model.judge.check import check
 from model.judge.energy import leg_energy, power_at, sortie_energy
 from model.judge.explain import explain
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import DroneType, Problem
+from model.problem import DroneType, Energy, Problem
 from model.solution import Solution, Trip
 from tests.model.remedies import applied
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from model.energy import Energy
 from model.judge.energy import hover_energy, leg_energy
 from model.kernel.compiled import compiled
 from model.kernel.energy import (
@@ -10,7 +9,7 @@ from model.kernel.energy import (
 )
 from model.kernel.instance import FAR, pack
 from model.kernel.records import Record
-from model.problem import UNREACHABLE
+from model.problem import UNREACHABLE, Energy
 from tests.model.tiny import draw_tiny, with_energy
 
 

@@ -1,0 +1,59 @@
+"""Customers, and the places where trips begin and end."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from model.problem.quantities import UNLIMITED, require, require_quantity, require_rate
+
+DepotKind = Literal["depot", "start", "end", "nowhere"]
+ServedBy = Literal["truck", "drone", "either"]
+
+
+@dataclass(frozen=True)
+class Depot:
+    """A place where trips may begin or end."""
+
+    id: str
+    kind: DepotKind = "depot"
+    """Where vehicles of type `id` start or end; nowhere: at a customer, which no drone flies to."""
+
+
+@dataclass(frozen=True)
+class Customer:
+    """Place with a demand, served once by a truck or a drone."""
+
+    id: str
+    demand: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
+    service_duration: int = 0
+    earliest: int = 0  # first start of service that needs no waiting
+    latest: int = UNLIMITED  # last arrival that is not late
+    late_cost_per_hour: float | None = None  # None: the window is hard
+    early_cost_per_hour: float = 0.0
+    served_by: ServedBy = "either"
+    skills: frozenset[str] = frozenset()
+    release_time: int = 0  # parcel is at the depot from then on
+    unassigned_cost: float | None = None  # of leaving it out; None: the problem's
+    gaps: tuple[tuple[int, int], ...] = ()
+    """Between several windows: last arrival in one, first start of service in the next."""
+
+    def __post_init__(self) -> None:
+        for amount in self.demand:
+            require_quantity(f"customer {self.id} demand", amount)
+        require_quantity(f"customer {self.id} service_duration", self.service_duration)
+        require_quantity(f"customer {self.id} release_time", self.release_time)
+        require_quantity(f"customer {self.id} earliest", self.earliest)
+        require(self.earliest <= self.latest, f"customer {self.id} latest", self.latest)
+        require(self.latest <= UNLIMITED, f"customer {self.id} latest", self.latest)
+        opens = self.earliest
+        for closes, reopens in self.gaps:
+            require(opens <= closes < reopens, f"customer {self.id} gaps", self.gaps)
+            opens = reopens
+        require(opens <= self.latest, f"customer {self.id} gaps", self.gaps)
+        require_rate(f"customer {self.id} early_cost_per_hour", self.early_cost_per_hour)
+        require_rate(f"customer {self.id} late_cost_per_hour", self.late_cost_per_hour or 0.0)
+        require_rate(f"customer {self.id} unassigned_cost", self.unassigned_cost or 0.0)
+
+    @property
+    def openings(self) -> tuple[int, ...]:
+        """When each window opens."""
+        return (self.earliest, *(reopens for _, reopens in self.gaps))

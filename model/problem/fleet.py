@@ -1,0 +1,143 @@
+"""Vehicles and their drones."""
+
+from dataclasses import dataclass
+
+from model.problem.energy import Energy
+from model.problem.overtime import Overtime
+from model.problem.quantities import FULL_SPEED, UNLIMITED, require, require_quantity, require_rate
+
+
+@dataclass(frozen=True)
+class SpeedProfile:
+    """Speed by time of day, piecewise constant, as a share of the matrix speed."""
+
+    times: tuple[int, ...]  # (change,) ms, strictly increasing
+    factors: tuple[int, ...]  # (change + 1,) in 1..FULL_SPEED; the first holds before times[0]
+
+    def __post_init__(self) -> None:
+        require(len(self.factors) == len(self.times) + 1, "speed profile factors", self.factors)
+        for factor in self.factors:
+            require(1 <= factor <= FULL_SPEED, "speed profile factor", factor)
+        for time, following in zip(self.times, self.times[1:], strict=False):
+            require(time < following, "speed profile times", self.times)
+        for time in self.times:
+            require_quantity("speed profile time", time)
+
+
+@dataclass(frozen=True)
+class DroneType:
+    """The drones that ride on each truck of a type."""
+
+    count: int
+    capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
+    travel: int  # index into Problem.travel
+    endurance: int = UNLIMITED  # ms from take-off to the beginning of recovery
+    endurance_includes_waiting: bool = True  # False: to the drone's arrival there
+    launch_duration: int = 0
+    recovery_duration: int = 0
+    service_duration: int | None = None  # None: the customer's
+    max_customers_per_sortie: int = 1
+    cost_per_km: float = 0.0
+    cost_per_hour: float = 0.0
+    energy: Energy | None = None  # what a sortie may take of the battery; None: any
+
+    def __post_init__(self) -> None:
+        require(self.count >= 1, "drone count", self.count)
+        require(self.max_customers_per_sortie >= 1, "drone max_customers_per_sortie",
+                 self.max_customers_per_sortie)
+        for amount in self.capacity:
+            require_quantity("drone capacity", amount)
+        require_quantity("drone endurance", self.endurance, UNLIMITED)
+        require_quantity("drone launch_duration", self.launch_duration)
+        require_quantity("drone recovery_duration", self.recovery_duration)
+        require_quantity("drone service_duration", self.service_duration or 0)
+        require_rate("drone cost_per_km", self.cost_per_km)
+        require_rate("drone cost_per_hour", self.cost_per_hour)
+
+
+@dataclass(frozen=True)
+class VehicleType:
+    """`count` equal trucks, with their drones if `drones` is set."""
+
+    id: str
+    count: int
+    capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
+    travel: int  # index into Problem.travel
+    depot: int = 0  # home depot, a node: where a trip may end and the next begin
+    fixed_cost: float = 0.0  # per vehicle used
+    cost_per_km: float = 0.0
+    cost_per_hour: float = 0.0  # of working time
+    cost_per_stop: float = 0.0  # per customer served by the truck
+    speed_profile: SpeedProfile | None = None
+    earliest: int = 0  # shift
+    latest: int = UNLIMITED
+    max_working_duration: int | None = None
+    max_trip_distance: int | None = None
+    overtime: Overtime | None = None  # None: shift and working duration can't be exceeded
+    max_trips: int = 1
+    max_stops: int | None = None  # customers that the truck itself serves on a trip
+    max_sorties: int | None = None  # on a trip, of all drones together
+    reload_duration: int = 0  # at the depot between trips
+    skills: frozenset[str] = frozenset()
+    drones: DroneType | None = None
+    start: int | None = None  # where its first trip begins, a node; None: at the depot
+    end: int | None = None  # where its last trip ends
+    reload_depots: tuple[int, ...] = ()  # other nodes where a trip may end and the next begin
+    initial_load: tuple[int, ...] = ()  # what its trip carries beside its customers'; (): nothing
+    busy_until: int = 0  # its trip may begin sooner, and drones take off, but no truck leave
+    works_since: int | None = None  # its work counts from then; None: from its departure
+    part_of: str | None = None  # id of the type of which these are some vehicles; None: all
+    numbers: tuple[int, ...] = ()  # of these there, from 0, ascending; (): all
+    co2_kg_per_km: float | None = None  # of the truck, for replies alone
+    co2_kg_per_kwh: float | None = None  # of the energy that its drones use
+
+    def __post_init__(self) -> None:
+        require(self.count >= 1, f"vehicle type {self.id} count", self.count)
+        require(self.max_trips >= 1, f"vehicle type {self.id} max_trips", self.max_trips)
+        has_numbers = len(self.numbers) in (0, self.count)
+        require(has_numbers, f"vehicle type {self.id} numbers", self.numbers)
+        for amount in self.capacity:
+            require_quantity(f"vehicle type {self.id} capacity", amount)
+        require(self.earliest <= self.latest <= UNLIMITED, f"vehicle type {self.id} latest",
+                 self.latest)
+        for name in ("earliest", "reload_duration", "busy_until", "max_working_duration",
+                     "max_trip_distance", "max_stops", "max_sorties"):
+            require_quantity(f"vehicle type {self.id} {name}", getattr(self, name) or 0)
+        for name in ("fixed_cost", "cost_per_km", "cost_per_hour", "cost_per_stop",
+                     "co2_kg_per_km", "co2_kg_per_kwh"):
+            require_rate(f"vehicle type {self.id} {name}", getattr(self, name) or 0.0)
+        self._require_beginning()
+
+    def _require_beginning(self) -> None:
+        """Raise `ValueError` unless what is said of a vehicle's only trip makes sense."""
+        for load, most in zip(self.initial_load, self.capacity, strict=bool(self.initial_load)):
+            require_quantity(f"vehicle type {self.id} initial_load", load, most)
+        since = self.works_since or 0
+        require_quantity(f"vehicle type {self.id} works_since", since, self.earliest)
+        begun = any(self.initial_load) or self.busy_until > 0
+        require(self.max_trips == 1 or not begun, f"vehicle type {self.id} max_trips",
+                 self.max_trips)
+
+    @property
+    def type_id(self) -> str:
+        """The id of the type of which these are some vehicles, or all."""
+        return self.id if self.part_of is None else self.part_of
+
+    def vehicle_name(self, vehicle: int) -> str:
+        """Return the name of a vehicle, such as `truck-1`."""
+        return f"{self.type_id}-{(self.numbers[vehicle] if self.numbers else vehicle) + 1}"
+
+    @property
+    def begins_at(self) -> int:
+        """The node where the first trip begins."""
+        return self.depot if self.start is None else self.start
+
+    @property
+    def ends_at(self) -> int:
+        """The node where the last trip ends."""
+        return self.depot if self.end is None else self.end
+
+    @property
+    def reload_places(self) -> tuple[int, ...]:
+        """The nodes where a trip may end and the next begin."""
+        return (self.depot, *self.reload_depots)

@@ -1,0 +1,168 @@
+"""What is to be planned: depots, customers, a fleet and its travel matrices."""
+
+from bisect import bisect_left
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from model.problem.customer import Customer, Depot
+from model.problem.fleet import VehicleType
+from model.problem.quantities import (
+    MAX_QUANTITY, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray, require,
+    require_rate,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Travel:
+    """Legs between all nodes by one kind of vehicle, rows are origins."""
+
+    duration: IntArray  # (node, node) ms, UNREACHABLE where there is no leg (drones only)
+    distance: IntArray  # (node, node) mm
+
+    def __post_init__(self) -> None:
+        for name, matrix in (("duration", self.duration), ("distance", self.distance)):
+            require(matrix.dtype == np.int64, f"travel {name} dtype", matrix.dtype)
+            require(matrix.ndim == 2 and matrix.shape[0] == matrix.shape[1],
+                     f"travel {name} shape", matrix.shape)
+            # Negative entries are the largest ones here: one look at each is enough, mostly.
+            if matrix.view(np.uint64).max(initial=0) > MAX_QUANTITY:
+                require(bool((matrix >= 0).all()), f"travel {name}", "negative entry")
+                reachable = (matrix <= MAX_QUANTITY) | (matrix == UNREACHABLE)
+                require(bool(reachable.all()), f"travel {name}", "entry too large")
+        require(self.duration.shape == self.distance.shape, "travel distance shape",
+                 self.distance.shape)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A complete planning problem.
+
+    Nodes are the depots, in order, then the customers, in order: with one depot, node 0 is the
+    depot and nodes 1..n are the customers.
+    """
+
+    depots: tuple[Depot, ...]
+    customers: tuple[Customer, ...]
+    vehicle_types: tuple[VehicleType, ...]
+    travel: tuple[Travel, ...]
+    coordinates: FloatArray  # (node, 2) any planar unit, seen by the policy alone
+    unassigned_cost: float  # per customer left out who states no other
+    amount_decimals: tuple[int, ...] = ()  # (dimension,) of demands and capacities; for people
+    may_serve: BoolArray | None = None  # (vehicle type, customer); None: any type anyone
+    must_serve: bool = False  # whoever states no cost of being left out; for people
+    num_dimensions: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        require(len(self.depots) >= 1, "depots", "none")
+        require(len(self.vehicle_types) >= 1, "vehicle types", "none")
+        require_rate("unassigned_cost", self.unassigned_cost)
+        dimensions = len(self.vehicle_types[0].capacity)
+        require(1 <= dimensions <= 3, "capacity dimensions", dimensions)
+        object.__setattr__(self, "num_dimensions", dimensions)
+        if not self.amount_decimals:
+            object.__setattr__(self, "amount_decimals", (USUAL_DECIMALS,) * dimensions)
+        require(len(self.amount_decimals) == dimensions, "amount decimals", self.amount_decimals)
+        require(self.coordinates.shape == (self.num_nodes, 2), "coordinates shape",
+                 self.coordinates.shape)
+        require(bool(np.isfinite(self.coordinates).all()), "coordinates", "not finite")
+        if self.may_serve is not None:
+            require(self.may_serve.dtype == np.bool_, "may_serve dtype", self.may_serve.dtype)
+            require(self.may_serve.shape == (len(self.vehicle_types), self.num_customers),
+                     "may_serve shape", self.may_serve.shape)
+        for matrix in self.travel:
+            require(matrix.duration.shape == (self.num_nodes, self.num_nodes), "travel shape",
+                     matrix.duration.shape)
+        for customer in self.customers:
+            require(len(customer.demand) == dimensions, f"customer {customer.id} demand",
+                     customer.demand)
+        for vehicle_type in self.vehicle_types:
+            self._require_consistent(vehicle_type)
+        for used in {vehicle_type.travel for vehicle_type in self.vehicle_types}:
+            require(bool(self.travel[used].duration.max() < UNREACHABLE), "travel",
+                     "unreachable leg")
+
+    def _require_consistent(self, vehicle_type: VehicleType) -> None:
+        name = f"vehicle type {vehicle_type.id}"
+        require(len(vehicle_type.capacity) == self.num_dimensions, f"{name} capacity",
+                 vehicle_type.capacity)
+        for place in ("depot", "begins_at", "ends_at"):
+            node = getattr(vehicle_type, place)
+            require(0 <= node < self.num_depots, f"{name} {place}", node)
+        require(set(vehicle_type.reload_places) <= set(range(self.num_depots)),
+                 f"{name} reload_depots", vehicle_type.reload_depots)
+        require(len(vehicle_type.initial_load) in (0, self.num_dimensions), f"{name} initial_load",
+                 vehicle_type.initial_load)
+        require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
+                 vehicle_type.travel)
+        if vehicle_type.drones is not None:
+            require(len(vehicle_type.drones.capacity) == self.num_dimensions,
+                     f"{name} drone capacity", vehicle_type.drones.capacity)
+            require(0 <= vehicle_type.drones.travel < len(self.travel), f"{name} drone travel",
+                     vehicle_type.drones.travel)
+            energy = vehicle_type.drones.energy
+            require(energy is None or energy.dimension < self.num_dimensions,
+                     f"{name} drone energy", energy)
+
+    @property
+    def num_depots(self) -> int:
+        """Depots; the first customer's node."""
+        return len(self.depots)
+
+    @property
+    def num_customers(self) -> int:
+        """Customers."""
+        return len(self.customers)
+
+    @property
+    def num_nodes(self) -> int:
+        """Depots and customers."""
+        return len(self.depots) + len(self.customers)
+
+    def is_nowhere(self, node: int) -> bool:
+        """Tell whether a node is no place: who begins or ends there does so at a customer."""
+        return node < len(self.depots) and self.depots[node].kind == "nowhere"
+
+    def allows(self, vehicle_type: int, node: int) -> bool:
+        """Tell whether the table lets vehicles of a type serve the customer at a node."""
+        return self.may_serve is None or bool(self.may_serve[vehicle_type, node - self.num_depots])
+
+    def find_vehicle(self, type_id: str, number: int) -> tuple[int, int]:
+        """Return the index of a vehicle's type, and its number there, from 0.
+
+        A number that there isn't is one that the first type of that id hasn't either.
+
+        Raises
+        ------
+        KeyError
+            If there is no such type.
+        """
+        parts = [index for index, kind in enumerate(self.vehicle_types) if kind.type_id == type_id]
+        for index in parts:
+            numbers = self.vehicle_types[index].numbers
+            place = bisect_left(numbers, number)
+            if numbers[place:place + 1] == (number,):
+                return index, place
+        if not parts:
+            raise KeyError(type_id)
+        return parts[0], number
+
+    def cost_of_leaving_out(self, customer: Customer) -> float:
+        """Return what leaving a customer out costs."""
+        own = customer.unassigned_cost
+        return self.unassigned_cost if own is None else own
+
+    def must_be_served(self, customer: Customer) -> bool:
+        """Tell whether no price was stated at which a customer may be left out."""
+        return self.must_serve and customer.unassigned_cost is None
+
+    def customer_at(self, node: int) -> Customer:
+        """Return the customer at a node.
+
+        Raises
+        ------
+        ValueError
+            If `node` is a depot or no node.
+        """
+        require(self.num_depots <= node < self.num_nodes, "customer node", node)
+        return self.customers[node - self.num_depots]
