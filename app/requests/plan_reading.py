@@ -116,7 +116,7 @@ def _by_parts(problem: Problem, solution: Solution) -> Solution:
 class KnownType(NamedTuple):
     """A vehicle type: its number, the time that a recovery takes in ms, and an open route's end."""
 
-    index: int = 0
+    number: int = 0
     recovery_duration: int = 0
     nowhere: int | None = None
 
@@ -153,8 +153,8 @@ class Known:
         """Return what the parts of a request have; their numbers mean nothing."""
         stands = None
         if fleet is not None and None not in fleet:
-            stands = {(stand.depot.kind, stand.depot.id): 0 for kind in fleet if kind is not None
-                      for stand in stands_of(kind)}
+            stands = {(str(stand.depot.kind), stand.depot.id): 0
+                      for kind in fleet if kind is not None for stand in stands_of(kind)}
         kinds = _by_name(fleet)
         return cls(_by_name(depots), stands, _by_name(customers),
                    None if kinds is None else dict.fromkeys(kinds, KnownType()))
@@ -192,7 +192,7 @@ class _PlanReader:
                  for index, trip in enumerate(route.trips)]
         if trips and kind.nowhere is not None:
             trips[-1] = self._open_ended(trips[-1], route.trips[-1], kind.nowhere)
-        return Route(kind.index, vehicle, tuple(trips))
+        return Route(kind.number, vehicle, tuple(trips))
 
     def _open_ended(self, trip: Trip, stated: TripInput, nowhere: int) -> Trip:
         """Return a trip that ends nowhere, if it ends at its last stop."""

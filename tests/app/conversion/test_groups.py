@@ -34,7 +34,8 @@ def test_types_alone_need_no_groups(request_of: Request) -> None:
         ("truck", 6, ()), ("van", 2, ())]
     assert problem.may_serve is not None
     assert problem.may_serve.tolist() == [[False, True, True], [True, False, True]]
-    for nothing in (None, {}):
+    either: tuple[Any, ...] = (None, {})
+    for nothing in either:
         assert problem_of(request_of, nothing, None, None).may_serve is None
 
 
