@@ -10,6 +10,7 @@ from torch import Tensor
 from model.policy.attention import AttentionConfig, AttentionPolicy
 from model.policy.network import PolicyNetwork
 from model.policy.pointer import Critic, PointerConfig, PointerPolicy
+from model.simulation.cost import COST
 from training.dataset import Decisions, chunks, join, paths
 from training.instances import VARIANTS, generate
 from training.learn import (
@@ -190,8 +191,8 @@ def test_critic_learns_the_costs_of_a_batch(batch: Batch) -> None:
 
 
 def test_customers_left_out_weigh_less_in_training(batch: Batch) -> None:
-    cost = np.zeros((batch.num_problems, 6))
-    cost[:, 1], cost[:, 5] = 2.0, 10.0
+    cost = np.zeros(batch.num_problems, COST)
+    cost["distance"], cost["unassigned"] = 2.0, 10.0
     outcome = Outcome(cost, np.ones(batch.num_problems, np.int64), None)  # type: ignore[arg-type]
     unit = batch.scale.cost * batch.instance.size["customers"]
     np.testing.assert_allclose(training_costs(batch, outcome, 1, 0.2)[:, 0] * unit, 4.0)
