@@ -18,8 +18,11 @@ Data = dict[str, Any]
 
 WH_PER_KWH = 1000
 
-MAX_LOAD_RATE = 1e9
-"""Stands for any load where there is no capacity, since JSON knows no infinity."""
+MAX_RATE = 1e9
+"""Stands for any load where there is no capacity, and any work where none is usual.
+
+JSON knows no infinity.
+"""
 
 Reasons = Callable[[Solution, int, float], tuple[Reason, ...]]
 """Says why a plan leaves a customer out, as far as is found until an instant."""
@@ -71,13 +74,17 @@ def cost_reply(cost: Cost) -> Data:
     return {"total": cost.total} | {term: getattr(cost, term) for term in COST_TERMS}
 
 
+def _finite(rate: float | None) -> float | None:
+    return None if rate is None else min(rate, MAX_RATE)
+
+
 def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
     name = vehicle_name(problem, route)
     return {
         "vehicle": name,
         "type": problem.vehicle_types[route.vehicle_type].type_id,
         "working_duration": whole(metrics.working_duration),
-        "working_rate": metrics.working_rate,
+        "working_rate": _finite(metrics.working_rate),
         "overtime": whole(metrics.overtime),
         "cost": metrics.cost,
         "trips": [_trip(problem, name, trip, measured)
@@ -186,7 +193,7 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
     trips = [trip for route in evaluation.routes for trip in route.trips]
     sorties = [sortie for trip in trips for sortie in trip.sorties]
     served = _served(problem, solution)
-    rates = [min(trip.load_rate, MAX_LOAD_RATE) for trip in trips] or [0.0]
+    rates = [min(trip.load_rate, MAX_RATE) for trip in trips] or [0.0]
     return {
         "customers": problem.num_customers,
         "served": len(served),

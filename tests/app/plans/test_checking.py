@@ -68,6 +68,13 @@ def test_overtime_stops_and_co2_are_told_and_judged(client: httpx.Client,
             "WORKING_DURATION" if "overtime" in change else "MAX_STOPS"]
 
 
+def test_all_work_may_be_overtime(client: httpx.Client, smallest: Request) -> None:
+    smallest["fleet"][0] |= {"max_working_duration": 0, "overtime": {"cost_per_hour": 30}}
+    plan = planned(client, smallest)
+    assert [route["working_rate"] for route in plan["routes"]] == [1e9]
+    assert judged(client, smallest, plan)["feasible"]
+
+
 @pytest.mark.parametrize(("change", "path"), [
     ({"overtime": {}}, "overtime.cost_per_hour"), ({"max_stops": -1}, "max_stops"),
     ({"max_sorties": 1.5}, "max_sorties"), ({"co2_kg_per_km": -1}, "co2_kg_per_km"),
