@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from app.schemas.fields import Amount, Input, Metres, Seconds
+from model.problem import MAX_BATTERY
 
 Preset = Literal[
     "murray-raj-2020", "murray-raj-2020-linear-fast", "murray-raj-2020-linear-slow",
@@ -12,7 +13,7 @@ Preset = Literal[
 """Published models of what flying takes, by authors and year."""
 
 Watts = Annotated[float, Field(ge=0, le=1e5)]
-WattHours = Annotated[float, Field(ge=1e-3, le=1e6)]
+WattHours = Annotated[float, Field(ge=1e-3, le=MAX_BATTERY)]
 
 
 class PowerInput(Input):

@@ -19,8 +19,8 @@ from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
 from model.judge.trial import Attempt, attempts, small_problem, try_truck
 from model.problem import (
-    MAX_MONEY, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Overtime, Problem,
-    VehicleType,
+    MAX_BATTERY, MAX_MONEY, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType,
+    Overtime, Problem, VehicleType,
 )
 from model.solution import Solution
 
@@ -239,12 +239,13 @@ def _energy(attempt: Attempt) -> _Diagnosis:
     missing = ceil((taken - energy.available) / energy.usable_share)
     tenths = -(-missing * 10 // MICROJOULES_PER_WH)
     enough = energy.available + round(tenths / 10 * energy.usable_share * MICROJOULES_PER_WH)
+    largest = MAX_BATTERY * energy.usable_share * MICROJOULES_PER_WH
     changed = replace(drones, energy=replace(energy, available=enough))
     return _Diagnosis(
         "RANGE",
         f"A flight from the depot and back takes {watt_hours(taken)}, and "
         f"{watt_hours(energy.available)} may be taken.",
-        f"fits with a battery of {tenths / 10:g} Wh more",
+        f"fits with a battery of {decimal(tenths, 1)} Wh more" if enough <= largest else None,
         _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
     )
 

@@ -42,9 +42,14 @@ def seconds(time: int) -> str:
     return f"{decimal(time)} s"
 
 
+LARGE = 1000
+"""Watt-hours of which no part is told."""
+
+
 def watt_hours(energy: int) -> str:
     """Return an energy in µJ for people."""
-    return f"{energy / MICROJOULES_PER_WH:.4g} Wh"
+    amount = energy / MICROJOULES_PER_WH
+    return f"{amount:.4g} Wh" if amount < LARGE else f"{amount:.0f} Wh"
 
 
 def amounts(problem: Problem, load: tuple[int, ...]) -> str:

@@ -17,6 +17,9 @@ MAX_RISE = 2**62
 
 MICROJOULES_PER_WH = 3_600_000_000
 
+MAX_BATTERY = 1_000_000
+"""Largest battery in Wh that a request states."""
+
 
 @dataclass(frozen=True)
 class Energy:

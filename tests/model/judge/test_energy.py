@@ -7,8 +7,9 @@ import pytest
 from model.judge.check import check
 from model.judge.energy import leg_energy, power_at, sortie_energy
 from model.judge.explain import explain
+from model.judge.rules import watt_hours
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import DroneType, Energy, Problem
+from model.problem import MICROJOULES_PER_WH, DroneType, Energy, Problem
 from model.solution import Solution, Trip
 from tests.model.remedies import applied
 
@@ -115,6 +116,12 @@ def test_a_launch_is_held_back_as_long_as_the_drone_would_hover_too_long(three, 
     _, landing = flown(problem, drones, replace(energy, lands=True, available=0),
                        SortieDecision((3,), 0, 0), nodes=(0, 0))
     assert landing.sorties[0].launch_time == drones.launch_duration
+
+
+@pytest.mark.parametrize(("energy", "words"), [
+    (52 * MICROJOULES_PER_WH // 3, "17.33 Wh"), (97_130 * MICROJOULES_PER_WH, "97130 Wh")])
+def test_energies_are_told_without_powers_of_ten(energy: int, words: str) -> None:
+    assert watt_hours(energy) == words
 
 
 def test_who_is_too_far_for_the_battery_is_told_how_much_more_it_takes(
