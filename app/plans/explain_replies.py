@@ -4,9 +4,10 @@ from collections.abc import Iterable, Sequence
 
 from app.conversion.units import whole
 from app.plans.replies import Data, cost_reply, one_per_type, reason_reply, vehicle_name
-from model.judge.alternatives import Alternative, halt_of, window_of
+from model.judge.alternatives import Alternative, halt_of
 from model.judge.bench import Bench, Trial
 from model.judge.binding import Binding
+from model.judge.clock import window_of
 from model.judge.explain import Reason
 from model.judge.places import Found, find_place
 from model.judge.worth import Worth

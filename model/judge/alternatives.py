@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from model.judge.bench import Bench, Draft, Trial
+from model.judge.clock import window_of
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
 from model.judge.screening import Guess, Screen
@@ -48,13 +49,6 @@ class Findings:
     alternatives: tuple[Alternative, ...]
     drafts: tuple[Draft, ...]  # of all vehicles, at every place tried
     is_complete: bool  # no clock cut it short
-
-
-def window_of(customer: Customer, start: int) -> int | None:
-    """Return which of several windows service that starts then is in; None: there is but one."""
-    if not customer.gaps:
-        return None
-    return sum([start >= reopens for _, reopens in customer.gaps])
 
 
 def halt_of(trial: Trial, node: int) -> Stop | Visit | None:

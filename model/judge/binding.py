@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 
 from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
-from model.judge.clock import opening
+from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.energy import sortie_energy
 from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.places import Place
@@ -23,8 +23,6 @@ from model.solution import Trip
 
 Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh"]
 Whose = Literal["customer", "vehicle_type"]
-
-MS_PER_MINUTE = 60_000
 
 NOT_WORTH = 1e-6
 """Less than this share of a plan's cost is rounding."""

@@ -1,4 +1,4 @@
-"""When a leg ends that takes longer at some hours, and when a customer's service begins.
+"""When a leg ends that takes longer at some hours, and in which window a customer is served.
 
 Times in ms, plain Python integers.
 """
@@ -6,6 +6,8 @@ Times in ms, plain Python integers.
 from bisect import bisect_left, bisect_right
 
 from model.problem import FULL_SPEED, Customer, SpeedProfile
+
+MS_PER_MINUTE = 60_000
 
 
 def leg_end(departure: int, duration: int, profile: SpeedProfile | None) -> int:
@@ -50,3 +52,18 @@ def opening(customer: Customer, arrival: int) -> int:
 def service_start(customer: Customer, arrival: int) -> int:
     """Return when service begins; whoever is early, or comes between two windows, waits."""
     return max(arrival, opening(customer, arrival))
+
+
+def closing(customer: Customer, start: int) -> int:
+    """Return the last arrival in the window in which service starts that is not late."""
+    for closes, reopens in customer.gaps:
+        if start < reopens:
+            return closes
+    return customer.latest
+
+
+def window_of(customer: Customer, start: int) -> int | None:
+    """Return which of several windows service that starts then is in; None: there is but one."""
+    if not customer.gaps:
+        return None
+    return sum([start >= reopens for _, reopens in customer.gaps])

@@ -14,6 +14,7 @@ from math import ceil
 from typing import NamedTuple
 
 from model.judge.check import check
+from model.judge.clock import MS_PER_MINUTE
 from model.judge.energy import sortie_energy
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
@@ -23,8 +24,6 @@ from model.problem import (
     Overtime, Problem, VehicleType,
 )
 from model.solution import Solution
-
-MS_PER_MINUTE = 60_000
 
 
 @dataclass(frozen=True)

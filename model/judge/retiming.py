@@ -9,12 +9,13 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from model.judge.check import JudgedRoute, judge_route
+from model.judge.clock import closing
 from model.judge.past import KnownTrip, Past, Vehicle
 from model.judge.places import halts
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
 )
-from model.problem import Customer, Problem, VehicleType
+from model.problem import Problem, VehicleType
 from model.solution import Route, Trip
 
 BISECTIONS = 8
@@ -151,18 +152,10 @@ def _plain_delay(problem: Problem, trip: Trip, room: int) -> int:
     waited, most = 0, None
     for stop in trip.stops[1:-1]:
         customer = problem.customer_at(stop.node)
-        left = waited + max(0, _closing(customer, stop.service_start) - stop.arrival)
+        left = waited + max(0, closing(customer, stop.service_start) - stop.arrival)
         most = left if most is None else min(most, left)
         waited += stop.service_start - stop.arrival
     return waited + room if most is None else min(most, waited + room)
-
-
-def _closing(customer: Customer, start: int) -> int:
-    """Return the last arrival in the window in which service starts."""
-    for closes, reopens in customer.gaps:
-        if start < reopens:
-            return closes
-    return customer.latest
 
 
 def _lateness(problem: Problem, trip: Trip) -> int:
