@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 
+from app.conversion.amounts import counted
 from app.conversion.powers import Curve, climb_of, powers_of
 from app.conversion.units import thousandths
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
@@ -24,7 +25,7 @@ def to_energy(drones: DronesInput, stated: EnergyInput, decimals: Sequence[int],
     """Convert what is stated of a drone's energy; `demands` are the customers'."""
     dimension, speed = stated.weight_dimension, drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
     powers, climb = powers_of(stated, speed), climb_of(stated, speed)
-    most = round(drones.capacity[dimension] * 10 ** decimals[dimension])
+    most = counted(drones.capacity, decimals)[dimension]
     most = max(1, min(most, sum([demand[dimension] for demand in demands])))
     weights: tuple[int, ...] = (0, most)
     if not powers.are_linear:
