@@ -29,9 +29,9 @@ def judged(client: httpx.Client, problem: Request, plan: object) -> dict[str, An
     return reply.json()
 
 
-def refused(client: httpx.Client, body: object) -> list[tuple[str, str]]:
+def refused(client: httpx.Client, body: object, path: str = "/check") -> list[tuple[str, str]]:
     """Return the code and path of every error of a refused request."""
-    reply = client.post("/check", json=body)
+    reply = client.post(path, json=body)
     assert reply.status_code == 422, reply.text
     assert reply.headers["content-type"] == "application/problem+json"
     return [(error["code"], error["path"]) for error in reply.json()["errors"]]

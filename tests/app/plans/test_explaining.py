@@ -9,7 +9,7 @@ import pytest
 
 from app.schemas.explain import ExplainReply
 from app.schemas.openapi import EXAMPLES_DIR
-from tests.app.plans.test_checking import planned
+from tests.app.plans.test_checking import planned, refused
 
 Request = dict[str, Any]
 
@@ -27,14 +27,6 @@ def explained(client: httpx.Client, body: Request) -> dict[str, Any]:
     assert reply.status_code == 200, reply.text
     ExplainReply.model_validate(reply.json())
     return reply.json()
-
-
-def refused(client: httpx.Client, body: object) -> list[tuple[str, str]]:
-    """Return the code and path of every error of a refused request."""
-    reply = client.post("/explain", json=body)
-    assert reply.status_code == 422, reply.text
-    assert reply.headers["content-type"] == "application/problem+json"
-    return [(error["code"], error["path"]) for error in reply.json()["errors"]]
 
 
 def test_every_other_way_to_serve_a_customer_is_priced(client: httpx.Client,
@@ -119,20 +111,22 @@ def test_what_has_happened_stays(client: httpx.Client, with_drones: Request) -> 
 def test_plan_that_breaks_a_rule_is_refused_with_what_it_breaks(client: httpx.Client,
                                                                 asked: Request) -> None:
     asked["problem"]["customers"][1]["time_window"]["latest"] = 600
-    assert refused(client, asked) == [
+    assert refused(client, asked, "/explain") == [
         ("ILLEGAL_PLAN", "$.plan.routes[0].trips[0].stops[2]")]
     asked["problem"]["customers"].append({"id": "E", "location": [1, 1], "demand": [1]})
-    assert ("ILLEGAL_PLAN", "$.problem.customers[4]") in refused(client, asked)
+    assert ("ILLEGAL_PLAN", "$.problem.customers[4]") in refused(client, asked, "/explain")
 
 
 def test_what_is_not_there_is_refused(client: httpx.Client, asked: Request) -> None:
-    assert refused(client, asked | {"customer": "nobody"}) == [("UNKNOWN_CUSTOMER", "$.customer")]
-    assert refused(client, asked | {"options": {"time_limit": 1e5}}) == [
+    assert refused(client, asked | {"customer": "nobody"}, "/explain") == [
+        ("UNKNOWN_CUSTOMER", "$.customer")]
+    assert refused(client, asked | {"options": {"time_limit": 1e5}}, "/explain") == [
         ("OUT_OF_RANGE", "$.options.time_limit")]
-    assert refused(client, asked | {"colour": 1}) == [("UNKNOWN_FIELD", "$.colour")]
-    assert refused(client, {"problem": asked["problem"]}) == [("MISSING_FIELD", "$.plan")]
+    assert refused(client, asked | {"colour": 1}, "/explain") == [("UNKNOWN_FIELD", "$.colour")]
+    assert refused(client, {"problem": asked["problem"]}, "/explain") == [
+        ("MISSING_FIELD", "$.plan")]
     asked["plan"]["routes"][0]["type"] = "boat"
-    assert ("UNKNOWN_VEHICLE_TYPE", "$.plan.routes[0].type") in refused(client, asked)
+    assert ("UNKNOWN_VEHICLE_TYPE", "$.plan.routes[0].type") in refused(client, asked, "/explain")
 
 
 @pytest.mark.by_clock
