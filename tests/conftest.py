@@ -9,6 +9,7 @@ from copy import deepcopy
 from inspect import signature
 from typing import Any, TypeVar
 
+import loky
 import numpy as np
 import pytest
 
@@ -33,6 +34,15 @@ SLOW = (
         "replanning/test_replan_random.py", "simulation/test_simulator.py")),
 )
 """What `make test-quick` leaves out: it starts other processes, or searches for seconds."""
+
+
+MOST_WORKERS = 8
+"""Processes that run tests at most, since each takes a gigabyte."""
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """Return how many processes run tests: as many as there are cores, within the quota on them."""
+    return min(loky.cpu_count(), MOST_WORKERS)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -122,10 +122,17 @@ def one_long_trip(num_customers: int, steps: int) -> Problem:
     return replace(problem, vehicle_types=(kind,))
 
 
+@pytest.fixture(scope="module")
+def loaded() -> None:
+    """Search once, since to load compiled code takes long by itself."""
+    problem = one_long_trip(20, 10)
+    improve(problem, pack([problem], neighbours=False), Solution((), ()), SearchConfig(turns=1))
+
+
+@pytest.mark.usefixtures("loaded")
 def test_a_beginning_ends_at_the_deadline() -> None:
     problem = one_long_trip(500, 200)
     instance = pack([problem], neighbours=False)
-    improve(problem, instance, Solution((), ()), SearchConfig(), time.perf_counter())
     began = time.perf_counter()
     found = improve(problem, instance, Solution((), ()), SearchConfig(), began + 0.1)
     assert time.perf_counter() - began < SOON
@@ -133,6 +140,7 @@ def test_a_beginning_ends_at_the_deadline() -> None:
     assert check(problem, found.solution).violations == ()
 
 
+@pytest.mark.usefixtures("loaded")
 def test_a_beginning_ends_once_the_caller_wants_no_more() -> None:
     problem = one_long_trip(500, 200)
     began = time.perf_counter()
