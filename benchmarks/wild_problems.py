@@ -26,7 +26,7 @@ NAMES = ("#", "kunde #", "顧客-#", "Ünïcødé #", "🚚#", "a/b?#&=", "'\"#\
 
 def wild_request(rng: random.Random) -> Data:
     """Return a request."""
-    dimensions = rng.randint(1, 3)
+    dimensions = rng.choice((1, 1, 2, 2, 3, 3, 8))
     name = rng.choice(NAMES)
     system, unit, place = _geography(rng)
     depots = [{"id": f"D{number}", "location": place()} for number in range(rng.randint(1, 3))]
@@ -82,6 +82,7 @@ def _customer(rng: random.Random, dimensions: int) -> Data:
     return {
         "demand": _amounts(rng, dimensions, (0, 1, 1, 2, 3, 7.5, 0.0004, 1e-3, 1e3, LONGEST)),
         "served_by": rng.choice(("either", "either", "truck", "drone")),
+        **_maybe(rng, 0.3, pickup=_amounts(rng, dimensions, (0, 1, 2, 3, 7.5, 1e-3, LONGEST))),
         **_maybe(rng, 0.5, service_duration=rng.choice((0, 1e-4, 60, 900, 1e5, LONGEST))),
         **_windows(rng),
         **_maybe(rng, 0.1, skills=rng.sample(SKILLS[:3], rng.randint(1, 2))),
@@ -124,8 +125,10 @@ def _vehicle_type(rng: random.Random, dimensions: int) -> Data:
         "capacity": _amounts(rng, dimensions, (0, 5, 10, 10, 40, 1e-3, LONGEST)),
         **_maybe(rng, 0.6, costs={"fixed": rng.choice((0, 20, RICHEST)),
                                   "per_km": rng.choice((0, 1, 1e-9, RICHEST)),
+                                  "per_load_km": rng.choice((0, 0, 0, 0.1, RICHEST)),
                                   "per_hour": rng.choice((0, 0, 30, RICHEST)),
                                   "per_stop": rng.choice((0, 0, 2, RICHEST))}),
+        **_maybe(rng, 0.3, pickups=rng.choice(("any", "last"))),
         **_maybe(rng, 0.5, speed_kmh=rng.choice((1, 30, 50.123, 1000))),
         **_maybe(rng, 0.3, speed_profile=_speed_profile(rng)),
         **_maybe(rng, 0.5, shift=_shift(rng)),
@@ -219,6 +222,8 @@ def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
     """Have most customers served: by amounts that fit, and fewer limits. In place."""
     for customer in request["customers"]:
         customer["demand"] = [rng.randint(0, 4) for _ in range(dimensions)]
+        if "pickup" in customer:
+            customer["pickup"] = [rng.randint(0, 4) for _ in range(dimensions)]
         for name in ("release_time", "skills"):
             customer.pop(name, None)
         if rng.random() < 0.7:

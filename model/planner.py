@@ -1,6 +1,6 @@
 """The planner: decode, improve, check.
 
-`Progress` and `MAX_DIMENSIONS` are passed on to those who plan, who need no other part for them.
+`Progress` is passed on to those who plan, who need no other part for them.
 """
 
 import gc
@@ -20,7 +20,6 @@ import numpy as np
 from model.judge.check import Evaluation, check
 from model.kernel.alarm import Alarm
 from model.kernel.compiled import first_to_compile
-from model.kernel.instance import MAX_DIMENSIONS as MAX_DIMENSIONS
 from model.kernel.instance import Instance, pack
 from model.kernel.pausing import EndedError, Pause, pausing
 from model.kernel.warming import Tell, Warming, telling

@@ -62,6 +62,8 @@ def _stated(customers: Customers, fleet: Fleet) -> Iterator[tuple[Path, Sequence
     for index, customer in enumerate(customers):
         if customer is not None:
             yield ("customers", index, "demand"), customer.demand
+            if customer.pickup is not None:
+                yield ("customers", index, "pickup"), customer.pickup
 
 
 def _decimals_for(amounts: Sequence[float]) -> int:

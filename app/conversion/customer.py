@@ -16,6 +16,7 @@ def to_customer(stated: CustomerInput, decimals: Sequence[int]) -> Customer:
     return Customer(
         id=stated.id,
         demand=counted(stated.demand, decimals),
+        pickup=() if stated.pickup is None else counted(stated.pickup, decimals),
         service_duration=thousandths(stated.service_duration),
         earliest=thousandths(first.earliest),
         latest=UNLIMITED if last.latest is None else thousandths(last.latest),

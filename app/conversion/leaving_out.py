@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, UNREACHABLE, Customer, Travel, VehicleType,
+    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, UNREACHABLE, USUAL_DECIMALS, Customer, Travel,
+    VehicleType,
 )
 
 DETOURS_PER_CUSTOMER = 10
@@ -13,12 +14,13 @@ DETOURS_PER_CUSTOMER = 10
 
 
 def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequence[VehicleType],
-                            travels: Sequence[Travel]) -> float:
+                            travels: Sequence[Travel],
+                            decimals: Sequence[int] = (USUAL_DECIMALS,)) -> float:
     """Return a cost larger than any detour: that of many vehicles used for one customer each.
 
-    Each drives the longest leg there and back, serves longest, and works and is late or early as
-    long as the latest time that the problem states. Leaving out all who state a price of their own
-    costs less, too.
+    Each drives the longest leg there and back, full, serves longest, and works and is late or early
+    as long as the latest time that the problem states. Leaving out all who state a price of their
+    own costs less, too. Amounts have so many `decimals`.
     """
     stated = [time for customer in customers
               for time in (*customer.openings, customer.latest, customer.release_time)]
@@ -26,11 +28,18 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     horizon = max([time for time in stated if time < UNLIMITED], default=0) / MS_PER_HOUR
     service = max([customer.service_duration for customer in customers], default=0) / MS_PER_HOUR
     longest = [_longest_leg(travel) for travel in travels]
-    detour = max(_vehicle_cost(kind, longest, service + horizon) for kind in vehicle_types)
+    detour = max(_vehicle_cost(kind, longest, service + horizon)
+                 + 2 * longest[kind.travel][0] * _cost_when_full(kind, decimals)
+                 for kind in vehicle_types)
     late = max([customer.late_cost_per_hour or 0.0 for customer in customers], default=0.0)
     early = max([customer.early_cost_per_hour for customer in customers], default=0.0)
     stated_costs = sum([customer.unassigned_cost or 0.0 for customer in customers])
     return max(1.0, DETOURS_PER_CUSTOMER * detour + (late + early) * horizon + stated_costs)
+
+
+def _cost_when_full(kind: VehicleType, decimals: Sequence[int]) -> float:
+    """Return what a full load costs per kilometre."""
+    return kind.cost_per_load_km * kind.capacity[0] / 10**decimals[0]
 
 
 def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],

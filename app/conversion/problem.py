@@ -30,7 +30,8 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
         vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
     unassigned_cost = request.unassigned_cost
     if unassigned_cost is None:
-        unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built())
+        unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
+                                                  decimals)
     return Problem(
         depots=depots,
         customers=customers,

@@ -5,7 +5,7 @@ from html import escape
 
 from app.pictures.drawing import draw_svg
 from app.pictures.scene import Scene, clock
-from app.schemas.customer import TimeWindowInput
+from app.schemas.customer import CustomerInput, TimeWindowInput
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
 
 _STYLE = """
@@ -93,7 +93,17 @@ def _order(scene: Scene, name: str, arrival: float) -> tuple[str, str, str]:
     late = 0.0 if latest is None else max(0.0, arrival - latest)
     return (", ".join(filter(None, map(_window, customer.windows))),
             f"{late / 60:.1f}" if late else "",
-            ", ".join(f"{amount:g}" for amount in customer.demand))
+            _handed(customer))
+
+
+def _handed(customer: CustomerInput) -> str:
+    """Return what is delivered, and what is picked up."""
+    picked_up = "" if customer.pickup is None else f", back {_amounts(customer.pickup)}"
+    return _amounts(customer.demand) + picked_up
+
+
+def _amounts(amounts: Sequence[float]) -> str:
+    return ", ".join(f"{amount:g}" for amount in amounts)
 
 
 def _window(window: TimeWindowInput) -> str:

@@ -139,6 +139,7 @@ def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetri
         "drone": f"{vehicle}/drone-{sortie.drone + 1}",
         "launch_stop": sortie.launch_stop,
         "recovery_stop": sortie.recovery_stop,
+        "load": _amounts(problem, metrics.loads[0]),
         "customers": [
             {
                 "id": problem.customer_at(visit.node).id,
@@ -146,8 +147,9 @@ def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetri
                 "service_start": visit.service_start / 1000,
                 "departure": visit.departure / 1000,
                 "lateness": _lateness(problem, visit),
+                "load": _amounts(problem, load),
             }
-            for visit in sortie.visits
+            for visit, load in zip(sortie.visits, metrics.loads[1:], strict=True)
         ],
         "launch_time": whole(sortie.launch_time),
         "recovery_time": whole(sortie.recovery_time),

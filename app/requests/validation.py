@@ -75,6 +75,9 @@ def _dimension_errors(draft: Draft) -> Errors:
     reference, dimensions = amounts[0]
     amounts += [(("customers", index, "demand"), len(customer.demand))
                 for index, customer in enumerate(draft.customers or ()) if customer is not None]
+    amounts += [(("customers", index, "pickup"), len(customer.pickup))
+                for index, customer in enumerate(draft.customers or ())
+                if customer is not None and customer.pickup is not None]
     for path, count in amounts:
         if count != dimensions:
             yield error_at("DIMENSION_MISMATCH", path,

@@ -16,6 +16,7 @@ from app.schemas.fields import (
     Seconds,
     Skills,
 )
+from model.problem import MAX_DIMENSIONS
 
 
 class TimeWindowInput(Input):
@@ -67,8 +68,14 @@ class CustomerInput(Input):
     location: Location | None = Field(None, description=LOCATION_TEXT)
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
     demand: Demand = Field(
-        description="Amount to deliver in 1 to 3 dimensions (such as kg and litres), in your "
-        "units; as many as every `capacity`. Counted exactly, with up to nine decimals."
+        description=f"Amount to deliver in 1 to {MAX_DIMENSIONS} dimensions (such as kg and "
+        "litres), in your units; as many as every `capacity`. Counted exactly, with up to nine "
+        "decimals."
+    )
+    pickup: Demand | None = Field(
+        None,
+        description="Amount taken in at this stop, after the delivery, and brought to where the "
+        "trip ends; as `demand`. Null: nothing."
     )
     service_duration: Seconds = Field(0.0, description="Time spent at the customer in seconds.")
     time_window: TimeWindowInput = Field(

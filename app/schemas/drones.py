@@ -20,7 +20,8 @@ class DronesInput(Input):
 
     count: int = Field(ge=0, le=32, description="Drones per truck.")
     capacity: Demand = Field(
-        description="Largest payload of one sortie, per dimension, in the unit of `demand`."
+        description="Largest payload at any point of a sortie, per dimension, in the unit of "
+        "`demand`."
     )
     speed_kmh: Speed | None = Field(
         None,

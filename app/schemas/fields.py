@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.settings import MAX_CUSTOMERS
-from model.problem import MAX_MONEY, MAX_QUANTITY
+from model.problem import MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY
 
 MAX_AMOUNT = MAX_QUANTITY // 1000
 """Largest amount, duration in seconds or distance in metres: all are held as thousandths."""
@@ -19,7 +19,7 @@ Metres = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
 Money = Annotated[float, Field(ge=0, le=MAX_MONEY)]
 # Speed and factor together keep every share of the fastest speed above a millionth.
 Speed = Annotated[float, Field(ge=1, le=1000)]
-Demand = Annotated[list[Amount], Field(min_length=1, max_length=3)]
+Demand = Annotated[list[Amount], Field(min_length=1, max_length=MAX_DIMENSIONS)]
 Location = tuple[float, float]
 LocationIndex = Annotated[int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS)]
 Rounding = Literal["exact", "round", "trunc", "dimacs", "thousandths"]

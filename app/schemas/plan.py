@@ -36,6 +36,7 @@ class VisitInput(_Plan):
     service_start: Instant = Field(description="Start of service.")
     departure: Instant = Field(description="Departure of the drone.")
     lateness: Number = None
+    load: Loads = None
 
 
 class StopInput(_Plan):
@@ -64,6 +65,7 @@ class SortieInput(_Plan):
     customers: list[VisitInput] = Field(description="Customers served, in order.")
     launch_time: Instant = Field(description="Take-off; the launch lies before it.")
     recovery_time: Instant = Field(description="End of the recovery.")
+    load: Loads = None
     distance: Number = None
     duration: Number = None
     energy_wh: Number = None

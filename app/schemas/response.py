@@ -18,7 +18,7 @@ class CostReply(_Reply):
 
     total: float = Field(description="Sum of all terms.")
     fixed: float = Field(description="Vehicles used.")
-    distance: float = Field(description="Kilometres driven and flown.")
+    distance: float = Field(description="Kilometres driven, with what is aboard, and flown.")
     stops: float = Field(description="Customers served by trucks.")
     time: float = Field(description="Hours worked and flown.")
     overtime: float = Field(
@@ -44,7 +44,9 @@ class StopReply(_Reply):
     )
     waiting: float = Field(description="Wait for the time window to open in seconds.")
     lateness: float = Field(description="Arrival after the time window's end in seconds.")
-    load: list[float] = Field(description="Load when the truck leaves, per dimension.")
+    load: list[float] = Field(
+        description="Load when the truck leaves, or ends its trip, per dimension."
+    )
 
 
 class VisitReply(_Reply):
@@ -55,6 +57,7 @@ class VisitReply(_Reply):
     service_start: float = Field(description="Start of service.")
     departure: float = Field(description="Departure of the drone.")
     lateness: float = Field(description="Arrival after the time window's end in seconds.")
+    load: list[float] = Field(description="What the drone carries when it leaves, per dimension.")
 
 
 class SortieReply(_Reply):
@@ -63,6 +66,7 @@ class SortieReply(_Reply):
     drone: str = Field(description="Name of the drone, `<vehicle>/drone-<number>`.")
     launch_stop: int = Field(description="Index in `stops` where it is launched.")
     recovery_stop: int = Field(description="Index in `stops` where it is recovered.")
+    load: list[float] = Field(description="What the drone carries at take-off, per dimension.")
     customers: list[VisitReply] = Field(description="Customers served, in order.")
     launch_time: float = Field(description="Take-off; the launch lies before it.")
     recovery_time: float = Field(description="End of the recovery.")
@@ -76,8 +80,12 @@ class SortieReply(_Reply):
 class TripReply(_Reply):
     """Depot to depot on one loading."""
 
-    load: list[float] = Field(description="Demand carried, drones' parcels too, per dimension.")
-    load_rate: float = Field(description="Load / capacity, the largest over dimensions, 0 to 1.")
+    load: list[float] = Field(
+        description="Load when it begins, drones' parcels too, per dimension."
+    )
+    load_rate: float = Field(
+        description="Highest load at any point / capacity, the largest over dimensions, 0 to 1."
+    )
     distance: float = Field(description="Distance driven in metres.")
     duration: float = Field(description="From first departure or take-off to the end in seconds.")
     stops: list[StopReply] = Field(description="Stops in order, the depot first and last.")

@@ -56,6 +56,11 @@ class CostsInput(Input):
     per_stop: Money = Field(
         0.0, description="Cost per customer whom the truck itself serves, not a drone."
     )
+    per_load_km: Money = Field(
+        0.0,
+        description="Cost per kilometre that the truck drives, and unit of the first dimension "
+        "that it has aboard.",
+    )
 
 
 class SpeedChangeInput(Input):
@@ -120,7 +125,13 @@ class VehicleTypeInput(Input):
     )
     count: int = Field(ge=1, le=10_000, description="Vehicles of this type.")
     capacity: Demand = Field(
-        description="Largest load of one trip, per dimension, drones' parcels included."
+        description="Largest load at any point of a trip, per dimension, drones' parcels "
+        "included."
+    )
+    pickups: Literal["any", "last"] = Field(
+        "any",
+        description="When a trip picks up: at any time, or only `last`, after all its deliveries, "
+        "of which it has at least one.",
     )
     costs: CostsInput = Field(CostsInput(), description="What the vehicles cost.")
     speed_kmh: Speed | None = Field(

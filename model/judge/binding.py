@@ -14,6 +14,7 @@ from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.energy import sortie_energy
+from model.judge.loads import highest, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.places import Place
 from model.judge.rules import airborne_duration
@@ -179,7 +180,7 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
     trip = None if found is None or measured is None else measured.trips[found.place.trip]
     for dimension, (most, places) in enumerate(zip(kind.capacity, bench.problem.amount_decimals,
                                                    strict=True)):
-        slack = None if trip is None else (most - trip.load[dimension]) / 10**places
+        slack = None if trip is None else (most - trip.highest_load[dimension]) / 10**places
         yield (_capacity_field("capacity", kind, dimension), "unit", slack,
                replace(kind, capacity=_one_more(kind.capacity, dimension, 10**places)))
     if kind.latest < UNLIMITED:
@@ -257,9 +258,8 @@ def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
                                                    strict=True)):
         slack = None
         if sortie is not None:
-            carried = sum([bench.problem.customer_at(visit.node).demand[dimension]
-                           for visit in sortie.visits])
-            slack = (most - carried) / 10**places
+            carried = highest(sortie_loads(bench.problem, sortie))
+            slack = (most - carried[dimension]) / 10**places
         more = _one_more(drones.capacity, dimension, 10**places)
         yield (_capacity_field("drones.capacity", kind, dimension), "unit", slack,
                replace(kind, drones=replace(drones, capacity=more)))

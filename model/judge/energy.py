@@ -31,10 +31,12 @@ def hover_energy(energy: Energy, duration: int, weight: int) -> int:
 
 def weights_aboard(problem: Problem, energy: Energy, nodes: Sequence[int]) -> list[int]:
     """Return what is aboard on each leg of a sortie to some customers, the way home last."""
-    weights = [0]
-    for node in reversed(nodes):
-        weights.append(weights[-1] + problem.customer_at(node).demand[energy.dimension])
-    return weights[::-1]
+    customers = [problem.customer_at(node) for node in nodes]
+    weights = [sum([customer.demand[energy.dimension] for customer in customers])]
+    for customer in customers:
+        weights.append(weights[-1] - customer.demand[energy.dimension]
+                       + customer.taken_in[energy.dimension])
+    return weights
 
 
 def sortie_energy(problem: Problem, drones: DroneType, energy: Energy, trip: Trip,

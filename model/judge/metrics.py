@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from model.judge.clock import opening
 from model.judge.energy import sortie_energy
+from model.judge.loads import highest, sortie_loads, trip_loads
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
 from model.solution import Cost, Route, Sortie, Stop, Trip, Visit
 
@@ -15,6 +16,7 @@ class SortieMetrics:
 
     distance: int  # mm
     duration: int  # ms from take-off to the end of recovery
+    loads: tuple[tuple[int, ...], ...]  # (1 + visit, dimension) at take-off, then on leaving each
     energy: int | None = None  # µJ; None where it is not known what flying takes
 
 
@@ -22,9 +24,11 @@ class SortieMetrics:
 class TripMetrics:
     """One trip; distance and duration are the truck's."""
 
-    load: tuple[int, ...]  # (dimension,) parts, drones' parcels too
-    load_rate: float  # load / capacity, the largest over dimensions
+    load: tuple[int, ...]  # (dimension,) parts at its beginning, drones' parcels too
+    highest_load: tuple[int, ...]  # (dimension,) at any point
+    load_rate: float  # highest load / capacity, the largest over dimensions
     distance: int  # mm
+    load_distance: int  # parts of the first dimension times mm, leg by leg
     duration: int  # ms from the first departure or take-off to the end
     stop_loads: tuple[tuple[int, ...], ...]  # (stop, dimension) on the truck when it leaves
     sorties: tuple[SortieMetrics, ...]
@@ -71,41 +75,28 @@ def _measure_sorties(
     return tuple(
         SortieMetrics(sum([distance.item(*leg) for leg in flight_legs(trip, sortie)]),
                       sortie.recovery_time - sortie.launch_time,
+                      tuple(sortie_loads(problem, sortie)),
                       None if drones.energy is None
                       else sortie_energy(problem, drones, drones.energy, trip, sortie))
         for sortie in trip.sorties
     )
 
 
-def _stop_loads(problem: Problem, vehicle_type: VehicleType,
-                trip: Trip) -> list[tuple[int, ...]]:
-    """Return what is on the truck when it leaves each stop, last stop first."""
-    customers, first = problem.customers, len(problem.depots)
-    unloaded = [[customers[stop.node - first].demand] for stop in trip.stops[1:-1]]
-    unloaded = [[], *unloaded, []]
-    for sortie in trip.sorties:
-        unloaded[sortie.launch_stop] += [customers[v.node - first].demand for v in sortie.visits]
-    load = vehicle_type.initial_load or (0,) * problem.num_dimensions
-    loads = []
-    for demands in reversed(unloaded):
-        loads.append(load)
-        for demand in demands:
-            load = tuple([a + b for a, b in zip(load, demand, strict=True)])
-    return [*loads, load]
-
-
 def measure_trip(problem: Problem, vehicle_type: VehicleType, trip: Trip) -> TripMetrics:
     """Return a trip's metrics."""
     distance = problem.travel[vehicle_type.travel].distance
-    loads = _stop_loads(problem, vehicle_type, trip)
-    load = loads.pop()
+    load, *loads = trip_loads(problem, vehicle_type, trip)
+    most = highest([load, *loads])
     nodes = [stop.node for stop in trip.stops]
+    legs = list(map(distance.item, nodes, nodes[1:]))
     return TripMetrics(
         load=load,
-        load_rate=max(map(_rate, load, vehicle_type.capacity)),
-        distance=sum(map(distance.item, nodes, nodes[1:])),
+        highest_load=most,
+        load_rate=max(map(_rate, most, vehicle_type.capacity)),
+        distance=sum(legs),
+        load_distance=sum(aboard[0] * leg for aboard, leg in zip(loads, legs, strict=False)),
         duration=trip.stops[-1].departure - first_departure(trip),
-        stop_loads=tuple(reversed(loads)),
+        stop_loads=tuple(loads),
         sorties=_measure_sorties(problem, vehicle_type.drones, trip),
     )
 
@@ -167,6 +158,9 @@ def measure_route(
     stops = sum([len(trip.stops) - 2 for trip in route.trips])
     distance = sum([trip.distance for trip in trips]) * vehicle_type.cost_per_km
     time = working * vehicle_type.cost_per_hour
+    if vehicle_type.cost_per_load_km:
+        carried = sum([trip.load_distance for trip in trips]) / 10**problem.amount_decimals[0]
+        distance += carried * vehicle_type.cost_per_load_km
     drones = vehicle_type.drones
     if drones is not None:
         flights = [sortie for trip in trips for sortie in trip.sorties]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from operator import gt
 
 from model.judge.energy import sortie_energy
+from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
 from model.judge.timing import TripDecision, latest_release
 from model.problem import (
@@ -68,10 +69,14 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     trip, metrics, path = timed.trip, timed.metrics, timed.path
     if len(trip.stops) == 2 and not any(sortie.visits for sortie in trip.sorties):
         yield Violation("EMPTY_TRIP", "a trip without customers", path)
-    if _exceeds(metrics.load, vehicle_type.capacity):
-        message = (f"load {amounts(problem, metrics.load)} exceeds "
+    if _exceeds(metrics.highest_load, vehicle_type.capacity):
+        message = (f"load {amounts(problem, metrics.highest_load)} exceeds "
                    f"{amounts(problem, vehicle_type.capacity)}")
         yield Violation("CAPACITY", message, path)
+    if vehicle_type.pickups == "last":
+        for where in picks_up_early(problem, vehicle_type, trip):
+            message = f"{vehicle_type.id} picks up only after all deliveries of a trip, one or more"
+            yield Violation("PICKUP_ORDER", message, f"{path}{where}")
     limit = vehicle_type.max_trip_distance
     if limit is not None and metrics.distance > limit:
         message = f"{decimal(metrics.distance)} m, at most {decimal(limit)} m are allowed"
@@ -155,8 +160,7 @@ def _sortie_violations(
         message = f"{len(sortie.visits)} customers, 1 to {drones.max_customers_per_sortie} allowed"
         yield Violation("SORTIE_SIZE", message, path)
     yield from _halt_violations(problem, kind, sortie.visits, f"{path}.visits", 0)
-    demands = [problem.customer_at(visit.node).demand for visit in sortie.visits]
-    payload = tuple(map(sum, zip(*demands, strict=True)))
+    payload = highest(sortie_loads(problem, sortie))
     if _exceeds(payload, drones.capacity):
         message = (f"payload {amounts(problem, payload)} exceeds "
                    f"{amounts(problem, drones.capacity)}")

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,9 @@ from model.solution import Solution
 
 MAX_LAUNCH_PLACES = 4
 """Other customers' places, nearest first, where a drone is tried if it fails from the depot."""
+
+MAX_HOSTS = 4
+"""Other customers, nearest first, to whom something is delivered before a pickup is tried."""
 
 HOPELESS = frozenset({"VEHICLE", "SKILLS", "CAPACITY"})
 """Rules that whoever breaks them on one trip breaks on all."""
@@ -83,6 +87,9 @@ def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:
             yield attempt
             if attempt.codes & HOPELESS:
                 return
+        if _comes_second(problem, kind, customer):
+            for host in _delivered_first(problem, kind, node):
+                yield _try_behind(small_problem(problem, kind, [host, node]))
     if customer.served_by != "truck" and drones is not None:
         loops = [_try_loop(small, drones, opens) for opens in customer.openings]
         yield from loops
@@ -127,6 +134,39 @@ def _try_truck_at(problem: Problem, opens: int) -> Iterator[Attempt]:
             )
             if start >= earliest
         )
+
+
+def _comes_second(problem: Problem, kind: int, customer: Customer) -> bool:
+    """Tell whether a truck may come to a customer only after it has delivered to another."""
+    return (problem.vehicle_types[kind].pickups == "last" and any(customer.pickup)
+            and not any(customer.demand))
+
+
+def _try_behind(problem: Problem) -> Attempt:
+    """Return a trip to the first customer, then to the second."""
+    host, _ = problem.customers
+    vehicle_type, node = problem.vehicle_types[0], problem.num_depots
+    outward = problem.travel[0].duration.item(0, node)
+    start = max(vehicle_type.earliest, *(each.release_time for each in problem.customers),
+                leg_start(host.earliest, outward, vehicle_type.speed_profile))
+    return _judge(problem, TripDecision((0, node, node + 1, vehicle_type.ends_at), start=start))
+
+
+def _delivered_first(problem: Problem, kind: int, node: int) -> list[int]:
+    """Return customers near another to whom a truck of this type may deliver something."""
+    first, skills = problem.num_depots, problem.vehicle_types[kind].skills
+    near = np.argsort(problem.travel[problem.vehicle_types[kind].travel].duration[first:, node],
+                      kind="stable")
+    hosts = (index + first for index in near.tolist()
+             if index + first != node and _takes_a_parcel(problem.customers[index], skills)
+             and problem.allows(kind, index + first))
+    return list(islice(hosts, MAX_HOSTS))
+
+
+def _takes_a_parcel(customer: Customer, skills: frozenset[str]) -> bool:
+    """Tell whether a truck with these skills may come to a customer and delivers, no more."""
+    return (any(customer.demand) and not any(customer.pickup) and customer.served_by != "drone"
+            and customer.skills <= skills)
 
 
 def _try_loop(problem: Problem, drones: DroneType, opens: int) -> Attempt:

@@ -27,12 +27,12 @@ SOURCES = (
         "flight", "load", "clock", "leg")),
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (
-        "vehicle_log", "cost", "meeting", "transition", "trial", "simulator")),
+        "vehicle_log", "cost", "meeting", "aboard", "transition", "trial", "simulator")),
     *(f"policy/{part}" for part in (
         "tokens", "observation", "lookahead", "features", "resampling", "rollouts")),
     *(f"search/route/{part}" for part in (
-        "layout", "ends", "randomness", "block", "routes", "lean", "refresh", "edit", "state",
-        "vehicles")),
+        "layout", "ends", "randomness", "block", "routes", "vehicles", "halts", "lean", "refresh",
+        "edit", "state")),
     *(f"search/insertion/{part}" for part in (
         "evaluate", "cheapest_stop", "new_trips", "offers", "places")),
     *(f"search/moves/{part}" for part in (

@@ -13,11 +13,14 @@ from model.kernel.nearest import least_columns
 from model.kernel.pausing import Pause, go_on, matrix_blocks
 from model.kernel.records import Records, record
 from model.problem import (
-    MAX_POINTS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, Energy, FloatArray,
-    IntArray, Problem, VehicleType,
+    MAX_DIMENSIONS, MAX_POINTS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, Energy,
+    FloatArray, IntArray, Problem, VehicleType,
 )
 
-MAX_DIMENSIONS = 3
+TIER = 3
+"""How many dimensions of load are looked at together."""
+
+MAX_TIERS = -(-MAX_DIMENSIONS // TIER)
 
 MAX_NEIGHBOURS = 24
 """How many nearest customers of each node are kept."""
@@ -30,10 +33,10 @@ SIZE = record("depots", "customers", "types", "dimensions")
 """How many of each a problem has."""
 
 NODE = record("window_earliest", "arrival_limit", "service_duration", "release", "window_latest",
-              demand=MAX_DIMENSIONS)
+              demand=TIER)
 """A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
 that is allowed, `FAR` where lateness only costs; service duration; release; the last arrival that
-is not late; demand by dimension.
+is not late; demand in the first dimensions.
 
 Where somebody has several windows, each node has more rows, one for each gap between two: its
 `window_latest` closes the window before, `FAR` behind the last, and its `window_earliest` opens the
@@ -48,22 +51,29 @@ TYPE = record(
     "max_trip_distance", "max_trips", "max_stops", "max_sorties", "reload_duration",
     "speed_changes", "drones", "drone_travel", "endurance", "waiting_counts", "launch_duration",
     "recovery_duration", "drone_service_duration", "points", "battery", "lands", "climb_duration",
-    "descent_duration", "weight_dimension", capacity=MAX_DIMENSIONS, payload=MAX_DIMENSIONS,
-    weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS)
+    "descent_duration", "weight_dimension", "pickup_order", "carried", capacity=MAX_TIERS * TIER,
+    payload=MAX_TIERS * TIER, weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS,
+    climb=MAX_POINTS, descent=MAX_POINTS)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
 its working duration, and costs as if it were fixed. The end of the shift and the longest working
 duration are with overtime; what is `usual` is without. Its drones' powers are known at so many
-`points`, by weight; none if no battery limits them."""
+`points`, by weight; none if no battery limits them. It picks up in any order, or after all that a
+trip delivers, which is something, or was before the trip begins here; what else it carries in the
+first dimension."""
+ANY, LAST, BEGUN = range(3)
 
 NO_PROFILE = -1
 NO_DRONES = (0,) * 7
 NO_ENERGY = (0,) * 6
 
 RATE = record(fixed=float, distance=float, stop=float, time=float, overtime=float,
-              drone_distance=float, drone_time=float)
-"""What a vehicle costs, and what per km, per customer of the truck and per hour, its drones'
-apart."""
+              drone_distance=float, drone_time=float, load=float)
+"""What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
+per km and part of the first dimension aboard."""
+
+AMOUNTS = 2 * TIER + 2
+"""Of a tier at a node: what is delivered, what is picked up, and both sums over all dimensions."""
 
 
 class Instance(NamedTuple):
@@ -71,6 +81,7 @@ class Instance(NamedTuple):
 
     size: Records  # (problem,) SIZE
     node: Records  # (problem, node, 1 + gaps) NODE
+    amount: IntArray  # (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
     price: Records  # (problem, node) PRICE
     type: Records  # (problem, type) TYPE
     rate: Records  # (problem, type) RATE
@@ -108,6 +119,7 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
     instance = Instance(
         size=np.zeros(rows, SIZE),
         node=np.zeros((rows, nodes, 1 + gaps), NODE),
+        amount=np.zeros((rows, nodes, _num_tiers(problems), AMOUNTS), np.int64),
         price=np.zeros((rows, nodes), PRICE),
         type=np.zeros((rows, types), TYPE),
         rate=np.zeros((rows, types), RATE),
@@ -137,6 +149,14 @@ def _num_changes(vehicle_type: VehicleType) -> int:
     return 0 if profile is None else len(profile.times)
 
 
+def _num_tiers(problems: Sequence[Problem]) -> int:
+    """Return how many tiers loads have to be looked at in from stop to stop."""
+    tiers = max(-(-problem.num_dimensions // TIER) for problem in problems)
+    changes = any(any(customer.pickup) for problem in problems for customer in problem.customers)
+    costs = any(kind.cost_per_load_km for problem in problems for kind in problem.vehicle_types)
+    return tiers if tiers > 1 or changes or costs else 0
+
+
 def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
     """Write one problem. In place."""
     dimensions = problem.num_dimensions
@@ -147,6 +167,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
         instance.node[row, depots:nodes, 0] = [
             _customer_row(customer) for customer in problem.customers]
         _pack_gaps(instance.node[row, depots:nodes, 1:], problem.customers)
+        _pack_amounts(instance.amount[row, depots:nodes], problem.customers)
         instance.price[row, depots:nodes] = [
             (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
             for customer in problem.customers]
@@ -161,12 +182,26 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
         instance.rate[row, index] = (
             kind.fixed_cost + worked, kind.cost_per_km, kind.cost_per_stop, kind.cost_per_hour,
             kind.overtime.cost_per_hour if kind.overtime else 0.0,
-            drones.cost_per_km if drones else 0.0, drones.cost_per_hour if drones else 0.0)
+            drones.cost_per_km if drones else 0.0, drones.cost_per_hour if drones else 0.0,
+            kind.cost_per_load_km / 10**problem.amount_decimals[0])
         if kind.speed_profile is not None:
             changes = len(kind.speed_profile.times)
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
     _pack_compatibility(instance, row, problem)
+
+
+def _pack_amounts(rows: IntArray, customers: Sequence[Customer]) -> None:
+    """Write what is delivered and picked up, (customer, tier, amount). In place."""
+    tiers = rows.shape[1]
+    if not tiers:
+        return
+    shape = len(customers), tiers, TIER
+    for first, amounts in ((0, [customer.demand for customer in customers]),
+                           (TIER, [customer.pickup for customer in customers])):
+        table = np.array([_padded(amount, tiers * TIER) for amount in amounts], np.int64)
+        rows[:, :, first:first + TIER] = table.reshape(shape)
+        rows[:, :, 2 * TIER + first // TIER] = table.sum(axis=1)[:, None]
 
 
 def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
@@ -188,12 +223,12 @@ def _pack_travel(instance: Instance, row: int, problem: Problem, pause: Pause) -
 def _customer_row(customer: Customer) -> tuple[Any, ...]:
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
-            customer.latest, _padded(customer.demand))
+            customer.latest, _padded(customer.demand, TIER))
 
 
-def _padded(amount: Sequence[int]) -> tuple[int, ...]:
-    """Return an amount with zeros in the dimensions that the problem doesn't have."""
-    return (*amount, *(0,) * (MAX_DIMENSIONS - len(amount)))
+def _padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
+    """Return so many dimensions of an amount, zero in those that the problem doesn't have."""
+    return (*amount[:length], *(0,) * (length - len(amount)))
 
 
 def _type_row(kind: VehicleType) -> tuple[Any, ...]:
@@ -209,8 +244,14 @@ def _type_row(kind: VehicleType) -> tuple[Any, ...]:
         _limit(kind.max_sorties), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
         *(NO_DRONES if drones is None else _drones(drones)),
-        *_battery(energy), _padded(free), _padded(() if drones is None else drones.capacity),
-        *_powers(energy))
+        *_battery(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
+        _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *_powers(energy))
+
+
+def _pickup_order(kind: VehicleType) -> int:
+    if kind.pickups == "any":
+        return ANY
+    return BEGUN if kind.has_delivered else LAST
 
 
 def _changes_ends(kind: VehicleType) -> int:
@@ -264,7 +305,7 @@ def _worked(kind: VehicleType) -> int:
 def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
     """Write which types may serve which customers, by truck and by drone. In place."""
     customers = slice(problem.num_depots, problem.num_nodes)
-    demand = instance.node[row, customers, 0]["demand"]
+    most = _most_asked_for(problem, instance.node[row, customers, 0])
     by_truck = np.array([c.served_by != "drone" for c in problem.customers], np.bool_)
     by_drone = np.array([c.served_by != "truck" for c in problem.customers], np.bool_)
     asking: dict[frozenset[str], list[int]] = {}
@@ -272,7 +313,8 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
         if skills:
             asking.setdefault(skills, []).append(customer)
     for index, kind in enumerate(problem.vehicle_types):
-        fits = np.all(demand <= instance.type[row, index].capacity, axis=1)
+        dimensions = slice(most.shape[1])
+        fits = np.all(most <= instance.type[row, index].capacity[dimensions], axis=1)
         for skills, customers_asking in asking.items():
             if not skills <= kind.skills:
                 fits[customers_asking] = False
@@ -280,9 +322,34 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
             fits &= problem.may_serve[index]
         instance.can_drive[row, index, customers] = fits & by_truck & (kind.max_stops != 0)
         if kind.drones is not None and kind.max_sorties != 0:
-            payload = instance.type[row, index].payload
-            liftable = (demand <= payload).all(axis=1)
-            instance.can_fly[row, index, customers] = fits & by_drone & liftable
+            payload = instance.type[row, index].payload[dimensions]
+            liftable = (most <= payload).all(axis=1)
+            instance.can_fly[row, index, customers] = (
+                fits & by_drone & liftable & _may_be_flown_to(problem, kind.drones))
+
+
+def _most_asked_for(problem: Problem, rows: Records) -> IntArray:
+    """Return the most that each customer alone asks to be aboard, (customer, dimension)."""
+    most: IntArray = rows["demand"]
+    if problem.num_dimensions > TIER:
+        most = np.array([customer.demand for customer in problem.customers], np.int64)
+        most = most.reshape(problem.num_customers, problem.num_dimensions)
+    if any(customer.pickup for customer in problem.customers):
+        picked = [_padded(customer.pickup, most.shape[1]) for customer in problem.customers]
+        most = np.maximum(most, np.array(picked, np.int64))
+    return most
+
+
+def _may_be_flown_to(problem: Problem, drones: DroneType) -> BoolArray:
+    """Mark the customers whose weight aboard a drone is known by `NODE`, if a battery limits it.
+
+    What drones pick up then, and weights in later dimensions, are left to trucks.
+    """
+    if drones.energy is None:
+        return np.ones(problem.num_customers, np.bool_)
+    if drones.energy.dimension >= TIER:
+        return np.zeros(problem.num_customers, np.bool_)
+    return np.array([not any(customer.pickup) for customer in problem.customers], np.bool_)
 
 
 def _pack_neighbours(instance: Instance, row: int, problem: Problem, pause: Pause) -> None:

@@ -5,7 +5,7 @@ Like the tokens, all numbers are free of units. Training and decoding share this
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import longest_flight
-from model.kernel.instance import MAX_DIMENSIONS, Instance
+from model.kernel.instance import TIER, Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import demand_of, release_of
 from model.kernel.records import Record, Records
@@ -40,7 +40,7 @@ def _describe_customer(setting: Setting, unit: Unit, prices: Records, vehicle: R
     feature.window_slack = slack(closing(place), arrival, unit.time)
     window_cost = late * prices[node].lateness + waiting * prices[node].waiting
     feature.lateness = ratio(window_cost / MS_PER_HOUR, unit.cost)
-    for dimension in range(MAX_DIMENSIONS):
+    for dimension in range(TIER):
         demand = place[0].demand[dimension]
         if demand > 0:
             capacity = setting.type.capacity[dimension]

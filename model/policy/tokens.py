@@ -117,9 +117,10 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     place = (coordinates - (low + high) / 2) / extent * 2
     nodes = instance.node[..., 0]
     is_depot = np.arange(nodes.shape[1]) < instance.size["depots"][:, None]
-    capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None]
-    payload = instance.type["payload"].max(axis=1)[:, None]
     demand = nodes["demand"]
+    seen = demand.shape[-1]
+    capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :seen]
+    payload = instance.type["payload"].max(axis=1)[:, None, :seen]
     types = np.maximum(instance.size["types"], 1)[:, None]
     earliest, latest = nodes["window_earliest"], nodes["window_latest"]
     home = instance.duration[:, 0, 0, :]

@@ -4,17 +4,18 @@ from model.problem.customer import Customer, Depot, DepotKind, ServedBy
 from model.problem.energy import (
     MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy,
 )
-from model.problem.fleet import DroneType, SpeedProfile, VehicleType
+from model.problem.fleet import DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.overtime import Overtime
 from model.problem.problem import Problem, Travel
 from model.problem.quantities import (
-    FULL_SPEED, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, UNREACHABLE,
-    USUAL_DECIMALS, BoolArray, FloatArray, IntArray, UIntArray,
+    FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED,
+    UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray, UIntArray,
 )
 
 __all__ = [
-    "FULL_SPEED", "MAX_BATTERY", "MAX_MONEY", "MAX_POINTS", "MAX_POWER", "MAX_QUANTITY",
-    "MICROJOULES_PER_WH", "MM_PER_KM", "MS_PER_HOUR", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS",
-    "BoolArray", "Customer", "Depot", "DepotKind", "DroneType", "Energy", "FloatArray", "IntArray",
-    "Overtime", "Problem", "ServedBy", "SpeedProfile", "Travel", "UIntArray", "VehicleType",
+    "FULL_SPEED", "MAX_BATTERY", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS", "MAX_POWER",
+    "MAX_QUANTITY", "MICROJOULES_PER_WH", "MM_PER_KM", "MS_PER_HOUR", "UNLIMITED", "UNREACHABLE",
+    "USUAL_DECIMALS", "BoolArray", "Customer", "Depot", "DepotKind", "DroneType", "Energy",
+    "FloatArray", "IntArray", "Overtime", "Pickups", "Problem", "ServedBy", "SpeedProfile",
+    "Travel", "UIntArray", "VehicleType",
 ]

@@ -35,10 +35,13 @@ class Customer:
     unassigned_cost: float | None = None  # of leaving it out; None: the problem's
     gaps: tuple[tuple[int, int], ...] = ()
     """Between several windows: last arrival in one, first start of service in the next."""
+    pickup: tuple[int, ...] = ()  # (dimension,) parts taken in, to where the trip ends; (): nothing
 
     def __post_init__(self) -> None:
         for amount in self.demand:
             require_quantity(f"customer {self.id} demand", amount)
+        for amount in self.pickup:
+            require_quantity(f"customer {self.id} pickup", amount)
         require_quantity(f"customer {self.id} service_duration", self.service_duration)
         require_quantity(f"customer {self.id} release_time", self.release_time)
         require_quantity(f"customer {self.id} earliest", self.earliest)
@@ -57,3 +60,8 @@ class Customer:
     def openings(self) -> tuple[int, ...]:
         """When each window opens."""
         return (self.earliest, *(reopens for _, reopens in self.gaps))
+
+    @property
+    def taken_in(self) -> tuple[int, ...]:
+        """What is picked up, by dimension."""
+        return self.pickup or (0,) * len(self.demand)

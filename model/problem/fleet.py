@@ -1,10 +1,13 @@
 """Vehicles and their drones."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from model.problem.energy import Energy
 from model.problem.overtime import Overtime
 from model.problem.quantities import FULL_SPEED, UNLIMITED, require, require_quantity, require_rate
+
+Pickups = Literal["any", "last"]
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,7 @@ class VehicleType:
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0  # of working time
     cost_per_stop: float = 0.0  # per customer served by the truck
+    cost_per_load_km: float = 0.0  # per unit of the first dimension aboard
     speed_profile: SpeedProfile | None = None
     earliest: int = 0  # shift
     latest: int = UNLIMITED
@@ -79,6 +83,8 @@ class VehicleType:
     max_sorties: int | None = None  # on a trip, of all drones together
     reload_duration: int = 0  # at the depot between trips
     skills: frozenset[str] = frozenset()
+    pickups: Pickups = "any"  # "last": on each trip after all deliveries, of which there is one
+    has_delivered: bool = False  # on its trip, before it begins
     drones: DroneType | None = None
     start: int | None = None  # where its first trip begins, a node; None: at the depot
     end: int | None = None  # where its last trip ends
@@ -104,7 +110,7 @@ class VehicleType:
                      "max_trip_distance", "max_stops", "max_sorties"):
             require_quantity(f"vehicle type {self.id} {name}", getattr(self, name) or 0)
         for name in ("fixed_cost", "cost_per_km", "cost_per_hour", "cost_per_stop",
-                     "co2_kg_per_km", "co2_kg_per_kwh"):
+                     "cost_per_load_km", "co2_kg_per_km", "co2_kg_per_kwh"):
             require_rate(f"vehicle type {self.id} {name}", getattr(self, name) or 0.0)
         self._require_beginning()
 
@@ -114,7 +120,7 @@ class VehicleType:
             require_quantity(f"vehicle type {self.id} initial_load", load, most)
         since = self.works_since or 0
         require_quantity(f"vehicle type {self.id} works_since", since, self.earliest)
-        begun = any(self.initial_load) or self.busy_until > 0
+        begun = any(self.initial_load) or self.busy_until > 0 or self.has_delivered
         require(self.max_trips == 1 or not begun, f"vehicle type {self.id} max_trips",
                  self.max_trips)
 

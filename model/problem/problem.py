@@ -8,8 +8,8 @@ import numpy as np
 from model.problem.customer import Customer, Depot
 from model.problem.fleet import VehicleType
 from model.problem.quantities import (
-    MAX_QUANTITY, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray, require,
-    require_rate,
+    MAX_DIMENSIONS, MAX_QUANTITY, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray,
+    require, require_rate,
 )
 
 
@@ -58,7 +58,7 @@ class Problem:
         require(len(self.vehicle_types) >= 1, "vehicle types", "none")
         require_rate("unassigned_cost", self.unassigned_cost)
         dimensions = len(self.vehicle_types[0].capacity)
-        require(1 <= dimensions <= 3, "capacity dimensions", dimensions)
+        require(1 <= dimensions <= MAX_DIMENSIONS, "capacity dimensions", dimensions)
         object.__setattr__(self, "num_dimensions", dimensions)
         if not self.amount_decimals:
             object.__setattr__(self, "amount_decimals", (USUAL_DECIMALS,) * dimensions)

@@ -28,6 +28,9 @@ MAX_MONEY = 1e12
 USUAL_DECIMALS = 3
 """Decimals of amounts, unless a problem states others."""
 
+MAX_DIMENSIONS = 8
+"""Most dimensions of load."""
+
 FULL_SPEED = 1_000_000
 """Factor of a speed profile at which a leg takes its matrix duration."""
 

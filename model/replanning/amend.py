@@ -158,7 +158,9 @@ def _latest_first(trip: TripDecision) -> list[int]:
 def _relieving(problem: Problem, decision: RouteDecision, trip: TripDecision) -> list[int]:
     """Return a trip's customers, first the lightest without whom the rest fits, then the heavy."""
     customers = customers_of(trip)
-    demands = {node: problem.customer_at(node).demand for node in customers}
+    each = {node: problem.customer_at(node) for node in customers}
+    demands = {node: tuple(map(max, customer.demand, customer.taken_in))
+               for node, customer in each.items()}
     capacity = problem.vehicle_types[decision.vehicle_type].capacity
     load = tuple(map(sum, zip(*demands.values(), strict=True)))
 

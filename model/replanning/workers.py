@@ -5,10 +5,12 @@ from the place where it is, and for later ones, which begin once that would be o
 given.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import le
+from typing import Literal
 
+from model.judge.loads import highest, trip_loads
 from model.judge.metrics import allowed_overtime, first_departure
 from model.judge.past import Past, Vehicle
 from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType
@@ -53,7 +55,7 @@ def find_workers(problem: Problem, past: Past,
     for vehicle, route in kept.items():
         home_by = _home_by(problem.vehicle_types[vehicle.type], route)
         way_on = route.way_on
-        if way_on is not None and _can_go_on(problem, route, home_by):
+        if way_on is not None and _can_go_on(problem, route, way_on.aboard, home_by):
             home = min(way_on.planned_end, home_by)
             later = _later(problem, past, route, home, home_by)
             workers.append(_rest_of_trip(problem, route, way_on,
@@ -119,12 +121,26 @@ def _driven(problem: Problem, route: Kept) -> tuple[int, int]:
     return sum(map(distance.item, nodes[:-2], nodes[1:-1])), distance.item(*nodes[-2:])
 
 
-def _load(problem: Problem, route: Kept) -> tuple[int, ...]:
-    """Return what a vehicle has carried on its last trip for those whom it serves in any case."""
+def _load(problem: Problem, route: Kept, aboard: Sequence[int]) -> tuple[int, ...]:
+    """Return what the rest of a trip has to leave room for beside what it delivers and picks up.
+
+    That is the most that the truck has carried so far for those whom it serves in any case; if it
+    had room for all that is `aboard` as well, what it has picked up.
+    """
     kind = problem.vehicle_types[route.vehicle.type]
-    demands = [problem.customer_at(node).demand for node in customers_of(route.decision.trips[-1])]
-    own = kind.initial_load or (0,) * problem.num_dimensions
-    return tuple(map(sum, zip(own, *demands, strict=True)))
+    loads = trip_loads(problem, kind, route.route.trips[-1])
+    most = highest(loads)
+    if not any(problem.customer_at(node).pickup
+               for node in (*customers_of(route.decision.trips[-1]), *aboard)):
+        return most
+    rest = [problem.customer_at(node).demand for node in aboard]
+    before = map(sum, zip(most, *rest, strict=True))
+    return loads[-1] if all(map(le, before, kind.capacity)) else most
+
+
+def _has(problem: Problem, nodes: Iterable[int], what: Literal["demand", "pickup"]) -> bool:
+    """Tell whether anything is delivered to, or picked up at, customers."""
+    return any(any(getattr(problem.customer_at(node), what)) for node in nodes)
 
 
 def _left(limit: int | None, done: int) -> int | None:
@@ -138,13 +154,15 @@ def _counts_left(problem: Problem, route: Kept) -> tuple[int | None, int | None]
     return (_left(kind.max_stops, len(trip.nodes) - 2), _left(kind.max_sorties, len(trip.sorties)))
 
 
-def _can_go_on(problem: Problem, route: Kept, home_by: int) -> bool:
+def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: int) -> bool:
     """Tell whether a vehicle can deliver some of what it carries."""
     kind = problem.vehicle_types[route.vehicle.type]
-    limit = kind.max_trip_distance
-    return (route.end <= home_by
+    limit, served = kind.max_trip_distance, customers_of(route.decision.trips[-1])
+    is_blocked = (kind.pickups == "last" and _has(problem, served, "pickup")
+                  and _has(problem, aboard, "demand"))
+    return (route.end <= home_by and not is_blocked
             and all(count is None or count >= 0 for count in _counts_left(problem, route))
-            and all(map(le, _load(problem, route), kind.capacity))
+            and all(map(le, _load(problem, route, aboard), kind.capacity))
             and (limit is None or sum(_driven(problem, route)) <= limit))
 
 
@@ -157,7 +175,8 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
         _own_type(problem, route, way_on.ready, home_by, 1), end=trip.nodes[-1],
         max_trip_distance=_left(limit, _driven(problem, route)[0]),
         max_stops=stops, max_sorties=sorties,
-        initial_load=_load(problem, route),
+        initial_load=_load(problem, route, way_on.aboard),
+        has_delivered=_has(problem, customers_of(trip), "demand"),
         busy_until=way_on.ready + way_on.service_left, works_since=way_on.ready)
     place = trip.nodes[way_on.position]
     return Worker(route.vehicle, own, way_on.aboard, place)

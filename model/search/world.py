@@ -15,8 +15,8 @@ from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
 from model.search.route.layout import (
-    MODE_APART, MODE_LEAN, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE, MODE_TIMED,
-    MOST_VISITS, World,
+    MODE_APART, MODE_LEAN, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE,
+    MODE_TIMED, MOST_VISITS, World,
 )
 
 NEAR_RUIN = 128
@@ -113,13 +113,13 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         traded=moves.types and bool(swap.any()),
         mixed=moves.types and len(problem.vehicle_types) > 1 and general,
         scan_all=scan_all, optional=not bool(must_serve.any()),
-        adds_up=not bool((mode & (MODE_SETTLED | MODE_RETIMED)).any()),
+        adds_up=_adds_up(types, mode),
         keeps=scan_all and (not general or blink <= LEAST_BLINK),
         blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_more=instance.unassigned_more[0],
         unequal=bool(instance.unassigned_more[0].any()),
         must_serve=must_serve,
-        place=place, price=_per_ms(instance.price[0]),
+        place=place, amount=instance.amount[0], price=_per_ms(instance.price[0]),
         type=types, rate=_per_unit(rates), mode=mode,
         reload=instance.reload[0], visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
@@ -147,6 +147,7 @@ def _per_unit(rates: Records) -> Records:
         for field in (name, f"drone_{name}"):
             rate[field] = rates[field] / unit
     rate["overtime"] = rates["overtime"] / MS_PER_HOUR
+    rate["load"] = rates["load"] / MM_PER_KM
     return rate
 
 
@@ -176,7 +177,8 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)
     settled = np.logical_or(early, retimed & timed)
-    priced = np.logical_or(soft, settled | retimed)
+    loaded = rates["load"] > 0
+    priced = np.logical_or(soft, settled | retimed | loaded)
     release = bool((place["release"] > 0).any())
     # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
     # one trip that waits for nothing.
@@ -185,9 +187,18 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     lean = (simple & ~(timed | release | (types["max_trip_distance"] < UNLIMITED))
             & (types["max_trips"] == 1) & (types["drones"] == 0))
     mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
-                      + MODE_RETIMED * retimed + MODE_SIMPLE * simple
+                      + MODE_RETIMED * retimed + MODE_LOADED * loaded + MODE_SIMPLE * simple
                       + MODE_LEAN * lean + MODE_APART * types["changes_ends"]).astype(np.int64)
     return mode
+
+
+def _adds_up(types: Records, mode: IntArray) -> bool:
+    """Tell whether to insert a customer never saves anything, if no detour does.
+
+    What is aboard is driven less far where a trip is split.
+    """
+    split = (mode & MODE_LOADED > 0) & (types["max_trips"] > 1)
+    return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split).any())
 
 
 def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
@@ -209,7 +220,7 @@ def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
     """Mark the pairs of types whose vehicles may drive each other's routes."""
     table = problem.may_serve
     group = _numbered([(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
-                        kind.overtime, kind.skills,
+                        kind.overtime, kind.skills, kind.pickups, kind.has_delivered,
                         None if table is None else table[index].tobytes())
                        for index, kind in enumerate(problem.vehicle_types)])
     lean = mode & MODE_LEAN > 0
@@ -231,7 +242,8 @@ def _splices(problem: Problem, swap: BoolArray) -> BoolArray:
     """
     kinds = problem.vehicle_types
     group = _numbered([(kind.travel, kind.capacity, kind.fixed_cost, kind.cost_per_km,
-                        kind.cost_per_hour, kind.cost_per_stop, kind.overtime) for kind in kinds])
+                        kind.cost_per_hour, kind.cost_per_stop, kind.cost_per_load_km,
+                        kind.pickups, kind.overtime) for kind in kinds])
     plain = np.array([kind.drones is None and kind.max_trips == 1 for kind in kinds])
     splices: BoolArray = (group[:, None] == group) & plain & plain[:, None]
     return splices | swap

@@ -5,6 +5,7 @@ import numpy as np
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
+from model.kernel.load import delivered_of, picked_of
 from model.kernel.records import Record, Records, record
 from model.kernel.shift import overtime
 from model.kernel.stop import lateness
@@ -23,6 +24,43 @@ def add_window_cost(instance: Instance, b: int, node: int, arrival: int, start: 
     late = lateness(instance.node[b, node], arrival)
     cost.lateness += late / MS_PER_HOUR * instance.price[b, node].lateness
     cost.earliness += (start - arrival) / MS_PER_HOUR * instance.price[b, node].waiting
+
+
+@inlined
+def load_distance(instance: Instance, setting: Setting, log: VehicleLog, b: int,
+                  trip: int) -> float:
+    """Return the load in the first dimension times the way it is driven, on one trip."""
+    first, behind = log.trip[trip].first_stop, log.count.stops
+    if trip + 1 < log.count.trips:
+        behind = log.trip[trip + 1].first_stop
+    legs = matrix_of(instance.distance, b, setting.type.travel)
+    carried = 0.0
+    for index in range(first, behind - 1):
+        load = setting.type.carried
+        for other in range(first + 1, behind - 1):
+            load += aboard_at(setting, log.stop[other].node, other, other, index)
+        for number in range(log.count.sorties):
+            sortie = log.sortie[number]
+            if first <= sortie.launch_stop < behind:
+                load += aboard_at(setting, sortie.node, sortie.launch_stop, sortie.recovery_stop,
+                                  index)
+        leg = lookup(legs, log.stop[index].node, log.stop[index + 1].node)
+        carried += float(load) * float(leg)
+    return carried
+
+
+@inlined
+def aboard_at(setting: Setting, node: int, left: int, came: int, stop: int) -> int:
+    """Return what of a customer's is on the truck when it leaves a stop, in the first dimension.
+
+    The parcel leaves it at stop `left`, what is picked up comes aboard at stop `came`.
+    """
+    aboard = 0
+    if left > stop:
+        aboard += delivered_of(setting.amount, node, 0)[0]
+    if came <= stop:
+        aboard += picked_of(setting.amount, node, 0)[0]
+    return aboard
 
 
 @compiled
@@ -50,6 +88,11 @@ def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: i
     working = end - first_departure(setting, log, log.trip[0].start)
     cost.fixed += rate.fixed
     cost.distance += driven / MM_PER_KM * rate.distance
+    if rate.load > 0.0:
+        carried = 0.0
+        for trip in range(log.count.trips):
+            carried += load_distance(instance, setting, log, b, trip)
+        cost.distance += carried / MM_PER_KM * rate.load
     cost.distance += flown / MM_PER_KM * rate.drone_distance
     served = log.count.stops - 2 * log.count.trips
     cost.stops += served * rate.stop

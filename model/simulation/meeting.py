@@ -11,7 +11,7 @@ from model.kernel.flight import (
     can_serve, held_takeoff, launch_begin, ready, recovery_end, take_off, unreachable,
     within_endurance, within_energy,
 )
-from model.kernel.instance import MAX_DIMENSIONS
+from model.kernel.instance import MAX_TIERS, TIER
 from model.kernel.leg import lookup
 from model.kernel.records import Record, Records, record
 from model.kernel.stop import too_late
@@ -19,12 +19,14 @@ from model.simulation.vehicle_log import IN_FLIGHT, Setting, travel_arrival
 
 VEHICLE = record(
     "type", "index", "node", "idle", "service_end", "crew", "free", "distance", "start_best",
-    "departure_best", "next_start", "flying", load=MAX_DIMENSIONS)
+    "departure_best", "next_start", "flying", "given", "picked", "taken",
+    load=MAX_TIERS * TIER, aboard=MAX_TIERS * TIER)
 """The open vehicle: type (`NO_VEHICLE` before the first opens), index within the type,
 node, idle (at the depot, no trip begun), end of service here, end of the recoveries here, end of
 the launches after them as if none was held back, distance of the trip, the latest known start of
 the first trip that costs nothing, the departure that follows from it, earliest start of the next
-trip, drones in flight, load left by dimension."""
+trip, drones in flight; of the trip, sums over dimensions of what is delivered and of what is picked
+up before the stop here and by now, the load left by dimension and what of pickups is aboard."""
 
 DRONE = record("sortie", "place", "node", "takeoff", "ready", "back", "recovery")
 """A drone: sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,

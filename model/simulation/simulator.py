@@ -16,16 +16,17 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
-from model.kernel.load import demand_of, release_of, within
+from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.shift import allows_sorties, allows_stops
 from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
+from model.simulation.aboard import given_by_flight, holds_all, is_within, may_launch
 from model.simulation.meeting import NO_VEHICLE, leave_for
 from model.simulation.transition import (
     State, board, clear_vehicle, close_vehicle, drive, empty_state, improve_departure, launch,
-    load_left, open_vehicle,
+    open_vehicle,
 )
 from model.simulation.trial import OUTLOOK, legal_by_trial, may_reload
 from model.simulation.vehicle_log import (
@@ -77,6 +78,8 @@ def _judge_drive(setting: Setting, vehicle: Record, drones: Records, earliest: i
         _, arrival, free = leave_for(setting, vehicle, drones, node)
         if arrival < 0:
             return NO
+    if not holds_all(setting, vehicle, drones, node, True):
+        return NO
     if too_late(place, arrival):
         return NO
     start = start_of_service(place, arrival)
@@ -106,11 +109,15 @@ def _judge_launch(setting: Setting, vehicle: Record, drones: Records, departure:
         return NO
     free = vehicle.free
     drone = board(setting, vehicle, drones, 0, node, takeoff)
+    delivered = given_by_flight(setting, node)
+    vehicle.given += delivered
     _, home, end = leave_for(setting, vehicle, drones, setting.type.ends_at)
+    is_held = home >= 0 and holds_all(setting, vehicle, drones, setting.type.ends_at, False)
     drones[drone].sortie = IN_FLIGHT
+    vehicle.given -= delivered
     vehicle.flying -= 1
     vehicle.free = free
-    if home < 0:
+    if not is_held:
         return NO
     arrival = drones[drone].takeoff + flight
     outlook.arrival = arrival
@@ -155,14 +162,14 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     reach = setting.type.max_trip_distance - vehicle.distance
     began = 0 if idle else state.log.trip[r, trips - 1].start
     drones = state.drone[r, : setting.type.drones]
-    may_drive, may_launch = _may_add(setting, vehicle, log_of(state.log, r))
+    may_drive, can_launch = _may_add(setting, vehicle, log_of(state.log, r))
     can_drive, can_fly, served = instance.can_drive[b, k], instance.can_fly[b, k], state.served[r]
     earliest = -1
     if trips > 0:
         earliest = first_departure(setting, log_of(state.log, r), state.log.trip[r, 0].start)
     found, size = 0, instance.size[b]
     for node in range(size.depots, size.depots + size.customers):
-        if served[node] or not within(demand_of(setting.node[node]), load_left(vehicle)):
+        if served[node] or not is_within(setting, vehicle, node):
             continue
         held = not idle and began < release_of(setting.node[node])
         if (may_drive and can_drive[node]
@@ -174,7 +181,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
                     instance, state, r, scratch, -1, False, node, outlooks[found])):
                 actions[found] = node * NUM_KINDS + DRIVE
                 found += 1
-        if may_launch and can_fly[node]:
+        if can_launch and can_fly[node] and may_launch(setting, vehicle, node):
             verdict = UNSURE
             if not held and not idle:
                 verdict = _judge_launch(setting, vehicle, drones, earliest, node, outlooks[found])

@@ -5,14 +5,16 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.compiled import compiled, inlined
+from model.kernel.copying import clear
 from model.kernel.flight import launch_begin, ready, recovery_end, take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup
-from model.kernel.load import NOTHING, Amount, capacity_of, demand_of, minus, release_of
+from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, service_duration, start_of_service, too_late
 from model.problem import UNLIMITED, BoolArray, IntArray
+from model.simulation.aboard import empty, holds_all, load_flight, load_stop
 from model.simulation.cost import COST, add_cost
 from model.simulation.meeting import ABOARD, DRONE, LOOP, MEET, NO_VEHICLE, VEHICLE, leave_for
 from model.simulation.vehicle_log import (
@@ -246,7 +248,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
     log.count.sorties += 1
     log_op(log, here, index, False)
     log.stop[here].leave = max(vehicle.service_end, takeoff)
-    take_load(setting, vehicle, node)
+    load_flight(setting, vehicle, node)
     # The start known so far kept the end of service here, not the arrival, on which launches hang.
     vehicle.start_best = log.trip[0].start
     return True
@@ -255,7 +257,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
 @inlined
 def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
           drones: Records, node: int) -> bool:
-    """Drive to a customer or home. In place; False if a window or an endurance forbids it.
+    """Drive to a customer or home. In place; False if a window, endurance or load forbids it.
 
     Whether the vehicle could have left later is for `improve_departure`.
     """
@@ -268,6 +270,9 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
     left, arrival, free = leave_for(setting, vehicle, drones, node)
     if arrival < 0 or (is_customer and too_late(setting.node[node], arrival)):
         return False
+    if not holds_all(setting, vehicle, drones, node, is_customer):
+        return False
+    load_stop(setting, vehicle, drones, node, is_customer)
     if vehicle.flying > 0:
         here = log.count.stops - 1
         log.stop[here].leave = max(vehicle.service_end, left)
@@ -280,7 +285,6 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
     if is_customer:
         start = start_of_service(setting.node[node], arrival)
         service_end = end_of_service(setting.node[node], arrival)
-        take_load(setting, vehicle, node)
     log_stop(log, node, arrival, start, max(service_end, free))
     vehicle.node = node
     vehicle.service_end, vehicle.free, vehicle.crew = service_end, free, free
@@ -288,26 +292,8 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
         vehicle.idle = 1
         vehicle.distance = 0
         vehicle.next_start = free + setting.type.reload_duration
-        leave_load(vehicle, capacity_of(setting.type))
+        empty(setting.type, vehicle)
     return True
-
-
-@inlined
-def load_left(vehicle: Record) -> Amount:
-    """Return what the vehicle could still be asked to carry on this trip."""
-    return vehicle.load[0], vehicle.load[1], vehicle.load[2]
-
-
-@inlined
-def leave_load(vehicle: Record, amount: Amount) -> None:
-    """Let an amount be left. In place."""
-    vehicle.load[0], vehicle.load[1], vehicle.load[2] = amount
-
-
-@inlined
-def take_load(setting: Setting, vehicle: Record, node: int) -> None:
-    """Take a customer's demand from the load left. In place."""
-    leave_load(vehicle, minus(load_left(vehicle), demand_of(setting.node[node])))
 
 
 @inlined
@@ -316,7 +302,9 @@ def clear_vehicle(vehicle: Record) -> None:
     vehicle.type, vehicle.index, vehicle.node, vehicle.idle = NO_VEHICLE, 0, 0, 0
     vehicle.service_end = vehicle.crew = vehicle.free = vehicle.distance = 0
     vehicle.start_best = vehicle.departure_best = vehicle.next_start = vehicle.flying = 0
-    leave_load(vehicle, NOTHING)
+    vehicle.given = vehicle.picked = vehicle.taken = 0
+    clear(vehicle.load)
+    clear(vehicle.aboard)
 
 
 @inlined
@@ -335,7 +323,7 @@ def open_vehicle(instance: Instance, state: State, r: int, k: int) -> None:
     vehicle.node = instance.type[b, k].begins_at
     vehicle.idle = 1
     vehicle.next_start = instance.type[b, k].shift_earliest
-    leave_load(vehicle, capacity_of(instance.type[b, k]))
+    empty(instance.type[b, k], vehicle)
     for d in range(state.drone.shape[1]):
         state.drone[r, d].sortie = IN_FLIGHT
     clear_log(state.log.count[r])

@@ -39,6 +39,7 @@ class Setting(NamedTuple):
     """What one vehicle type meets in one problem: views into an `Instance`."""
 
     node: Records  # (node,) NODE
+    amount: IntArray  # (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
     type: Record  # TYPE
     drive: IntArray  # (node, node) ms
     fly: IntArray  # (node, node) ms
@@ -77,7 +78,8 @@ def log_of(logs: VehicleLog, r: int) -> VehicleLog:
 def setting_of(instance: Instance, b: int, k: int) -> Setting:
     """Return what vehicle type `k` meets in problem `b`, as views."""
     kind = instance.type[b, k]
-    return Setting(instance.node[b], kind, matrix_of(instance.duration, b, kind.travel),
+    return Setting(instance.node[b], instance.amount[b], kind,
+                   matrix_of(instance.duration, b, kind.travel),
                    matrix_of(instance.duration, b, kind.drone_travel),
                    instance.profile_time[b, k], instance.profile_factor[b, k])
 

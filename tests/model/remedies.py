@@ -93,6 +93,7 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
         kind, max_working_duration=(kind.max_working_duration or 0) + _units(text, MINUTE)),
     "fits if trips could be (.+) km longer": lambda kind, text: replace(
         kind, max_trip_distance=(kind.max_trip_distance or 0) + _units(text, KM)),
+    "fits if .+ may pick up at any tim(e)": lambda kind, _: replace(kind, pickups="any"),
     "fits with one more vehicl(e)": lambda kind, _: replace(kind, count=kind.count + 1),
 }
 ON_CUSTOMER: dict[str, Callable[[Customer, str], Customer]] = {

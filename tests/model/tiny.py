@@ -156,6 +156,45 @@ def with_duty(rng: np.random.Generator, problem: Problem) -> Problem:
     return replace(problem, vehicle_types=tuple(map(tired, problem.vehicle_types)))
 
 
+def with_pickups(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which most customers have something to be picked up, some nothing else.
+
+    Some vehicles pick up only after all that they deliver on a trip.
+    """
+    kinds = tuple(replace(kind, pickups="last" if rng.random() < 0.4 else "any",
+                          cost_per_load_km=float(rng.integers(0, 2)) * 200.0)
+                  for kind in problem.vehicle_types)
+
+    def changed(customer: Customer) -> Customer:
+        if rng.random() < 0.3:
+            return customer
+        pickup = tuple(_draw(rng, 0, 4, 1) for _ in customer.demand)
+        demand = customer.demand if rng.random() < 0.6 else (0,) * len(pickup)
+        return replace(customer, demand=demand, pickup=pickup)
+
+    return replace(problem, customers=tuple(map(changed, problem.customers)), vehicle_types=kinds)
+
+
+def with_dimensions(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which loads have four to eight dimensions."""
+    number = int(rng.integers(4, 9))
+
+    def more(amounts: tuple[int, ...], least: int, most: int) -> tuple[int, ...]:
+        return (*amounts, *(_draw(rng, least, most, 1) for _ in range(number - len(amounts))))
+
+    def kind_of(kind: VehicleType) -> VehicleType:
+        drones = kind.drones and replace(kind.drones, capacity=more(kind.drones.capacity, 1, 3))
+        return replace(kind, capacity=more(kind.capacity, 3, 8), drones=drones,
+                       initial_load=kind.initial_load and more(kind.initial_load, 0, 2))
+
+    customers = tuple(
+        replace(customer, demand=more(customer.demand, 0, 3),
+                pickup=customer.pickup and more(customer.pickup, 0, 3))
+        for customer in problem.customers)
+    return replace(problem, customers=customers, amount_decimals=(3,) * number,
+                   vehicle_types=tuple(map(kind_of, problem.vehicle_types)))
+
+
 def with_table(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem in which not every type of vehicle may serve everyone."""
     size = (len(problem.vehicle_types), problem.num_customers)
@@ -207,7 +246,8 @@ def with_beginnings(rng: np.random.Generator, problem: Problem) -> Problem:
         load = tuple(_draw(rng, 0, min(2, most), 1) for most in kind.capacity)
         since = _draw(rng, 0, kind.earliest // MINUTE) if rng.random() < 0.7 else None
         busy = kind.earliest + (_maybe(rng, 0.5, 1, 8) or 0)
-        return replace(kind, max_trips=1, initial_load=load, works_since=since, busy_until=busy)
+        return replace(kind, max_trips=1, initial_load=load, works_since=since, busy_until=busy,
+                       has_delivered=bool(rng.random() < 0.5))
 
     return replace(problem, vehicle_types=tuple(map(begun, problem.vehicle_types)))
 

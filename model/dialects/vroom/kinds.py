@@ -8,8 +8,7 @@ from model.dialects.vroom.errors import RefusedError
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.request import Request, Vehicle
 from model.dialects.vroom.timing import Rates
-from model.planner import MAX_DIMENSIONS
-from model.problem import FloatArray, IntArray
+from model.problem import MAX_DIMENSIONS, FloatArray, IntArray
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,12 @@ points, Operations Research 12:568-581.
 import numpy as np
 
 from model.kernel.compiled import compiled, inlined
-from model.kernel.instance import MAX_DIMENSIONS
+from model.kernel.instance import TIER
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import Amount, demand_of, holds, plus, release_of
+from model.kernel.load import (
+    NOTHING, Cargo, amount_of, cargo_for, demand_of, followed, holds_in, may_follow, num_tiers,
+    release_of, total, write_amount,
+)
 from model.kernel.records import Record, Records, record
 from model.kernel.shift import allows_stops
 from model.kernel.start import leaves_first
@@ -22,10 +25,12 @@ from model.search.route.layout import NOWHERE, World
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
 
-CHAIN = record("before", "behind", "route", "leave", "latest", "last", "length",
-               load=MAX_DIMENSIONS)
+CHAIN = record("before", "behind", "route", "leave", "latest", "last", "length")
 """A customer in a chain: who comes before and behind; of its last, who comes first; the
-departure and the latest arrival; of its first, who comes last, how many there are, and the load."""
+departure and the latest arrival; of its first, who comes last, and how many there are."""
+
+CARGO = record("delivers", "picks", delivered=TIER, picked=TIER, most=TIER)
+"""What a chain carries, by its first customer."""
 
 
 def savings_routes(world: World, k: int) -> list[list[int]]:
@@ -48,7 +53,8 @@ def savings_routes(world: World, k: int) -> list[list[int]]:
     order = np.argsort(-saving, kind="stable")
     order = order[saving[order] > 0]
     chain = np.zeros(world.num_nodes, CHAIN)
-    join(world, k, one[order], other[order], chain)
+    tiers = max(1, world.amount.shape[1])
+    join(world, k, one[order], other[order], chain, np.zeros((world.num_nodes, tiers), CARGO))
     heads = [int(node) for node in nodes
              if world.can[k, 0, node] and chain[node].before == NOWHERE]
     return [_customers(chain, head) for head in heads]
@@ -63,22 +69,48 @@ def _customers(chain: Records, node: int) -> list[int]:
 
 
 @inlined
-def chain_load(link: Record) -> Amount:
+def chain_cargo(link: Record) -> Cargo:
     """Return what the chain that begins here carries."""
-    return link.load[0], link.load[1], link.load[2]
+    return (amount_of(link.delivered), amount_of(link.picked), amount_of(link.most), link.delivers,
+            link.picks)
 
 
 @inlined
-def set_chain_load(link: Record, amount: Amount) -> None:
-    """Let the chain that begins here carry an amount. In place."""
-    link.load[0], link.load[1], link.load[2] = amount
+def set_chain_cargo(link: Record, cargo: Cargo) -> None:
+    """Let the chain that begins here carry a cargo. In place."""
+    write_amount(cargo[0], link.delivered)
+    write_amount(cargo[1], link.picked)
+    write_amount(cargo[2], link.most)
+    link.delivers, link.picks = cargo[3], cargo[4]
+
+
+@inlined
+def set_up_cargo(world: World, node: int, cargo: Records) -> None:
+    """Let a chain be one customer. In place: `cargo` (tier,)."""
+    if num_tiers(world.amount) == 0:
+        demand = demand_of(world.place[node])
+        set_chain_cargo(cargo[0], (demand, NOTHING, demand, total(demand), 0))
+    for tier in range(num_tiers(world.amount)):
+        set_chain_cargo(cargo[tier], cargo_for(world.amount, node, tier))
+
+
+@inlined
+def may_join(kind: Record, front: Records, rear: Records) -> bool:
+    """Tell whether a vehicle of a type may drive two chains as one, by their cargo (tier,)."""
+    for tier in range(len(front)):
+        one, other = chain_cargo(front[tier]), chain_cargo(rear[tier])
+        if not (may_follow(kind, one, other)
+                and holds_in(kind, followed(one, other)[2], tier)):
+            return False
+    return True
 
 
 @compiled
-def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -> None:
+def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records,
+         cargo: Records) -> None:
     """Join the route that ends at `one` and that which begins at `other`, pair after pair.
 
-    In place: `chain` (node,) is set up here.
+    In place: `chain` (node,) and `cargo` (node, tier) are set up here.
     """
     kind = world.type[k]
     legs = legs_of(world.leg, kind.travel)
@@ -86,8 +118,8 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
     for node in range(world.num_depots, world.num_nodes):
         place, link = world.place[node], chain[node]
         link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
-        set_chain_load(link, demand_of(place))
         link.length = 1
+        set_up_cargo(world, node, cargo[node])
         ready = max(leaves_first(kind, kind.shift_earliest), release_of(place))
         link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
         leave = kind.shift_latest - leg(legs, node, end).duration
@@ -99,12 +131,14 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records) -
                 or chain[a].leave + leg(legs, a, b).duration > chain[b].latest):
             continue
         head, tail = chain[a].route, chain[b].last
-        load = plus(chain_load(chain[head]), chain_load(chain[b]))
         length = chain[head].length + chain[b].length
-        if head != b and holds(kind, load) and allows_stops(kind, length):
+        if (head != b and allows_stops(kind, length)
+                and may_join(kind, cargo[head], cargo[b])):
             link_up(world, legs, chain, a, b, head, tail)
-            set_chain_load(chain[head], load)
             chain[head].length = length
+            for tier in range(cargo.shape[1]):
+                joined = followed(chain_cargo(cargo[head, tier]), chain_cargo(cargo[b, tier]))
+                set_chain_cargo(cargo[head, tier], joined)
 
 
 @compiled

@@ -7,7 +7,7 @@ import numpy as np
 from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.flight import ready, recovery_end
-from model.kernel.instance import NONE
+from model.kernel.instance import NONE, TIER
 from model.kernel.records import Record, one, read_rows, Records
 from model.kernel.stop import start_of_service
 from model.problem import FloatArray, IntArray, Problem
@@ -91,13 +91,14 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
     types, number = world.type, problem.num_customers
     demand = np.sort(world.place[problem.num_depots:, 0]["demand"], axis=0).cumsum(axis=0)
+    asked = _asked_for(problem)
     most, fewest = 0, number
     for kind in types:
         trips = min(int(kind.max_trips), number)
-        capacity = kind.capacity * trips
+        capacity = kind.capacity[:TIER] * trips
         most = max(most, int((demand <= capacity).all(axis=1).sum()))
-        largest = np.maximum(capacity, 1)
-        needed = int(np.ceil(demand[-1] / largest).max()) if number else 0
+        largest = np.maximum(kind.capacity[:len(asked)] * trips, 1)
+        needed = int(np.ceil(asked / largest).max()) if number else 0
         fewest = min(fewest, max(needed, -(-number // max(1, _most_served(kind)))))
     count = int(types["count"].sum())
     wanted = 2 * max(len(solution.routes), 2 * fewest) + SPARE_SLOTS
@@ -113,6 +114,15 @@ def _most_served(kind: Record) -> int:
     """Return how many customers a vehicle of a type serves at most, by stops and sorties."""
     flown = int(kind.max_sorties) * MOST_VISITS if kind.drones else 0
     return int(kind.max_trips) * (int(kind.max_stops) + flown)
+
+
+def _asked_for(problem: Problem) -> IntArray:
+    """Return the larger of all that is delivered and all that is picked up, by dimension."""
+    amounts = np.zeros((2, problem.num_dimensions), np.int64)
+    for customer in problem.customers:
+        amounts += customer.demand, customer.taken_in
+    most: IntArray = amounts.max(axis=0)
+    return most
 
 
 @compiled

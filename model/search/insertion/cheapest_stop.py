@@ -3,12 +3,13 @@
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import FAR
 from model.kernel.leg import leg_at, legs_from, legs_to
-from model.kernel.load import release_of
+from model.kernel.load import num_tiers, release_of
 from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, too_late
 from model.problem import IntArray, UIntArray
 from model.search.insertion.evaluate import INFEASIBLE, price_stop
 from model.search.route.edit import AT_STOP
+from model.search.route.halts import Room, room_behind, room_on
 from model.search.route.layout import CHANGING, MODE_SIMPLE, MODE_TIMED, NOWHERE, Fleet, World
 from model.search.route.randomness import uniform
 from model.search.route.vehicles import larger_type, route_cost, takes
@@ -23,8 +24,8 @@ def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
 
 @spliced
 def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, last: int,
-               skipped: int, place: Records, spare: int, rate: float, best: float, blink: float,
-               rng: UIntArray) -> tuple[float, int]:
+               skipped: int, place: Records, room: Room, spare: int, rate: float, best: float,
+               blink: float, rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
 
     But for stop `skipped`, where cost is that of the detour, which is at most `spare`. `inward` and
@@ -36,7 +37,7 @@ def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, l
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
-        if cost >= best or detour > spare or p == skipped:
+        if cost >= best or detour > spare or p == skipped or not room_behind(room, p):
             continue
         arrival = stops[p].leave + out.duration
         if too_late(place, arrival):
@@ -51,8 +52,8 @@ def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, l
 
 @inlined
 def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Records, start: int,
-                 first: int, last: int, node: int, spare: int, rate: float, best: float,
-                 blink: float, rng: UIntArray) -> tuple[float, int]:
+                 first: int, last: int, node: int, room: Room, spare: int, rate: float,
+                 best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
     chosen, place = -1, world.place[node]
     leave = release_of(place)
@@ -70,7 +71,8 @@ def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Record
         detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
         arrival = leave + out.duration
-        if p < first or cost >= best or detour > spare or too_late(place, arrival):
+        if (p < first or cost >= best or detour > spare or too_late(place, arrival)
+                or not room_behind(room, p)):
             continue
         arrival = end_of_service(place, arrival) + on.duration
         if arrival <= stops[p + 1].latest and uniform(rng) >= blink:
@@ -80,7 +82,7 @@ def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Record
 
 @inlined
 def scan_limited(world: World, fleet: Fleet, slot: int, first: int, last: int, node: int,
-                 spare: int, rate: float, best: float, blink: float, rng: UIntArray
+                 room: Room, spare: int, rate: float, best: float, blink: float, rng: UIntArray
                  ) -> tuple[float, int]:
     """As `scan_stops`, on a route whose vehicle may only work for some time."""
     chosen, stops, place = -1, fleet.stop[slot], world.place[node]
@@ -90,7 +92,7 @@ def scan_limited(world: World, fleet: Fleet, slot: int, first: int, last: int, n
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
-        if cost >= best or detour > spare:
+        if cost >= best or detour > spare or not room_behind(room, p):
             continue
         if too_late(place, stops[p].leave):
             break
@@ -101,19 +103,22 @@ def scan_limited(world: World, fleet: Fleet, slot: int, first: int, last: int, n
 
 @spliced
 def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, last: int, node: int,
-              rate: float, best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
-    """Find the cheapest place for a customer on a trip. As `scan_stops`."""
+              by: int, best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
+    """Find the cheapest place for a customer on a trip, by type `by`. As `scan_stops`."""
     k, trip, stops = fleet.route[slot].type, fleet.trip[slot, index], fleet.stop[slot]
     m = world.type[k].travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
-    place = world.place[node]
+    place, rate = world.place[node], world.rate[by].distance
+    room = room_on(world, fleet, slot, by, node)
     spare = world.type[k].max_trip_distance - trip.distance
     if world.mode[k] & MODE_TIMED:
-        return scan_limited(world, fleet, slot, first, last, node, spare, rate, best, blink, rng)
+        return scan_limited(world, fleet, slot, first, last, node, room, spare, rate, best, blink,
+                            rng)
     if release_of(place) > stops[trip.first].leave:
-        return scan_delayed(world, inward, onward, stops, trip.first, first, last, node, spare,
-                            rate, best, blink, rng)
-    return scan_stops(inward, onward, stops, first, last, -1, place, spare, rate, best, blink, rng)
+        return scan_delayed(world, inward, onward, stops, trip.first, first, last, node, room,
+                            spare, rate, best, blink, rng)
+    return scan_stops(inward, onward, stops, first, last, -1, place, room, spare, rate, best,
+                      blink, rng)
 
 
 @spliced
@@ -124,7 +129,7 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
     A larger one if `enlarge`; or `NOWHERE`.
     """
     k = fleet.route[slot].type
-    if takes(world.type[k], fleet.trip[slot, index], world.place[node]):
+    if takes(world, fleet, slot, index, k, node):
         return k, world.rate[k].stop
     if not enlarge:
         return NOWHERE, 0.0
@@ -137,7 +142,7 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
 
 @spliced
 def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: int, place: Records,
-                    best: int) -> tuple[int, int]:
+                    room: Room, best: int) -> tuple[int, int]:
     """Return the shortest detour for a customer on a lean route, and the stop before it.
 
     Or `best` and -1 if there is none shorter.
@@ -146,7 +151,7 @@ def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: in
     for p in range(last):
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
-        if detour >= best:
+        if detour >= best or not room_behind(room, p):
             continue
         arrival = stops[p].leave + out.duration
         if too_late(place, arrival):
@@ -176,7 +181,8 @@ def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, bes
         kept.stamp = stamp
         kept.detour, kept.stop = shortest_detour(
             legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot],
-            fleet.trip[slot, 0].last, world.place[node], most)
+            fleet.trip[slot, 0].last, world.place[node],
+            room_on(world, fleet, slot, fleet.route[slot].type, node), most)
     cost = kept.detour * rate
     if cost >= best:
         return best, -1
@@ -200,6 +206,8 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
             continue
         rate = world.rate[by].distance
         skipped, changing = -1, not world.scan_all or fleet.route[slot].stamp == CHANGING
+        # What is kept is where there is room on the vehicle as it is.
+        changing = changing or (by != k and num_tiers(world.amount) > 0)
         cost, p = best, -1
         if not changing:
             cost, p = scan_kept(world, fleet, slot, node, rate, best - base, kept[node, slot])
@@ -209,8 +217,8 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
             m = world.type[k].travel
             cost, p = scan_stops(
                 legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot], 0,
-                fleet.trip[slot, 0].last - 1, skipped, world.place[node], FAR, rate, best - base,
-                world.blink, rng)
+                fleet.trip[slot, 0].last - 1, skipped, world.place[node],
+                room_on(world, fleet, slot, by, node), FAR, rate, best - base, world.blink, rng)
         if p >= 0:
             best = cost + base
             move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
@@ -228,8 +236,7 @@ def scan_simple(world: World, fleet: Fleet, slot: int, node: int, enlarge: bool,
             continue
         cost, p = scan_trip(
             world, fleet, slot, trip, fleet.trip[slot, trip].first,
-            fleet.trip[slot, trip].last - 1, node, world.rate[by].distance,
-            bound.best - base, bound.blink, rng)
+            fleet.trip[slot, trip].last - 1, node, by, bound.best - base, bound.blink, rng)
         if p >= 0:
             bound.best = cost + base
             move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
@@ -252,8 +259,8 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
         by, base = serving_type(world, fleet, slot, trip, node, enlarge)
         if by < 0 or (by != k and base >= best):
             continue
-        cost, p = scan_trip(world, fleet, slot, trip, p - 1, p, node, world.rate[by].distance,
-                            best - base, world.blink, rng)
+        cost, p = scan_trip(world, fleet, slot, trip, p - 1, p, node, by, best - base,
+                            world.blink, rng)
         if p >= 0:
             best = cost + base
             move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
@@ -278,14 +285,14 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
             continue
         m, rate = world.type[k].travel, world.rate[by].distance
         inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
-        stops = fleet.stop[slot]
+        stops, room = fleet.stop[slot], room_on(world, fleet, slot, by, node)
         for p in (behind - 1, behind):
             out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
             cost = (out.distance + on.distance - stops[p].leg) * rate + base
             arrival = stops[p].leave + out.duration
             following = end_of_service(place, arrival) + on.duration
             if (cost < best and not too_late(place, arrival) and following <= stops[p + 1].latest
-                    and uniform(rng) >= world.blink):
+                    and room_behind(room, p) and uniform(rng) >= world.blink):
                 best = cost
                 move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
     return best

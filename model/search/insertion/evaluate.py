@@ -13,8 +13,10 @@ from model.search.route.edit import (
     TRIP_UNTIL, WAYS, apply, begin_route,
 )
 from model.search.route.ends import is_apart
+from model.search.route.halts import load_more_behind
 from model.search.route.layout import (
-    CUSTOMER, END, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, START, Fleet, World, copy_sequence,
+    CUSTOMER, END, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, START, Fleet, World,
+    copy_sequence,
 )
 from model.search.route.refresh import refresh
 from model.search.route.routes import longer_cost, sortie_cost, window_cost
@@ -272,6 +274,8 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     if too_late(place, time):
         return INFEASIBLE
     cost = (out.distance + on.distance - here.leg) * world.rate[k].distance
+    if world.mode[k] & MODE_LOADED:
+        cost += load_more_behind(world, fleet, slot, p, node, out.distance, on.distance)
     depart = min(here.depart, as_late(place, time) - cum)
     late = window_cost(world, node, time)
     time = end_of_service(place, time) + on.duration

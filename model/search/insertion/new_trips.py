@@ -3,13 +3,15 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import FAR
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import demand_of, holds, plus, release_of
+from model.kernel.load import (
+    EMPTY, cargo_at, cargo_for, demand_of, followed, holds, may_be_all, may_follow, num_tiers,
+    plus, release_of,
+)
 from model.kernel.records import Records
 from model.kernel.shift import allows_stops
 from model.kernel.stop import end_of_service, too_late
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
 from model.search.route.layout import CUSTOMER, Fleet, World
-from model.search.route.vehicles import payload
 
 
 @spliced
@@ -23,11 +25,49 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
         if stops[q].kind == CUSTOMER:
             count += 1
             load = plus(load, demand_of(world.place[stops[q].node]))
+    kind = world.type[fleet.route[slot].type]
+    if not allows_stops(kind, count):
+        return False
+    if fleet.halt.shape[1] > 0:
+        for tier in range(fleet.halt.shape[1]):
+            if not halves_fit(world, fleet, slot, p, node, front, tier):
+                return False
+        return True
     for s in range(fleet.route[slot].sorties):
         if first <= sorties[s].launch <= last:
-            load = plus(load, payload(world, sorties[s]))
-    kind = world.type[fleet.route[slot].type]
-    return holds(kind, load) and allows_stops(kind, count)
+            for visit in range(sorties[s].count):
+                load = plus(load, demand_of(world.place[sorties[s].nodes[visit]]))
+    return holds(kind, load)
+
+
+@inlined
+def halves_fit(world: World, fleet: Fleet, slot: int, p: int, node: int, front: bool,
+               tier: int) -> bool:
+    """Tell whether a trip split behind stop `p` may be two, a customer more at the split.
+
+    `front`: at the end of the first.
+    """
+    halts, kind = fleet.halt[slot, tier], world.type[fleet.route[slot].type]
+    trip, more = fleet.trip[slot, fleet.stop[slot, p].trip], cargo_for(world.amount, node, tier)
+    one = other = EMPTY
+    for q in range(trip.first, p + 1):
+        one = followed(one, cargo_at(halts[q]))
+    for q in range(p + 1, trip.last + 1):
+        other = followed(other, cargo_at(halts[q]))
+    if front:
+        return (may_follow(kind, one, more) and may_be_all(kind, followed(one, more), tier)
+                and may_be_all(kind, other, tier))
+    return (may_follow(kind, more, other) and may_be_all(kind, followed(more, other), tier)
+            and may_be_all(kind, one, tier))
+
+
+@spliced
+def may_begin(world: World, k: int, node: int) -> bool:
+    """Tell whether a vehicle of type `k` may serve a customer on a trip of its own, by loads."""
+    for tier in range(num_tiers(world.amount)):
+        if not may_be_all(world.type[k], cargo_for(world.amount, node, tier), tier):
+            return False
+    return True
 
 
 @spliced

@@ -6,23 +6,28 @@ from model.kernel.flight import (
     can_serve, drone_service, earliest_back, recovery_end, take_off, unreachable, within_endurance,
 )
 from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
-from model.kernel.load import demand_of, fits, lifts, plus
+from model.kernel.load import num_tiers
 from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, service_duration, too_late
 from model.problem import FloatArray, IntArray
 from model.search.insertion.cheapest_stop import is_simple
 from model.search.insertion.evaluate import INFEASIBLE, price_move, price_stop, stands_alone
-from model.search.insertion.new_trips import more_trips_fit, part_fits
+from model.search.insertion.new_trips import may_begin, more_trips_fit, part_fits
 from model.search.route.edit import (
     AT_STOP, BY_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL, copy_move,
 )
 from model.search.route.ends import detour_by_reload, is_apart
-from model.search.route.layout import END, MODE_PRICED, MODE_TIMED, NOWHERE, START, Fleet, World
+from model.search.route.halts import (
+    can_carry, load_cost, load_more, load_more_behind, room_behind, room_between, room_on,
+)
+from model.search.route.layout import (
+    END, MODE_LOADED, MODE_PRICED, MODE_TIMED, NOWHERE, START, Fleet, World,
+)
 from model.search.route.randomness import uniform
 from model.search.route.refresh import idle_time
 from model.search.route.routes import lateness_cost
 from model.search.route.state import Searcher
-from model.search.route.vehicles import load_of, payload
+from model.search.route.vehicles import may_fit
 
 MAX_SPAN = 8
 """How many stops after its launch a sortie is recovered at most."""
@@ -83,11 +88,15 @@ def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: i
     m = world.type[k].travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     spare, early = idle_time(now.route[slot]), now.early[slot]
-    room = world.type[k].max_trip_distance - now.trip[slot, stops[first].trip].distance
+    most = world.type[k].max_trip_distance - now.trip[slot, stops[first].trip].distance
+    room = room_on(world, now, slot, k, node)
     for p in range(first, last + 1):
         cost = stop_costs(world, k, inward, onward, stops, p, node, spare, early, best)
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
-        if cost < best and out.distance + on.distance - stops[p].leg <= room:
+        if cost < best and world.mode[k] & MODE_LOADED:
+            cost += load_more_behind(world, now, slot, p, node, out.distance, on.distance)
+        if (cost < best and out.distance + on.distance - stops[p].leg <= most
+                and room_behind(room, p)):
             add_offer(searcher.offer, searcher.least, searcher.count, cost, AT_STOP, slot, p)
 
 
@@ -138,7 +147,7 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         late = lateness_cost(world, node, begun + out.duration)
     begun = recovery_end(kind, begun) - idle_time(now.route[slot])
     first = launch if world.loops else launch + 1
-    last = launch
+    last, room = launch, room_on(world, now, slot, k, node)
     if world.crossings:
         last = min(launch + MAX_SPAN, now.trip[slot, stops[launch].trip].last)
     for recovery in range(first, last + 1):
@@ -155,7 +164,10 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         longer = max(0, begun + flight - stops[recovery].leave)
         cost = ((out.distance + home.distance) * world.rate[k].drone_distance
                 + longer * world.rate[k].time + late - now.early[slot])
-        if cost < best and can_serve(kind, place, out.duration, home.duration):
+        if world.mode[k] & MODE_LOADED:
+            cost += load_more(world, now, slot, launch, recovery, node)
+        if (cost < best and can_serve(kind, place, out.duration, home.duration)
+                and room_between(room, launch, recovery)):
             index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
                               slot, launch)
             searcher.offer[index].last = recovery
@@ -170,10 +182,12 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
     for s in range(now.route[slot].sorties):
         sortie = sorties[s]
         trip = stops[sortie.launch].trip
-        if (sortie.count >= world.visits[k]
-                or not fits(world.type[k], load_of(now.trip[slot, trip]), world.place[node])
-                or not lifts(world.type[k], plus(payload(world, sortie),
-                                                 demand_of(world.place[node])))):
+        if (sortie.count >= world.visits[k] or not may_fit(world, now, slot, trip, k, node)
+                or not room_between(room_on(world, now, slot, k, node), sortie.launch,
+                                    sortie.recovery)):
+            continue
+        may_carry = can_carry(world, k, sortie, 0, node)
+        if not (may_carry or num_tiers(world.amount) > 0):
             continue
         here = stops[sortie.launch].node
         for place in range(sortie.count + 1):
@@ -185,7 +199,9 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
             cost = ((out.distance + on.distance - direct.distance) * world.rate[k].drone_distance
                     - now.early[slot])
             here = there
-            if cost < searcher.bound.best:
+            if cost < searcher.bound.best and place > 0 and num_tiers(world.amount) > 0:
+                may_carry = can_carry(world, k, sortie, place, node)
+            if cost < searcher.bound.best and may_carry:
                 index = add_offer(searcher.offer, searcher.least, searcher.count, cost,
                                   ON_SORTIE, slot, place)
                 searcher.offer[index].sortie = s
@@ -201,7 +217,7 @@ def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -
     out, home = leg(flights, depot, node), leg(flights, node, depot)
     cost = (out.distance + home.distance) * world.rate[k].drone_distance - searcher.now.early[slot]
     if (world.loops and not unreachable(max(out.duration, home.duration))
-            and cost < searcher.bound.best):
+            and cost < searcher.bound.best and may_begin(world, k, node)):
         for p in range(-1, route.length):
             if p < 0 or stops[p].kind == END:
                 add_offer(searcher.offer, searcher.least, searcher.count, cost, FLIGHT_TRIP, slot,
@@ -235,6 +251,11 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
             if cost < best and not part_fits(world, now, slot, p, node, kind == TRIP_UNTIL):
                 continue
         cost += world.rate[k].stop - now.early[slot]
+        if kind != NEW_TRIP and world.mode[k] & MODE_LOADED:
+            # Each of two trips carries less, at best next to nothing.
+            cost -= load_cost(world, now, slot)
+        if kind == NEW_TRIP and not may_begin(world, k, node):
+            continue
         if cost < best and (p < 0 or not too_late(world.place[node], stops[p].leave)):
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 
@@ -264,6 +285,11 @@ def offer_trips_apart(world: World, searcher: Searcher, slot: int, node: int) ->
             if behind < cost:
                 kind, cost = TRIP_FROM, behind
         cost += world.rate[k].stop - now.early[slot]
+        if world.mode[k] & MODE_LOADED:
+            # Whoever was served may be carried less far, at best next to nowhere.
+            cost -= load_cost(world, now, slot)
+        if kind == NEW_TRIP and not may_begin(world, k, node):
+            continue
         if cost < best:
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 

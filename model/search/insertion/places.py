@@ -3,7 +3,6 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import pasted
 from model.kernel.flight import endurance_of, held_until
-from model.kernel.load import fits
 from model.kernel.shift import allows_stops
 from model.kernel.stop import opening
 from model.search.insertion.cheapest_stop import (
@@ -20,7 +19,7 @@ from model.search.route.layout import CHANGING, NOWHERE, World
 from model.search.route.randomness import uniform
 from model.search.route.refresh import stop_beside
 from model.search.route.state import Searcher
-from model.search.route.vehicles import load_of, may_launch, stops_on
+from model.search.route.vehicles import may_fit, may_launch, stops_on
 
 MORE_TRIPS = 0.2
 """How often a customer who can go on a trip as it is may begin or split one."""
@@ -60,7 +59,7 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
         return
     for index in range(now.route[slot].trips):
         trip = now.trip[slot, index]
-        if not fits(world.type[k], load_of(trip), world.place[node]):
+        if not may_fit(world, now, slot, index, k, node):
             continue
         first, last = trip.first, trip.last
         if by_truck and not simple and allows_stops(world.type[k], stops_on(trip) + 1):
@@ -186,13 +185,13 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
             continue
         k = now.route[slot].type
         p = stop_beside(now, other)
-        trip = now.trip[slot, now.stop[slot, p].trip]
+        index = now.stop[slot, p].trip
+        trip = now.trip[slot, index]
         by_truck = (world.can[k, 0, node] and not is_simple(world, now, slot)
                     and allows_stops(world.type[k], stops_on(trip) + 1))
         by_drone = world.can[k, 1, node] and may_launch(
             world.type[k], now.route[slot], now.sortie[slot], trip)
-        if (not (by_truck or by_drone)
-                or not fits(world.type[k], load_of(trip), world.place[node])):
+        if not (by_truck or by_drone) or not may_fit(world, now, slot, index, k, node):
             continue
         first = max(p - 1, trip.first)
         if by_truck:

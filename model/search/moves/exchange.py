@@ -4,7 +4,9 @@ import math
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import NOTHING, demand_of, holds, plus
+from model.kernel.load import (
+    EMPTY, NOTHING, cargo_at, demand_of, followed, holds, may_be_all, may_follow, plus,
+)
 from model.kernel.shift import allows_stops
 from model.problem import IntArray
 from model.search.route.edit import put
@@ -169,10 +171,24 @@ def swap_tails(world: World, searcher: Searcher, a: int, p: int, b: int, q: int)
 
 
 @inlined
+def is_cargo(world: World, fleet: Fleet, a: int, p: int, b: int, q: int, tier: int) -> bool:
+    """Tell whether a trip up to stop `p` of `a`, which goes on behind `q` of `b`, may carry all."""
+    kind, one, other = world.type[fleet.route[a].type], EMPTY, EMPTY
+    first = fleet.trip[a, fleet.stop[a, p].trip].first
+    for index in range(first, p + 1):
+        one = followed(one, cargo_at(fleet.halt[a, tier, index]))
+    index = q + 1
+    while index < fleet.route[b].length and fleet.stop[b, index].kind != START:
+        other = followed(other, cargo_at(fleet.halt[b, tier, index]))
+        index += 1
+    return may_follow(kind, one, other) and may_be_all(kind, followed(one, other), tier)
+
+
+@inlined
 def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
     """Tell whether the trip that begins before stop `p` of `a` and goes on behind `q` of `b` does.
 
-    Stops of the truck alone are counted.
+    Stops of the truck alone are counted, but where more than loads tells.
     """
     load, index = NOTHING, p
     while fleet.stop[a, index].kind == CUSTOMER:
@@ -183,7 +199,10 @@ def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> boo
         load = plus(load, demand_of(world.place[fleet.stop[b, index].node]))
         index += 1
     kind = world.type[fleet.route[a].type]
-    return not (holds(kind, load) and allows_stops(kind, count + index - q - 1))
+    allowed = holds(kind, load) and allows_stops(kind, count + index - q - 1)
+    for tier in range(fleet.halt.shape[1]):
+        allowed = allowed and is_cargo(world, fleet, a, p, b, q, tier)
+    return not allowed
 
 
 @inlined

@@ -3,7 +3,7 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import demand_of, total
+from model.kernel.load import demand_of, num_tiers, total, total_delivered, total_picked
 from model.kernel.stop import closing, width
 from model.problem import UIntArray
 from model.search.insertion.evaluate import INFEASIBLE, serve_alone
@@ -45,6 +45,8 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     if order == BY_COST:
         return -world.unassigned_more[node]
     if order == BY_DEMAND:
+        if num_tiers(world.amount) > 0:
+            return -float(total_delivered(world.amount, node) + total_picked(world.amount, node))
         return -float(total(demand_of(place)))
     if order in (BY_FAR, BY_CLOSE):
         legs = legs_of(world.leg, world.type[0].travel)

@@ -3,12 +3,12 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined
-from model.kernel.load import lifts
-from model.search.route.layout import CUSTOMER, MODE_LEAN, Fleet, World
+from model.search.route.halts import can_carry, can_take
+from model.search.route.layout import CUSTOMER, MODE_LEAN, NOWHERE, Fleet, World
 from model.search.route.randomness import below
 from model.search.route.refresh import refresh
 from model.search.route.state import Searcher, keep_aside, touch
-from model.search.route.vehicles import change_type, may_make, payload, route_cost
+from model.search.route.vehicles import change_type, route_cost
 
 
 @inlined
@@ -23,8 +23,8 @@ def trade(world: World, searcher: Searcher, slot: int) -> None:
         cost = (route_cost(world, by, now.trip[slot, 0])
                 + route_cost(world, k, now.trip[other, 0]))
         if (cost < now.cost[slot] + now.cost[other] - 1e-9
-                and may_make(world.type[by], now.trip[slot, 0])
-                and may_make(world.type[k], now.trip[other, 0])):
+                and can_take(world, now, slot, by)
+                and can_take(world, now, other, k)):
             touch(searcher, other)
             change_type(world, now, slot, by)
             change_type(world, now, other, k)
@@ -43,7 +43,7 @@ def improve_types(world: World, searcher: Searcher) -> None:
             if (world.swap[now.route[slot].type, k]
                     and now.used[k] < world.type[k].count
                     and route_cost(world, k, trip) < now.cost[slot] - 1e-9
-                    and may_make(world.type[k], trip)):
+                    and can_take(world, now, slot, k)):
                 change_type(world, now, slot, k)
         trade(world, searcher, slot)
 
@@ -64,7 +64,7 @@ def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
     for s in range(route.sorties):
         sortie = sorties[s]
         if (sortie.drone >= world.type[k].drones or sortie.count > world.visits[k]
-                or not lifts(world.type[k], payload(world, sortie))):
+                or not can_carry(world, k, sortie, NOWHERE, NOWHERE)):
             return False
         for visit in range(sortie.count):
             if not world.can[k, 1, sortie.nodes[visit]]:

@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.compiled import inlined
-from model.kernel.instance import MAX_DIMENSIONS
+from model.kernel.instance import TIER
+from model.kernel.load import HALT
 from model.kernel.records import Record, Records, record
 from model.problem import BoolArray, FloatArray, IntArray
 
@@ -42,7 +43,7 @@ SORTIE = record(
 """Where it begins and ends; its customers, and when it reaches them; what `block` knows of it."""
 WAITING, FLYING, DONE = range(3)
 
-TRIP = record("first", "last", "release", "distance", load=MAX_DIMENSIONS)
+TRIP = record("first", "last", "release", "distance", load=TIER)
 
 ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "offset", "stamp")
 
@@ -61,12 +62,12 @@ NOWHERE, ELSEWHERE = -1, -2
 """Slot of a customer who is left out; of one whom another thread deals with."""
 
 (MODE_TIMED, MODE_PRICED, MODE_SETTLED, MODE_RETIMED, MODE_SIMPLE, MODE_LEAN,
- MODE_APART) = 1, 2, 4, 8, 16, 32, 64
-"""Flags of a type: working time costs or is limited; lateness or waiting cost, or all is retimed;
-trips must be held back to know the cost; all behind a change is timed again, since speed changes,
-or who comes later may have to wait for another window; an insertion's cost is that of its distance
-alone; as that, with one trip of any distance, no releases and no drones; several trips don't all
-begin and end at one place."""
+ MODE_APART, MODE_LOADED) = 1, 2, 4, 8, 16, 32, 64, 128
+"""Flags of a type: working time costs or is limited; lateness, waiting or what is aboard cost, or
+all is retimed; trips must be held back to know the cost; all behind a change is timed again, since
+speed changes, or who comes later may have to wait for another window; an insertion's cost is that
+of its distance alone; as that, with one trip of any distance, no releases and no drones; several
+trips don't all begin and end at one place; what is aboard costs by the way that it is driven."""
 
 
 class World(NamedTuple):
@@ -93,6 +94,7 @@ class World(NamedTuple):
     unequal: bool  # leaving out some costs more than others
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
     place: Records  # (node,) NODE
+    amount: IntArray  # (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
     price: Records  # (node,) PRICE, per ms
     type: Records  # (type,) TYPE
     rate: Records  # (type,) RATE, per mm and per ms
@@ -118,6 +120,7 @@ class Fleet(NamedTuple):
     cost: FloatArray  # (slot,)
     early: FloatArray  # (slot,) of it, what waiting costs where trips are held back
     stop: Records  # (slot, position) STOP
+    halt: Records  # (slot, tier, position) HALT; no tiers where `TRIP.load` tells all
     trip: Records  # (slot, trip) TRIP
     sortie: Records  # (slot, sortie) SORTIE
     where: Records  # (node,) PLACE
@@ -142,7 +145,7 @@ def copy_lean(stop: Record, to: Record) -> None:
 def clear_trip(trip: Record) -> None:
     """Let a trip be empty. In place."""
     trip.first = trip.last = trip.release = trip.distance = 0
-    for dimension in range(MAX_DIMENSIONS):
+    for dimension in range(TIER):
         trip.load[dimension] = 0
 
 
@@ -153,6 +156,7 @@ def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int) 
         cost=np.zeros(slots + 2),
         early=np.zeros(slots + 2),
         stop=np.zeros((slots + 2, stops), STOP),
+        halt=np.zeros((slots + 2, world.amount.shape[1], stops), HALT),
         trip=np.zeros((slots + 2, trips), TRIP),
         sortie=np.zeros((slots + 2, sorties), SORTIE),
         where=np.full(world.num_nodes, np.array((NOWHERE, NOWHERE, NOWHERE), PLACE)),

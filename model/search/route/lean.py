@@ -6,6 +6,7 @@ from model.kernel.load import demand_of
 from model.kernel.records import Records
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival, too_late
+from model.search.route.halts import weigh
 from model.search.route.layout import CUSTOMER, NOWHERE, Fleet, World, clear_trip, copy_lean
 from model.search.route.vehicles import add_load, may_make, route_cost
 
@@ -45,6 +46,8 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
         stops[p].latest = latest
     stops[0].latest = latest - stops[0].gap
     fleet.cost[slot] = route_cost(world, k, trip)
+    if fleet.halt.shape[1] > 0 and not weigh(world, fleet, slot):
+        return False
     return time <= kind.shift_latest
 
 
@@ -79,6 +82,8 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     fleet.cost[slot] += detour * world.rate[k].distance + world.rate[k].stop
     add_load(trip, demand_of(world.place[node]))
     spread(world, stops, trip.last, p + 1)
+    if fleet.halt.shape[1] > 0:
+        weigh(world, fleet, slot)
 
 
 @spliced

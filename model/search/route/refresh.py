@@ -8,9 +8,10 @@ from model.kernel.start import counted_from, leaves_first
 from model.kernel.stop import latest_free_arrival
 from model.problem import UIntArray
 from model.search.route.ends import is_apart, nearest_reload
+from model.search.route.halts import load_cost, weigh
 from model.search.route.layout import (
-    CUSTOMER, ELSEWHERE, END, MODE_LEAN, MODE_RETIMED,
-    MODE_SETTLED, NOWHERE, START, Fleet, World,
+    CUSTOMER, ELSEWHERE, END, MODE_LEAN, MODE_LOADED, MODE_RETIMED, MODE_SETTLED, NOWHERE, START,
+    Fleet, World,
 )
 from model.search.route.lean import refresh_lean
 from model.search.route.randomness import below
@@ -163,6 +164,8 @@ def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
         return refresh_lean(world, fleet, slot)
     if not load_trips(world, route, stops, trips, sorties):
         return False
+    if fleet.halt.shape[1] > 0 and not weigh(world, fleet, slot):
+        return False
     clear_holds(route, stops, trips)
     if not drive_forward(world, route, stops, sorties, acc):
         return False
@@ -175,6 +178,8 @@ def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     if route.working > world.type[route.type].max_working_duration:
         return False
     fleet.cost[slot], early = price_route(world, route, stops, trips, sorties)
+    if mode & MODE_LOADED:
+        fleet.cost[slot] += load_cost(world, fleet, slot)
     fleet.early[slot] = early if mode & MODE_SETTLED else 0.0
     if mode & MODE_SETTLED:
         clear_holds(route, stops, trips)

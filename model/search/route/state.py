@@ -56,6 +56,8 @@ def copy_route(source: Fleet, slot: int, target: Fleet, to: int, lean: int) -> N
     route = source.route[slot]
     target.route[to] = source.route[slot]
     target.cost[to] = source.cost[slot]
+    for tier in range(source.halt.shape[1]):
+        copy_records(source.halt[slot, tier], target.halt[to, tier], route.length)
     if lean:
         stops, copies = source.stop[slot], target.stop[to]
         for p in range(route.length):

@@ -3,7 +3,9 @@
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.load import NOTHING, Amount, demand_of, fits, holds, plus
+from model.kernel.load import (
+    Amount, amount_of, fits, holds, holds_in, most_of, picked_of, plus, write_amount,
+)
 from model.kernel.records import Record, Records
 from model.kernel.shift import allows_sorties, allows_stops
 from model.search.route.layout import NOWHERE, Fleet, World
@@ -41,30 +43,39 @@ def may_make(kind: Record, trip: Record) -> bool:
 
 
 @inlined
-def takes(kind: Record, trip: Record, place: Records) -> bool:
-    """Tell whether a vehicle of a type holds a customer's parcel more, and may stop once more."""
-    return fits(kind, load_of(trip), place) and allows_stops(kind, stops_on(trip) + 1)
-
-
-@inlined
 def load_of(trip: Record) -> Amount:
     """Return what a trip carries from the depot."""
-    return trip.load[0], trip.load[1], trip.load[2]
+    return amount_of(trip.load)
 
 
 @inlined
 def add_load(trip: Record, amount: Amount) -> None:
     """Let a trip carry more. In place."""
-    trip.load[0], trip.load[1], trip.load[2] = plus(load_of(trip), amount)
+    write_amount(plus(load_of(trip), amount), trip.load)
 
 
-@spliced
-def payload(world: World, sortie: Record) -> Amount:
-    """Return what a sortie carries."""
-    carried = NOTHING
-    for visit in range(sortie.count):
-        carried = plus(carried, demand_of(world.place[sortie.nodes[visit]]))
-    return carried
+@inlined
+def may_fit(world: World, fleet: Fleet, slot: int, index: int, k: int, node: int) -> bool:
+    """Tell whether a vehicle of type `k` may hold what a trip does and a customer's amounts.
+
+    Where more than its load tells, that hangs on where the customer is served: see `has_room`.
+    """
+    kind, trip = world.type[k], fleet.trip[slot, index]
+    if not fits(kind, load_of(trip), world.place[node]):
+        return False
+    for tier in range(fleet.halt.shape[1]):
+        halts = fleet.halt[slot, tier]
+        taken = plus(amount_of(halts[trip.last].behind), picked_of(world.amount, node, tier))
+        if not (holds_in(kind, taken, tier) and holds_in(kind, most_of(halts[trip.first]), tier)):
+            return False
+    return True
+
+
+@inlined
+def takes(world: World, fleet: Fleet, slot: int, index: int, k: int, node: int) -> bool:
+    """Tell whether a vehicle of type `k` may fit a customer in as well, and stop once more."""
+    return (may_fit(world, fleet, slot, index, k, node)
+            and allows_stops(world.type[k], stops_on(fleet.trip[slot, index]) + 1))
 
 
 @inlined
@@ -80,7 +91,7 @@ def larger_type(world: World, fleet: Fleet, slot: int, node: int) -> int:
                 or fleet.used[other] >= world.type[other].count):
             continue
         cost = route_cost(world, other, trip) + world.rate[other].stop
-        if cost < best and takes(world.type[other], trip, world.place[node]):
+        if cost < best and takes(world, fleet, slot, 0, other, node):
             chosen, best = other, cost
     return chosen
 

@@ -118,6 +118,24 @@ def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
     assert problem.travel[drones.travel].duration[0, 1] == 600_000
 
 
+def test_what_is_picked_up_counts_in_the_same_steps(smallest: Request) -> None:
+    smallest["customers"][0] |= {"demand": [1], "pickup": [0.00025]}
+    smallest["fleet"][0] |= {"pickups": "last", "costs": {"per_load_km": 3}}
+    problem = problem_of(smallest)
+    assert problem.amount_decimals == (5,)
+    assert [(customer.demand, customer.pickup) for customer in problem.customers] == [
+        ((100_000,), (25,)), ((500_000,), ())]
+    truck, = problem.vehicle_types
+    assert (truck.pickups, truck.cost_per_load_km) == ("last", 3)
+
+
+def test_loads_have_up_to_eight_dimensions(smallest: Request) -> None:
+    for customer in smallest["customers"]:
+        customer["demand"] = [1] * 8
+    smallest["fleet"][0]["capacity"] = [2] * 8
+    assert problem_of(smallest).num_dimensions == 8
+
+
 def test_no_drones_per_truck_means_no_drones(smallest: Request) -> None:
     smallest["fleet"][0]["drones"] = {"count": 0, "capacity": [1]}
     assert problem_of(smallest).vehicle_types[0].drones is None

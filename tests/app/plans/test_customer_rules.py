@@ -118,3 +118,25 @@ def test_whoever_comes_between_two_windows_waits(client: httpx.Client, smallest:
     plan["routes"][0]["trips"][0]["stops"][1]["service_start"] = late["arrival"] + 1
     checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
     assert not checked["feasible"]
+
+
+def test_what_is_aboard_is_told_at_each_stop(client: httpx.Client, smallest: Request) -> None:
+    first, second = smallest["customers"]
+    first |= {"demand": [8], "pickup": [3]}
+    second |= {"demand": [0], "pickup": [10]}
+    smallest["fleet"][0] |= {"capacity": [13], "pickups": "last",
+                             "costs": {"per_km": 1, "per_load_km": 0.5}}
+    plan = client.post("/plan", json=smallest).json()
+    PlanReply.model_validate(plan)
+    trip, = plan["routes"][0]["trips"]
+    assert [(stop["id"], stop["load"]) for stop in trip["stops"]][1:] == [
+        (first["id"], [3.0]), (second["id"], [13.0]), (trip["stops"][-1]["id"], [13.0])]
+    assert (trip["load"], trip["load_rate"]) == ([8.0], 1.0)
+    # 16 km around; 5 km with 8, 5 km with 3, 6 km with 13
+    assert plan["cost"]["distance"] == pytest.approx(16 + 0.5 * (40 + 15 + 78))
+    checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
+    assert checked["feasible"]
+    assert checked["cost"] == plan["cost"]
+    smallest["fleet"][0]["capacity"] = [12]
+    left_out, = client.post("/plan", json=smallest).json()["unassigned"]
+    assert left_out["reasons"][0]["code"] == "FLEET_EXHAUSTED"

@@ -5,13 +5,17 @@ from dataclasses import replace
 import numpy as np
 
 from model.kernel.compiled import compiled
-from model.kernel.instance import MAX_DIMENSIONS, pack
+from model.kernel.instance import TIER, pack
 from model.kernel.load import (
-    NOTHING, capacity_of, demand_of, fits, holds, lifts, minus, plus, total, within,
+    HALT, NOTHING, add_come, add_left, capacity_of, delivered_of, demand_of, fits, has_room, holds,
+    lifts, minus, picked_of, plus, total, total_delivered, total_picked, weigh_trip, within,
 )
 from model.kernel.records import Record, Records
-from model.problem import IntArray, Problem
-from tests.model.tiny import draw_tiny
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.problem import BoolArray, IntArray, Problem
+from model.solution import Solution
+from tests.model.tiny import draw_tiny, with_dimensions, with_pickups
 
 
 @compiled
@@ -21,7 +25,7 @@ def judged(kind: Record, places: Records) -> tuple[bool, bool, bool]:
     for index in range(len(places) - 1):
         load = plus(load, demand_of(places[index]))
     everything = plus(load, demand_of(places[-1]))
-    return holds(kind, everything), fits(kind, load, places[-1]), lifts(kind, everything)
+    return holds(kind, everything), fits(kind, load, places[-1]), lifts(kind, everything, 0)
 
 
 @compiled
@@ -37,7 +41,7 @@ def drawn(seed: int) -> list[tuple[Problem, IntArray, list[int]]]:
     found = []
     for index in range(200):
         problem = draw_tiny(rng)
-        count = index % MAX_DIMENSIONS + 1
+        count = index % TIER + 1
         drones = problem.vehicle_types[0].drones
         kind = replace(
             problem.vehicle_types[0], capacity=tuple(rng.integers(2, 9, count).tolist()),
@@ -70,3 +74,55 @@ def test_what_is_left_is_what_was_there_less_the_demand() -> None:
         inside = all(one <= most for one, most in zip(demand, kind.capacity, strict=True))
         assert left(vehicle_type, pack([problem]).node[0, nodes[0]]) == (
             inside, sum(demand), sum(kind.capacity) - sum(demand))
+
+
+@compiled
+def weighed(kind: Record, amounts: IntArray, nodes: IntArray, halts: Records, more: int,
+            rooms: BoolArray) -> bool:
+    """Tell whether a vehicle may serve some in turn; in place, behind which stops one more."""
+    last = len(nodes) + 1
+    allowed = True
+    for tier in range(len(halts)):
+        for p, node in enumerate(nodes):
+            add_left(halts[tier, p + 1], delivered_of(amounts, node, tier),
+                     total_delivered(amounts, node))
+            add_come(halts[tier, p + 1], picked_of(amounts, node, tier),
+                     total_picked(amounts, node))
+        allowed = weigh_trip(kind, halts[tier], 0, last, tier) and allowed
+    for p in range(last):
+        rooms[p] = has_room(kind, halts, p + 1, p, amounts, more)
+    return allowed
+
+
+def is_legal(problem: Problem, nodes: list[int]) -> bool:
+    """Tell whether the checker lets a truck serve some in turn, by loads alone."""
+    kind, = problem.vehicle_types
+    decision = RouteDecision(0, 0, (TripDecision((kind.begins_at, *nodes, kind.ends_at)),))
+    broken = check(problem, Solution((schedule(problem, decision),))).violations
+    return not {item.code for item in broken} & {"CAPACITY", "PICKUP_ORDER"}
+
+
+def test_there_is_room_where_the_checker_says_so() -> None:
+    seen = set()
+    for seed in range(300):
+        rng = np.random.default_rng(seed)
+        problem = with_pickups(rng, draw_tiny(rng, drone_share=0.0))
+        if seed % 3 == 0:
+            problem = with_dimensions(rng, problem)
+        problem = replace(problem, vehicle_types=problem.vehicle_types[:1])
+        *nodes, more = rng.permutation(
+            np.arange(problem.num_depots, problem.num_nodes)).tolist()
+        instance = pack([problem])
+        if instance.amount.shape[2] == 0:
+            continue
+        halts = np.zeros((instance.amount.shape[2], len(nodes) + 2), HALT)
+        rooms = np.zeros(len(nodes) + 1, np.bool_)
+        allowed = weighed(instance.type[0, 0], instance.amount[0], np.array(nodes), halts, more,
+                          rooms)
+        assert allowed == is_legal(problem, nodes), f"seed {seed}"
+        if allowed:
+            expected = [is_legal(problem, [*nodes[:p], more, *nodes[p:]])
+                        for p in range(len(nodes) + 1)]
+            assert rooms.tolist() == expected, f"seed {seed}"
+            seen.update(expected)
+    assert seen == {True, False}

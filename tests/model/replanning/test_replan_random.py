@@ -14,8 +14,8 @@ from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
 from tests.model.tiny import (
-    draw_late, draw_tiny, with_duty, with_energy, with_open_ends, with_open_reloads, with_reloads,
-    with_table,
+    draw_late, draw_tiny, with_duty, with_energy, with_open_ends, with_open_reloads, with_pickups,
+    with_reloads, with_table,
 )
 from training.instances import VARIANTS, generate
 
@@ -193,6 +193,12 @@ def test_tiny_plans_whose_launches_are_held_back_go_on(planner: Planner, seed: i
 def test_tiny_plans_go_on_in_overtime(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     replan_and_check(planner, with_duty(rng, draw_tiny(rng)), rng)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_tiny_plans_that_pick_up_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 12))
+    replan_and_check(planner, with_pickups(rng, with_duty(rng, draw_tiny(rng))), rng)
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -16,8 +16,8 @@ from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_duty, with_energy, with_gaps, with_open_ends,
-    with_open_reloads, with_places, with_reloads,
+    draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_open_ends,
+    with_open_reloads, with_pickups, with_places, with_reloads,
 )
 
 MINUTE = 60_000
@@ -192,10 +192,55 @@ def few_sorties(rng: np.random.Generator) -> Problem:
     return street_problem(rng, one_by_truck(rng), truck)
 
 
+def both_ways(rng: np.random.Generator) -> Problem:
+    """Most have something to be picked up, some nothing else."""
+    def changed(customer: Customer) -> Customer:
+        pickup = (int(rng.integers(0, 5)) * 1000,)
+        return replace(customer, pickup=pickup, demand=(0,) if rng.random() < 0.3
+                       else customer.demand)
+
+    customers = tuple(map(changed, plain_customers(rng, 5)))
+    return street_problem(rng, customers, replace(TRUCK, capacity=(7000,)))
+
+
+def backhauls(rng: np.random.Generator) -> Problem:
+    problem = both_ways(rng)
+    customers = tuple(replace(customer, pickup=() if any(customer.demand) else customer.pickup)
+                      for customer in problem.customers)
+    return replace(problem, customers=customers, vehicle_types=tuple(
+        replace(kind, pickups="last") for kind in problem.vehicle_types))
+
+
+def timed_both_ways(rng: np.random.Generator) -> Problem:
+    problem = both_ways(rng)
+    return replace(problem, customers=with_windows(rng, problem.customers, 5, None),
+                   vehicle_types=tuple(replace(kind, cost_per_hour=30.0, max_trips=2)
+                                       for kind in problem.vehicle_types))
+
+
+def priced_loads(rng: np.random.Generator) -> Problem:
+    problem = both_ways(rng)
+    return replace(problem, vehicle_types=tuple(replace(kind, cost_per_load_km=0.5)
+                                                for kind in problem.vehicle_types))
+
+
+def many_dimensions(rng: np.random.Generator) -> Problem:
+    return with_dimensions(rng, plain(rng))
+
+
+def drones_both_ways(rng: np.random.Generator) -> Problem:
+    problem = long_sorties(rng)
+    customers = tuple(replace(customer, pickup=(int(rng.integers(0, 4)) * 1000,))
+                      for customer in problem.customers)
+    return replace(problem, customers=customers, vehicle_types=tuple(
+        replace(kind, capacity=(12_000,)) for kind in problem.vehicle_types))
+
+
 KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     plain, windows, timed_windows, limited_work, two_depots, soft_windows, costly_waiting,
     two_types, two_trips, one_drone, two_drones, long_sorties, rush_hour, optional_customers,
-    unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties)
+    unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties, both_ways, backhauls,
+    timed_both_ways, priced_loads, many_dimensions, drones_both_ways)
 
 
 def searched_cost(problem: Problem, turns: int) -> float:
@@ -263,10 +308,16 @@ def all_rules_of_duty(rng: np.random.Generator) -> Problem:
     return with_beginnings(rng, problem) if rng.random() < 0.3 else problem
 
 
+def all_rules_both_ways(rng: np.random.Generator) -> Problem:
+    problem = with_pickups(rng, all_rules(rng))
+    return with_dimensions(rng, problem) if rng.random() < 0.2 else problem
+
+
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     # What many plans of two drones are compared with takes seconds each.
-    assert missed_seeds(draw, range(2 if draw in (two_drones, long_sorties) else 4)) == []
+    number = 2 if draw in (two_drones, long_sorties, drones_both_ways) else 4
+    assert missed_seeds(draw, range(number)) == []
 
 
 @pytest.mark.parametrize("first", range(0, 60, SHARE))
@@ -283,7 +334,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 
 @pytest.mark.parametrize("draw", [
     all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
-    all_rules_of_duty],
+    all_rules_of_duty, all_rules_both_ways],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:

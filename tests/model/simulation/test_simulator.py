@@ -21,8 +21,8 @@ from model.simulation.simulator import (
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_duty, with_energy, with_gaps, with_open_ends,
-    with_open_reloads, with_own_costs, with_places, with_reloads, with_table,
+    draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_open_ends,
+    with_open_reloads, with_own_costs, with_pickups, with_places, with_reloads, with_table,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -83,6 +83,14 @@ def test_random_rollouts_of_all_rules_at_once_pass_the_checker() -> None:
         assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
 
 
+def begun_with_pickups(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_pickups(rng, with_beginnings(rng, problem))
+
+
+def many_dimensions(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_dimensions(rng, with_pickups(rng, problem) if rng.random() < 0.5 else problem)
+
+
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
     with_open_reloads, with_duty])
@@ -91,13 +99,32 @@ def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
     for seed in range(200):
         rng = np.random.default_rng(seed)
         problem = change(rng, draw_tiny(rng))
-        for codes, position in walk(problem, rng):
-            expected = legal_codes(problem, position.vehicle, position.served, position.used)
-            assert sorted(codes) == sorted(expected), f"seed {seed}"
-        rollout = roll([problem], seed).rollouts[0]
-        evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
-        assert evaluation.violations == (), f"seed {seed}"
-        assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
+        assert_exact(problem, rng, seed)
+
+
+def with_pickups_and_all_else(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_pickups(rng, with_duty(rng, with_open_reloads(rng, with_gaps(rng, problem))))
+
+
+@pytest.mark.parametrize("change", [
+    with_pickups, begun_with_pickups, many_dimensions, with_pickups_and_all_else])
+def test_what_is_aboard_at_each_stop_decides_what_is_legal(
+        change: Callable[[np.random.Generator, Problem], Problem]) -> None:
+    for seed in range(200):
+        rng = np.random.default_rng((seed, 5))
+        problem = change(rng, draw_tiny(rng))
+        assert_exact(problem, rng, seed)
+
+
+def assert_exact(problem: Problem, rng: np.random.Generator, seed: int) -> None:
+    """Compare the mask with the oracle's along a random rollout, and another with the checker."""
+    for codes, position in walk(problem, rng):
+        expected = legal_codes(problem, position.vehicle, position.served, position.used)
+        assert sorted(codes) == sorted(expected), f"seed {seed}"
+    rollout = roll([problem], seed).rollouts[0]
+    evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
+    assert evaluation.violations == (), f"seed {seed}"
+    assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
 
 
 def test_rollouts_count_what_leaving_out_each_customer_costs() -> None:

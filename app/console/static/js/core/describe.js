@@ -27,6 +27,7 @@ function customerFacts(customer) {
     ['Demand', amounts(customer.demand)],
     ['Window', windowsInWords(windowsOf(customer))],
   ];
+  if (customer.pickup) facts.push(['Pickup', amounts(customer.pickup)]);
   if (customer.service_duration) facts.push(['Service', duration(customer.service_duration)]);
   if (customer.served_by && customer.served_by !== 'either') {
     facts.push(['For', SERVED_BY[customer.served_by]]);

@@ -31,12 +31,16 @@ const CHANGES = [
   [
     /^fits if capacity were at least /,
     (request, { type, customer }) =>
-      raise(request, [...type, 'capacity'], getIn(request, [...customer, 'demand'])),
+      raise(request, [...type, 'capacity'], mostOf(getIn(request, customer))),
   ],
   [
     /^fits if the drone capacity were at least /,
     (request, { type, customer }) =>
-      raise(request, [...type, 'drones', 'capacity'], getIn(request, [...customer, 'demand'])),
+      raise(request, [...type, 'drones', 'capacity'], mostOf(getIn(request, customer))),
+  ],
+  [
+    /^fits if .+ may pick up at any time$/,
+    (request, { type }) => setIn(request, [...type, 'pickups'], 'any'),
   ],
   [
     new RegExp(`^fits if endurance were ${NUMBER} minutes? longer$`),
@@ -133,6 +137,11 @@ function raise(request, keys, least) {
     keys,
     getIn(request, keys).map((value, index) => Math.max(value, least[index])),
   );
+}
+
+/** Return the most that a customer asks for at once, per dimension. */
+function mostOf({ demand, pickup }) {
+  return demand.map((amount, index) => Math.max(amount, pickup?.[index] ?? 0));
 }
 
 /**

@@ -38,7 +38,7 @@ function Sheet({ vehicle, parts }) {
         <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
         <td><strong>${halt.id}</strong>${place(halt)}</td>
         <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
-        <td>${halt.kind === 'customer' ? amounts(halt.source.demand) : ''}</td>
+        <td>${halt.kind === 'customer' ? handed(halt.source) : ''}</td>
         <td>${orders(trip, halt).map((order) => html`<div
           key=${order}>${order}</div>`)}</td>
         <td>${STANDINGS[standingOf(parts, {
@@ -47,6 +47,11 @@ function Sheet({ vehicle, parts }) {
       </tbody></table></section>`,
     )}
   </article>`;
+}
+
+/** Return what is delivered, and what is picked up. */
+function handed({ demand, pickup }) {
+  return pickup ? `${amounts(demand)}, back ${amounts(pickup)}` : amounts(demand);
 }
 
 function place({ location }) {
@@ -61,7 +66,7 @@ function orders(trip, halt) {
     .map(
       (sortie) =>
         `${clock(sortie.reply.launch_time)} launch ${name(sortie)} to ${sortie.visits
-          .map(({ id, source }) => `${id} (${amounts(source.demand)})`)
+          .map(({ id, source }) => `${id} (${handed(source)})`)
           .join(', ')}`,
     );
   const recoveries = trip.sorties

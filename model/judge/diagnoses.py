@@ -1,0 +1,300 @@
+"""Rules that a vehicle breaks which serves a customer alone: in words, and what would change that.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import ceil
+from operator import gt
+from typing import NamedTuple
+
+from model.judge.clock import MS_PER_MINUTE
+from model.judge.energy import sortie_energy
+from model.judge.metrics import allowed_overtime
+from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
+from model.judge.trial import Attempt, attempts
+from model.problem import (
+    MAX_BATTERY, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Overtime,
+    Problem, VehicleType,
+)
+
+
+class Diagnosis(NamedTuple):
+    """A broken rule in words, and the problem changed so that it is kept."""
+
+    code: str
+    message: str
+    remedy: str | None = None
+    problem: Problem | None = None
+
+
+def _drones(attempt: Attempt) -> DroneType:
+    drones = attempt.vehicle_type.drones
+    if drones is None:
+        raise ValueError(f"vehicle type {attempt.vehicle_type.id} drones: None is not allowed")
+    return drones
+
+
+def _with_type(attempt: Attempt, vehicle_type: VehicleType) -> Problem:
+    return replace(attempt.problem, vehicle_types=(vehicle_type,))
+
+
+def _up_to_tenth(quantity: int, unit: int) -> int:
+    """Round up to a tenth of a unit, so that what is said suffices."""
+    return -(-quantity * 10 // unit) * unit // 10
+
+
+def _if_stated(words: str, quantity: int) -> str | None:
+    """Return the words of a remedy, if a request can state the quantity that it asks for."""
+    return words if quantity <= MAX_QUANTITY else None
+
+
+def _minutes(duration: int) -> str:
+    number = decimal(duration * 1000 // MS_PER_MINUTE)
+    return "1 minute" if number == "1" else f"{number} minutes"
+
+
+def _km(distance: int) -> str:
+    return f"{decimal(distance * 1000 // MM_PER_KM)} km"
+
+
+def _vehicle(attempt: Attempt) -> Diagnosis:
+    name = attempt.vehicle_type.id
+    return Diagnosis("VEHICLE", f"{name} may not serve it.", f"fits if {name} may serve it",
+                      replace(attempt.problem, may_serve=None))
+
+
+def _skills(attempt: Attempt) -> Diagnosis:
+    vehicle_type, needed = attempt.vehicle_type, attempt.customer.skills
+    missing = ", ".join(sorted(needed - vehicle_type.skills))
+    changed = replace(vehicle_type, skills=vehicle_type.skills | needed)
+    return Diagnosis("SKILLS", f"{vehicle_type.id} lacks {missing}.",
+                      f"fits if {vehicle_type.id} had {missing}", _with_type(attempt, changed))
+
+
+def _too_much(attempt: Attempt, limit: tuple[int, ...], whose: str) -> str:
+    """Say which of a customer's amounts exceeds a limit."""
+    customer = attempt.customer
+    name, amount = (("demand", customer.demand) if any(map(gt, customer.demand, limit))
+                    else ("pickup", customer.taken_in))
+    return (f"Its {name} of {amounts(attempt.problem, amount)} exceeds the {whose} of "
+            f"{amounts(attempt.problem, limit)}.")
+
+
+def _enough(attempt: Attempt, limit: tuple[int, ...]) -> tuple[int, ...]:
+    """Return a limit raised to what a customer asks for."""
+    return tuple(map(max, limit, attempt.customer.demand, attempt.customer.taken_in))
+
+
+def _capacity(attempt: Attempt) -> Diagnosis:
+    vehicle_type = attempt.vehicle_type
+    needed = _enough(attempt, vehicle_type.capacity)
+    return Diagnosis(
+        "CAPACITY", _too_much(attempt, vehicle_type.capacity, "capacity"),
+        f"fits if capacity were at least {amounts(attempt.problem, needed)}",
+        _with_type(attempt, replace(vehicle_type, capacity=needed)),
+    )
+
+
+def _payload(attempt: Attempt) -> Diagnosis:
+    vehicle_type, drones = attempt.vehicle_type, _drones(attempt)
+    needed = _enough(attempt, drones.capacity)
+    changed = replace(vehicle_type, drones=replace(drones, capacity=needed))
+    return Diagnosis(
+        "CAPACITY", _too_much(attempt, drones.capacity, "drone capacity"),
+        f"fits if the drone capacity were at least {amounts(attempt.problem, needed)}",
+        _with_type(attempt, changed),
+    )
+
+
+def _pickup_order(attempt: Attempt) -> Diagnosis:
+    vehicle_type = attempt.vehicle_type
+    return Diagnosis(
+        "PICKUP_ORDER",
+        f"{vehicle_type.id} picks up only after it has delivered something on the same trip.",
+        f"fits if {vehicle_type.id} may pick up at any time",
+        _with_type(attempt, replace(vehicle_type, pickups="any")))
+
+
+def _unreachable(attempt: Attempt) -> Diagnosis:
+    return Diagnosis("RANGE", "No flight leads there from the depot and back.")
+
+
+def _endurance(attempt: Attempt) -> Diagnosis:
+    drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
+    airborne = airborne_duration(attempt.problem, drones, trip, trip.sorties[0])
+    excess = _up_to_tenth(airborne - drones.endurance, MS_PER_MINUTE)
+    enough = drones.endurance + excess
+    changed = replace(drones, endurance=min(enough, UNLIMITED))
+    return Diagnosis(
+        "RANGE",
+        f"A flight from the depot and back lasts {_minutes(excess)} more than the endurance.",
+        _if_stated(f"fits if endurance were {_minutes(excess)} longer", enough),
+        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+    )
+
+
+def _energy(attempt: Attempt) -> Diagnosis:
+    drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
+    energy = drones.energy
+    if energy is None:
+        raise ValueError("drone energy: None is not allowed")
+    taken = sortie_energy(attempt.problem, drones, energy, trip, trip.sorties[0])
+    missing = ceil((taken - energy.available) / energy.usable_share)
+    tenths = -(-missing * 10 // MICROJOULES_PER_WH)
+    enough = energy.available + round(tenths / 10 * energy.usable_share * MICROJOULES_PER_WH)
+    largest = MAX_BATTERY * energy.usable_share * MICROJOULES_PER_WH
+    changed = replace(drones, energy=replace(energy, available=enough))
+    return Diagnosis(
+        "RANGE",
+        f"A flight from the depot and back takes {watt_hours(taken)}, and "
+        f"{watt_hours(energy.available)} may be taken.",
+        f"fits with a battery of {decimal(tenths, 1)} Wh more" if enough <= largest else None,
+        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+    )
+
+
+def _trip_distance(attempt: Attempt) -> Diagnosis:
+    vehicle_type = attempt.vehicle_type
+    limit = vehicle_type.max_trip_distance or 0
+    distance = attempt.evaluation.routes[0].trips[0].distance
+    excess = _up_to_tenth(distance - limit, MM_PER_KM)
+    enough = limit + excess
+    changed = replace(vehicle_type, max_trip_distance=min(enough, MAX_QUANTITY))
+    return Diagnosis(
+        "RANGE",
+        f"A trip there and back is {_km(excess)} longer than a trip may be.",
+        _if_stated(f"fits if trips could be {_km(excess)} longer", enough),
+        _with_type(attempt, changed),
+    )
+
+
+def _arrival(attempt: Attempt) -> int:
+    trip = attempt.solution.routes[0].trips[0]
+    return (trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]).arrival
+
+
+def _stops(attempt: Attempt) -> Diagnosis:
+    vehicle_type = attempt.vehicle_type
+    return Diagnosis("STOPS", f"{vehicle_type.id} serves nobody itself, by its max_stops.",
+                      f"fits if {vehicle_type.id} could make 1 stop",
+                      _with_type(attempt, replace(vehicle_type, max_stops=1)))
+
+
+def _sorties(attempt: Attempt) -> Diagnosis:
+    vehicle_type = attempt.vehicle_type
+    return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its max_sorties.",
+                      f"fits if {vehicle_type.id} could launch 1 sortie",
+                      _with_type(attempt, replace(vehicle_type, max_sorties=1)))
+
+
+def _time_window(attempt: Attempt) -> Diagnosis:
+    customer = attempt.customer
+    late = _up_to_tenth(_arrival(attempt) - customer.latest, MS_PER_MINUTE)
+    enough = customer.latest + late
+    changed = replace(customer, latest=min(enough, UNLIMITED))
+    window = "last window" if customer.gaps else "window"
+    return Diagnosis(
+        "TIME_WINDOW",
+        f"The earliest arrival is {_minutes(late)} after its {window} closes.",
+        _if_stated(f"fits if its {window} closed {_minutes(late)} later", enough),
+        replace(attempt.problem, customers=(changed,)),
+    )
+
+
+def missed_window(attempt: Attempt) -> Diagnosis | None:
+    """Say that waiting for a window breaks a rule, and widen the one before it.
+
+    None if nobody waits between two windows, or that doesn't suffice.
+    """
+    customer, arrival = attempt.customer, _arrival(attempt)
+    missed = [number for number, (closes, opens) in enumerate(customer.gaps)
+              if closes < arrival < opens]
+    if not missed:
+        return None
+    (number,) = missed
+    closes, opens = customer.gaps[number]
+    late = _up_to_tenth(arrival - closes, MS_PER_MINUTE)
+    # Windows don't touch: one that would is closed just before the next opens.
+    wider = (min(closes + late, opens - 1), opens)
+    gaps = (*customer.gaps[:number], wider, *customer.gaps[number + 1:])
+    changed = replace(attempt.problem, customers=(replace(customer, gaps=gaps),))
+    if all(again.codes for again in attempts(changed, 0, changed.num_depots)):
+        return None
+    return Diagnosis(
+        "TIME_WINDOW",
+        f"The earliest arrival is {_minutes(late)} after its window {number + 1} closes, and "
+        f"window {number + 2} is too late for {attempt.vehicle_type.id}.",
+        f"fits if its window {number + 1} closed {_minutes(late)} later",
+    )
+
+
+def _more_overtime(attempt: Attempt, overtime: Overtime, limit: int, excess: int,
+                   code: str, message: str) -> Diagnosis:
+    """Say what more overtime would do, which goes on from a limit that is exceeded by so much."""
+    vehicle_type, enough = attempt.vehicle_type, overtime.max_duration + excess
+    changed = replace(overtime, max_duration=min(enough, UNLIMITED))
+    return Diagnosis(
+        code, message,
+        _if_stated(f"fits if {vehicle_type.id} could work {_minutes(excess)} more overtime",
+                   max(enough, limit + enough)),
+        _with_type(attempt, replace(vehicle_type, overtime=changed)))
+
+
+def _shift(attempt: Attempt) -> Diagnosis:
+    vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
+    if overtime is not None:
+        end = vehicle_type.latest + overtime.max_duration
+        excess = _up_to_tenth(attempt.evaluation.makespan - end, MS_PER_MINUTE)
+        return _more_overtime(
+            attempt, overtime, vehicle_type.latest, excess, "SHIFT",
+            f"{vehicle_type.id} would be back {_minutes(excess)} after its shift and all the "
+            "overtime allowed.")
+    late = _up_to_tenth(attempt.evaluation.makespan - vehicle_type.latest, MS_PER_MINUTE)
+    home = "done" if attempt.problem.is_nowhere(vehicle_type.ends_at) else "back"
+    enough = vehicle_type.latest + late
+    changed = replace(vehicle_type, latest=min(enough, UNLIMITED))
+    return Diagnosis(
+        "SHIFT",
+        f"{vehicle_type.id} would be {home} {_minutes(late)} after its shift ends.",
+        _if_stated(f"fits if {vehicle_type.id}'s shift ended {_minutes(late)} later", enough),
+        _with_type(attempt, changed),
+    )
+
+
+def _working_hours(attempt: Attempt) -> Diagnosis:
+    vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
+    limit = vehicle_type.max_working_duration or 0
+    most = limit + allowed_overtime(vehicle_type)
+    excess = _up_to_tenth(attempt.evaluation.routes[0].working_duration - most, MS_PER_MINUTE)
+    if overtime is not None:
+        return _more_overtime(
+            attempt, overtime, limit, excess, "WORKING_HOURS",
+            f"Serving it alone takes {_minutes(excess)} more than {vehicle_type.id} may work with "
+            "all the overtime allowed.")
+    enough = limit + excess
+    changed = replace(vehicle_type, max_working_duration=min(enough, MAX_QUANTITY))
+    return Diagnosis(
+        "WORKING_HOURS",
+        f"Serving it alone takes {_minutes(excess)} more than {vehicle_type.id} may work.",
+        _if_stated(f"fits if {vehicle_type.id} could work {_minutes(excess)} longer", enough),
+        _with_type(attempt, changed),
+    )
+
+
+DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
+    "VEHICLE": _vehicle,
+    "SKILLS": _skills,
+    "CAPACITY": _capacity,
+    "PAYLOAD": _payload,
+    "PICKUP_ORDER": _pickup_order,
+    "UNREACHABLE": _unreachable,
+    "ENDURANCE": _endurance,
+    "ENERGY": _energy,
+    "TRIP_DISTANCE": _trip_distance,
+    "MAX_STOPS": _stops,
+    "MAX_SORTIES": _sorties,
+    "TIME_WINDOW": _time_window,
+    "SHIFT": _shift,
+    "WORKING_DURATION": _working_hours,
+}
+"""Broken rules, the hardest to change first."""

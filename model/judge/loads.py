@@ -1,0 +1,95 @@
+"""What is aboard a truck from stop to stop, and a drone from customer to customer."""
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+from model.problem import Customer, Problem, VehicleType
+from model.solution import Sortie, Trip
+
+Amount = tuple[int, ...]
+"""By dimension, in parts."""
+
+
+def _plus(one: Amount, other: Amount) -> Amount:
+    return tuple([a + b for a, b in zip(one, other, strict=True)])
+
+
+def highest(loads: Sequence[Amount]) -> Amount:
+    """Return the most that is aboard at any point, each dimension by itself."""
+    return tuple(map(max, zip(*loads, strict=True)))
+
+
+def trip_loads(problem: Problem, kind: VehicleType, trip: Trip) -> list[Amount]:
+    """Return what is on the truck before anything leaves it, then when it leaves each stop.
+
+    A drone's parcels leave the truck where it is launched, what it picks up comes aboard where it
+    is recovered. At the last stop that which is brought there is still aboard.
+    """
+    load = kind.initial_load or (0,) * problem.num_dimensions
+    loads = [load]
+    for customers in reversed(_leaving(problem, trip)):
+        for customer in customers:
+            load = _plus(load, customer.demand)
+        loads.append(load)
+    loads.reverse()
+    taken = (0,) * problem.num_dimensions
+    for index, customers in enumerate(_coming(problem, trip), 1):
+        for customer in customers:
+            if customer.pickup:
+                taken = _plus(taken, customer.pickup)
+        if any(taken):
+            loads[index] = _plus(loads[index], taken)
+    return loads
+
+
+def _leaving(problem: Problem, trip: Trip) -> list[list[Customer]]:
+    """Return whose parcels leave the truck at each stop."""
+    customers, first = problem.customers, problem.num_depots
+    leaving = [[], *([customers[stop.node - first]] for stop in trip.stops[1:-1]), []]
+    for sortie in trip.sorties:
+        leaving[sortie.launch_stop] += [customers[visit.node - first] for visit in sortie.visits]
+    return leaving
+
+
+def _coming(problem: Problem, trip: Trip) -> list[list[Customer]]:
+    """Return whose pickups come aboard the truck at each stop."""
+    customers, first = problem.customers, problem.num_depots
+    coming = [[], *([customers[stop.node - first]] for stop in trip.stops[1:-1]), []]
+    for sortie in trip.sorties:
+        coming[sortie.recovery_stop] += [customers[visit.node - first] for visit in sortie.visits]
+    return coming
+
+
+def sortie_loads(problem: Problem, sortie: Sortie) -> list[Amount]:
+    """Return what a drone carries at take-off, then when it leaves each customer."""
+    load = (0,) * problem.num_dimensions
+    loads = [load]
+    for visit in reversed(sortie.visits):
+        load = _plus(load, problem.customer_at(visit.node).demand)
+        loads.append(load)
+    loads.reverse()
+    taken = (0,) * problem.num_dimensions
+    for index, visit in enumerate(sortie.visits, 1):
+        taken = _plus(taken, problem.customer_at(visit.node).taken_in)
+        loads[index] = _plus(loads[index], taken)
+    return loads
+
+
+def picks_up_early(problem: Problem, kind: VehicleType, trip: Trip) -> Iterator[str]:
+    """Yield where a trip doesn't pick up last: after all it delivers, which is something.
+
+    As part of a path: of a stop, or a sortie; of the trip itself where nothing is delivered.
+    """
+    delivers = [any(any(customer.demand) for customer in group)
+                for group in _leaving(problem, trip)]
+    picks_up = [any(any(customer.pickup) for customer in group)
+                for group in _coming(problem, trip)]
+    if any(picks_up) and not (kind.has_delivered or any(delivers)):
+        yield ""
+    for index, picks in enumerate(picks_up):
+        if picks and any(delivers[index + 1:]):
+            yield f".stops[{index}]"
+    for number, sortie in enumerate(trip.sorties):
+        customers = [problem.customer_at(visit.node) for visit in sortie.visits]
+        if any(any(one.pickup) and any(other.demand) for one, other in combinations(customers, 2)):
+            yield f".sorties[{number}]"
