@@ -60,7 +60,7 @@ HOMES = {
                       ".recovery_duration", ".waiting_counts", "UNREACHABLE"},
     "kernel/energy": {".battery", ".lands", ".climb_duration", ".descent_duration", ".cruise",
                       ".hover", ".weight_dimension"},
-    "kernel/load": {".capacity", ".demand", ".payload"},
+    "kernel/load": {".capacity", ".demand", ".payload", ".pickup_order"},
     "kernel/clock": {".speed_changes", "FULL_SPEED", "arrival_by_profile", "leave_by_profile"},
     "kernel/leg": {"LEG_DISTANCE", "LEG_DURATION"},
 }
