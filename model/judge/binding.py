@@ -209,9 +209,7 @@ def _trip_limits(bench: Bench, kind: int) -> Iterator[_Changed]:
              if route.vehicle_type == kind]
     if len(trips) == vehicle_type.count:
         yield "count", "vehicle", 0.0, replace(vehicle_type, count=vehicle_type.count + 1)
-    stays = (vehicle_type.begins_at == vehicle_type.ends_at == vehicle_type.depot
-             and not any(vehicle_type.initial_load) and not vehicle_type.busy_until)
-    if max(trips, default=0) == vehicle_type.max_trips and stays:
+    if max(trips, default=0) == vehicle_type.max_trips and not vehicle_type.has_begun:
         yield "max_trips", "trip", 0.0, replace(vehicle_type, max_trips=vehicle_type.max_trips + 1)
 
 

@@ -120,9 +120,13 @@ class VehicleType:
             require_quantity(f"vehicle type {self.id} initial_load", load, most)
         since = self.works_since or 0
         require_quantity(f"vehicle type {self.id} works_since", since, self.earliest)
-        begun = any(self.initial_load) or self.busy_until > 0 or self.has_delivered
-        require(self.max_trips == 1 or not begun, f"vehicle type {self.id} max_trips",
-                 self.max_trips)
+        require(self.max_trips == 1 or not self.has_begun, f"vehicle type {self.id} max_trips",
+                self.max_trips)
+
+    @property
+    def has_begun(self) -> bool:
+        """Tell whether its only trip was begun already."""
+        return any(self.initial_load) or self.busy_until > 0 or self.has_delivered
 
     @property
     def type_id(self) -> str:

@@ -1,6 +1,6 @@
 """Routes of one trip where distance alone costs: only loads, departures and latest arrivals."""
 
-from model.kernel.compiled import inlined, spliced
+from model.kernel.compiled import spliced
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of
 from model.kernel.records import Records
@@ -11,7 +11,7 @@ from model.search.route.layout import CUSTOMER, NOWHERE, Fleet, World, clear_tri
 from model.search.route.vehicles import add_load, may_make, route_cost
 
 
-@inlined
+@spliced
 def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     """Write what a lean route needs. In place; False if it breaks a rule."""
     route, stops, trip = fleet.route[slot], fleet.stop[slot], fleet.trip[slot, 0]

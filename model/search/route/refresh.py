@@ -129,9 +129,11 @@ def refresh(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
 
     Where trips may end at several places, that which costs least is chosen between two.
     """
+    route = fleet.route[slot]
+    if world.mode[route.type] & MODE_LEAN:
+        return refresh_lean(world, fleet, slot)
     if not refresh_as_is(world, fleet, slot, acc):
         return False
-    route = fleet.route[slot]
     if is_apart(world, route.type) and route.trips > 1:
         choose_reloads(world, fleet, slot, acc)
     return True
@@ -156,12 +158,10 @@ def choose_reloads(world: World, fleet: Fleet, slot: int, acc: Record) -> None:
 
 @inlined
 def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
-    """As `refresh`, with trips that end where they do."""
+    """As `refresh`, of a route that isn't lean, with trips that end where they do."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     trips, sorties = fleet.trip[slot], fleet.sortie[slot]
     mode = world.mode[route.type]
-    if mode & MODE_LEAN:
-        return refresh_lean(world, fleet, slot)
     if not load_trips(world, route, stops, trips, sorties):
         return False
     if fleet.halt.shape[1] > 0 and not weigh(world, fleet, slot):

@@ -139,4 +139,4 @@ def test_what_is_aboard_is_told_at_each_stop(client: httpx.Client, smallest: Req
     assert checked["cost"] == plan["cost"]
     smallest["fleet"][0]["capacity"] = [12]
     left_out, = client.post("/plan", json=smallest).json()["unassigned"]
-    assert left_out["reasons"][0]["code"] == "FLEET_EXHAUSTED"
+    assert left_out["reasons"][0]["code"] == "PICKUP_ORDER"
