@@ -5,7 +5,7 @@ PORT ?= 8000
 MINUTES ?= 60
 DATA ?= ../shared/data
 CASES ?= 10000
-RULE_SETS ?= mdvrptw,sdvrptw,pcvrptw,vrpmtw
+RULE_SETS ?= mdvrptw,sdvrptw,pcvrptw,vrpmtw,ovrp,vrpb,vrpspd
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check

@@ -92,8 +92,9 @@ def _vehicle_type(pyvrp: Any, instance: Published, kind: PublishedVehicle, scale
     if kind.max_duration is not None:
         limits["shift_duration"] = kind.max_duration
     return pyvrp.VehicleType(
-        kind.count, [kind.capacity * scale], start_depot=kind.depot, end_depot=kind.depot,
-        fixed_cost=kind.fixed_cost, unit_distance_cost=kind.unit_cost, profile=profile, **limits)
+        kind.count, [kind.capacity * scale], start_depot=kind.depot,
+        end_depot=instance.end_of(kind), fixed_cost=kind.fixed_cost,
+        unit_distance_cost=kind.unit_cost, profile=profile, **limits)
 
 
 def _legs(instance: Published, serves: tuple[int, ...] | None) -> IntArray:
@@ -103,8 +104,6 @@ def _legs(instance: Published, serves: tuple[int, ...] | None) -> IntArray:
     """
     far = FAR * int(instance.travel.max())
     legs, depots = instance.travel.copy(), slice(instance.num_depots)
-    if instance.is_open:
-        legs[:, depots] = 0
     if instance.pickups_last and instance.pickup is not None:
         brought, taken = instance.demand > 0, instance.pickup > 0
         legs[depots, taken] = far

@@ -108,7 +108,7 @@ def stated_cost(instance: Published, routes: Iterable[PeerRoute]) -> float:
         driven = [trip for trip in trips if trip]
         cost += kind.fixed_cost if driven else 0
         for trip in driven:
-            stops = [kind.depot, *trip, *([] if instance.is_open else [kind.depot])]
+            stops = [kind.depot, *trip, instance.end_of(kind)]
             cost += kind.unit_cost * sum(int(instance.travel[leg]) for leg in pairwise(stops))
             left_out.difference_update(trip)
     if instance.prize is not None:

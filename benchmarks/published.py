@@ -85,7 +85,7 @@ class Published:
     """(node,) Last start of service in one window and first in the next; (): a window each."""
     pickup: IntArray | None = None  # (node,) amount taken in, `demand` being what is brought
     pickups_last: bool = False  # and only behind all deliveries of a route, at least one
-    is_open: bool = False  # routes end with their last customer
+    is_open: bool = False  # routes end with their last customer: at the last depot, no place
 
     @property
     def num_customers(self) -> int:
@@ -96,6 +96,10 @@ class Published:
     def customers(self) -> range:
         """Their nodes."""
         return range(self.num_depots, len(self.demand))
+
+    def end_of(self, kind: PublishedVehicle) -> int:
+        """Return the depot where routes of a type end."""
+        return self.num_depots - 1 if self.is_open else kind.depot
 
     def gaps_at(self, node: int) -> Gaps:
         """Return what lies between the windows of a customer."""
@@ -213,17 +217,8 @@ def to_problem(instance: Published) -> Problem:
     """Return an instance whose plans cost what the set's convention says.
 
     A unit of distance is a metre, a unit of time a second.
-
-    Raises
-    ------
-    ValueError
-        If it has pickups, or routes that end with their last customer.
     """
-    if instance.pickup is not None or instance.is_open:
-        raise ValueError(f"{instance.name}: has rules that no problem can state")
     legs = instance.travel * MODEL_UNITS
-    names = ["depot"] if instance.num_depots == 1 else [
-        f"depot-{number}" for number in range(1, instance.num_depots + 1)]
     customers = tuple([_customer(instance, node) for node in instance.customers])
     vehicle_types = tuple([_vehicle_type(instance, index)
                            for index in range(len(instance.vehicles))])
@@ -231,10 +226,17 @@ def to_problem(instance: Published) -> Problem:
                   for kind in instance.vehicles)
     dearest = max(kind.unit_cost for kind in instance.vehicles) * longest
     dearest += max(kind.fixed_cost for kind in instance.vehicles)
-    return Problem(tuple(map(Depot, names)), customers, vehicle_types, (Travel(legs, legs),),
+    return Problem(_depots(instance), customers, vehicle_types, (Travel(legs, legs),),
                    instance.coordinates,
                    unassigned_cost=DETOURS_PER_CUSTOMER * dearest / instance.divisor,
                    may_serve=_may_serve(instance))
+
+
+def _depots(instance: Published) -> tuple[Depot, ...]:
+    count = instance.num_depots - instance.is_open
+    depots = [Depot("depot")] if count == 1 else [
+        Depot(f"depot-{number}") for number in range(1, count + 1)]
+    return tuple(depots + [Depot("nowhere", "nowhere")] * instance.is_open)
 
 
 def _may_serve(instance: Published) -> BoolArray | None:
@@ -255,7 +257,9 @@ def _customer(instance: Published, node: int) -> Customer:
         unassigned_cost=(None if instance.prize is None
                          else int(instance.prize[node]) / instance.divisor),
         gaps=tuple([(closes * MODEL_UNITS, reopens * MODEL_UNITS)
-                    for closes, reopens in instance.gaps_at(node)]))
+                    for closes, reopens in instance.gaps_at(node)]),
+        pickup=(() if instance.pickup is None
+                else (int(instance.pickup[node]) * MODEL_UNITS,)))
 
 
 def _vehicle_type(instance: Published, index: int) -> VehicleType:
@@ -269,7 +273,8 @@ def _vehicle_type(instance: Published, index: int) -> VehicleType:
         latest=_model_latest(instance, kind.depot),
         max_working_duration=(None if kind.max_duration is None
                               else kind.max_duration * MODEL_UNITS),
-        max_trips=instance.max_trips)
+        max_trips=instance.max_trips, pickups="last" if instance.pickups_last else "any",
+        end=instance.end_of(kind) if instance.is_open else None)
 
 
 def _model_latest(instance: Published, node: int) -> int:
@@ -295,6 +300,8 @@ def routes_of_types(instance: Published, routes: Sequence[list[list[int]]]
                     ) -> list[tuple[int, list[list[int]]]]:
     """Return the type of vehicle k, as the file counts them, with the trips of `routes[k]`.
 
+    Their nodes are as in the file, which doesn't count a depot that is no place.
+
     Raises
     ------
     ValueError
@@ -303,4 +310,5 @@ def routes_of_types(instance: Published, routes: Sequence[list[list[int]]]
     types = [index for index, kind in enumerate(instance.vehicles) for _ in range(kind.count)]
     if len(routes) > len(types):
         raise ValueError(f"routes: {len(routes)} for {len(types)} vehicles")
-    return [(kind, trips) for kind, trips in zip(types, routes, strict=False) if trips]
+    return [(kind, [[node + instance.is_open for node in trip] for trip in trips])
+            for kind, trips in zip(types, routes, strict=False) if trips]

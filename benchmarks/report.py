@@ -42,7 +42,7 @@ means that the solver can't plan such instances. Costs are the sets' own, counte
 judge and once from the instance's numbers; the best known plans, judged, cost exactly what is
 stated. Of `vrpmtw` none are known: the gap is to plans that PyVRP found in 80 s, and may be
 negative. PyVRP takes several windows as clients of whom one is served, tables of who may serve
-whom and backhauls as legs far too long, open ends as legs home of no length."""
+whom and backhauls as legs far too long, open ends as a depot that all legs to have no length."""
 
 PARTS = {"versus": NOTES, "rule-sets": RULE_NOTES}
 """Parts of the page, by the names in their markers, and what is said below their tables."""

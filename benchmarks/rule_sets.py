@@ -64,10 +64,6 @@ RULE_SETS = {
 }
 """By folder name."""
 
-PLANNED = ("mdvrptw", "sdvrptw", "pcvrptw", "vrpmtw")
-"""Those whose rules problems can state."""
-
-
 def rule_set(data: Path, set_name: str) -> list[Published]:
     """Return all instances of a set, sorted by name.
 
@@ -122,7 +118,7 @@ def _read_vrplib(path: Path, rules: RuleSet) -> Published:
     service = np.broadcast_to(_units(fields.get("service_time", 0), scale), size).copy()
     service[:num_depots] = 0
     windows = fields.get("time_window")
-    return Published(
+    read = Published(
         path.stem, "", coordinates, _delivered(fields, size),
         earliest=np.zeros(size, np.int64) if windows is None else _units(windows[:, 0], scale),
         latest=np.full(size, NO_LIMIT) if windows is None else _units(windows[:, 1], scale),
@@ -131,7 +127,24 @@ def _read_vrplib(path: Path, rules: RuleSet) -> Published:
         has_windows=windows is not None, divisor=rules.convention.divisor, best_known=math.nan,
         num_depots=num_depots,
         prize=_units(fields["prize"], scale) if "prize" in fields else None,
-        pickup=_picked_up(fields), pickups_last=rules.pickups_last, is_open=rules.is_open)
+        pickup=_picked_up(fields), pickups_last=rules.pickups_last)
+    return _open_ended(read) if rules.is_open else read
+
+
+def _open_ended(instance: Published) -> Published:
+    """Return an instance whose routes end at one more depot, to which no leg takes anything."""
+    at = instance.num_depots
+
+    def widened(values: IntArray) -> IntArray:
+        return np.insert(values, at, values[0])
+
+    return replace(
+        instance, is_open=True, num_depots=at + 1,
+        coordinates=np.insert(instance.coordinates, at, instance.coordinates[0], axis=0),
+        demand=widened(instance.demand), earliest=widened(instance.earliest),
+        latest=widened(instance.latest), service=widened(instance.service),
+        release=widened(instance.release),
+        travel=np.insert(np.insert(instance.travel, at, 0, axis=0), at, 0, axis=1))
 
 
 def _delivered(fields: Fields, size: int) -> IntArray:
@@ -192,7 +205,7 @@ def _gaps(windows: IntArray) -> Gaps:
 def main(
     data: Annotated[Path, typer.Option(help="folder of the published sets")]
     = Path("../shared/data"),
-    sets: Annotated[str, typer.Option(help="comma-separated")] = ",".join(PLANNED),
+    sets: Annotated[str, typer.Option(help="comma-separated")] = ",".join(RULE_SETS),
 ) -> None:
     """Judge the best known plans: each must keep all rules, at the cost that is stated."""
     wrong = 0

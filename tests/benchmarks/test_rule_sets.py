@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import peer_pyvrp
-from benchmarks.peers import Verdict, has_rare_rules, judge, stated_cost
+from benchmarks import peer_pyvrp, tandem
+from benchmarks.peers import PeerAnswer, Verdict, has_rare_rules, judge, stated_cost
 from benchmarks.published import Published, read_routes, routes_of_types, to_problem
 from benchmarks.rule_sets import read_rule_instance, rule_set
 
@@ -246,23 +246,42 @@ def test_one_of_several_windows_is_chosen(tmp_path: Path) -> None:
     assert _judge(instance, tmp_path / "x.sol", "Route #1: 1 2\n").counts
 
 
-def test_other_rules_are_read(tmp_path: Path) -> None:
-    backhauls = _read(tmp_path, "vrpb", "X-n4.vrp", BACKHAULS)
-    assert (backhauls.pickups_last, backhauls.vehicles[0].count) == (True, 3)
-    both_ways = _read(tmp_path, "vrpspd", "CON9-9.vrpspd", BOTH_WAYS)
-    assert both_ways.pickup is not None
-    assert (both_ways.demand.tolist(), both_ways.pickup.tolist()) == ([0, 7, 2], [0, 3, 9])
-    assert both_ways.travel.tolist() == [[0, 1, 2], [1, 0, 1], [2, 1, 0]]
-    open_ended = _read(tmp_path, "ovrp", "C9.vrp", OPEN)
-    assert (open_ended.is_open, open_ended.vehicles[0].max_duration) == (True, 20_000)
-    assert stated_cost(open_ended, [(0, [[1, 2]])]) == 10
-    for instance in (backhauls, both_ways, open_ended):
-        assert has_rare_rules(instance)
-        with pytest.raises(ValueError, match="rules that no problem can state"):
-            to_problem(instance)
+def test_routes_end_with_their_last_customer(tmp_path: Path) -> None:
+    instance = _read(tmp_path, "ovrp", "C9.vrp", OPEN)
+    assert (instance.num_depots, instance.vehicles[0].max_duration) == (2, 20_000)
+    assert (instance.travel[:, 1].max(), instance.travel[1].max()) == (0, 0)
+    path = tmp_path / "x.sol"
+    best = _judge(instance, path, "Route #1: 1 2\n")
+    assert (best.counts, best.cost) == (True, 10.0)
+    # Two legs of 5 and twice 2 of service, and no way home.
+    for longest, counts in ((14, True), (13, False)):
+        limited = _read(tmp_path, "ovrp", "C9.vrp", OPEN.replace(": 20", f": {longest}"))
+        assert _judge(limited, path, "Route #1: 1 2\n").counts == counts
 
 
-@pytest.mark.parametrize(("set_name", "name", "text", "cost"), [
+def test_all_is_delivered_before_anything_is_picked_up(tmp_path: Path) -> None:
+    instance = _read(tmp_path, "vrpb", "X-n4.vrp", BACKHAULS)
+    assert instance.vehicles[0].count == 3
+    path = tmp_path / "x.sol"
+    best = _judge(instance, path, "Route #1: 2 3 1\n")
+    assert (best.counts, best.cost) == (True, 6.0)
+    assert not _judge(instance, path, "Route #1: 1 2 3\n").is_feasible
+    assert not _judge(instance, path, "Route #1: 2\nRoute #2: 3 1\n").is_feasible
+
+
+def test_what_is_aboard_fits_everywhere(tmp_path: Path) -> None:
+    instance = _read(tmp_path, "vrpspd", "CON9-9.vrpspd", BOTH_WAYS)
+    assert instance.pickup is not None
+    assert (instance.demand.tolist(), instance.pickup.tolist()) == ([0, 7, 2], [0, 3, 9])
+    assert instance.travel.tolist() == [[0, 1, 2], [1, 0, 1], [2, 1, 0]]
+    path = tmp_path / "x.sol"
+    # It would bring home 12.
+    assert not _judge(instance, path, "Route #1: 1 2\n").is_feasible
+    apart = _judge(instance, path, "Route #1: 1\nRoute #2: 2\n")
+    assert (apart.counts, apart.cost) == (True, pytest.approx(0.0006))
+
+
+BEST = [
     ("mdvrptw", "PR90A.vrp", DEPOTS, 6.0),
     ("sdvrptw", "PR91.vrp", SITES, 20.0),
     ("pcvrptw", "C9_10_9.vrp", PRIZES, 8.8),
@@ -270,13 +289,30 @@ def test_other_rules_are_read(tmp_path: Path) -> None:
     ("vrpb", "X-n4.vrp", BACKHAULS, 6.0),
     ("vrpspd", "CON9-9.vrpspd", BOTH_WAYS, 0.0006),
     ("ovrp", "C9.vrp", OPEN, 10.0),
-])
+]
+
+
+def _require_best(instance: Published, answer: PeerAnswer, cost: float) -> None:
+    """Require that the judge finds the best plan, as the instance's own numbers do."""
+    assert has_rare_rules(instance)
+    assert judge(to_problem(instance), answer.routes) == Verdict(pytest.approx(cost), True, 0)
+    assert stated_cost(instance, answer.routes) == pytest.approx(cost)
+
+
+@pytest.mark.parametrize(("set_name", "name", "text", "cost"), BEST)
 def test_pyvrp_if_installed_finds_the_best_plan(tmp_path: Path, set_name: str, name: str,
                                                 text: str, cost: float) -> None:
     pytest.importorskip("pyvrp")
     instance = _read(tmp_path, set_name, name, text)
-    found = peer_pyvrp.solve(instance, 0.05, 1)
-    assert stated_cost(instance, found.routes) == pytest.approx(cost)
+    _require_best(instance, peer_pyvrp.solve(instance, 0.05, 1), cost)
+
+
+@pytest.mark.parametrize(("set_name", "name", "text", "cost"), BEST)
+def test_tandem_finds_the_best_plan(tmp_path: Path, set_name: str, name: str, text: str,
+                                    cost: float) -> None:
+    instance = _read(tmp_path, set_name, name, text)
+    tandem.solve(instance, 0.01, 1, 1)  # so that all code is compiled
+    _require_best(instance, tandem.solve(instance, 0.3, 1, 1), cost)
 
 
 def test_best_known_cost_is_read_beside_the_files(tmp_path: Path) -> None:
