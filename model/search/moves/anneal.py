@@ -180,7 +180,8 @@ def move_parts(world: World, searcher: Searcher, tails: bool) -> None:
     if changed:
         if world.traded and uniform(searcher.rng) < RETYPED:
             improve_types(world, searcher)
-        cost = turn_cost(world, searcher)
+        # Who is left out stays the same, and isn't listed as absent yet.
+        cost = served_cost(searcher)
         if cost < value.cost + limit:
             copy_some(searcher.missing, searcher.absent, count.missing)
             list_active(searcher)
