@@ -98,9 +98,12 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
         if by != k and not world.splice[k, by]:
             continue
         cost = tail_saving(world, now, a, p, b, q)
-        if cost < best and (by == k or world.swap[k, by]
-                            or (may_serve_tail(world, now, k, b, q)
-                                and may_serve_tail(world, now, by, a, p))):
+        if cost >= best or not (by == k or world.swap[k, by]
+                                or (may_serve_tail(world, now, k, b, q)
+                                    and may_serve_tail(world, now, by, a, p))):
+            continue
+        # Where it matters who comes when, few tails fit: look for one that does.
+        if now.halt.shape[1] == 0 or may_swap(world, now, a, p, b, q):
             chosen, place, best = b, q, cost
     if now.stop[a, p + 1].kind == CUSTOMER:
         legs = legs_of(world.leg, world.type[k].travel)
@@ -221,6 +224,14 @@ def leaves_nothing(fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
     return nobody and not (q == 0 and p + 2 == fleet.route[a].length)
 
 
+@inlined
+def may_swap(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
+    """Tell whether tails may be swapped, by what trips carry, how many there are, and to whom."""
+    return not (leaves_nothing(fleet, a, p, b, q)
+                or overloads(world, fleet, a, p, b, q) or overloads(world, fleet, b, q, a, p)
+                or too_long(world, fleet, a, p, b, q) or too_long(world, fleet, b, q, a, p))
+
+
 @spliced
 def exchange_tails(world: World, searcher: Searcher, limit: float) -> bool:
     """Swap the tail behind a random stop if that may cost less than `limit`.
@@ -235,9 +246,6 @@ def exchange_tails(world: World, searcher: Searcher, limit: float) -> bool:
     b, q = find_tail(world, searcher, a, p, limit)
     if b < 0:
         return False
-    if now.route[b].length > 0 and (
-            leaves_nothing(now, a, p, b, q)
-            or overloads(world, now, a, p, b, q) or overloads(world, now, b, q, a, p)
-            or too_long(world, now, a, p, b, q) or too_long(world, now, b, q, a, p)):
+    if now.route[b].length > 0 and not may_swap(world, now, a, p, b, q):
         return False
     return swap_tails(world, searcher, a, p, b, q)
