@@ -26,7 +26,7 @@ from model.search.improve import SearchConfig, improve
 from model.search.world import ALL_MOVES
 from model.simulation.extract import extract
 from model.solution import Solution
-from training.instances import VARIANTS, generate
+from training.instances import COMPARED, generate
 
 STARTS: tuple[Start, ...] = ("insertion", "policy")
 
@@ -86,7 +86,7 @@ class Trial:
         return Way(self.start, self.budget_s, self.without)
 
 
-def sample(sizes: Sequence[int], each: int, variants: Iterable[str] = VARIANTS) -> list[Sample]:
+def sample(sizes: Sequence[int], each: int, variants: Iterable[str] = COMPARED) -> list[Sample]:
     """Return so many problems of each class and size, the same ones every time."""
     return [Sample(variant, size, index, generate(
                 np.random.default_rng((SAMPLE_SEED, number, size, index)), size, variant))
@@ -124,7 +124,7 @@ def search_config(way: Way, turns: int | None = None) -> SearchConfig:
 def measure(samples: Sequence[Sample], policy: Policy, chosen: Sequence[Way],
             known: Collection[tuple[str, Way]] = ()) -> Iterator[Trial]:
     """Yield the plan of each problem by each way, but those `known`."""
-    for one in samples[::max(1, len(samples) // len(VARIANTS))]:
+    for one in samples[::max(1, len(samples) // len(COMPARED))]:
         for way in chosen:
             plans(one.problem, policy, way, turns=20)  # so that all code is compiled
     keep_loaded()

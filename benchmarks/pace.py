@@ -27,7 +27,7 @@ from app.settings import DEFAULT_POLICY, Settings
 from benchmarks.replanning import nothing
 from model.planner import PlanOptions, load_planner
 from model.problem import Problem
-from training.instances import VARIANTS, generate
+from training.instances import COMPARED, generate
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -50,7 +50,7 @@ app = typer.Typer(help=__doc__, pretty_exceptions_enable=False)
 
 def kinds() -> Iterator[tuple[str, Problem]]:
     """Yield the problems."""
-    for variant, size in (*((variant, SIZE) for variant in VARIANTS), *LARGE):
+    for variant, size in (*((variant, SIZE) for variant in COMPARED), *LARGE):
         rng = np.random.default_rng((SEED, size, len(variant)))
         yield f"{variant} {size}", generate(rng, size, variant)
 

@@ -1,6 +1,6 @@
 """Are plans still the same? `python -m benchmarks.same_plans record before.jsonl`, then `compare`.
 
-For a change that should change no plan: random problems of all classes are planned greedily and by
+For a change that should change no plan: random problems of some classes are planned greedily and by
 a number of turns, by each policy, from nothing, and once more when two fifths of the day are over.
 Clocks have no say in any of it. `compare` of two such files fails if a plan differs.
 """
@@ -8,7 +8,7 @@ Clocks have no say in any of it. `compare` of two such files fails if a plan dif
 import hashlib
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -22,7 +22,7 @@ from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem
 from model.replanning.replan import Replanning, SettledPartError, Terms
 from model.solution import Solution
-from training.instances import VARIANTS, generate
+from training.instances import COMPARED, generate
 
 Data = dict[str, Any]
 
@@ -37,12 +37,11 @@ UNTIMED = 3600.0
 app = typer.Typer(help=__doc__, pretty_exceptions_enable=False)
 
 
-def problems(number: int) -> Iterator[tuple[str, Problem]]:
+def problems(number: int, variants: Sequence[str] = COMPARED) -> Iterator[tuple[str, Problem]]:
     """Yield random problems, classes and sizes in turn, each from a stream of its own."""
-    names = tuple(VARIANTS)
     for index in range(number):
-        variant = names[index % len(names)]
-        size = SIZES[index // len(names) % len(SIZES)]
+        variant = variants[index % len(variants)]
+        size = SIZES[index // len(variants) % len(SIZES)]
         rng = np.random.default_rng((SEED, index))
         yield f"{variant}-{size}-{index:03}", generate(rng, size, variant)
 
@@ -73,12 +72,14 @@ def record(
     output: Annotated[Path, typer.Argument(help="JSON lines to write.")],
     number: Annotated[int, typer.Option(help="Problems.")] = 300,
     turns: Annotated[int, typer.Option(help="Of each search.")] = TURNS,
+    variants: Annotated[str, typer.Option(help="Classes, comma-separated.")] = ",".join(COMPARED),
 ) -> None:
     """Plan all problems and write down what came of each."""
     settings = Settings()
     planner = load_planner(settings.weights_dir, settings.policies)
     with output.open("w") as file:
-        for name, problem in tqdm(problems(number), total=number, disable=None):
+        drawn = problems(number, variants.split(","))
+        for name, problem in tqdm(drawn, total=number, disable=None):
             for kind, plan, cost in plans(planner, problem, turns):
                 digest = hashlib.sha256(repr(plan).encode()).hexdigest()
                 file.write(json.dumps({"name": f"{name}, {kind}", "cost": cost, "plan": digest,

@@ -176,8 +176,9 @@ def with_limits(rng: np.random.Generator, vehicle_type: VehicleType, reach: Reac
         shift = uniform(rng, 0.4, 0.9) * (reach.closes - reach.opens)
         working = max(int(shift), math.ceil(1.05 * needed))
     if rng.random() < chances[1]:
-        home, first = vehicle_type.depot, ground.num_depots
-        loops = ground.distance[home, first:] + ground.distance[first:, home]
+        start, end = vehicle_type.begins_at, vehicle_type.ends_at
+        first = ground.num_depots
+        loops = ground.distance[start, first:] + ground.distance[first:, end]
         wanted = int(uniform(rng, 2.0, 6.0) * ground.side)
         trip = max(wanted, math.ceil(1.05 * int(loops.max(initial=0))))
     return replace(vehicle_type, max_working_duration=working, max_trip_distance=trip)

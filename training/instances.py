@@ -1,4 +1,4 @@
-"""Random problems to train and validate on: the mix of `training.variants` and `mixture`."""
+"""Random problems to train and validate on: the mix of all variants, which `variants` lists."""
 
 from collections.abc import Callable
 
@@ -6,6 +6,7 @@ import numpy as np
 
 from model.problem import Problem
 from training.mixture import mixed
+from training.pickups import pickups
 from training.variants import (
     InstanceConfig,
     appointed,
@@ -17,6 +18,7 @@ from training.variants import (
     table1,
     vrptw,
 )
+from training.variety import various
 
 __all__ = ["VARIANTS", "InstanceConfig", "generate", "sample_variant", "validation_set"]
 
@@ -30,13 +32,19 @@ VARIANTS: dict[str, Callable[[np.random.Generator, int, InstanceConfig], Problem
     "table1": table1,
     "mixed": mixed,
     "appointed": appointed,
+    "pickups": pickups,
+    "various": various,
 }
 
 VALIDATED = ("cvrp", "vrptw", "soft", "hetero", "multitrip", "drone", "table1", "mixed")
 """Variants of the validation set, which stays as it is when others come."""
 
-SHARES = {"cvrp": 0.06, "vrptw": 0.3, "soft": 0.05, "hetero": 0.07, "multitrip": 0.08,
-          "drone": 0.11, "table1": 0.14, "mixed": 0.09, "appointed": 0.1}
+COMPARED = (*VALIDATED, "appointed")
+"""Variants on which versions of this planner are compared, which stay as they are, too."""
+
+SHARES = {"cvrp": 0.05, "vrptw": 0.26, "soft": 0.04, "hetero": 0.06, "multitrip": 0.07,
+          "drone": 0.1, "table1": 0.12, "mixed": 0.08, "appointed": 0.08, "pickups": 0.07,
+          "various": 0.07}
 """How often training draws each variant."""
 
 CUMULATIVE_SHARES = np.cumsum([SHARES[name] for name in VARIANTS])

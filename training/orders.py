@@ -102,8 +102,9 @@ def draw_service(rng: np.random.Generator, num_customers: int, ground: Ground) -
 
 def reach_of(vehicle_type: VehicleType, travel: tuple[Travel, ...], num_depots: int) -> Reach:
     """Bound the legs of a trip, or of a flight, to each customer alone."""
-    duration, home = travel[vehicle_type.travel].duration, vehicle_type.depot
-    outbound, inbound = duration[home, num_depots:], duration[num_depots:, home]
+    duration, first, last = (travel[vehicle_type.travel].duration, vehicle_type.begins_at,
+                             vehicle_type.ends_at)
+    outbound, inbound = duration[first, num_depots:], duration[num_depots:, last]
     profile, drones = vehicle_type.speed_profile, vehicle_type.drones
     if profile is not None:
         slowness = FULL_SPEED / min(profile.factors)
@@ -111,8 +112,8 @@ def reach_of(vehicle_type: VehicleType, travel: tuple[Travel, ...], num_depots: 
         inbound = np.ceil(inbound * slowness).astype(np.int64) + 1
     if drones is not None:
         flight = travel[drones.travel].duration
-        outbound = np.maximum(outbound, flight[home, num_depots:]) + drones.launch_duration
-        inbound = np.maximum(inbound, flight[num_depots:, home]) + drones.recovery_duration
+        outbound = np.maximum(outbound, flight[first, num_depots:]) + drones.launch_duration
+        inbound = np.maximum(inbound, flight[num_depots:, last]) + drones.recovery_duration
     return Reach(vehicle_type.earliest, vehicle_type.latest, outbound, inbound)
 
 
@@ -197,8 +198,8 @@ def with_modes(rng: np.random.Generator, orders: Orders, vehicle_type: VehicleTy
                flight: Travel, shares: tuple[float, float], depot_only: bool) -> Orders:
     """Reserve shares of the customers for drones and for trucks.
 
-    A customer chosen for drones that no loop reaches, from the home depot or (unless `depot_only`)
-    from another customer that a truck may stop at, stays open to either.
+    A customer chosen for drones that no loop reaches, from where the first trip begins or (unless
+    `depot_only`) from another customer that a truck may stop at, stays open to either.
     """
     drones = vehicle_type.drones
     if drones is None:
@@ -207,7 +208,7 @@ def with_modes(rng: np.random.Generator, orders: Orders, vehicle_type: VehicleTy
     draw = rng.random(num_customers)
     chosen = draw < shares[0]
     hubs = np.zeros(len(flight.duration), dtype=np.bool_)
-    hubs[vehicle_type.depot] = True
+    hubs[vehicle_type.begins_at] = True
     if not depot_only:
         hubs[-num_customers:] = ~chosen
     by_drone = chosen & reachable_by_drone(orders, drones, flight, hubs)

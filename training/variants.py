@@ -24,7 +24,9 @@ Shared by all, so not restated below:
 | `multitrip` | 1 to 3 trips, reloading, shifts, limits, release times, windows, speed profiles |
 | `drone` | 1 to 4 trucks with 1 or 2 drones, reserved customers, cost or completion time |
 | `table1` | the shape of the seed paper's Table 1: tight packing, one drone per truck |
-| `mixed` | everything at once, 1 or 2 depots, asymmetric roads, a few customers unservable |
+| `mixed` | all of these at once, 1 or 2 depots, asymmetric roads, a few customers unservable |
+| `pickups` | amounts both ways, or pickups last, open ends, prices of what is aboard |
+| `various` | rules that all those lack: places, overtime, stops, batteries, windows, tables, … |
 
 References
 ----------

@@ -11,8 +11,8 @@ from model.policy import features
 from model.policy import tokens as token_module
 from model.policy.observation import empty_observation
 from model.problem import (
-    UNLIMITED, UNREACHABLE, Customer, DroneType, FloatArray, Problem, SpeedProfile, Travel,
-    VehicleType,
+    UNLIMITED, UNREACHABLE, Customer, DroneType, Energy, FloatArray, Overtime, Problem,
+    SpeedProfile, Travel, VehicleType,
 )
 from model.simulation.cost import by_term
 from model.simulation.simulator import NUM_KINDS, RETURN, legal_actions, reset
@@ -149,14 +149,28 @@ class Units:
     def customer(self, customer: Customer) -> Customer:
         """Convert a customer."""
         late, early = customer.late_cost_per_hour, customer.early_cost_per_hour
+        left_out = customer.unassigned_cost
         return replace(
-            customer, demand=self.amounts(customer.demand),
+            customer, demand=self.amounts(customer.demand), pickup=self.amounts(customer.pickup),
+            unassigned_cost=None if left_out is None else left_out * self.money,
             service_duration=self.time * customer.service_duration,
             earliest=self.time * customer.earliest, latest=self.limit(customer.latest),
             gaps=tuple((self.time * closes, self.time * opens) for closes, opens in customer.gaps),
             release_time=self.time * customer.release_time,
             late_cost_per_hour=None if late is None else late * self.money / self.time,
             early_cost_per_hour=early * self.money / self.time)
+
+    def energy(self, energy: Energy) -> Energy:
+        """Convert a battery."""
+        return replace(energy, available=self.time * energy.available,
+                       weights=self.amounts(energy.weights),
+                       climb_duration=self.time * energy.climb_duration,
+                       descent_duration=self.time * energy.descent_duration)
+
+    def overtime(self, overtime: Overtime) -> Overtime:
+        """Convert overtime."""
+        return Overtime(self.money / self.time * overtime.cost_per_hour,
+                        self.limit(overtime.max_duration))
 
     def drones(self, drones: DroneType) -> DroneType:
         """Convert a drone type."""
@@ -167,7 +181,8 @@ class Units:
             recovery_duration=self.time * drones.recovery_duration,
             service_duration=None if service is None else self.time * service,
             cost_per_km=self.money / self.length * drones.cost_per_km,
-            cost_per_hour=self.money / self.time * drones.cost_per_hour)
+            cost_per_hour=self.money / self.time * drones.cost_per_hour,
+            energy=None if drones.energy is None else self.energy(drones.energy))
 
     def vehicle_type(self, kind: VehicleType) -> VehicleType:
         """Convert a vehicle type."""
@@ -177,6 +192,9 @@ class Units:
             kind, capacity=self.amounts(kind.capacity), fixed_cost=self.money * kind.fixed_cost,
             cost_per_km=self.money / self.length * kind.cost_per_km,
             cost_per_hour=self.money / self.time * kind.cost_per_hour,
+            cost_per_stop=self.money * kind.cost_per_stop,
+            cost_per_load_km=self.money / self.length / self.amount * kind.cost_per_load_km,
+            overtime=None if kind.overtime is None else self.overtime(kind.overtime),
             earliest=self.time * kind.earliest, latest=self.limit(kind.latest),
             max_working_duration=None if working is None else self.time * working,
             max_trip_distance=None if distance is None else self.length * distance,

@@ -43,6 +43,7 @@ def is_trip_legal(customer: Customer, kind: VehicleType, out: int, back: int,
     back = -(-back * FULL_SPEED // slowest) + handling[1]
     arrival = max(kind.earliest, customer.release_time) + out
     start = max(arrival, customer.earliest)
+    start = max([start, *(opens for closes, opens in customer.gaps if closes < start)])
     home = start + customer.service_duration + back
     working = out + customer.service_duration + back
     return ((customer.late_cost_per_hour is not None or arrival <= customer.latest)
@@ -53,15 +54,18 @@ def is_trip_legal(customer: Customer, kind: VehicleType, out: int, back: int,
 
 def is_served_by_type(problem: Problem, node: int, kind: VehicleType) -> bool:
     """Judge whether a truck of the type, or its drone in a loop, can serve a customer alone."""
-    customer, home = problem.customer_at(node), kind.depot
-    fits = all(amount <= room for amount, room in zip(customer.demand, kind.capacity, strict=True))
-    if not fits or not customer.skills <= kind.skills:
+    customer, first, last = problem.customer_at(node), kind.begins_at, kind.ends_at
+    fits = all(max(amounts) <= room for *amounts, room
+               in zip(customer.demand, customer.taken_in, kind.capacity, strict=True))
+    if not fits or not customer.skills <= kind.skills or kind.max_stops == 0:
+        return False
+    if kind.pickups == "last" and any(customer.pickup) and not any(customer.demand):
         return False
     road = problem.travel[kind.travel]
     if customer.served_by != "drone":
-        return is_trip_legal(customer, kind, int(road.duration[home, node]),
-                             int(road.duration[node, home]),
-                             int(road.distance[home, node] + road.distance[node, home]))
+        return is_trip_legal(customer, kind, int(road.duration[first, node]),
+                             int(road.duration[node, last]),
+                             int(road.distance[first, node] + road.distance[node, last]))
     drones = kind.drones
     if drones is None or any(amount > room for amount, room
                              in zip(customer.demand, drones.capacity, strict=True)):
@@ -69,17 +73,27 @@ def is_served_by_type(problem: Problem, node: int, kind: VehicleType) -> bool:
     flight = problem.travel[drones.travel].duration
     service = customer.service_duration if drones.service_duration is None \
         else drones.service_duration
-    hubs = [home] + [hub for hub in range(problem.num_depots, problem.num_nodes)
+    hubs = [first] + [hub for hub in range(problem.num_depots, problem.num_nodes)
                      if hub != node and problem.customer_at(hub).served_by != "drone"
                      and customer.latest == UNLIMITED]
     loops = [int(flight[hub, node] + flight[node, hub]) + service for hub in hubs]
+    last = first if problem.is_nowhere(last) else last
     return min(loops) <= drones.endurance and is_trip_legal(
-        customer, dataclasses.replace(kind, speed_profile=None), int(flight[home, node]),
-        int(flight[node, home]), 0, (drones.launch_duration, drones.recovery_duration))
+        customer, dataclasses.replace(kind, speed_profile=None), int(flight[first, node]),
+        int(flight[node, last]), 0, (drones.launch_duration, drones.recovery_duration))
+
+
+def comes_behind(problem: Problem, node: int) -> bool:
+    """Judge whether a customer is served behind another who is delivered to, or not at all."""
+    return (not any(problem.customer_at(node).demand)
+            and all(kind.pickups == "last" for kind in problem.vehicle_types)
+            and any(any(customer.demand) for customer in problem.customers))
 
 
 def servable(problem: Problem) -> list[bool]:
-    return [any(is_served_by_type(problem, node, kind) for kind in problem.vehicle_types)
+    return [any(is_served_by_type(problem, node, kind) and problem.allows(index, node)
+                for index, kind in enumerate(problem.vehicle_types))
+            or comes_behind(problem, node)
             for node in range(problem.num_depots, problem.num_nodes)]
 
 
@@ -222,6 +236,41 @@ def test_mixed_draws_every_rule() -> None:
     assert any((p.travel[0].duration != p.travel[0].duration.T).any() for p in problems)
     assert any(kind.drones and kind.speed_profile and kind.max_trips > 1 for kind in kinds)
     assert any(c.late_cost_per_hour for p in problems for c in p.customers)
+
+
+def test_pickups_come_in_all_ways() -> None:
+    problems = draw("pickups", draws=80)
+    kinds = [p.vehicle_types[0] for p in problems]
+    both = [all(any(c.demand) for c in p.customers) for p in problems]
+    assert 0.3 < np.mean(both) < 0.7
+    assert any(any(c.pickup > c.demand for c in p.customers) for p in problems)
+    assert {kind.pickups for kind in kinds} == {"any", "last"}
+    assert any(kind.cost_per_load_km > 0 for kind in kinds)
+    assert any(kind.max_trip_distance is not None for kind in kinds)
+    assert {p.is_nowhere(kind.ends_at) for p, kind in zip(problems, kinds, strict=True)} == {
+        False, True}
+
+
+def test_various_draws_every_rule() -> None:
+    problems = draw("various", draws=120)
+    kinds = [kind for p in problems for kind in p.vehicle_types]
+    drones = [kind.drones for kind in kinds if kind.drones is not None]
+    customers = [c for p in problems for c in p.customers]
+    assert {p.num_dimensions for p in problems} == set(range(1, 9))
+    assert {sum(d.kind == "depot" for d in p.depots) for p in problems} == {1, 2, 3}
+    assert any(kind.start not in (None, kind.depot) and kind.end not in (None, kind.depot)
+               for kind in kinds)
+    assert any(kind.reload_depots and kind.max_trips > 1 for kind in kinds)
+    assert any(p.is_nowhere(kind.ends_at) for p in problems for kind in p.vehicle_types)
+    for name in ("overtime", "max_stops", "max_sorties"):
+        assert any(getattr(kind, name) is not None for kind in kinds)
+    assert any(kind.cost_per_stop and kind.cost_per_load_km for kind in kinds)
+    assert {kind.pickups for kind in kinds} == {"any", "last"}
+    assert {d.energy.lands for d in drones if d.energy is not None} == {False, True}
+    assert any(d.energy is not None and d.endurance < UNLIMITED for d in drones)
+    assert {len(c.gaps) for c in customers} == {0, 1, 2, 3}
+    assert any(c.unassigned_cost is not None and any(c.pickup) for c in customers)
+    assert any(p.may_serve is not None and not p.may_serve.all() for p in problems)
 
 
 def test_sides_span_orders_of_magnitude() -> None:

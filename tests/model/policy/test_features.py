@@ -74,8 +74,9 @@ def test_each_action_has_one_kind_and_its_token(problems: list[Problem],
 def test_features_are_free_of_units(problems: list[Problem], alone: list[Batch],
                                     units: Units) -> None:
     for problem, batch in zip(problems, alone, strict=True):
-        if units.time > 1 and any(kind.speed_profile for kind in problem.vehicle_types):
-            continue  # legs are rounded up to a millisecond
+        if units.time > 1 and any(kind.speed_profile or (kind.drones and kind.drones.energy)
+                                  for kind in problem.vehicle_types):
+            continue  # legs, and how long a battery lasts, are rounded to a millisecond
         other = roll([in_other_units(problem, units)], seed=4)
         np.testing.assert_allclose(other.tokens.node, batch.tokens.node, atol=TOLERANCE)
         np.testing.assert_allclose(other.tokens.type, batch.tokens.type, atol=TOLERANCE)

@@ -107,8 +107,9 @@ def something_happens(rng: np.random.Generator, problem: Problem, latest: int) -
     for index, customer in enumerate(customers):
         if rng.random() < 0.1:
             closing = int(rng.integers(0, latest + 1))
-            customers[index] = replace(customer, earliest=min(customer.earliest, closing),
-                                       latest=closing)
+            customers[index] = replace(
+                customer, earliest=min(customer.earliest, closing), latest=closing,
+                gaps=tuple(gap for gap in customer.gaps if gap[1] <= closing))
         elif rng.random() < 0.05:
             customers[index] = replace(customer, release_time=int(rng.integers(0, latest + 1)))
         elif rng.random() < 0.05:
