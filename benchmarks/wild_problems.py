@@ -20,6 +20,7 @@ RICHEST = 1e12
 
 SIZES = (0, 1, 1, 2, 3, 5, 8, 13, 30)
 SKILLS = ("cold", "crane", "Führerschein", "")
+GOODS = ("food", "paint", "Ölfarbe", "ice")
 NAMES = ("#", "kunde #", "顧客-#", "Ünïcødé #", "🚚#", "a/b?#&=", "'\"#\\", "\u202e#",
          "truck-#", "[#].x", "-#", "# " * 60)
 
@@ -44,6 +45,12 @@ def wild_request(rng: random.Random) -> Data:
             ("exact", "round", "trunc", "dimacs", "thousandths"))
     if rng.random() < 0.3:
         _choose_vehicles(rng, request)
+    if rng.random() < 0.3:
+        _keep_apart(rng, request)
+    if rng.random() < 0.3:
+        _serve_by_type(rng, request)
+    if rng.random() < 0.3 and customers:
+        _share_places(rng, request)
     if rng.random() < 0.25:
         _add_matrices(rng, request)
     if rng.random() < 0.5:
@@ -86,6 +93,7 @@ def _customer(rng: random.Random, dimensions: int) -> Data:
         **_maybe(rng, 0.5, service_duration=rng.choice((0, 1e-4, 60, 900, 1e5, LONGEST))),
         **_windows(rng),
         **_maybe(rng, 0.1, skills=rng.sample(SKILLS[:3], rng.randint(1, 2))),
+        **_maybe(rng, 0.15, max_time_aboard=rng.choice((None, 0, 60, 900, 3600, 86400, LONGEST))),
         **_maybe(rng, 0.15, release_time=rng.choice((0, 1, 3600, 86400, LONGEST))),
         **_maybe(rng, 0.2, unassigned_cost=rng.choice((None, 0, 1e-9, 3, 1000, RICHEST)))}
 
@@ -229,7 +237,8 @@ def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
         if rng.random() < 0.7:
             customer.pop("time_window", None)
             customer.pop("time_windows", None)
-            customer.pop("service_duration", None)
+            for name in ("service_duration", "setup_duration", "max_time_aboard"):
+                customer.pop(name, None)
     for kind in request["fleet"]:
         kind["capacity"] = [20] * dimensions
         for name in ("max_working_duration", "max_trip_distance", "shift", "speed_profile",
@@ -251,6 +260,38 @@ def _choose_vehicles(rng: random.Random, request: Data) -> None:
         if rng.random() < 0.5:
             which = rng.choice(("allowed", "forbidden"))
             customer["vehicles"] = {which: rng.sample(names, rng.randint(1, min(3, len(names))))}
+
+
+def _keep_apart(rng: random.Random, request: Data) -> None:
+    """Let some goods not be carried with others. In place."""
+    for customer in request["customers"]:
+        if rng.random() < 0.7:
+            customer["goods"] = rng.sample(GOODS, rng.choice((0, 1, 1, 1, 1, 2)))
+    request["incompatible_goods"] = [
+        {"goods": rng.sample(GOODS, rng.randint(2, 3)), "scope": rng.choice(("trip", "vehicle"))}
+        for _ in range(rng.randint(1, 2))]
+
+
+def _serve_by_type(rng: random.Random, request: Data) -> None:
+    """Let service take some vehicles longer than others, now and then unknown ones. In place."""
+    names = [kind["id"] for kind in request["fleet"]]
+    names += [f"{name}/drone" for name in names]
+    if rng.random() < 0.02:
+        names.append("nobody")
+    for customer in request["customers"]:
+        if rng.random() < 0.5:
+            customer["service_duration_by_type"] = {
+                name: rng.choice((0, 1e-4, 60, 900, 1e5, LONGEST))
+                for name in rng.sample(names, rng.randint(1, min(3, len(names))))}
+
+
+def _share_places(rng: random.Random, request: Data) -> None:
+    """Let customers ask for a setup, some of them where others are. In place."""
+    places = [*request["depots"], *request["customers"]]
+    for customer in request["customers"]:
+        customer["setup_duration"] = rng.choice((0, 1e-4, 60, 60, 300, 900, 1e5, LONGEST))
+        if rng.random() < 0.4:
+            customer["location"] = rng.choice(places)["location"]
 
 
 def _add_matrices(rng: random.Random, request: Data) -> None:

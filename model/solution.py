@@ -1,6 +1,6 @@
 """A plan: routes of trips, with the sorties flown from them. Times in ms, nodes as in `Problem`."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 
 @dataclass(frozen=True)
@@ -16,6 +16,12 @@ class Stop:
     arrival: int
     service_start: int  # equals `arrival` at depots
     departure: int
+    setup: int = field(default=0, repr=False, compare=False)  # from arrival; follows from places
+
+    @property
+    def ready(self) -> int:
+        """When the truck, set up, could serve, launch or recover."""
+        return self.arrival + self.setup
 
 
 @dataclass(frozen=True)
@@ -26,6 +32,12 @@ class Visit:
     arrival: int
     service_start: int
     departure: int
+    setup: int = field(default=0, repr=False, compare=False)  # from arrival; follows from places
+
+    @property
+    def ready(self) -> int:
+        """When the drone, set up, could serve."""
+        return self.arrival + self.setup
 
 
 @dataclass(frozen=True)

@@ -55,13 +55,15 @@ COMPILED_FOLDERS = ("kernel", "simulation", "policy", "search")
 HOMES = {
     "kernel/start": {".begun", ".busy_until"},
     "kernel/shift": {".max_sorties", ".max_stops", ".usual_end", ".usual_working"},
-    "kernel/stop": {".arrival_limit", ".service_duration", ".window_earliest", ".window_latest"},
-    "kernel/flight": {".drone_service_duration", ".endurance", ".launch_duration",
-                      ".recovery_duration", ".waiting_counts", "UNREACHABLE"},
+    "kernel/stop": {".arrival_limit", ".drone_variant", ".service_duration", ".variant",
+                    ".window_earliest", ".window_latest"},
+    "kernel/flight": {".endurance", ".launch_duration", ".recovery_duration", ".waiting_counts",
+                      "UNREACHABLE"},
     "kernel/energy": {".battery", ".lands", ".climb_duration", ".descent_duration", ".cruise",
                       ".hover", ".weight_dimension"},
     "kernel/load": {".capacity", ".demand", ".payload", ".pickup_order"},
-    "kernel/clock": {".speed_changes", "FULL_SPEED", "arrival_by_profile", "leave_by_profile"},
+    "kernel/clock": {".setup_duration", ".site", ".speed_changes", "FULL_SPEED",
+                     "arrival_by_profile", "leave_by_profile"},
     "kernel/leg": {"LEG_DISTANCE", "LEG_DURATION"},
 }
 """Where each rule stands in compiled code, and what nobody can apply it without.
@@ -70,18 +72,21 @@ With a dot: a field, which may be read as an attribute or by its name in quotes.
 """
 DESCRIBING = {
     "kernel/instance": set.union(*HOMES.values()),
+    "kernel/asked": {".setup_duration", ".site"},
+    "kernel/variants": {".service_duration", ".setup_duration", ".site"},
     "policy/tokens": set.union(*HOMES.values()),
     "policy/features": {".capacity", ".demand", ".endurance"},
     "search/world": set.union(*HOMES.values()),
-    "search/beginning/translate": {".capacity", ".demand", ".max_sorties", ".max_stops"},
+    "search/beginning/translate": {".capacity", ".demand", ".max_sorties", ".max_stops",
+                                   ".setup_duration", ".site"},
 }
 """What states a limit but applies none: packs it, shows it to a network, ranks or makes room by it.
 """
 LEG_TABLES = {"leg", "back", "legs", "flights", "inward", "onward", "drive", "fly", "duration",
               "distance"}
 """Names of tables of legs and of rows of one, whose elements `kernel/leg` reads alone."""
-LEGS_AT_ONCE = {"kernel/instance", "policy/resampling", "policy/tokens", "search/world",
-                "search/beginning/savings"}
+LEGS_AT_ONCE = {"kernel/instance", "kernel/nearest", "kernel/variants", "policy/resampling",
+                "policy/tokens", "search/world", "search/beginning/savings"}
 """What fills a table, or reads a whole one in plain Python."""
 
 MAX_FILE_LINES = 400

@@ -79,7 +79,7 @@ def make_batch(problems: Sequence[Problem], names: Sequence[str],
     """Pack problems and describe them to the encoder, with `rng` in a random symmetry each."""
     instance = pack(problems)
     scale = scales(instance)
-    coordinates = np.zeros((len(problems), instance.node.shape[1], 2))
+    coordinates = np.zeros((len(problems), instance.node.shape[2], 2))
     for row, problem in enumerate(problems):
         places = problem.coordinates
         if rng is not None:
@@ -114,7 +114,7 @@ class Simulation:
         self.state = reset(batch.instance, np.repeat(np.array(problems), num_rollouts),
                            num_threads)
         self.seen: Observation = empty_observation(
-            self.num_rows, batch.instance.node.shape[1], batch.instance.type.shape[1])
+            self.num_rows, batch.instance.node.shape[2], batch.instance.type.shape[1])
         bounds = np.linspace(0, self.num_rows, num_threads + 1).astype(int).tolist()
         self._parts = list(zip(bounds, bounds[1:], range(num_threads), strict=False))
         self._pool = ThreadPoolExecutor(num_threads)

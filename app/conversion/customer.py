@@ -4,13 +4,14 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from app.conversion.amounts import counted
-from app.conversion.units import thousandths
+from app.conversion.units import optional_thousandths, thousandths
 from app.schemas.customer import CustomerInput
 from model.problem import UNLIMITED, Customer
 
 
-def to_customer(stated: CustomerInput, decimals: Sequence[int]) -> Customer:
-    """Convert a valid customer; `decimals` by dimension."""
+def to_customer(stated: CustomerInput, decimals: Sequence[int],
+                site: int | None = None) -> Customer:
+    """Convert a valid customer; `decimals` by dimension, `site` as `sites_of` numbers it."""
     windows = stated.windows
     first, last = windows[0], windows[-1]
     return Customer(
@@ -28,4 +29,8 @@ def to_customer(stated: CustomerInput, decimals: Sequence[int]) -> Customer:
         unassigned_cost=stated.unassigned_cost,
         gaps=tuple([(thousandths(window.latest or 0.0), thousandths(following.earliest))
                     for window, following in pairwise(windows)]),
+        max_time_aboard=optional_thousandths(stated.max_time_aboard),
+        goods=frozenset(stated.goods),
+        setup_duration=thousandths(stated.setup_duration),
+        site=site,
     )

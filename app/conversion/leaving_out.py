@@ -26,7 +26,12 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
               for time in (*customer.openings, customer.latest, customer.release_time)]
     stated += [kind.latest for kind in vehicle_types]
     horizon = max([time for time in stated if time < UNLIMITED], default=0) / MS_PER_HOUR
-    service = max([customer.service_duration for customer in customers], default=0) / MS_PER_HOUR
+    served = [customer.service_duration for customer in customers]
+    for kind in vehicle_types:
+        for server in (kind, kind.drones):
+            served += [] if server is None else server.service_durations.values()
+    setup = max([customer.setup_duration for customer in customers], default=0)
+    service = (max(served, default=0) + setup) / MS_PER_HOUR
     longest = [_longest_leg(travel) for travel in travels]
     detour = max(_vehicle_cost(kind, longest, service + horizon)
                  + 2 * longest[kind.travel][0] * _cost_when_full(kind, decimals)

@@ -1,5 +1,7 @@
 """`PlanRequest` -> `Problem` and planning options; quantities are rounded here, once."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.conversion.amounts import decimals_of
@@ -8,10 +10,12 @@ from app.conversion.groups import groups_of, part_of
 from app.conversion.leaving_out import default_unassigned_cost
 from app.conversion.places import depots_of
 from app.conversion.preparing import UNHURRIED, Preparing
+from app.conversion.service import with_service_durations
+from app.conversion.sites import sites_of
 from app.conversion.travels import Ground, Travels
 from app.conversion.vehicle import to_vehicle_type
 from app.schemas.request import PlanRequest
-from model.problem import Problem
+from model.problem import IncompatibleGoods, Problem
 
 
 def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
@@ -21,10 +25,14 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
     travels.expect_legs()
     depots = depots_of(request)
     decimals = decimals_of(request.customers, request.fleet)
-    customers = tuple([to_customer(customer, decimals) for customer in request.customers])
+    sites = sites_of(request)
+    customers = tuple([
+        to_customer(customer, decimals, site)
+        for customer, site in zip(request.customers, sites[len(depots):], strict=True)])
     demands = [customer.demand for customer in customers]
     vehicle_types = tuple([to_vehicle_type(stated, depots, travels, decimals, demands)
                            for stated in request.fleet])
+    vehicle_types = with_service_durations(vehicle_types, request.customers)
     groups = list(groups_of(request.fleet, request.customers))
     if groups:
         vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
@@ -33,7 +41,8 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
                                                   decimals)
     return Problem(
-        depots=depots,
+        depots=tuple([replace(depot, site=site)
+                      for depot, site in zip(depots, sites, strict=False)]),
         customers=customers,
         vehicle_types=vehicle_types,
         travel=travels.built(),
@@ -42,4 +51,6 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
         amount_decimals=decimals,
         may_serve=np.array([group.serves for group in groups]) if groups else None,
         must_serve=request.unassigned_cost is None,
+        incompatible_goods=tuple(IncompatibleGoods(frozenset(each.goods), each.scope)
+                                 for each in request.incompatible_goods),
     )

@@ -132,8 +132,14 @@ class Travels:
         self._travels: list[Travel] = []
 
     def count(self) -> int:
-        """Return how many pairs of matrices the request needs, without building any."""
-        return len(self._keys())
+        """Return how many pairs of matrices planning needs, without building any.
+
+        Where customers ask for a setup, ways back to trucks are apart from those to customers.
+        """
+        request = self._request
+        sets_up = any(customer.setup_duration for customer in request.customers)
+        flown = {self._flying(kind.drones) for kind in request.fleet if kind.drones is not None}
+        return len(self._keys()) + (len(flown) if sets_up else 0)
 
     def expect_legs(self) -> None:
         """Make sure that there is time to build all matrices, if none is flown around areas.

@@ -67,7 +67,7 @@ def rows_of(scene: Scene) -> list[Row]:
     for index, route in enumerate(scene.plan.routes):
         kind = scene.types[route.type]
         bars = tuple(bar for bar in _truck_bars(scene, route, kind) if bar.end >= bar.start)
-        windows = [_window(scene, stop.id, stop.arrival, stop.service_start)
+        windows = [_window(scene, stop.id, stop.ready, stop.service_start)
                    for trip in route.trips for stop in trip.stops if stop.kind == "customer"]
         rows.append(Row(route.vehicle, index, False, bars, _stated(windows)))
         rows += [_drone_row(scene, index, route, drone, kind.drones)
@@ -91,17 +91,18 @@ def _truck_bars(scene: Scene, route: RouteInput, kind: VehicleTypeInput) -> Iter
         for before, stop in pairwise(trip.stops):
             yield Bar("drive", before.departure, stop.arrival, number)
         for stop in trip.stops:
-            yield from _halt_bars(scene, stop, number)
+            yield from _halt_bars(scene, kind.id, stop, number)
         if kind.drones is not None:
             yield from _handling_bars(trip, number, kind.drones)
         end = trip.stops[-1].departure
 
 
-def _halt_bars(scene: Scene, stop: StopInput, trip: int) -> Iterator[Bar]:
+def _halt_bars(scene: Scene, kind: str, stop: StopInput, trip: int) -> Iterator[Bar]:
     if stop.departure > stop.arrival:
         yield Bar("wait", stop.arrival, stop.departure, trip)
     if stop.kind == "customer":
-        duration = scene.customers[stop.id].service_duration
+        customer = scene.customers[stop.id]
+        duration = customer.service_duration_by_type.get(kind, customer.service_duration)
         yield Bar("serve", stop.service_start,
                   min(stop.service_start + duration, stop.departure), trip)
 
@@ -127,7 +128,7 @@ def _drone_row(scene: Scene, index: int, route: RouteInput, drone: int,
         for sortie in trip.sorties:
             if sortie.drone == name:
                 bars += _flight_bars(sortie, number, drones)
-                windows += [_window(scene, visit.id, visit.arrival, visit.service_start)
+                windows += [_window(scene, visit.id, visit.ready, visit.service_start)
                             for visit in sortie.customers]
     return Row(name, index, True, tuple(bar for bar in bars if bar.end >= bar.start),
                _stated(windows))
@@ -144,14 +145,14 @@ def _flight_bars(sortie: SortieInput, trip: int, drones: DronesInput | None) -> 
         yield from _ends(sortie, trip, drones)
 
 
-def _window(scene: Scene, customer: str, arrival: float, service_start: float) -> Window | None:
+def _window(scene: Scene, customer: str, ready: float, service_start: float) -> Window | None:
     """Return the customer's window in which service began, if any is stated."""
     windows = scene.customers[customer].windows
     window = next((window for window in reversed(windows) if window.earliest <= service_start),
                   windows[0])
     if window.latest is None and not window.earliest:
         return None
-    is_late = window.latest is not None and arrival > window.latest
+    is_late = window.latest is not None and ready > window.latest
     return Window(window.earliest, window.latest, service_start, is_late)
 
 

@@ -73,7 +73,7 @@ def _stop_row(scene: Scene, number: int, stop: StopInput) -> Sequence[str]:
         return (str(number), stop.id, clock(stop.arrival), "", clock(stop.departure), "", "", "",
                 "truck")
     return (str(number), stop.id, clock(stop.arrival), clock(stop.service_start),
-            clock(stop.departure), *_order(scene, stop.id, stop.arrival), "truck")
+            clock(stop.departure), *_order(scene, stop.id, stop.ready), "truck")
 
 
 def _sortie_rows(scene: Scene, number: int, trip: TripInput,
@@ -82,15 +82,15 @@ def _sortie_rows(scene: Scene, number: int, trip: TripInput,
     back = f"back at {trip.stops[sortie.recovery_stop].id} by {clock(sortie.recovery_time)}"
     for visit in sortie.customers:
         yield (str(number), visit.id, clock(visit.arrival), clock(visit.service_start),
-               clock(visit.departure), *_order(scene, visit.id, visit.arrival),
+               clock(visit.departure), *_order(scene, visit.id, visit.ready),
                f"{drone}, off at {clock(sortie.launch_time)}, {back}")
 
 
-def _order(scene: Scene, name: str, arrival: float) -> tuple[str, str, str]:
+def _order(scene: Scene, name: str, ready: float) -> tuple[str, str, str]:
     """Return a customer's windows, the minutes of lateness and the demand."""
     customer = scene.customers[name]
     latest = customer.windows[-1].latest
-    late = 0.0 if latest is None else max(0.0, arrival - latest)
+    late = 0.0 if latest is None else max(0.0, ready - latest)
     return (", ".join(filter(None, map(_window, customer.windows))),
             f"{late / 60:.1f}" if late else "",
             _handed(customer))

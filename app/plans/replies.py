@@ -117,7 +117,8 @@ def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
         "arrival": stop.arrival / 1000,
         "service_start": stop.service_start / 1000,
         "departure": stop.departure / 1000,
-        "waiting": (stop.service_start - stop.arrival) / 1000,
+        **_setup(stop),
+        "waiting": (stop.service_start - stop.ready) / 1000,
         "lateness": 0.0 if is_depot else _lateness(problem, stop),
         "load": _amounts(problem, load),
     }
@@ -131,7 +132,12 @@ def _amounts(problem: Problem, load: Sequence[int]) -> list[float]:
 
 def _lateness(problem: Problem, halt: Stop | Visit) -> float:
     latest = problem.customers[halt.node - len(problem.depots)].latest
-    return max(0, halt.arrival - latest) / 1000
+    return max(0, halt.ready - latest) / 1000
+
+
+def _setup(halt: Stop | Visit) -> Data:
+    """Return the field of a halt's setup, if there is one."""
+    return {"setup": halt.setup / 1000} if halt.setup else {}
 
 
 def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetrics) -> Data:
@@ -146,6 +152,7 @@ def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetri
                 "arrival": visit.arrival / 1000,
                 "service_start": visit.service_start / 1000,
                 "departure": visit.departure / 1000,
+                **_setup(visit),
                 "lateness": _lateness(problem, visit),
                 "load": _amounts(problem, load),
             }

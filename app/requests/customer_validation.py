@@ -5,6 +5,7 @@ from itertools import islice, pairwise
 from typing import TypeVar
 
 from app.conversion.groups import Roster, groups_of
+from app.conversion.names import drones_of
 from app.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
 from app.schemas.customer import TimeWindowInput
@@ -90,3 +91,17 @@ def _sequence_errors(path: Path, windows: list[TimeWindowInput]) -> Errors:
             yield error_at("EARLY_COSTS_DIFFER", (*path, index + 1, "early_cost_per_hour"),
                            "Waiting costs the same for all windows of a customer: state the "
                            "same cost for each.")
+
+
+def service_errors(draft: Draft) -> Errors:
+    """Say which durations are stated for vehicle types that aren't there."""
+    if draft.fleet is None or None in draft.fleet:
+        return
+    types = [kind.id for _, kind in draft.vehicle_types()]
+    known = {*types, *map(drones_of, types)}
+    for path, customer in draft.known_customers():
+        for name in customer.service_duration_by_type:
+            if name not in known:
+                yield error_at("UNKNOWN_VEHICLE_TYPE", (*path, "service_duration_by_type", name),
+                               f"No vehicle type is called {name!r}: use the id of one in fleet, "
+                               "or that and /drone for its drones.")

@@ -8,7 +8,9 @@ from app.conversion.places import Place, stands_of
 from app.errors import ErrorCode, InputError, json_path
 from app.schemas.customer import CustomerInput
 from app.schemas.fields import Location
-from app.schemas.request import AirspaceInput, DepotInput, MatrixInput, OptionsInput, ReplanInput
+from app.schemas.request import (
+    AirspaceInput, DepotInput, IncompatibleGoodsInput, MatrixInput, OptionsInput, ReplanInput,
+)
 from app.schemas.vehicle import VehicleTypeInput
 
 MAX_COORDINATE_M = 1e7
@@ -44,6 +46,7 @@ class Draft:
     options: OptionsInput | None
     replan: ReplanInput | None = None
     planar_rounding: str = "exact"
+    incompatible_goods: Sequence[IncompatibleGoodsInput] = ()
 
     def places(self) -> Iterator[Placed]:
         """Yield depots, customers, and where vehicles start and end."""

@@ -116,6 +116,7 @@ def _whole_draft(request: PlanRequest) -> Draft:
         options=request.options,
         replan=request.replan,
         planar_rounding=request.planar_rounding,
+        incompatible_goods=request.incompatible_goods,
     )
 
 

@@ -5,13 +5,16 @@ from collections.abc import Collection, Sequence
 from app.conversion.amounts import amount_errors
 from app.errors import InputError, json_path
 from app.requests.airspace_validation import airspace_errors
-from app.requests.customer_validation import group_errors, vehicle_errors, window_errors
+from app.requests.customer_validation import (
+    group_errors, service_errors, vehicle_errors, window_errors,
+)
 from app.requests.draft import Draft, Errors, Path, error_at, point_errors
 from app.requests.fleet_validation import depot_errors, energy_errors, shift_errors, speed_errors
 from app.requests.plan_validation import Names, replan_errors
 from app.schemas.customer import CustomerInput
 from app.schemas.request import DepotInput
 from app.schemas.vehicle import VehicleTypeInput
+from model.problem import MOST_INCOMPATIBLE
 
 MAX_MATRIX_ERRORS = 20
 """Wrong entries listed per matrix."""
@@ -27,6 +30,8 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *_emptiness_errors(draft),
         *window_errors(draft),
         *(of_vehicles or group_errors(draft)),
+        *service_errors(draft),
+        *_goods_errors(draft),
         *shift_errors(draft),
         *_dimension_errors(draft),
         *amount_errors(draft.customers or (), draft.fleet or ()),
@@ -61,6 +66,14 @@ def _emptiness_errors(draft: Draft) -> Errors:
         yield error_at("NO_DEPOT", ("depots",), "There is no depot: add at least one.")
     if draft.fleet is not None and not draft.fleet:
         yield error_at("EMPTY_FLEET", ("fleet",), "There is no vehicle type: add at least one.")
+
+
+def _goods_errors(draft: Draft) -> Errors:
+    named = {goods for each in draft.incompatible_goods for goods in each.goods}
+    if len(named) > MOST_INCOMPATIBLE:
+        yield error_at("WRONG_LENGTH", ("incompatible_goods",),
+                       f"{len(named)} goods are named and at most {MOST_INCOMPATIBLE} are allowed: "
+                       "name only those that can't be carried with others.")
 
 
 def _dimension_errors(draft: Draft) -> Errors:

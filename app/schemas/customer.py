@@ -8,6 +8,8 @@ from app.schemas.fields import (
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
     Demand,
+    DurationsByType,
+    Goods,
     Input,
     Location,
     LocationIndex,
@@ -78,6 +80,16 @@ class CustomerInput(Input):
         "trip ends; as `demand`. Null: nothing."
     )
     service_duration: Seconds = Field(0.0, description="Time spent at the customer in seconds.")
+    service_duration_by_type: DurationsByType = Field(
+        {},
+        description="Seconds instead of `service_duration` by vehicle type, such as `van`, and by "
+        "the drones of one, such as `van/drone`, before the drones' own `service_duration`.",
+    )
+    setup_duration: Seconds = Field(
+        0.0,
+        description="Seconds spent on arrival, before service, by truck or drone; none if its stop "
+        "before was at the same place, by coordinates or by `location_index`.",
+    )
     time_window: TimeWindowInput = Field(
         TimeWindowInput(), description="When service may start. Default: at any time."
     )
@@ -91,6 +103,14 @@ class CustomerInput(Input):
         "either", description="Kind of vehicle that may serve the customer."
     )
     skills: Skills = Field([], description="Skills that the serving vehicle type must have, all.")
+    max_time_aboard: Seconds | None = Field(
+        None,
+        description="Longest time in seconds from the departure of its trip from the depot to the "
+        "start of service. Null: no limit.",
+    )
+    goods: Goods = Field(
+        [], description="What is delivered, by the names that `incompatible_goods` uses."
+    )
     release_time: Seconds = Field(
         0.0,
         description="When the parcel is at the depot, in seconds since plan start: a trip that "

@@ -24,6 +24,8 @@ Location = tuple[float, float]
 LocationIndex = Annotated[int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS)]
 Rounding = Literal["exact", "round", "trunc", "dimacs", "thousandths"]
 Skills = Annotated[list[Name], Field(max_length=100)]
+Goods = Annotated[list[Name], Field(max_length=100)]
+DurationsByType = Annotated[dict[Name, Seconds], Field(max_length=200)]
 MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + 1
 """Most rows of a matrix, and columns: what `location_index` can name."""
 

@@ -35,8 +35,14 @@ class VisitInput(_Plan):
     arrival: Instant = Field(description="Arrival of the drone.")
     service_start: Instant = Field(description="Start of service.")
     departure: Instant = Field(description="Departure of the drone.")
+    setup: Number = None
     lateness: Number = None
     load: Loads = None
+
+    @property
+    def ready(self) -> float:
+        """When it could serve."""
+        return self.arrival + (self.setup or 0.0)
 
 
 class StopInput(_Plan):
@@ -51,9 +57,15 @@ class StopInput(_Plan):
     )
     service_start: Instant = Field(description="Start of service; at depots the arrival.")
     departure: Instant = Field(description="Departure; at the trip's last stop, its end.")
+    setup: Number = None
     waiting: Number = None
     lateness: Number = None
     load: Loads = None
+
+    @property
+    def ready(self) -> float:
+        """When it could serve."""
+        return self.arrival + (self.setup or 0.0)
 
 
 class SortieInput(_Plan):

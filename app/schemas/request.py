@@ -24,6 +24,7 @@ from app.schemas.fields import (
 from app.schemas.plan import PlanInput
 from app.schemas.vehicle import VehicleTypeInput
 from app.settings import DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT
+from model.problem import MOST_INCOMPATIBLE
 
 MAX_VEHICLE_TYPES = 100
 MAX_POLYGON_POINTS = 500
@@ -72,6 +73,18 @@ class AirspaceInput(Input):
         "coordinates of `location`.",
     )
     wind: WindInput = Field(WindInput(), description="Wind, the same everywhere and always.")
+
+
+class IncompatibleGoodsInput(Input):
+    """Goods no two of which may be carried together."""
+
+    goods: Annotated[list[Name], Field(min_length=2, max_length=MOST_INCOMPATIBLE)] = Field(
+        description="Names of goods, as customers state them."
+    )
+    scope: Literal["trip", "vehicle"] = Field(
+        "trip",
+        description="Whether two may not share one `trip`, or one `vehicle` on all its trips.",
+    )
 
 
 class OptionsInput(Input):
@@ -177,6 +190,9 @@ class PlanRequest(Input):
         "speeds.",
     )
     airspace: AirspaceInput = Field(AirspaceInput(), description="No-fly areas and wind.")
+    incompatible_goods: Annotated[list[IncompatibleGoodsInput], Field(max_length=100)] = Field(
+        [], description="Goods that must not be carried together; at most 62 names in all."
+    )
     unassigned_cost: Money | None = Field(
         None,
         description="Cost of each customer left out who states none. Null: these must be served; "

@@ -42,8 +42,11 @@ class StopReply(_Reply):
         description="Departure, once service, launches and recoveries are done; at the trip's last "
         "stop, its end."
     )
+    setup: float = Field(0.0, description="Setup from the arrival on in seconds, if any.")
     waiting: float = Field(description="Wait for the time window to open in seconds.")
-    lateness: float = Field(description="Arrival after the time window's end in seconds.")
+    lateness: float = Field(
+        description="Arrival, setup included, after the time window's end in seconds."
+    )
     load: list[float] = Field(
         description="Load when the truck leaves, or ends its trip, per dimension."
     )
@@ -56,7 +59,10 @@ class VisitReply(_Reply):
     arrival: float = Field(description="Arrival of the drone.")
     service_start: float = Field(description="Start of service.")
     departure: float = Field(description="Departure of the drone.")
-    lateness: float = Field(description="Arrival after the time window's end in seconds.")
+    setup: float = Field(0.0, description="Setup from the arrival on in seconds, if any.")
+    lateness: float = Field(
+        description="Arrival, setup included, after the time window's end in seconds."
+    )
     load: list[float] = Field(description="What the drone carries when it leaves, per dimension.")
 
 

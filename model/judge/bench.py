@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, JudgedRoute, check, judge_route
+from model.judge.clock import with_all_setups
 from model.judge.ends import with_ends
 from model.judge.past import EVERYTHING_OPEN, Past
 from model.judge.places import Found, Place, changed, find_place, route_with, routes_without
@@ -78,6 +79,7 @@ class Bench:
         self.setting = setting or Setting()
         self.found: Found | None = find_place(solution, node)
         judged = self.setting.judge_routes(problem, solution) if judged is None else judged
+        solution = with_all_setups(problem, solution)
         self.plan = Trial(None if self.found is None else self.found.place, solution,
                           self.setting.judge(problem, solution, judged))
         self.left_out, self.judged = self._leave_out(judged)

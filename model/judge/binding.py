@@ -14,12 +14,15 @@ from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.energy import sortie_energy
+from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.places import Place
 from model.judge.rules import airborne_duration
 from model.judge.screening import Screen
-from model.problem import MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy, Problem, VehicleType
+from model.problem import (
+    MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy, Problem, VehicleType,
+)
 from model.solution import Trip
 
 Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh"]
@@ -128,19 +131,26 @@ def _customer_limits(bench: Bench) -> Iterator[Limit]:
     window = "time_windows" if customer.gaps else "time_window"
     last, first = ("[-1]", "[0]") if customer.gaps else ("", "")
     if customer.latest < UNLIMITED:
-        slack = None if halt is None else max(0, customer.latest - halt.arrival)
+        slack = None if halt is None else max(0, customer.latest - halt.ready)
         changed = replace(customer, latest=min(customer.latest + MS_PER_MINUTE, UNLIMITED))
         yield Limit(f"{window}{last}.latest", "customer", None, "minute", _in_minutes(slack),
                     with_customer(problem, node, changed))
     if customer.earliest > 0:
         slack = None
-        if halt is not None and opening(customer, halt.arrival) == customer.earliest:
-            slack = max(0, halt.arrival - customer.earliest)
+        if halt is not None and opening(customer, halt.ready) == customer.earliest:
+            slack = max(0, halt.ready - customer.earliest)
         changed = replace(customer, earliest=max(0, customer.earliest - MS_PER_MINUTE))
         yield Limit(f"{window}{first}.earliest", "customer", None, "minute", _in_minutes(slack),
                     with_customer(problem, node, changed))
+    trip = _trip_of(bench)
+    if customer.max_time_aboard is not None:
+        slack = None
+        if trip is not None and halt is not None:
+            slack = max(0, -excess_aboard(problem, trip, halt))
+        enough = min(customer.max_time_aboard + MS_PER_MINUTE, MAX_QUANTITY)
+        yield Limit("max_time_aboard", "customer", None, "minute", _in_minutes(slack),
+                    with_customer(problem, node, replace(customer, max_time_aboard=enough)))
     if customer.release_time > 0:
-        trip = _trip_of(bench)
         slack = None if trip is None else trip.stops[0].arrival - customer.release_time
         changed = replace(customer, release_time=max(0, customer.release_time - MS_PER_MINUTE))
         yield Limit("release_time", "customer", None, "minute", _in_minutes(slack),

@@ -83,7 +83,8 @@ def judge_route(problem: Problem, route: Route, path: str,
     for stated, trip in zip(route.trips, trips, strict=True):
         violations += _mismatches(stated, trip.trip, trip.path)
         violations += trip_violations(problem, route.vehicle_type, trip)
-    violations += route_violations(vehicle_type, trips, measured, path, len(known) == len(trips))
+    violations += route_violations(problem, vehicle_type, trips, measured, path,
+                                   len(known) == len(trips))
     return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure)
 
 

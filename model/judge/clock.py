@@ -4,8 +4,11 @@ Times in ms, plain Python integers.
 """
 
 from bisect import bisect_left, bisect_right
+from dataclasses import replace
+from itertools import pairwise
 
-from model.problem import FULL_SPEED, Customer, SpeedProfile
+from model.problem import FULL_SPEED, Customer, Problem, SpeedProfile
+from model.solution import Solution, Trip, Visit
 
 MS_PER_MINUTE = 60_000
 
@@ -67,3 +70,28 @@ def window_of(customer: Customer, start: int) -> int | None:
     if not customer.gaps:
         return None
     return sum([start >= reopens for _, reopens in customer.gaps])
+
+
+def with_setups(problem: Problem, node: int, visits: tuple[Visit, ...]) -> tuple[Visit, ...]:
+    """Return visits that are known, the first by who comes from a node, with their setups."""
+    origins = (node, *(visit.node for visit in visits[:-1]))
+    return tuple(replace(visit, setup=problem.setup_between(origin, visit.node))
+                 for origin, visit in zip(origins, visits, strict=True))
+
+
+def with_all_setups(problem: Problem, solution: Solution) -> Solution:
+    """Return a plan without broken rules, as it may be stated, with all its setups."""
+    if not any(customer.setup_duration for customer in problem.customers):
+        return solution
+    return replace(solution, routes=tuple([
+        replace(route, trips=tuple([_set_up(problem, trip) for trip in route.trips]))
+        for route in solution.routes]))
+
+
+def _set_up(problem: Problem, trip: Trip) -> Trip:
+    stops = (trip.stops[0], *(
+        replace(stop, setup=problem.setup_between(before.node, stop.node))
+        for before, stop in pairwise(trip.stops)))
+    return Trip(stops, tuple([
+        replace(sortie, visits=with_setups(problem, stops[sortie.launch_stop].node, sortie.visits))
+        for sortie in trip.sorties]))

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from model.judge.clock import MS_PER_MINUTE
 from model.judge.energy import sortie_energy
+from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
 from model.judge.trial import Attempt, attempts
@@ -69,6 +70,12 @@ def _skills(attempt: Attempt) -> Diagnosis:
     changed = replace(vehicle_type, skills=vehicle_type.skills | needed)
     return Diagnosis("SKILLS", f"{vehicle_type.id} lacks {missing}.",
                       f"fits if {vehicle_type.id} had {missing}", _with_type(attempt, changed))
+
+
+def _goods(attempt: Attempt) -> Diagnosis:
+    apart = [each.goods & attempt.customer.goods for each in attempt.problem.incompatible_goods]
+    names = " and ".join(sorted(frozenset().union(*(goods for goods in apart if len(goods) > 1))))
+    return Diagnosis("GOODS", f"Its own {names} may not be carried together.")
 
 
 def _too_much(attempt: Attempt, limit: tuple[int, ...], whose: str) -> str:
@@ -168,9 +175,9 @@ def _trip_distance(attempt: Attempt) -> Diagnosis:
     )
 
 
-def _arrival(attempt: Attempt) -> int:
+def _ready(attempt: Attempt) -> int:
     trip = attempt.solution.routes[0].trips[0]
-    return (trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]).arrival
+    return (trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]).ready
 
 
 def _stops(attempt: Attempt) -> Diagnosis:
@@ -189,7 +196,7 @@ def _sorties(attempt: Attempt) -> Diagnosis:
 
 def _time_window(attempt: Attempt) -> Diagnosis:
     customer = attempt.customer
-    late = _up_to_tenth(_arrival(attempt) - customer.latest, MS_PER_MINUTE)
+    late = _up_to_tenth(_ready(attempt) - customer.latest, MS_PER_MINUTE)
     enough = customer.latest + late
     changed = replace(customer, latest=min(enough, UNLIMITED))
     window = "last window" if customer.gaps else "window"
@@ -206,7 +213,7 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
 
     None if nobody waits between two windows, or that doesn't suffice.
     """
-    customer, arrival = attempt.customer, _arrival(attempt)
+    customer, arrival = attempt.customer, _ready(attempt)
     missed = [number for number, (closes, opens) in enumerate(customer.gaps)
               if closes < arrival < opens]
     if not missed:
@@ -225,6 +232,20 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
         f"The earliest arrival is {_minutes(late)} after its window {number + 1} closes, and "
         f"window {number + 2} is too late for {attempt.vehicle_type.id}.",
         f"fits if its window {number + 1} closed {_minutes(late)} later",
+    )
+
+
+def _time_aboard(attempt: Attempt) -> Diagnosis:
+    customer, trip = attempt.customer, attempt.solution.routes[0].trips[0]
+    halt = trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]
+    excess = _up_to_tenth(excess_aboard(attempt.problem, trip, halt), MS_PER_MINUTE)
+    enough = (customer.max_time_aboard or 0) + excess
+    changed = replace(customer, max_time_aboard=min(enough, MAX_QUANTITY))
+    return Diagnosis(
+        "TIME_ABOARD",
+        f"Its parcel would be aboard {_minutes(excess)} longer than it may be.",
+        _if_stated(f"fits if it could be aboard {_minutes(excess)} longer", enough),
+        replace(attempt.problem, customers=(changed,)),
     )
 
 
@@ -284,6 +305,7 @@ def _working_hours(attempt: Attempt) -> Diagnosis:
 DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "VEHICLE": _vehicle,
     "SKILLS": _skills,
+    "GOODS": _goods,
     "CAPACITY": _capacity,
     "PAYLOAD": _payload,
     "PICKUP_ORDER": _pickup_order,
@@ -294,6 +316,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "MAX_STOPS": _stops,
     "MAX_SORTIES": _sorties,
     "TIME_WINDOW": _time_window,
+    "TIME_ABOARD": _time_aboard,
     "SHIFT": _shift,
     "WORKING_DURATION": _working_hours,
 }

@@ -47,9 +47,9 @@ def sortie_energy(problem: Problem, drones: DroneType, energy: Energy, trip: Tri
     aboard = weights_aboard(problem, energy, nodes)
     node, time, taken = trip.stops[sortie.launch_stop].node, sortie.launch_time, 0
     for visit, weight in zip(sortie.visits, aboard, strict=False):
-        taken += leg_energy(energy, duration.item(node, visit.node), weight)
+        taken += leg_energy(energy, duration.item(node, visit.node) + visit.setup, weight)
         if not energy.lands:
-            taken += hover_energy(energy, visit.departure - visit.arrival, weight)
+            taken += hover_energy(energy, visit.departure - visit.ready, weight)
         node, time = visit.node, visit.departure
     home = duration.item(node, trip.stops[sortie.recovery_stop].node)
     return (taken + leg_energy(energy, home, aboard[-1])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from model.judge.clock import opening
 from model.judge.energy import sortie_energy
+from model.judge.freshness import first_departure
 from model.judge.loads import highest, sortie_loads, trip_loads
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
 from model.solution import Cost, Route, Sortie, Stop, Trip, Visit
@@ -49,12 +50,6 @@ def _rate(amount: int, limit: int) -> float:
     if limit:
         return amount / limit
     return float("inf") if amount else 0.0
-
-
-def first_departure(trip: Trip) -> int:
-    """Return when truck or drone first leaves the depot."""
-    take_offs = [sortie.launch_time for sortie in trip.sorties if sortie.launch_stop == 0]
-    return min([trip.stops[0].departure, *take_offs])
 
 
 def flight_legs(trip: Trip, sortie: Sortie) -> Iterator[tuple[int, int]]:
@@ -111,12 +106,11 @@ def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
             halts += sortie.visits
         for halt in halts:
             customer = customers[halt.node - first]
-            arrival = halt.arrival
-            waiting = opening(customer, arrival) - arrival
+            waiting = opening(customer, halt.ready) - halt.ready
             if waiting > 0:
                 earliness += waiting * customer.early_cost_per_hour / MS_PER_HOUR
-            elif arrival > customer.latest and customer.late_cost_per_hour is not None:
-                late = arrival - customer.latest
+            elif halt.ready > customer.latest and customer.late_cost_per_hour is not None:
+                late = halt.ready - customer.latest
                 lateness += late * customer.late_cost_per_hour / MS_PER_HOUR
     return lateness, earliness
 

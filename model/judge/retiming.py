@@ -92,7 +92,7 @@ class _Timer:
             known = self._known_trip(number)
             if known is None:
                 begin = max(ready, self._free_from(trip), 0 if start is None else start)
-                timed.append(self._from(trip, begin))
+                timed.append(self._from(trip, begin, start is not None))
             else:
                 timed.append(resume_trip(self._problem, self._type, trip, known, self._past.now))
             ready = max(timed[-1].stops[-1].departure + self._type.reload_duration,
@@ -102,8 +102,10 @@ class _Timer:
     def _known_trip(self, number: int) -> KnownTrip | None:
         return self._known[number] if number < len(self._known) else None
 
-    def _from(self, trip: TripDecision, begin: int) -> Trip:
-        return schedule_trip(self._problem, self._type, replace(trip, start=begin), begin)
+    def _from(self, trip: TripDecision, begin: int, is_chosen: bool = True) -> Trip:
+        """Return a trip from an instant on, or, if not chosen, once parcels stay fresh."""
+        decision = replace(trip, start=begin if is_chosen else None)
+        return schedule_trip(self._problem, self._type, decision, begin)
 
     def _free_from(self, trip: TripDecision) -> int:
         """Return when all parcels of a trip are at the depot."""
@@ -131,7 +133,7 @@ class _Timer:
         """Return how much later a trip may begin that may end `room` later."""
         if not trip.sorties and self._type.speed_profile is None and not self._type.busy_until:
             return _plain_delay(self._problem, trip, room)
-        high = room + sum([halt.service_start - halt.arrival for halt in halts(trip)])
+        high = room + sum([halt.service_start - halt.ready for halt in halts(trip)])
         low, latest = 0, trip.stops[-1].departure + room
         late = _lateness(self._problem, trip)
         for step in range(BISECTIONS if high else 0):
@@ -152,13 +154,13 @@ def _plain_delay(problem: Problem, trip: Trip, room: int) -> int:
     waited, most = 0, None
     for stop in trip.stops[1:-1]:
         customer = problem.customer_at(stop.node)
-        left = waited + max(0, closing(customer, stop.service_start) - stop.arrival)
+        left = waited + max(0, closing(customer, stop.service_start) - stop.ready)
         most = left if most is None else min(most, left)
-        waited += stop.service_start - stop.arrival
+        waited += stop.service_start - stop.ready
     return waited + room if most is None else min(most, waited + room)
 
 
 def _lateness(problem: Problem, trip: Trip) -> int:
     """Return by how much all customers of a trip are reached too late, added up."""
-    return sum([max(0, halt.arrival - problem.customer_at(halt.node).latest)
+    return sum([max(0, halt.ready - problem.customer_at(halt.node).latest)
                 for halt in halts(trip)])

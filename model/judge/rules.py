@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from operator import gt
 
 from model.judge.energy import sortie_energy
+from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
 from model.judge.timing import TripDecision, latest_release
@@ -82,11 +83,14 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
         message = f"{decimal(metrics.distance)} m, at most {decimal(limit)} m are allowed"
         yield Violation("TRIP_DISTANCE", message, path)
     yield from _count_violations(vehicle_type, trip, path)
+    yield from _goods_violations(problem, [timed], "trip", path)
     release = latest_release(problem, timed.decision)
     if trip.stops[0].arrival < release:
         message = f"begins at {seconds(trip.stops[0].arrival)}, released at {seconds(release)}"
         yield Violation("RELEASE", message, path)
     yield from _halt_violations(problem, kind, trip.stops[1:-1], f"{path}.stops", 1)
+    if problem.limits_time_aboard:
+        yield from _aboard_violations(problem, timed)
     drones = vehicle_type.drones
     if drones is not None and trip.sorties:
         yield from _drone_busy(timed)
@@ -125,10 +129,39 @@ def _halt_violations(
         if not customer.skills <= vehicle_type.skills:
             missing = ", ".join(sorted(customer.skills - vehicle_type.skills))
             yield Violation("SKILLS", f"{vehicle_type.id} lacks {missing}", f"{path}[{index}]")
-        if halt.arrival > customer.latest and customer.late_cost_per_hour is None:
-            message = (f"customer {customer.id} is reached at {seconds(halt.arrival)}, "
+        if halt.ready > customer.latest and customer.late_cost_per_hour is None:
+            message = (f"customer {customer.id} is reached at {seconds(halt.ready)}, "
                        f"after {seconds(customer.latest)}")
             yield Violation("TIME_WINDOW", message, f"{path}[{index}]")
+
+
+def _goods_violations(problem: Problem, trips: list[TimedTrip], scope: str,
+                      path: str) -> Iterator[Violation]:
+    """Goods that are carried together and must not be."""
+    for incompatible in problem.incompatible_goods:
+        if incompatible.scope != scope:
+            continue
+        carried = {goods for timed in trips for node in timed.decision.customers
+                   for goods in problem.customer_at(node).goods & incompatible.goods}
+        if len(carried) > 1:
+            message = f"{' and '.join(sorted(carried))} may not be carried together"
+            yield Violation("GOODS", message, path)
+
+
+def _aboard_violations(problem: Problem, timed: TimedTrip) -> Iterator[Violation]:
+    """Parcels that are too long aboard before their customers are served."""
+    trip, path = timed.trip, timed.path
+    halts: list[tuple[str, Stop | Visit]] = [
+        (f"{path}.stops[{index}]", stop) for index, stop in enumerate(trip.stops[1:-1], 1)]
+    halts += [(f"{path}.sorties[{index}].visits[{number}]", visit)
+              for index, sortie in enumerate(trip.sorties)
+              for number, visit in enumerate(sortie.visits)]
+    for place, halt in halts:
+        excess = excess_aboard(problem, trip, halt)
+        if excess > 0:
+            customer = problem.customer_at(halt.node)
+            yield Violation("TIME_ABOARD", f"the parcel of {customer.id} is {seconds(excess)} too "
+                            "long aboard before service", place)
 
 
 def _drone_busy(timed: TimedTrip) -> Iterator[Violation]:
@@ -207,10 +240,11 @@ def _place_violations(vehicle_type: VehicleType, trips: list[TimedTrip],
 
 
 def route_violations(
-    vehicle_type: VehicleType, trips: list[TimedTrip], metrics: RouteMetrics, path: str,
-    has_begun: bool = False,
+    problem: Problem, vehicle_type: VehicleType, trips: list[TimedTrip], metrics: RouteMetrics,
+    path: str, has_begun: bool = False,
 ) -> Iterator[Violation]:
-    """What trips break together: where they begin and end, shift, reloading, working duration."""
+    """What trips break together: goods, where they begin and end, shift, reloading, work."""
+    yield from _goods_violations(problem, trips, "vehicle", path)
     yield from _place_violations(vehicle_type, trips, has_begun)
     ready, over = vehicle_type.earliest, allowed_overtime(vehicle_type)
     more = f", with {seconds(over)} of overtime" if 0 < over < UNLIMITED else ""

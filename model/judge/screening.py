@@ -37,11 +37,12 @@ class Guess(NamedTuple):
 
 
 class _Legs:
-    """Ways to and from one node, as lists by the other node."""
+    """Ways to and from one node, as lists by the other node; there, set up."""
 
     def __init__(self, problem: Problem, travel: int, node: int) -> None:
         matrices = problem.travel[travel]
-        self.there: list[int] = matrices.duration[:, node].tolist()
+        there = matrices.duration[:, node].tolist()
+        self.there = [way + problem.setup_between(origin, node) for origin, way in enumerate(there)]
         self.back: list[int] = matrices.duration[node].tolist()
         self.far_there: list[int] = matrices.distance[:, node].tolist()
         self.far_back: list[int] = matrices.distance[node].tolist()
@@ -124,7 +125,7 @@ class Screen:
         kind = self._problem.vehicle_types[vehicle.type]
         begin, end, fixed = kind.begins_at, kind.ends_at, kind.fixed_cost if is_new else 0.0
         legs = self._legs_of(kind.travel)
-        hours = legs.there[begin] + self._customer.service_duration + legs.back[end]
+        hours = legs.there[begin] + kind.service_at(self._customer) + legs.back[end]
         cost = (fixed + (legs.far_there[begin] + legs.far_back[end]) * kind.cost_per_km / MM_PER_KM
                 + kind.cost_per_stop + hours * kind.cost_per_hour / MS_PER_HOUR)
         yield Guess(0, cost, hours, Place(vehicle, number, "truck", 1, own_trip=True))
@@ -158,7 +159,7 @@ class Screen:
             start = service_start(customer, arrival)
             _, straight = legs.between(before.node, after.node)
             detour = legs.far_there[before.node] + legs.far_back[after.node] - straight
-            push = start + customer.service_duration + legs.back[after.node] - after.arrival
+            push = start + kind.service_at(customer) + legs.back[after.node] - after.arrival
             too_late = max(0, arrival - customer.latest)
             late = (too_late if hard else 0) + max(0, push - slacks[index])
             cost = (detour * kind.cost_per_km / MM_PER_KM + push * kind.cost_per_hour / MS_PER_HOUR
@@ -170,10 +171,7 @@ class Screen:
     def _flight(self, drones: DroneType, launch: int, recovery: int) -> tuple[int, float]:
         """Return how long a flight between two nodes takes, and its cost."""
         legs = self._legs_of(drones.travel)
-        service = drones.service_duration
-        if service is None:
-            service = self._customer.service_duration
-        duration = legs.there[launch] + service + legs.back[recovery]
+        duration = legs.there[launch] + drones.service_at(self._customer) + legs.back[recovery]
         distance = legs.far_there[launch] + legs.far_back[recovery]
         return duration, (distance * drones.cost_per_km / MM_PER_KM
                           + duration * drones.cost_per_hour / MS_PER_HOUR)
@@ -186,7 +184,7 @@ class Screen:
         legs = self._legs_of(drones.travel)
         for launch in range(first_stop - 1, last + 1):
             begin = trip.stops[launch]
-            arrival = begin.arrival + drones.launch_duration + legs.there[begin.node]
+            arrival = begin.ready + drones.launch_duration + legs.there[begin.node]
             too_late = 0
             if customer.late_cost_per_hour is None:
                 too_late = max(0, arrival - customer.latest)
@@ -198,7 +196,7 @@ class Screen:
                 drone = _free_drone(trip, drones.count, launch, recovery)
                 if drone is None:
                     continue
-                held = begin.arrival + duration - end.departure
+                held = begin.ready + duration - end.departure
                 yield Guess(too_late + max(0, duration - drones.endurance),
                             cost + max(0, held) * per_hour / MS_PER_HOUR, duration,
                             Place(vehicle, number, "drone", launch, recovery, drone))
@@ -231,9 +229,9 @@ def _slacks(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:
     slacks = [slack]
     for stop in reversed(trip.stops[1:-1]):
         customer = problem.customer_at(stop.node)
-        slack += stop.service_start - stop.arrival
+        slack += stop.service_start - stop.ready
         if customer.late_cost_per_hour is None:
-            slack = min(slack, max(0, customer.latest - stop.arrival))
+            slack = min(slack, max(0, customer.latest - stop.ready))
         slacks.append(slack)
     return [slack, *reversed(slacks)]
 

@@ -7,11 +7,12 @@ holds. Times in ms, plain Python integers.
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from model.judge.clock import leg_end, opening, service_start
+from model.judge.clock import leg_end, opening, service_start, with_setups
 from model.judge.energy import longest_hold
+from model.judge.freshness import most_excess
 from model.judge.past import KnownStop, KnownTrip
 from model.problem import DroneType, Problem, VehicleType
 from model.solution import Route, Sortie, Stop, Trip, Visit
@@ -42,6 +43,11 @@ class TripDecision:
     sorties: tuple[SortieDecision, ...] = ()
     operations: tuple[tuple[Operation, ...], ...] | None = None  # per stop; None: by arrival
     start: int | None = None  # arrival at the first stop; None: as soon as possible
+
+    @property
+    def customers(self) -> tuple[int, ...]:
+        """Nodes of those whom it serves, the truck's first."""
+        return (*self.nodes[1:-1], *(node for sortie in self.sorties for node in sortie.nodes))
 
     def __post_init__(self) -> None:
         if len(self.nodes) < 2:
@@ -122,12 +128,7 @@ def read_decision(trip: Trip, launch_duration: int) -> TripDecision:
 def latest_release(problem: Problem, decision: TripDecision) -> int:
     """Return when the last parcel of a trip is at the depot."""
     customers, first = problem.customers, len(problem.depots)
-    release = max([customers[node - first].release_time for node in decision.nodes[1:-1]],
-                  default=0)
-    for sortie in decision.sorties:
-        for node in sortie.nodes:
-            release = max(release, customers[node - first].release_time)
-    return release
+    return max([customers[node - first].release_time for node in decision.customers], default=0)
 
 
 def _fly(problem: Problem, drones: DroneType, decision: TripDecision, sortie: SortieDecision,
@@ -140,10 +141,10 @@ def _fly(problem: Problem, drones: DroneType, decision: TripDecision, sortie: So
     for following in sortie.nodes:
         customer = problem.customers[following - first]
         arrival = time + duration.item(node, following)
-        start = service_start(customer, arrival)
-        service = drones.service_duration
-        time = start + (customer.service_duration if service is None else service)
-        visits.append(Visit(following, arrival, start, time))
+        setup = problem.setup_between(node, following)
+        start = service_start(customer, arrival + setup)
+        time = start + drones.service_at(customer)
+        visits.append(Visit(following, arrival, start, time, setup))
         node = following
     return _flight(problem, drones, decision, sortie, launch_time, tuple(visits))
 
@@ -180,9 +181,9 @@ def _held_until(problem: Problem, drones: DroneType, decision: TripDecision,
     node, time, back = decision.nodes[sortie.launch_stop], takeoff, 0
     legs, services = [], []
     for following in sortie.nodes:
-        customer, leg = problem.customers[following - first], duration.item(node, following)
-        own = drones.service_duration
-        service = customer.service_duration if own is None else own
+        customer = problem.customers[following - first]
+        leg = duration.item(node, following) + problem.setup_between(node, following)
+        service = drones.service_at(customer)
         opens = opening(customer, time + leg)
         time = max(time + leg, opens) + service
         back = max(back + leg, opens) + service
@@ -243,7 +244,8 @@ def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: 
         sortie = decision.sorties[index]
         if is_launch and fact is not None:
             time = fact.launch_time
-            flights[index] = _flight(problem, drones, decision, sortie, time, fact.visits)
+            visits = with_setups(problem, decision.nodes[sortie.launch_stop], fact.visits)
+            flights[index] = _flight(problem, drones, decision, sortie, time, visits)
         elif is_launch:
             time = held_takeoff(problem, drones, decision, sortie,
                                 max(time, earliest) + drones.launch_duration)
@@ -271,8 +273,28 @@ def _timed_sorties(
 def schedule_trip(
     problem: Problem, vehicle_type: VehicleType, decision: TripDecision, ready: int
 ) -> Trip:
-    """Return a trip with its times; without a start of its own it begins once `ready`."""
-    duration = problem.travel[vehicle_type.travel].duration
+    """Return a trip with its times.
+
+    Without a start of its own it begins once `ready`, or later if that keeps parcels from being
+    aboard too long.
+    """
+    trip = _schedule_trip(problem, vehicle_type, decision, ready)
+    if decision.start is not None or not problem.limits_time_aboard:
+        return trip
+    excess = most_excess(problem, trip)
+    while excess > 0:
+        later = replace(decision, start=trip.stops[0].arrival + excess)
+        held = _schedule_trip(problem, vehicle_type, later, ready)
+        left = most_excess(problem, held)
+        if left >= excess:
+            break
+        trip, excess = held, left
+    return trip
+
+
+def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
+                   ready: int) -> Trip:
+    duration, setup = problem.travel[vehicle_type.travel].duration, 0
     profile, drones = vehicle_type.speed_profile, vehicle_type.drones
     customers, first, last = problem.customers, len(problem.depots), len(decision.nodes) - 1
     flights: dict[int, _Flight] = {}
@@ -284,18 +306,19 @@ def schedule_trip(
     for index, following in enumerate(decision.nodes):
         if index:
             arrival = leg_end(departure, duration.item(node, following), profile)
+            setup = problem.setup_between(node, following)
         node = following
         start = departure = arrival
         if index == 0:
             departure = max(arrival, vehicle_type.busy_until)
         if 0 < index < last:
             customer = customers[node - first]
-            start = service_start(customer, arrival)
-            departure = start + customer.service_duration
+            start = service_start(customer, arrival + setup)
+            departure = start + vehicle_type.service_at(customer)
         if drones is not None and decision.sorties:
             departure = max(departure,
-                            _operate(problem, drones, decision, index, arrival, flights))
-        stops.append(Stop(node, arrival, start, departure))
+                            _operate(problem, drones, decision, index, arrival + setup, flights))
+        stops.append(Stop(node, arrival, start, departure, setup))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
     return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
@@ -319,28 +342,30 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
         else:
             leg = duration.item(stops[-1].node, node)
             arrival = max(now, leg_end(stops[-1].departure, leg, vehicle_type.speed_profile))
-        start, departure = _resume_service(problem, node, arrival, fact, now)
+        setup = problem.setup_between(stops[-1].node, node) if stops else 0
+        ready = arrival + setup
+        start, departure = _resume_service(problem, vehicle_type, node, ready, fact, now)
         if drones is not None and decision.sorties:
-            departure = max(departure, _operate(problem, drones, decision, index, arrival, flights,
+            departure = max(departure, _operate(problem, drones, decision, index, ready, flights,
                                                 known, now))
         departure = max(departure, now)
         if fact is not None and fact.departure is not None:
             departure = fact.departure
-        stops.append(Stop(node, arrival, start, departure))
+        stops.append(Stop(node, arrival, start, departure, setup))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
     return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
 
 
-def _resume_service(problem: Problem, node: int, arrival: int, fact: KnownStop | None,
-                    now: int) -> tuple[int, int]:
-    """Return when service at a stop begins and ends; at depots, the arrival."""
+def _resume_service(problem: Problem, vehicle_type: VehicleType, node: int, ready: int,
+                    fact: KnownStop | None, now: int) -> tuple[int, int]:
+    """Return when service at a stop begins and ends; at depots, when the truck is there."""
     if node < problem.num_depots:
-        return arrival, arrival
+        return ready, ready
     customer = problem.customer_at(node)
     begun = None if fact is None else fact.service_start
-    start = service_start(customer, max(arrival, now)) if begun is None else begun
-    return start, start + customer.service_duration
+    start = service_start(customer, max(ready, now)) if begun is None else begun
+    return start, start + vehicle_type.service_at(customer)
 
 
 def schedule(problem: Problem, decision: RouteDecision) -> Route:
@@ -371,6 +396,5 @@ def _require_known(problem: Problem, vehicle_type: VehicleType, decision: TripDe
     for node in (decision.nodes[0], decision.nodes[-1]):
         if not 0 <= node < problem.num_depots:
             raise ValueError(f"trip depot: {node!r} is not allowed")
-    visited = [*decision.nodes[1:-1], *(node for s in decision.sorties for node in s.nodes)]
-    for node in visited:
+    for node in decision.customers:
         problem.customer_at(node)

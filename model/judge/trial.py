@@ -19,7 +19,7 @@ MAX_LAUNCH_PLACES = 4
 MAX_HOSTS = 4
 """Other customers, nearest first, to whom something is delivered before a pickup is tried."""
 
-HOPELESS = frozenset({"VEHICLE", "SKILLS", "CAPACITY"})
+HOPELESS = frozenset({"VEHICLE", "SKILLS", "GOODS", "CAPACITY"})
 """Rules that whoever breaks them on one trip breaks on all."""
 
 
@@ -69,6 +69,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int]) -> Problem:
         coordinates=problem.coordinates[places],
         unassigned_cost=problem.unassigned_cost,
         amount_decimals=problem.amount_decimals,
+        incompatible_goods=problem.incompatible_goods,
         may_serve=None if table is None else table[[kind]][:, np.array(nodes) - problem.num_depots],
     )
 
@@ -117,20 +118,21 @@ def _try_truck_at(problem: Problem, opens: int) -> Iterator[Attempt]:
     node, end = problem.num_depots, vehicle_type.ends_at
     outward, homeward = duration.item(0, node), duration.item(node, end)
     earliest = max(vehicle_type.earliest, customer.release_time)
-    start = max(earliest, leg_start(opens, outward, profile))
+    setup = problem.setup_between(0, node)
+    start = max(earliest, leg_start(opens - setup, outward, profile))
     first = _judge(problem, TripDecision((0, node, end), start=start))
     yield first
     if profile is None or first.codes != {"WORKING_DURATION"}:
         return
+    served = setup + vehicle_type.service_at(customer)
     for change in profile.times:
         yield from (
             _judge(problem, TripDecision((0, node, end), start=start))
             for start in (
                 change,
                 leg_start(change, outward, profile),
-                leg_start(change - customer.service_duration, outward, profile),
-                leg_start(leg_start(change, homeward, profile) - customer.service_duration,
-                          outward, profile),
+                leg_start(change - served, outward, profile),
+                leg_start(leg_start(change, homeward, profile) - served, outward, profile),
             )
             if start >= earliest
         )
@@ -148,7 +150,8 @@ def _try_behind(problem: Problem) -> Attempt:
     vehicle_type, node = problem.vehicle_types[0], problem.num_depots
     outward = problem.travel[0].duration.item(0, node)
     start = max(vehicle_type.earliest, *(each.release_time for each in problem.customers),
-                leg_start(host.earliest, outward, vehicle_type.speed_profile))
+                leg_start(host.earliest - problem.setup_between(0, node), outward,
+                          vehicle_type.speed_profile))
     return _judge(problem, TripDecision((0, node, node + 1, vehicle_type.ends_at), start=start))
 
 
@@ -172,7 +175,7 @@ def _takes_a_parcel(customer: Customer, skills: frozenset[str]) -> bool:
 def _try_loop(problem: Problem, drones: DroneType, opens: int) -> Attempt:
     """Return a flight from the depot and back, to a customer as one of its windows opens."""
     customer, node, end = problem.customers[0], problem.num_depots, problem.vehicle_types[0].ends_at
-    flight = problem.travel[1].duration.item(0, node)
+    flight = problem.travel[1].duration.item(0, node) + problem.setup_between(0, node)
     start = max(problem.vehicle_types[0].earliest, customer.release_time,
                 opens - flight - drones.launch_duration)
     return _judge(problem, TripDecision((0, end), (SortieDecision((node,), 0, 0),), start=start))
@@ -182,12 +185,14 @@ def _try_loop_from_customer(problem: Problem, drones: DroneType, opens: int) -> 
     """Return a trip to the first customer with a loop to the second, as its window opens."""
     vehicle_type, (host, customer) = problem.vehicle_types[0], problem.customers
     there, node = problem.num_depots, problem.num_depots + 1
-    approach = drones.launch_duration + problem.travel[1].duration.item(there, node)
+    approach = (drones.launch_duration + problem.travel[1].duration.item(there, node)
+                + problem.setup_between(there, node))
     arrival = min(max(host.earliest, opens - approach), host.latest,
                   customer.latest - approach)
     outward = problem.travel[0].duration.item(0, there)
     start = max(vehicle_type.earliest, host.release_time, customer.release_time,
-                leg_start(arrival, outward, vehicle_type.speed_profile))
+                leg_start(arrival - problem.setup_between(0, there), outward,
+                          vehicle_type.speed_profile))
     trip = TripDecision((0, there, vehicle_type.ends_at), (SortieDecision((node,), 1, 1),),
                         start=start)
     return _judge(problem, trip)
@@ -201,10 +206,7 @@ def _launch_places(
     skills = problem.vehicle_types[kind].skills
     duration = problem.travel[drones.travel].duration
     loops = duration[first:, node] + duration[node, first:]
-    service = drones.service_duration
-    if service is None:
-        service = customer.service_duration
-    near = np.flatnonzero(loops <= drones.endurance - service)
+    near = np.flatnonzero(loops <= drones.endurance - drones.service_at(customer))
     found = 0
     for index in near[np.argsort(loops[near], kind="stable")].tolist():
         host = problem.customers[index]

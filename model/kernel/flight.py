@@ -1,6 +1,6 @@
 """What a flight may last, and all instants of one but those on the way. Compiled.
 
-`kind` is the row of the vehicle type, `place` is the customer's row, as for `stop`.
+`kind` is the row of the vehicle type, `place` the customer's rows from its drones' table of nodes.
 """
 
 from model.kernel.compiled import inlined
@@ -10,7 +10,7 @@ from model.kernel.energy import (
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.records import Record, Records
-from model.kernel.stop import opening, service_duration, start_of_service
+from model.kernel.stop import opening, service_duration
 from model.problem import UNREACHABLE
 
 
@@ -18,19 +18,6 @@ from model.problem import UNREACHABLE
 def unreachable(duration: int) -> bool:
     """Tell whether a flight duration marks a flight that can't be flown."""
     return duration >= UNREACHABLE
-
-
-@inlined
-def drone_service(kind: Record, place: Records) -> int:
-    """Return how long a drone serves a customer: as its type says, else as the customer."""
-    own = kind.drone_service_duration
-    return own if own >= 0 else service_duration(place)
-
-
-@inlined
-def ready(kind: Record, place: Records, arrival: int) -> int:
-    """Return when a drone has served."""
-    return start_of_service(place, arrival) + drone_service(kind, place)
 
 
 @inlined
@@ -70,12 +57,12 @@ def recoveries_take_time(kind: Record) -> bool:
 
 
 @inlined
-def earliest_back(kind: Record, place: Records, arrival: int, home: int) -> int:
+def earliest_back(place: Records, arrival: int, home: int) -> int:
     """Return when a drone is where `home` leads to that is at a customer as the window opens.
 
     The window in which whoever comes at `arrival` is served.
     """
-    return opening(place, arrival) + drone_service(kind, place) + home
+    return opening(place, arrival) + service_duration(place) + home
 
 
 @inlined
@@ -108,12 +95,12 @@ def held_takeoff(kind: Record, place: Records, takeoff: int, out: int, home: int
     """
     limit = kind.endurance
     if hovers_at_customers(kind):
-        limit = longest_hold(kind, out + drone_service(kind, place) + home,
+        limit = longest_hold(kind, out + service_duration(place) + home,
                              after_flight(kind, place, out, home), weight_of(kind, place))
-    held = held_until(earliest_back(kind, place, takeoff + out, home), limit)
+    held = held_until(earliest_back(place, takeoff + out, home), limit)
     while held > takeoff:
         takeoff = held
-        held = held_until(earliest_back(kind, place, takeoff + out, home), limit)
+        held = held_until(earliest_back(place, takeoff + out, home), limit)
     return takeoff
 
 
@@ -123,7 +110,7 @@ def after_flight(kind: Record, place: Records, out: int, home: int) -> int:
     weight = weight_of(kind, place)
     left = after_leg(kind, battery_of(kind), weight, out)
     if hovers_at_customers(kind):
-        left = after_hovering(kind, left, weight, drone_service(kind, place))
+        left = after_hovering(kind, left, weight, service_duration(place))
     return after_leg(kind, left, 0, home)
 
 
@@ -139,7 +126,7 @@ def can_last(kind: Record, duration: int) -> bool:
 @inlined
 def can_serve(kind: Record, place: Records, out: int, home: int) -> bool:
     """Tell whether a flight to one customer is within endurance and energy if nothing waits."""
-    return (can_last(kind, out + drone_service(kind, place) + home)
+    return (can_last(kind, out + service_duration(place) + home)
             and (not is_limited(kind) or after_flight(kind, place, out, home) >= 0))
 
 
@@ -159,7 +146,7 @@ def within_energy(kind: Record, place: Records, out: int, home: int, takeoff: in
         return True
     left = after_flight(kind, place, out, home)
     if hovers_at_customers(kind):
-        waited = served - drone_service(kind, place) - takeoff - out
+        waited = served - service_duration(place) - takeoff - out
         left = after_hovering(kind, left, weight_of(kind, place), waited)
     return after_hovering(kind, left, 0, recovery_start - served - home) >= 0
 

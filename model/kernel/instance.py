@@ -9,9 +9,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.kernel.nearest import least_columns
-from model.kernel.pausing import Pause, go_on, matrix_blocks
+from model.kernel.asked import goods_rows, has_setups, may_be_flown_to, setup_rows
+from model.kernel.nearest import write_nearest
+from model.kernel.pausing import Pause, go_on
 from model.kernel.records import Records, record
+from model.kernel.variants import Way, durations_of, index_of, variant_of, ways_of, write_legs
 from model.problem import (
     MAX_DIMENSIONS, MAX_POINTS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, Energy,
     FloatArray, IntArray, Problem, VehicleType,
@@ -38,22 +40,34 @@ NODE = record("window_earliest", "arrival_limit", "service_duration", "release",
 that is allowed, `FAR` where lateness only costs; service duration; release; the last arrival that
 is not late; demand in the first dimensions.
 
+There are as many tables of nodes, variants, as there are ways to be served: they differ in the
+service duration alone, in the first it is the customers' own. `kernel/stop` says which is whose.
+
 Where somebody has several windows, each node has more rows, one for each gap between two: its
 `window_latest` closes the window before, `FAR` behind the last, and its `window_earliest` opens the
 next."""
 
+SETUP = record("site", "setup_duration")
+"""Where a node is, equal at one place, and how long whoever comes from elsewhere sets up there.
+Nobody has a row where nobody has to. Durations of legs hold it, unless speeds change by time of day
+or the leg brings a drone back."""
+
 PRICE = record(lateness=float, waiting=float)
 """What lateness and waiting at a node cost per hour."""
+
+GOODS = record("held", "barred_on_trip", "barred_on_vehicle")
+"""Bits of the goods at a node that some others must not go with, and of those others: on one trip
+with them, and on one vehicle. Nobody has a row where nothing is incompatible."""
 
 TYPE = record(
     "count", "travel", "depot", "begins_at", "ends_at", "changes_ends", "shift_earliest",
     "busy_until", "begun", "shift_latest", "max_working_duration", "usual_end", "usual_working",
     "max_trip_distance", "max_trips", "max_stops", "max_sorties", "reload_duration",
-    "speed_changes", "drones", "drone_travel", "endurance", "waiting_counts", "launch_duration",
-    "recovery_duration", "drone_service_duration", "points", "battery", "lands", "climb_duration",
-    "descent_duration", "weight_dimension", "pickup_order", "carried", capacity=MAX_TIERS * TIER,
-    payload=MAX_TIERS * TIER, weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS,
-    climb=MAX_POINTS, descent=MAX_POINTS)
+    "speed_changes", "drones", "drone_travel", "home_travel", "endurance", "waiting_counts",
+    "launch_duration", "recovery_duration", "variant", "drone_variant", "points", "battery",
+    "lands", "climb_duration", "descent_duration", "weight_dimension", "pickup_order", "carried",
+    capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER, weights=MAX_POINTS, cruise=MAX_POINTS,
+    hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
 its working duration, and costs as if it were fixed. The end of the shift and the longest working
@@ -80,9 +94,12 @@ class Instance(NamedTuple):
     """Packed problems."""
 
     size: Records  # (problem,) SIZE
-    node: Records  # (problem, node, 1 + gaps) NODE
+    node: Records  # (problem, variant, node, 1 + gaps) NODE
     amount: IntArray  # (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
     price: Records  # (problem, node) PRICE
+    goods: Records  # (problem, node) GOODS, or (problem, 0)
+    setup: Records  # (problem, node) SETUP, or (problem, 0)
+    fresh_for: IntArray  # (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
     type: Records  # (problem, type) TYPE
     rate: Records  # (problem, type) RATE
     reload: BoolArray  # (problem, type, node) where a trip may end and the next begin
@@ -110,17 +127,36 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
     """
     if not problems:
         raise ValueError("problems: need at least one")
+    durations = [durations_of(problem) for problem in problems]
+    ways = [ways_of(problem) for problem in problems]
+    instance = _empty(problems, max(map(len, durations)), max(map(len, ways)))
+    for row, problem in enumerate(problems):
+        _pack_row(instance, row, problem, durations[row], ways[row])
+        write_legs(problem, ways[row], instance.setup[row], instance.duration[row],
+                   instance.distance[row], pause)
+        if neighbours:
+            write_nearest(problem, instance.neighbour[row], pause)
+    return instance
+
+
+def _empty(problems: Sequence[Problem], variants: int, travels: int) -> Instance:
+    """Allocate arrays for problems with so many tables of nodes and of legs."""
     rows = len(problems)
     nodes = max(problem.num_nodes for problem in problems)
     types = max(len(problem.vehicle_types) for problem in problems)
-    travels = max(len(problem.travel) for problem in problems)
+    set_up = any(has_setups(problem) for problem in problems)
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
+    limited = any(problem.limits_time_aboard for problem in problems)
+    apart = any(problem.incompatible_goods for problem in problems)
     instance = Instance(
         size=np.zeros(rows, SIZE),
-        node=np.zeros((rows, nodes, 1 + gaps), NODE),
+        node=np.zeros((rows, variants, nodes, 1 + gaps), NODE),
         amount=np.zeros((rows, nodes, _num_tiers(problems), AMOUNTS), np.int64),
         price=np.zeros((rows, nodes), PRICE),
+        goods=np.zeros((rows, nodes if apart else 0), GOODS),
+        setup=np.zeros((rows, nodes if set_up else 0), SETUP),
+        fresh_for=np.full((rows, nodes if limited else 0), FAR, np.int64),
         type=np.zeros((rows, types), TYPE),
         rate=np.zeros((rows, types), RATE),
         reload=np.zeros((rows, types, nodes), np.bool_),
@@ -136,11 +172,6 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
     )
     instance.node["arrival_limit"] = FAR
     instance.node[..., 1:]["window_latest"] = FAR
-    for row, problem in enumerate(problems):
-        _pack_row(instance, row, problem)
-        _pack_travel(instance, row, problem, pause)
-        if neighbours:
-            _pack_neighbours(instance, row, problem, pause)
     return instance
 
 
@@ -157,25 +188,16 @@ def _num_tiers(problems: Sequence[Problem]) -> int:
     return tiers if tiers > 1 or changes or costs else 0
 
 
-def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
+def _pack_row(instance: Instance, row: int, problem: Problem, durations: dict[bytes, IntArray],
+              ways: Sequence[Way]) -> None:
     """Write one problem. In place."""
-    dimensions = problem.num_dimensions
-    depots, nodes = problem.num_depots, problem.num_nodes
-    types = len(problem.vehicle_types)
-    instance.size[row] = depots, problem.num_customers, types, dimensions
+    instance.size[row] = (problem.num_depots, problem.num_customers, len(problem.vehicle_types),
+                          problem.num_dimensions)
     if problem.customers:
-        instance.node[row, depots:nodes, 0] = [
-            _customer_row(customer) for customer in problem.customers]
-        _pack_gaps(instance.node[row, depots:nodes, 1:], problem.customers)
-        _pack_amounts(instance.amount[row, depots:nodes], problem.customers)
-        instance.price[row, depots:nodes] = [
-            (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
-            for customer in problem.customers]
-        costs = np.array([problem.cost_of_leaving_out(customer) for customer in problem.customers])
-        instance.unassigned_cost[row] = costs.min()
-        instance.unassigned_more[row, depots:nodes] = costs - costs.min()
+        _pack_customers(instance, row, problem, durations)
     for index, kind in enumerate(problem.vehicle_types):
-        instance.type[row, index] = _type_row(kind)
+        instance.type[row, index] = _type_row(kind, ways, variant_of(kind, problem, durations),
+                                              variant_of(kind.drones, problem, durations))
         instance.reload[row, index, list(kind.reload_places)] = True
         drones = kind.drones
         worked = _worked(kind) / MS_PER_HOUR * kind.cost_per_hour
@@ -189,6 +211,33 @@ def _pack_row(instance: Instance, row: int, problem: Problem) -> None:
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
     _pack_compatibility(instance, row, problem)
+
+
+def _pack_customers(instance: Instance, row: int, problem: Problem,
+                    durations: dict[bytes, IntArray]) -> None:
+    """Write what the customers of one problem ask for, and the setups at all nodes. In place."""
+    depots, nodes = problem.num_depots, problem.num_nodes
+    served = instance.node[row, :, depots:nodes]
+    served[0, :, 0] = [_customer_row(customer) for customer in problem.customers]
+    _pack_gaps(served[0, :, 1:], problem.customers)
+    for variant, duration in enumerate(durations.values()):
+        served[variant] = served[0]
+        served[variant, :, 0]["service_duration"] = duration
+    _pack_amounts(instance.amount[row, depots:nodes], problem.customers)
+    instance.price[row, depots:nodes] = [
+        (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
+        for customer in problem.customers]
+    costs = np.array([problem.cost_of_leaving_out(customer) for customer in problem.customers])
+    instance.unassigned_cost[row] = costs.min()
+    instance.unassigned_more[row, depots:nodes] = costs - costs.min()
+    if problem.limits_time_aboard:
+        instance.fresh_for[row, depots:nodes] = [
+            FAR if customer.max_time_aboard is None else customer.max_time_aboard
+            for customer in problem.customers]
+    if problem.incompatible_goods:
+        instance.goods[row, depots:nodes] = goods_rows(problem)
+    if has_setups(problem):
+        instance.setup[row, :nodes] = setup_rows(problem)
 
 
 def _pack_amounts(rows: IntArray, customers: Sequence[Customer]) -> None:
@@ -211,15 +260,6 @@ def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
             row[gap].window_latest, row[gap].window_earliest = closes, opens
 
 
-def _pack_travel(instance: Instance, row: int, problem: Problem, pause: Pause) -> None:
-    """Write all legs. In place."""
-    nodes = problem.num_nodes
-    for index, travel in enumerate(problem.travel):
-        for part in matrix_blocks(nodes, pause):
-            instance.duration[row, index, part, :nodes] = travel.duration[part]
-            instance.distance[row, index, part, :nodes] = travel.distance[part]
-
-
 def _customer_row(customer: Customer) -> tuple[Any, ...]:
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
@@ -231,19 +271,21 @@ def _padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
     return (*amount[:length], *(0,) * (length - len(amount)))
 
 
-def _type_row(kind: VehicleType) -> tuple[Any, ...]:
+def _type_row(kind: VehicleType, ways: Sequence[Way], variant: int,
+              drone_variant: int) -> tuple[Any, ...]:
     drones = kind.drones
     load = kind.initial_load or (0,) * len(kind.capacity)
     free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
     energy = None if drones is None else drones.energy
+    travel = index_of(ways, kind.travel, kind.speed_profile is None)
     return (
-        kind.count, kind.travel, kind.depot, kind.begins_at, kind.ends_at,
+        kind.count, travel, kind.depot, kind.begins_at, kind.ends_at,
         _changes_ends(kind), kind.earliest, kind.busy_until,
         int(kind.works_since is not None), *_limits_of_work(kind),
         _limit(kind.max_trip_distance), kind.max_trips, _limit(kind.max_stops),
         _limit(kind.max_sorties), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
-        *(NO_DRONES if drones is None else _drones(drones)),
+        *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
         *_battery(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
         _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *_powers(energy))
 
@@ -276,10 +318,10 @@ def _limits_of_work(kind: VehicleType) -> tuple[int, int, int, int]:
             kind.latest, usual)
 
 
-def _drones(drones: DroneType) -> tuple[int, ...]:
-    service = -1 if drones.service_duration is None else drones.service_duration
-    return (drones.count, drones.travel, drones.endurance, int(drones.endurance_includes_waiting),
-            drones.launch_duration, drones.recovery_duration, service)
+def _drones(drones: DroneType, ways: Sequence[Way]) -> tuple[int, ...]:
+    out, home = (index_of(ways, drones.travel, sets_up) for sets_up in (True, False))
+    return (drones.count, out, home, drones.endurance, int(drones.endurance_includes_waiting),
+            drones.launch_duration, drones.recovery_duration)
 
 
 def _battery(energy: Energy | None) -> tuple[int, ...]:
@@ -305,7 +347,7 @@ def _worked(kind: VehicleType) -> int:
 def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
     """Write which types may serve which customers, by truck and by drone. In place."""
     customers = slice(problem.num_depots, problem.num_nodes)
-    most = _most_asked_for(problem, instance.node[row, customers, 0])
+    most = _most_asked_for(problem, instance.node[row, 0, customers, 0])
     by_truck = np.array([c.served_by != "drone" for c in problem.customers], np.bool_)
     by_drone = np.array([c.served_by != "truck" for c in problem.customers], np.bool_)
     asking: dict[frozenset[str], list[int]] = {}
@@ -320,12 +362,15 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
                 fits[customers_asking] = False
         if problem.may_serve is not None:
             fits &= problem.may_serve[index]
+        if problem.incompatible_goods:
+            goods = instance.goods[row, customers]
+            fits &= goods["held"] & (goods["barred_on_trip"] | goods["barred_on_vehicle"]) == 0
         instance.can_drive[row, index, customers] = fits & by_truck & (kind.max_stops != 0)
         if kind.drones is not None and kind.max_sorties != 0:
             payload = instance.type[row, index].payload[dimensions]
             liftable = (most <= payload).all(axis=1)
             instance.can_fly[row, index, customers] = (
-                fits & by_drone & liftable & _may_be_flown_to(problem, kind.drones))
+                fits & by_drone & liftable & may_be_flown_to(problem, kind.drones, TIER))
 
 
 def _most_asked_for(problem: Problem, rows: Records) -> IntArray:
@@ -338,29 +383,3 @@ def _most_asked_for(problem: Problem, rows: Records) -> IntArray:
         picked = [_padded(customer.pickup, most.shape[1]) for customer in problem.customers]
         most = np.maximum(most, np.array(picked, np.int64))
     return most
-
-
-def _may_be_flown_to(problem: Problem, drones: DroneType) -> BoolArray:
-    """Mark the customers whose weight aboard a drone is known by `NODE`, if a battery limits it.
-
-    What drones pick up then, and weights in later dimensions, are left to trucks.
-    """
-    if drones.energy is None:
-        return np.ones(problem.num_customers, np.bool_)
-    if drones.energy.dimension >= TIER:
-        return np.zeros(problem.num_customers, np.bool_)
-    return np.array([not any(customer.pickup) for customer in problem.customers], np.bool_)
-
-
-def _pack_neighbours(instance: Instance, row: int, problem: Problem, pause: Pause) -> None:
-    """Write each node's nearest other customers, by the first vehicle type's drive. In place."""
-    depots, nodes = problem.num_depots, problem.num_nodes
-    duration = problem.travel[problem.vehicle_types[0].travel].duration[:, depots:]
-    most = min(MAX_NEIGHBOURS, problem.num_customers - 1)
-    if most < 1:
-        return
-    for part in matrix_blocks(nodes, pause):
-        drive = duration[part].astype(np.float64)
-        customers = np.arange(max(part.start, depots), part.stop)
-        drive[customers - part.start, customers - depots] = np.inf
-        instance.neighbour[row, part, :most] = least_columns(drive, most) + depots

@@ -1,4 +1,4 @@
-"""What vehicles and drones hold: amounts, in all dimensions at once. Compiled.
+"""What vehicles and drones hold: amounts, in all dimensions at once, goods. Compiled.
 
 Amounts are looked at three dimensions at a time, a tier. Mostly there is no more than one, and what
 is aboard where a trip begins is the most that ever is: then nothing but `NODE` is asked. Where
@@ -47,6 +47,45 @@ def write_amount(amount: Amount, row: IntArray) -> None:
 def release_of(place: Records) -> int:
     """Return when a customer's parcel is at the depot."""
     return place[0].release
+
+
+@inlined
+def some_apart(goods: Records) -> bool:
+    """Tell whether some goods must not go with others, by the rows of all nodes."""
+    return len(goods) > 0
+
+
+@inlined
+def go_together(goods: Record, barred_on_trip: int, barred_on_vehicle: int) -> bool:
+    """Tell whether a customer's goods may go with all that bars these."""
+    return goods.held & (barred_on_trip | barred_on_vehicle) == 0
+
+
+@inlined
+def barred_on_trip(goods: Record) -> int:
+    """Return which goods must not go on a trip with a customer's."""
+    return goods.barred_on_trip
+
+
+@inlined
+def barred_on_vehicle(goods: Record) -> int:
+    """Return which goods must not go by the vehicle that brings a customer's."""
+    return goods.barred_on_vehicle
+
+
+@inlined
+def some_limited(fresh_for: IntArray) -> bool:
+    """Tell whether some parcels may be aboard for so long and no longer, by the limits of all."""
+    return len(fresh_for) > 0
+
+
+@inlined
+def excess_aboard(fresh_for: IntArray, node: int, departure: int, start: int) -> int:
+    """Return by how much a parcel is too long aboard whose service starts at `start`.
+
+    Where its trip has left the depot at `departure`.
+    """
+    return start - departure - fresh_for[node]
 
 
 @inlined

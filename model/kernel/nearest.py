@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from model.problem import BoolArray, IntArray
+from model.kernel.pausing import Pause, matrix_blocks
+from model.problem import BoolArray, IntArray, Problem
 
 FEW = 512
 """Up to how many columns equal entries cost nothing that matters."""
@@ -50,3 +51,17 @@ def _selected_by_keys(weight: NDArray[np.floating], ranks: int) -> IntArray:
     keys |= np.arange(weight.shape[1])
     least = np.sort(np.partition(keys, ranks - 1, axis=1)[:, :ranks], axis=1)
     return least & np.int64(2**32 - 1)
+
+
+def write_nearest(problem: Problem, neighbours: IntArray, pause: Pause) -> None:
+    """Write each node's nearest other customers, by the first vehicle type's drive. In place."""
+    depots, nodes = problem.num_depots, problem.num_nodes
+    duration = problem.travel[problem.vehicle_types[0].travel].duration[:, depots:]
+    most = min(neighbours.shape[1], problem.num_customers - 1)
+    if most < 1:
+        return
+    for part in matrix_blocks(nodes, pause):
+        drive = duration[part].astype(np.float64)
+        customers = np.arange(max(part.start, depots), part.stop)
+        drive[customers - part.start, customers - depots] = np.inf
+        neighbours[part, :most] = least_columns(drive, most) + depots

@@ -1,21 +1,33 @@
 """What windows and a service mean at a customer: all instants of a stop. Compiled.
 
-`place` is a node's rows. Callers state when somebody arrives, and never compare with a field
-themselves, so that what a window is can change here alone.
+`place` is a node's rows, in the table of whoever serves there. Callers state when somebody arrives,
+and never compare with a field themselves, so that what a window is can change here alone.
 
 Within a block of stops, times hang on the arrival `time` at its beginning: a pair (d, c) stands
 for `max(time + d, c)`, and holds for arrivals in an interval (see `docs/search.md`).
 """
 
-from model.kernel.compiled import inlined
+from model.kernel.compiled import inlined, pasted
 from model.kernel.instance import FAR, NONE
-from model.kernel.records import Records
+from model.kernel.records import Record, Records
+
+
+@pasted
+def places_of(places: Records, kind: Record) -> Records:
+    """Return the rows of all nodes, (node, row), as trucks of a type meet them."""
+    return places[kind.variant]
+
+
+@pasted
+def places_by_air(places: Records, kind: Record) -> Records:
+    """Return the rows of all nodes, (node, row), as drones of a type meet them."""
+    return places[kind.drone_variant]
 
 
 @inlined
 def are_single(places: Records) -> bool:
     """Tell whether nobody has several windows, by the rows of all."""
-    return places.shape[1] == 1
+    return places.shape[-1] == 1
 
 
 @inlined
@@ -48,7 +60,7 @@ def width(place: Records) -> int:
 
 @inlined
 def service_duration(place: Records) -> int:
-    """Return how long a truck serves a customer."""
+    """Return how long service takes."""
     return place[0].service_duration
 
 
@@ -60,7 +72,7 @@ def start_of_service(place: Records, arrival: int) -> int:
 
 @inlined
 def end_of_service(place: Records, arrival: int) -> int:
-    """Return when a truck has served."""
+    """Return when a customer is served."""
     return start_of_service(place, arrival) + service_duration(place)
 
 

@@ -178,7 +178,7 @@ def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
     rows, warmth = len(temperatures), np.array([temperatures], np.float32).T
     instance = scene.instance
     state = reset(instance, np.zeros(rows, np.int64))
-    seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
+    seen = empty_observation(rows, instance.node.shape[2], instance.type.shape[1])
     hidden = np.zeros((rows, policy.hidden_size), np.float32)
     choice = np.zeros(rows, np.int64)
     actions = []

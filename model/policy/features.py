@@ -67,7 +67,7 @@ def _describe_flight(setting: Setting, unit: Unit, here: int, node: int, distanc
                      rate: Record, feature: Record) -> None:
     """Describe the flight to a customer, as if the drone came back here. In place."""
     there = lookup(setting.fly, here, node)
-    back = min(lookup(setting.fly, node, here), 10 * there)
+    back = min(lookup(setting.fly_home, node, here), 10 * there)
     _describe_leg(unit, there, 2 * distance, rate.drone_distance, 2 * rate.drone_time,
                   feature)
     feature.endurance_share = _share(there + back, longest_flight(setting.type))
@@ -106,7 +106,7 @@ def _describe_open(kind: Record, fixed: float, used: int, unserved: float, unit:
 def _unserved_demand(instance: Instance, state: State, r: int) -> float:
     """Return the demand left in the first dimension."""
     b = state.problem[r]
-    nodes, served = instance.node[b], state.served[r]
+    nodes, served = instance.node[b, 0], state.served[r]
     total = 0.0
     size = instance.size[b]
     for node in range(size.depots, size.depots + size.customers):
@@ -171,7 +171,7 @@ def _describe_opens(instance: Instance, scale: Scales, state: State, r: int, uns
             feature = seen.described[r, index]
             seen.feature[r, index] = 0.0
             feature.kind[OPEN] = 1.0
-            seen.token[r, index] = instance.node.shape[1] + target
+            seen.token[r, index] = instance.node.shape[2] + target
             _describe_open(instance.type[b, target], instance.rate[b, target].fixed,
                            state.used[r, target], unserved, unit, feature)
 

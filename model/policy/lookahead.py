@@ -7,7 +7,7 @@ one customer further: what comes next, what can no longer come, what would bette
 from typing import NamedTuple
 
 from model.kernel.compiled import inlined
-from model.kernel.flight import drone_service, unreachable
+from model.kernel.flight import unreachable
 from model.kernel.instance import NONE
 from model.kernel.leg import lookup
 from model.kernel.load import demand_of
@@ -119,9 +119,9 @@ def _describe_flight(setting: Setting, neighbours: IntArray, served: BoolArray, 
     How soon, how long the truck would wait, and the least detour of the truck to serve `node`
     itself on its way to one.
     """
-    drive, fly = setting.drive, setting.fly
-    takeoff = outlook.arrival - lookup(fly, here, node)
-    ready = outlook.start + drone_service(setting.type, setting.node[node])
+    drive, fly = setting.drive, setting.fly_home
+    takeoff = outlook.arrival - lookup(setting.fly, here, node)
+    ready = outlook.start + service_duration(setting.node_by_air[node])
     soonest = wait = detour = UNLIMITED
     seen = 0
     for rank in range(neighbours.shape[1]):

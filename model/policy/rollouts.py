@@ -361,7 +361,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
     flag = silent() if stop is None else stop
     rows = len(temperatures)
     state = reset(instance, np.zeros(rows, np.int64))
-    seen = empty_observation(rows, instance.node.shape[1], instance.type.shape[1])
+    seen = empty_observation(rows, instance.node.shape[2], instance.type.shape[1])
     actions = np.empty(max_steps(instance), np.int64)
     scratch = FROM_SCRATCH if so_far is NOTHING else 0
     for r, temperature in enumerate(temperatures):

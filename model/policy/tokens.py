@@ -56,7 +56,7 @@ def scales(instance: Instance) -> Scales:
         nearest = between.min(axis=1)
         near = float(nearest.mean()) if customers > 1 else result.time[b]
         result.near[b] = max(1.0, near)
-        closing = instance.node[b, nodes, 0]["window_latest"]
+        closing = instance.node[b, 0, nodes, 0]["window_latest"]
         limits = np.concatenate([closing, kinds["shift_latest"]])
         limits = limits[limits < UNLIMITED]
         result.horizon[b] = max(1, limits.max()) if len(limits) else 20 * result.time[b]
@@ -66,7 +66,7 @@ def scales(instance: Instance) -> Scales:
         cost = float(np.mean(rate["distance"] * driven) / MM_PER_KM
                      + rate["time"].mean() * result.time[b] / MS_PER_HOUR)
         result.cost[b] = cost if cost > 0 else max(1e-9, float(rate["fixed"].mean()) or 1.0)
-        result.amount[b] = max(1, instance.node[b, nodes, 0]["demand"][:, 0].sum())
+        result.amount[b] = max(1, instance.node[b, 0, nodes, 0]["demand"][:, 0].sum())
     return result
 
 
@@ -92,7 +92,7 @@ def tokens(instance: Instance, scale: Scales, coordinates: FloatArray) -> Tokens
     coordinates
         (problem, node, 2) planar, any unit.
     """
-    num_nodes, num_types = instance.node.shape[1], instance.type.shape[1]
+    num_nodes, num_types = instance.node.shape[2], instance.type.shape[1]
     index = np.arange(num_nodes)
     is_node = index < (instance.size["depots"] + instance.size["customers"])[:, None]
     is_type = np.arange(num_types) < instance.size["types"][:, None]
@@ -106,6 +106,11 @@ def tokens(instance: Instance, scale: Scales, coordinates: FloatArray) -> Tokens
     )
 
 
+def own_rows(instance: Instance) -> Records:
+    """Return the first rows of all nodes, (problem, node), with customers' own durations."""
+    return instance.node[:, 0, :, 0]
+
+
 def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
                   is_node: NDArray[np.bool_]) -> FloatArray:
     """Describe depots and customers, (problem, node, NUM_NODE_FEATURES)."""
@@ -115,7 +120,7 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     high = np.where(is_node[..., None], coordinates, -np.inf).max(axis=1, keepdims=True)
     extent = np.maximum((high - low).max(axis=2, keepdims=True), 1e-9)
     place = (coordinates - (low + high) / 2) / extent * 2
-    nodes = instance.node[..., 0]
+    nodes = own_rows(instance)
     is_depot = np.arange(nodes.shape[1]) < instance.size["depots"][:, None]
     demand = nodes["demand"]
     seen = demand.shape[-1]
@@ -153,7 +158,7 @@ def pair_features(instance: Instance, scale: Scales) -> Float32Array:
     time = scale.time[:, None, None].astype(np.float32)
     near = scale.near[:, None, None].astype(np.float32)
     earliest, latest, service = (
-        np.minimum(instance.node[..., 0][field], 100 * scale.horizon[:, None]).astype(np.float32)
+        np.minimum(own_rows(instance)[field], 100 * scale.horizon[:, None]).astype(np.float32)
         for field in ("window_earliest", "window_latest", "service_duration"))
     slack = latest[:, None, :] - (earliest + service)[:, :, None] - leg
     waiting = earliest[:, None, :] - (latest + service)[:, :, None] - leg

@@ -1,6 +1,6 @@
 """What is to be planned, in integers."""
 
-from model.problem.customer import Customer, Depot, DepotKind, ServedBy
+from model.problem.customer import Customer, Depot, DepotKind, IncompatibleGoods, ServedBy
 from model.problem.energy import (
     MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy,
 )
@@ -8,14 +8,14 @@ from model.problem.fleet import DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.overtime import Overtime
 from model.problem.problem import Problem, Travel
 from model.problem.quantities import (
-    FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED,
-    UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray, UIntArray,
+    FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MOST_INCOMPATIBLE, MS_PER_HOUR,
+    UNLIMITED, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray, UIntArray,
 )
 
 __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS", "MAX_POWER",
-    "MAX_QUANTITY", "MICROJOULES_PER_WH", "MM_PER_KM", "MS_PER_HOUR", "UNLIMITED", "UNREACHABLE",
-    "USUAL_DECIMALS", "BoolArray", "Customer", "Depot", "DepotKind", "DroneType", "Energy",
-    "FloatArray", "IntArray", "Overtime", "Pickups", "Problem", "ServedBy", "SpeedProfile",
-    "Travel", "UIntArray", "VehicleType",
+    "MAX_QUANTITY", "MICROJOULES_PER_WH", "MM_PER_KM", "MOST_INCOMPATIBLE", "MS_PER_HOUR",
+    "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray", "Customer", "Depot", "DepotKind",
+    "DroneType", "Energy", "FloatArray", "IncompatibleGoods", "IntArray", "Overtime", "Pickups",
+    "Problem", "ServedBy", "SpeedProfile", "Travel", "UIntArray", "VehicleType",
 ]

@@ -16,6 +16,7 @@ class Depot:
     id: str
     kind: DepotKind = "depot"
     """Where vehicles of type `id` start or end; nowhere: at a customer, which no drone flies to."""
+    site: int | None = None  # places with equal numbers are one place
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,10 @@ class Customer:
     skills: frozenset[str] = frozenset()
     release_time: int = 0  # parcel is at the depot from then on
     unassigned_cost: float | None = None  # of leaving it out; None: the problem's
+    goods: frozenset[str] = frozenset()
+    max_time_aboard: int | None = None  # from the trip's departure to the start of service
+    setup_duration: int = 0  # before service, for who comes from another place
+    site: int | None = None  # places with equal numbers are one place
     gaps: tuple[tuple[int, int], ...] = ()
     """Between several windows: last arrival in one, first start of service in the next."""
     pickup: tuple[int, ...] = ()  # (dimension,) parts taken in, to where the trip ends; (): nothing
@@ -42,9 +47,9 @@ class Customer:
             require_quantity(f"customer {self.id} demand", amount)
         for amount in self.pickup:
             require_quantity(f"customer {self.id} pickup", amount)
-        require_quantity(f"customer {self.id} service_duration", self.service_duration)
-        require_quantity(f"customer {self.id} release_time", self.release_time)
-        require_quantity(f"customer {self.id} earliest", self.earliest)
+        for name in ("service_duration", "setup_duration", "release_time", "earliest",
+                     "max_time_aboard"):
+            require_quantity(f"customer {self.id} {name}", getattr(self, name) or 0)
         require(self.earliest <= self.latest, f"customer {self.id} latest", self.latest)
         require(self.latest <= UNLIMITED, f"customer {self.id} latest", self.latest)
         opens = self.earliest
@@ -65,3 +70,11 @@ class Customer:
     def taken_in(self) -> tuple[int, ...]:
         """What is picked up, by dimension."""
         return self.pickup or (0,) * len(self.demand)
+
+
+@dataclass(frozen=True)
+class IncompatibleGoods:
+    """Goods no two of which may be carried on one trip, or by one vehicle on all its trips."""
+
+    goods: frozenset[str]
+    scope: Literal["trip", "vehicle"] = "trip"

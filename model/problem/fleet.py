@@ -1,8 +1,10 @@
 """Vehicles and their drones."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
+from model.problem.customer import Customer
 from model.problem.energy import Energy
 from model.problem.overtime import Overtime
 from model.problem.quantities import FULL_SPEED, UNLIMITED, require, require_quantity, require_rate
@@ -39,6 +41,7 @@ class DroneType:
     launch_duration: int = 0
     recovery_duration: int = 0
     service_duration: int | None = None  # None: the customer's
+    service_durations: Mapping[str, int] = field(default_factory=dict)  # by customer's id, instead
     max_customers_per_sortie: int = 1
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0
@@ -53,9 +56,15 @@ class DroneType:
         require_quantity("drone endurance", self.endurance, UNLIMITED)
         require_quantity("drone launch_duration", self.launch_duration)
         require_quantity("drone recovery_duration", self.recovery_duration)
-        require_quantity("drone service_duration", self.service_duration or 0)
+        for duration in (self.service_duration or 0, *self.service_durations.values()):
+            require_quantity("drone service_duration", duration)
         require_rate("drone cost_per_km", self.cost_per_km)
         require_rate("drone cost_per_hour", self.cost_per_hour)
+
+    def service_at(self, customer: Customer) -> int:
+        """Return how long it serves a customer."""
+        own = self.service_durations.get(customer.id, self.service_duration)
+        return customer.service_duration if own is None else own
 
 
 @dataclass(frozen=True)
@@ -83,6 +92,7 @@ class VehicleType:
     max_sorties: int | None = None  # on a trip, of all drones together
     reload_duration: int = 0  # at the depot between trips
     skills: frozenset[str] = frozenset()
+    service_durations: Mapping[str, int] = field(default_factory=dict)  # by customer's id, instead
     pickups: Pickups = "any"  # "last": on each trip after all deliveries, of which there is one
     has_delivered: bool = False  # on its trip, before it begins
     drones: DroneType | None = None
@@ -106,6 +116,8 @@ class VehicleType:
             require_quantity(f"vehicle type {self.id} capacity", amount)
         require(self.earliest <= self.latest <= UNLIMITED, f"vehicle type {self.id} latest",
                  self.latest)
+        for duration in self.service_durations.values():
+            require_quantity(f"vehicle type {self.id} service_durations", duration)
         for name in ("earliest", "reload_duration", "busy_until", "max_working_duration",
                      "max_trip_distance", "max_stops", "max_sorties"):
             require_quantity(f"vehicle type {self.id} {name}", getattr(self, name) or 0)
@@ -127,6 +139,10 @@ class VehicleType:
     def has_begun(self) -> bool:
         """Tell whether its only trip was begun already."""
         return any(self.initial_load) or self.busy_until > 0 or self.has_delivered
+
+    def service_at(self, customer: Customer) -> int:
+        """Return how long a truck serves a customer."""
+        return self.service_durations.get(customer.id, customer.service_duration)
 
     @property
     def type_id(self) -> str:

@@ -2,14 +2,15 @@
 
 from bisect import bisect_left
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
-from model.problem.customer import Customer, Depot
+from model.problem.customer import Customer, Depot, IncompatibleGoods
 from model.problem.fleet import VehicleType
 from model.problem.quantities import (
-    MAX_DIMENSIONS, MAX_QUANTITY, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray,
-    require, require_rate,
+    MAX_DIMENSIONS, MAX_QUANTITY, MOST_INCOMPATIBLE, UNREACHABLE, USUAL_DECIMALS, BoolArray,
+    FloatArray, IntArray, require, require_rate,
 )
 
 
@@ -51,6 +52,7 @@ class Problem:
     amount_decimals: tuple[int, ...] = ()  # (dimension,) of demands and capacities; for people
     may_serve: BoolArray | None = None  # (vehicle type, customer); None: any type anyone
     must_serve: bool = False  # whoever states no cost of being left out; for people
+    incompatible_goods: tuple[IncompatibleGoods, ...] = ()
     num_dimensions: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -70,6 +72,8 @@ class Problem:
             require(self.may_serve.dtype == np.bool_, "may_serve dtype", self.may_serve.dtype)
             require(self.may_serve.shape == (len(self.vehicle_types), self.num_customers),
                      "may_serve shape", self.may_serve.shape)
+        named = frozenset().union(*(each.goods for each in self.incompatible_goods))
+        require(len(named) <= MOST_INCOMPATIBLE, "incompatible goods", len(named))
         for matrix in self.travel:
             require(matrix.duration.shape == (self.num_nodes, self.num_nodes), "travel shape",
                      matrix.duration.shape)
@@ -146,6 +150,21 @@ class Problem:
         if not parts:
             raise KeyError(type_id)
         return parts[0], number
+
+    @cached_property
+    def limits_time_aboard(self) -> bool:
+        """Tell whether any parcel may be aboard for so long and no longer."""
+        return any(customer.max_time_aboard is not None for customer in self.customers)
+
+    def setup_between(self, origin: int, to: int) -> int:
+        """Return how long whoever comes from one node to serve at another sets up there."""
+        first = self.num_depots
+        if to < first or not self.customers[to - first].setup_duration:
+            return 0
+        place = self.customers[to - first]
+        before = self.depots[origin] if origin < first else self.customers[origin - first]
+        same = origin == to or (place.site is not None and place.site == before.site)
+        return 0 if same else place.setup_duration
 
     def cost_of_leaving_out(self, customer: Customer) -> float:
         """Return what leaving a customer out costs."""

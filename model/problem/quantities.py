@@ -31,6 +31,9 @@ USUAL_DECIMALS = 3
 MAX_DIMENSIONS = 8
 """Most dimensions of load."""
 
+MOST_INCOMPATIBLE = 62
+"""Most goods that may be named as incompatible with others."""
+
 FULL_SPEED = 1_000_000
 """Factor of a speed profile at which a leg takes its matrix duration."""
 

@@ -46,7 +46,7 @@ def without(decision: TripDecision, gone: Collection[int]) -> TripDecision:
 
 def customers_of(decision: TripDecision) -> list[int]:
     """Return whom a trip serves: the truck's customers in order, then the drones'."""
-    return [*decision.nodes[1:-1], *(node for sortie in decision.sorties for node in sortie.nodes)]
+    return list(decision.customers)
 
 
 def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],

@@ -138,7 +138,7 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
     aboard = tuple(sorted(known[-1].aboard - served))
     if not aboard:
         return kept
-    ready, service_left = _free_from(problem, route.trips[-1], position, past.now)
+    ready, service_left = _free_from(problem, route, position, past.now)
     rest = _rest(problem, vehicle, planned, meeting, served)
     planned_end = max(kept.end, _planned_end(problem, vehicle, ready, service_left, rest))
     return replace(kept, way_on=WayOn(position, ready, service_left, aboard, rest, planned_end))
@@ -150,7 +150,7 @@ def _planned_end(problem: Problem, vehicle: Vehicle, ready: int, service_left: i
     kind = problem.vehicle_types[vehicle.type]
     node, begun = rest.nodes[0], ready + service_left
     if node >= problem.num_depots:
-        begun -= problem.customer_at(node).service_duration
+        begun -= kind.service_at(problem.customer_at(node))
     known = KnownTrip((KnownStop(node, ready, begun, None),), (), frozenset(), "anything")
     return resume_trip(problem, kind, rest, known, ready).stops[-1].departure
 
@@ -163,15 +163,16 @@ def _fixed_nodes(known: KnownTrip) -> Iterator[int]:
         yield sortie.recovery_node
 
 
-def _free_from(problem: Problem, trip: Trip, position: int, now: int) -> tuple[int, int]:
+def _free_from(problem: Problem, route: Route, position: int, now: int) -> tuple[int, int]:
     """Return when all drones are aboard at a stop, and how long the truck serves from then on."""
+    trip, kind = route.trips[-1], problem.vehicle_types[route.vehicle_type]
     stop = trip.stops[position]
     ends = [sortie.recovery_time for sortie in trip.sorties if sortie.recovery_stop == position]
     ends += [sortie.launch_time for sortie in trip.sorties if sortie.launch_stop == position]
-    ready = max([stop.arrival, now, *ends])
+    ready = max([stop.ready, now, *ends])
     if stop.node < problem.num_depots:
         return ready, 0
-    service_end = stop.service_start + problem.customer_at(stop.node).service_duration
+    service_end = stop.service_start + kind.service_at(problem.customer_at(stop.node))
     return ready, max(0, service_end - ready)
 
 

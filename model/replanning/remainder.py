@@ -4,11 +4,12 @@ What one vehicle alone can do is a type of its own. The rest of a trip begins at
 vehicle is, a depot here, and serves those whose parcels are aboard.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from model.judge.freshness import first_departure
 from model.judge.past import Past, Vehicle
 from model.problem import BoolArray, Customer, Depot, Problem, Travel, VehicleType
 from model.replanning.kept import Kept
@@ -73,14 +74,17 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     types = [replace(kind, start=start.get(index, kind.start))
              for index, kind in enumerate((*plain.values(), *(own.kind for own in workers)))]
     grid = np.ix_(source, source)
+    carriers = {node: own for own in workers for node in own.aboard}
     left = replace(
         problem,
-        depots=(*problem.depots, *(Depot(f"start of {types[kind].id}") for kind in places)),
-        customers=tuple(_back(problem.customer_at(node), past.returned.get(node, 0))
+        depots=(*problem.depots, *(Depot(f"start of {types[kind].id}", site=_site(problem, node))
+                                   for kind, node in places.items())),
+        customers=tuple(_customer_left(problem, past, kept, node, carriers.get(node))
                         for node in nodes),
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
         travel=tuple(Travel(each.duration[grid], each.distance[grid]) for each in problem.travel),
-        may_serve=_table(problem, past, kinds, owners, nodes))
+        may_serve=_table(problem, past, kinds, owners, nodes)
+        & _goods_table(problem, kept, kinds, owners, nodes))
     return Remainder(left, tuple(source), kinds, owners)
 
 
@@ -115,6 +119,66 @@ def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[i
     if problem.may_serve is not None:
         table &= problem.may_serve[np.array(kinds)[:, None], np.array(nodes) - problem.num_depots]
     return table
+
+
+def _site(problem: Problem, node: int) -> int | None:
+    """Return what tells a node's place from others, if anything does."""
+    return (problem.depots[node] if node < problem.num_depots else problem.customer_at(node)).site
+
+
+def _goods_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
+                 owners: Mapping[int, Worker], nodes: Sequence[int]) -> BoolArray:
+    """Return (type, customer) whose goods may join what each vehicle has carried today."""
+    table = np.ones((len(kinds), len(nodes)), np.bool_)
+    for kind, owner in owners.items() if problem.incompatible_goods else ():
+        route = kept.get(owner.vehicle)
+        if route is None:
+            continue
+        carried = {"vehicle": route.served, "trip": frozenset[int]()}
+        if owner.is_under_way:
+            carried["trip"] = frozenset(route.decision.trips[-1].customers)
+        elif route.way_on is not None:
+            carried["vehicle"] = route.served | set(route.way_on.aboard)
+        barred = frozenset().union(*(
+            each.goods - present if len(present) == 1 else each.goods
+            for each in problem.incompatible_goods
+            if (present := _goods_of(problem, carried[each.scope]) & each.goods)))
+        table[kind] = [not problem.customer_at(node).goods & barred for node in nodes]
+    return table
+
+
+def _goods_of(problem: Problem, nodes: Collection[int]) -> frozenset[str]:
+    """Return all goods of some customers."""
+    return frozenset().union(*(problem.customer_at(node).goods for node in nodes))
+
+
+def _customer_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept], node: int,
+                   carrier: Worker | None) -> Customer:
+    """Return a customer who is left, whose parcel may be aboard a vehicle already."""
+    customer = _back(problem.customer_at(node), past.returned.get(node, 0))
+    limit = customer.max_time_aboard
+    if carrier is None or limit is None:
+        return customer
+    departure = first_departure(kept[carrier.vehicle].route.trips[-1])
+    served = _served_by(customer, departure + limit)
+    if served is not None:
+        return served
+    aboard = max(carrier.kind.earliest, carrier.kind.busy_until) - departure
+    return replace(customer, max_time_aboard=max(0, limit - aboard))
+
+
+def _served_by(customer: Customer, latest: int) -> Customer | None:
+    """Return a customer whose service may start no later; None if windows can't say so.
+
+    However long its vehicle waits before it goes on, the parcel is aboard.
+    """
+    gaps = tuple(gap for gap in customer.gaps if gap[1] <= latest)
+    closes = [*(closing for closing, _ in customer.gaps), customer.latest][len(gaps)]
+    is_soft = len(gaps) == len(customer.gaps) and customer.late_cost_per_hour is not None
+    if latest < customer.earliest or (is_soft and closes < latest):
+        return None
+    return replace(customer, gaps=gaps, latest=min(closes, latest), late_cost_per_hour=None,
+                   max_time_aboard=None)
 
 
 def _back(customer: Customer, returned: int) -> Customer:

@@ -10,8 +10,9 @@ from dataclasses import dataclass, replace
 from operator import le
 from typing import Literal
 
+from model.judge.freshness import first_departure
 from model.judge.loads import highest, trip_loads
-from model.judge.metrics import allowed_overtime, first_departure
+from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType
 from model.replanning.amend import customers_of

@@ -80,7 +80,7 @@ def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on) -> Gr
             for rows in matrix_blocks(leg.shape[1], pause):
                 back[travel, rows] = leg[travel, :, rows].transpose(1, 0, 2)
     near = _near(problem, pause)
-    return Ground(leg, back, near, _fit(problem, instance.node[0, :, 0], near, pause))
+    return Ground(leg, back, near, _fit(problem, instance.node[0, 0, :, 0], near, pause))
 
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
@@ -100,7 +100,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
     most_visits = max(1, int(visits.max()))
     mode = _modes(instance, types, place)
-    swap = _swaps(problem, mode)
+    swap = _swaps(problem, types, mode)
     general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
     blink = _blink(problem.num_customers, most_visits)
     must_serve = _must_serve(problem, instance)
@@ -113,14 +113,15 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         traded=moves.types and bool(swap.any()),
         mixed=moves.types and len(problem.vehicle_types) > 1 and general,
         scan_all=scan_all, optional=not bool(must_serve.any()),
-        adds_up=_adds_up(types, mode),
+        adds_up=_adds_up(instance, types, mode),
         keeps=scan_all and (not general or blink <= LEAST_BLINK),
         blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_more=instance.unassigned_more[0],
         unequal=bool(instance.unassigned_more[0].any()),
         must_serve=must_serve,
-        place=place, amount=instance.amount[0], price=_per_ms(instance.price[0]),
-        type=types, rate=_per_unit(rates), mode=mode,
+        place=place, amount=instance.amount[0], goods=instance.goods[0],
+        setup=instance.setup[0], fresh_for=instance.fresh_for[0],
+        price=_per_ms(instance.price[0]), type=types, rate=_per_unit(rates), mode=mode,
         reload=instance.reload[0], visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
         swap=swap, splice=_splices(problem, swap), leg=ground.leg, back=ground.back,
@@ -173,18 +174,20 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     costly = (rates["time"] > 0) | ((rates["overtime"] > 0) & over)
     timed = costly | (types["max_working_duration"] < UNLIMITED)
     retimed = types["speed_changes"] != NO_PROFILE
-    if place.shape[1] > 1:
+    if place.shape[2] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)
-    settled = np.logical_or(early, retimed & timed)
+    limited = instance.fresh_for.shape[1] > 0
+    settled = np.logical_or(early, (retimed | limited) & timed)
     loaded = rates["load"] > 0
-    priced = np.logical_or(soft, settled | retimed | loaded)
+    priced = np.logical_or(soft | limited, settled | retimed | loaded)
     release = bool((place["release"] > 0).any())
     # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
     # one trip that waits for nothing.
     free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
     simple = ~(timed if release else timed & ~free) & ~priced
-    lean = (simple & ~(timed | release | (types["max_trip_distance"] < UNLIMITED))
+    apart = instance.goods.shape[1] > 0
+    lean = (simple & ~(timed | release | apart | (types["max_trip_distance"] < UNLIMITED))
             & (types["max_trips"] == 1) & (types["drones"] == 0))
     mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
                       + MODE_RETIMED * retimed + MODE_LOADED * loaded + MODE_SIMPLE * simple
@@ -192,13 +195,15 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     return mode
 
 
-def _adds_up(types: Records, mode: IntArray) -> bool:
+def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     """Tell whether to insert a customer never saves anything, if no detour does.
 
-    What is aboard is driven less far where a trip is split.
+    What is aboard is driven less far where a trip is split, and whoever sets up sooner where others
+    have to as well saves their setups.
     """
+    saves = (mode & MODE_TIMED > 0) & (instance.setup.shape[1] > 0)
     split = (mode & MODE_LOADED > 0) & (types["max_trips"] > 1)
-    return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split).any())
+    return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
 
 
 def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
@@ -216,11 +221,12 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
     return must_serve
 
 
-def _swaps(problem: Problem, mode: IntArray) -> BoolArray:
+def _swaps(problem: Problem, types: Records, mode: IntArray) -> BoolArray:
     """Mark the pairs of types whose vehicles may drive each other's routes."""
     table = problem.may_serve
     group = _numbered([(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
                         kind.overtime, kind.skills, kind.pickups, kind.has_delivered,
+                        int(types["variant"][index]),
                         None if table is None else table[index].tobytes())
                        for index, kind in enumerate(problem.vehicle_types)])
     lean = mode & MODE_LEAN > 0

@@ -8,8 +8,9 @@ this stop or to the next, as `leave_for` has decided.
 from model.kernel.compiled import inlined
 from model.kernel.instance import MAX_TIERS, TIER
 from model.kernel.load import (
-    NOTHING, Amount, amount_of, capacity_in, comes_first, delivered_of, demand_of, holds_in, minus,
-    num_tiers, out_of_order, picked_of, plus, smaller, total_delivered, total_picked, within,
+    NOTHING, Amount, amount_of, barred_on_trip, barred_on_vehicle, capacity_in, comes_first,
+    delivered_of, demand_of, go_together, holds_in, minus, num_tiers, out_of_order, picked_of, plus,
+    smaller, some_apart, total_delivered, total_picked, within,
 )
 from model.kernel.records import Record, Records
 from model.problem import IntArray
@@ -112,9 +113,19 @@ def holds_all(setting: Setting, vehicle: Record, drones: Records, node: int,
 
 
 @inlined
+def bar_goods(setting: Setting, vehicle: Record, node: int) -> None:
+    """Bar what a customer's goods must not go with. In place."""
+    if some_apart(setting.goods):
+        vehicle.barred_on_trip |= barred_on_trip(setting.goods[node])
+        vehicle.barred_on_vehicle |= barred_on_vehicle(setting.goods[node])
+
+
+@inlined
 def load_stop(setting: Setting, vehicle: Record, drones: Records, node: int,
               is_customer: bool) -> None:
     """Take aboard what a drive to a node asks for. In place."""
+    if is_customer:
+        bar_goods(setting, vehicle, node)
     if num_tiers(setting.amount) == 0:
         if is_customer:
             write_part(minus(load_left(vehicle), demand_of(setting.node[node])), vehicle.load, 0)
@@ -142,6 +153,14 @@ def is_within(setting: Setting, vehicle: Record, node: int) -> bool:
 
 
 @inlined
+def may_carry(setting: Setting, vehicle: Record, node: int) -> bool:
+    """Tell whether a customer's parcel may go with all that the vehicle's trip carries."""
+    return is_within(setting, vehicle, node) and (
+        not some_apart(setting.goods) or go_together(
+            setting.goods[node], vehicle.barred_on_trip, vehicle.barred_on_vehicle))
+
+
+@inlined
 def may_launch(setting: Setting, vehicle: Record, node: int) -> bool:
     """Tell whether a parcel may still leave the truck by a drone at this stop.
 
@@ -160,6 +179,7 @@ def given_by_flight(setting: Setting, node: int) -> int:
 @inlined
 def load_flight(setting: Setting, vehicle: Record, node: int) -> None:
     """Take aboard what a drone delivers that is launched at this stop. In place."""
+    bar_goods(setting, vehicle, node)
     vehicle.given += given_by_flight(setting, node)
     if num_tiers(setting.amount) == 0:
         write_part(minus(load_left(vehicle), demand_of(setting.node[node])), vehicle.load, 0)

@@ -21,7 +21,7 @@ COST = record(**dict.fromkeys(COST_TERMS, float))
 def add_window_cost(instance: Instance, b: int, node: int, arrival: int, start: int,
                     cost: Record) -> None:
     """Add what lateness and earliness at a customer cost. In place."""
-    late = lateness(instance.node[b, node], arrival)
+    late = lateness(instance.node[b, 0, node], arrival)
     cost.lateness += late / MS_PER_HOUR * instance.price[b, node].lateness
     cost.earliness += (start - arrival) / MS_PER_HOUR * instance.price[b, node].waiting
 

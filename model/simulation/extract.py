@@ -1,7 +1,7 @@
 """From the actions of a rollout to the plan they make."""
 
-from typing import Any
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -33,36 +33,40 @@ def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntAr
     done = 0
     while done < len(codes):
         done = apply_route(instance, state, 0, codes, done)
-        routes += _close(instance, state)
+        routes += _close(problem, instance, state)
     nodes = range(problem.num_depots, problem.num_nodes)
     unassigned = tuple(node for node in nodes if not state.served[0, node])
     return Solution(tuple(routes), unassigned)
 
 
-def _close(instance: Instance, state: State) -> list[Route]:
+def _close(problem: Problem, instance: Instance, state: State) -> list[Route]:
     """Close the open vehicle and return its route, if it has one."""
     vehicle, = read_rows(state.vehicle[:1])
     if vehicle.type == NO_VEHICLE or state.log.count["trips"][0] == 0:
         return []
     close_vehicle(instance, state, 0)
-    return [Route(vehicle.type, vehicle.index, _trips(state.log))]
+    return [Route(vehicle.type, vehicle.index, _trips(problem, state.log))]
 
 
-def _trips(logs: VehicleLog) -> tuple[Trip, ...]:
+def _trips(problem: Problem, logs: VehicleLog) -> tuple[Trip, ...]:
     count, = read_rows(logs.count[:1])
     firsts = logs.trip["first_stop"][0, : count.trips].tolist()
-    stops = [Stop(*row) for row in logs.stop[0, : count.stops].tolist()]
+    stops: list[Stop] = []
+    for node, ready, start, leave in logs.stop[0, : count.stops].tolist():
+        setup = problem.setup_between(stops[-1].node, node) if stops else 0
+        stops.append(Stop(node, ready - setup, start, leave, setup))
     sorties = read_rows(logs.sortie[0, : count.sorties])
     trips = []
     for first, behind in zip(firsts, [*firsts[1:], count.stops], strict=True):
-        flown = tuple(_sortie(row, first) for row in sorties
+        flown = tuple(_sortie(problem, row, stops[row.launch_stop].node, first) for row in sorties
                       if first <= row.launch_stop < behind)
         trips.append(Trip(tuple(stops[first:behind]), flown))
     return tuple(trips)
 
 
-def _sortie(row: Any, first_stop: int) -> Sortie:
-    visit = Visit(row.node, row.arrival, row.start, row.ready)
+def _sortie(problem: Problem, row: Any, launch_node: int, first_stop: int) -> Sortie:
+    setup = problem.setup_between(launch_node, row.node)
+    visit = Visit(row.node, row.arrival - setup, row.start, row.ready, setup)
     return Sortie(
         drone=row.drone,
         launch_stop=row.launch_stop - first_stop,

@@ -8,25 +8,26 @@ launches are timed anew once it is known where the truck drives to.
 
 from model.kernel.compiled import inlined
 from model.kernel.flight import (
-    can_serve, held_takeoff, launch_begin, ready, recovery_end, take_off, unreachable,
+    can_serve, held_takeoff, launch_begin, recovery_end, take_off, unreachable,
     within_endurance, within_energy,
 )
 from model.kernel.instance import MAX_TIERS, TIER
 from model.kernel.leg import lookup
 from model.kernel.records import Record, Records, record
-from model.kernel.stop import too_late
+from model.kernel.stop import end_of_service, too_late
 from model.simulation.vehicle_log import IN_FLIGHT, Setting, travel_arrival
 
 VEHICLE = record(
     "type", "index", "node", "idle", "service_end", "crew", "free", "distance", "start_best",
-    "departure_best", "next_start", "flying", "given", "picked", "taken",
-    load=MAX_TIERS * TIER, aboard=MAX_TIERS * TIER)
+    "departure_best", "next_start", "flying", "given", "picked", "taken", "barred_on_trip",
+    "barred_on_vehicle", load=MAX_TIERS * TIER, aboard=MAX_TIERS * TIER)
 """The open vehicle: type (`NO_VEHICLE` before the first opens), index within the type,
 node, idle (at the depot, no trip begun), end of service here, end of the recoveries here, end of
 the launches after them as if none was held back, distance of the trip, the latest known start of
 the first trip that costs nothing, the departure that follows from it, earliest start of the next
 trip, drones in flight; of the trip, sums over dimensions of what is delivered and of what is picked
-up before the stop here and by now, the load left by dimension and what of pickups is aboard."""
+up before the stop here and by now; goods that may not be added to the trip and to the vehicle; the
+load left by dimension and what of pickups is aboard."""
 
 DRONE = record("sortie", "place", "node", "takeoff", "ready", "back", "recovery")
 """A drone: sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,
@@ -45,8 +46,8 @@ def mark_place(setting: Setting, drone: Record, here: int, to: int) -> None:
     drone.place = ABOARD
     if drone.sortie != IN_FLIGHT:
         node = drone.node
-        meets = can_serve(setting.type, setting.node[node], lookup(setting.fly, here, node),
-                          lookup(setting.fly, node, to))
+        meets = can_serve(setting.type, setting.node_by_air[node], lookup(setting.fly, here, node),
+                          lookup(setting.fly_home, node, to))
         drone.place = MEET if meets else LOOP
 
 
@@ -59,9 +60,10 @@ def next_launch(setting: Setting, drones: Records, here: int, to: int,
         if drones[d].place != ABOARD and drones[d].takeoff == NOT_YET:
             end = to if drones[d].place == MEET else here
             node = drones[d].node
-            soonest = held_takeoff(setting.type, setting.node[node], take_off(setting.type, free),
+            soonest = held_takeoff(setting.type, setting.node_by_air[node],
+                                   take_off(setting.type, free),
                                    lookup(setting.fly, here, node),
-                                   lookup(setting.fly, node, end))
+                                   lookup(setting.fly_home, node, end))
             if chosen < 0 or soonest < takeoff:
                 chosen, takeoff = d, soonest
     return chosen, takeoff
@@ -74,8 +76,8 @@ def fly(setting: Setting, drone: Record, here: int, to: int, takeoff: int) -> No
     arrival = takeoff + lookup(setting.fly, here, node)
     end = to if drone.place == MEET else here
     drone.takeoff = takeoff
-    drone.ready = ready(setting.type, setting.node[node], arrival)
-    drone.back = drone.ready + lookup(setting.fly, node, end)
+    drone.ready = end_of_service(setting.node_by_air[node], arrival)
+    drone.back = drone.ready + lookup(setting.fly_home, node, end)
 
 
 @inlined
@@ -100,7 +102,7 @@ def bring_aboard(setting: Setting, drone: Record, here: int, free: int) -> int:
     if unreachable(drone.back) or not within_endurance(
             setting.type, drone.takeoff, drone.back, begin):
         return -1
-    if not within_energy(setting.type, setting.node[node], lookup(setting.fly, here, node),
+    if not within_energy(setting.type, setting.node_by_air[node], lookup(setting.fly, here, node),
                          drone.back - drone.ready, drone.takeoff, drone.ready, begin):
         return -1
     drone.recovery = begin
@@ -163,7 +165,7 @@ def any_late(setting: Setting, here: int, drones: Records) -> bool:
         if drones[d].place != ABOARD:
             node = drones[d].node
             arrival = drones[d].takeoff + lookup(setting.fly, here, node)
-            late = late or too_late(setting.node[node], arrival)
+            late = late or too_late(setting.node_by_air[node], arrival)
     return late
 
 

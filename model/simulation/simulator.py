@@ -16,13 +16,13 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
-from model.kernel.load import release_of
+from model.kernel.load import release_of, some_limited
 from model.kernel.records import Record, Records
 from model.kernel.shift import allows_sorties, allows_stops
 from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
-from model.simulation.aboard import given_by_flight, holds_all, is_within, may_launch
+from model.simulation.aboard import given_by_flight, holds_all, may_carry, may_launch
 from model.simulation.meeting import NO_VEHICLE, leave_for
 from model.simulation.transition import (
     State, board, clear_vehicle, close_vehicle, drive, empty_state, improve_departure, launch,
@@ -167,11 +167,11 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     earliest = -1
     if trips > 0:
         earliest = first_departure(setting, log_of(state.log, r), state.log.trip[r, 0].start)
-    found, size = 0, instance.size[b]
+    found, size, limited = 0, instance.size[b], some_limited(setting.fresh_for)
     for node in range(size.depots, size.depots + size.customers):
-        if served[node] or not is_within(setting, vehicle, node):
+        if served[node] or not may_carry(setting, vehicle, node):
             continue
-        held = not idle and began < release_of(setting.node[node])
+        held = limited or (not idle and began < release_of(setting.node[node]))
         if (may_drive and can_drive[node]
                 and lookup(legs, here, node) + lookup(legs, node, home) <= reach):
             verdict = UNSURE

@@ -6,10 +6,10 @@ import numpy as np
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import clear
-from model.kernel.flight import launch_begin, ready, recovery_end, take_off, unreachable
+from model.kernel.flight import launch_begin, recovery_end, take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup
-from model.kernel.load import release_of
+from model.kernel.load import release_of, some_limited
 from model.kernel.records import Record, Records
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, service_duration, start_of_service, too_late
@@ -18,9 +18,10 @@ from model.simulation.aboard import empty, holds_all, load_flight, load_stop
 from model.simulation.cost import COST, add_cost
 from model.simulation.meeting import ABOARD, DRONE, LOOP, MEET, NO_VEHICLE, VEHICLE, leave_for
 from model.simulation.vehicle_log import (
-    IN_FLIGHT, Setting, VehicleLog, empty_logs, first_departure, latest_start, log_of, replay,
-    setting_of,
+    IN_FLIGHT, Setting, VehicleLog, empty_logs, first_departure, latest_start, log_of, most_excess,
+    replay, setting_of,
 )
+
 
 class State(NamedTuple):
     """Running plans, a row per rollout, then scratch rows. Times in ms since plan start.
@@ -42,7 +43,7 @@ class State(NamedTuple):
 
 def empty_state(instance: Instance, rows: int) -> State:
     """Allocate the state of `rows` rollouts, scratch included, before any vehicle opens."""
-    num_problems, num_nodes = instance.node.shape[:2]
+    num_problems, num_nodes = instance.node.shape[:3:2]
     num_types = instance.type.shape[1]
     max_drones = max(1, int(instance.type["drones"].max()))
     state = State(
@@ -195,6 +196,24 @@ def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Recor
 
 
 @inlined
+def keep_fresh(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
+               drones: Records) -> bool:
+    """Hold the trip until no parcel is too long aboard. In place; False if that can't be."""
+    if not some_limited(setting.fresh_for):
+        return True
+    excess = most_excess(setting, num_depots, log)
+    while excess > 0:
+        start = log.trip[log.count.trips - 1].start + excess
+        if not hold_trip(setting, num_depots, log, vehicle, drones, start):
+            return False
+        left = most_excess(setting, num_depots, log)
+        if left >= excess:
+            return False
+        excess = left
+    return True
+
+
+@inlined
 def improve_departure(setting: Setting, num_depots: int, log: VehicleLog,
                       vehicle: Record) -> None:
     """Find how late the vehicle could have left without ending its last stop later. In place."""
@@ -213,7 +232,7 @@ def board(setting: Setting, vehicle: Record, drones: Records, sortie: int, node:
     arrival = takeoff + lookup(setting.fly, vehicle.node, node)
     drones[drone].sortie, drones[drone].node = sortie, node
     drones[drone].takeoff = takeoff
-    drones[drone].ready = ready(setting.type, setting.node[node], arrival)
+    drones[drone].ready = end_of_service(setting.node_by_air[node], arrival)
     vehicle.flying += 1
     vehicle.free = takeoff
     return drone
@@ -288,10 +307,13 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
     log_stop(log, node, arrival, start, max(service_end, free))
     vehicle.node = node
     vehicle.service_end, vehicle.free, vehicle.crew = service_end, free, free
+    if not keep_fresh(setting, num_depots, log, vehicle, drones):
+        return False
     if not is_customer:
         vehicle.idle = 1
         vehicle.distance = 0
-        vehicle.next_start = free + setting.type.reload_duration
+        vehicle.next_start = vehicle.free + setting.type.reload_duration
+        vehicle.barred_on_trip = 0
         empty(setting.type, vehicle)
     return True
 
@@ -302,6 +324,7 @@ def clear_vehicle(vehicle: Record) -> None:
     vehicle.type, vehicle.index, vehicle.node, vehicle.idle = NO_VEHICLE, 0, 0, 0
     vehicle.service_end = vehicle.crew = vehicle.free = vehicle.distance = 0
     vehicle.start_best = vehicle.departure_best = vehicle.next_start = vehicle.flying = 0
+    vehicle.barred_on_trip = vehicle.barred_on_vehicle = 0
     vehicle.given = vehicle.picked = vehicle.taken = 0
     clear(vehicle.load)
     clear(vehicle.aboard)

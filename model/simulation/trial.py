@@ -4,6 +4,7 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import copy_records
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
+from model.kernel.load import go_together, some_apart
 from model.kernel.records import Record, record
 from model.kernel.start import has_begun
 from model.simulation.transition import State, drive, launch
@@ -92,9 +93,10 @@ def may_reload(instance: Instance, state: State, r: int, scratch: int, place: in
     driven = state.vehicle[r].distance + lookup(legs, state.vehicle[r].node, place)
     if driven > reach:
         return False
-    size = instance.size[b]
+    size, goods = instance.size[b], instance.goods[b]
     for node in range(size.depots, size.depots + size.customers):
-        if state.served[r, node]:
+        if state.served[r, node] or (some_apart(goods) and not go_together(
+                goods[node], 0, state.vehicle[r].barred_on_vehicle)):
             continue
         if (instance.can_drive[b, k, node]
                 and lookup(legs, place, node) + lookup(legs, node, home) <= reach

@@ -9,17 +9,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.kernel.clock import leg_end
+from model.kernel.clock import leg_end, setup_beside
 from model.kernel.compiled import compiled, inlined, pasted
 from model.kernel.flight import (
-    held_takeoff, launch_begin, ready, recoveries_take_time, recovery_end, take_off,
+    held_takeoff, launch_begin, recoveries_take_time, recovery_end, take_off,
     within_endurance, within_energy,
 )
-from model.kernel.instance import Instance
+from model.kernel.instance import FAR, Instance
 from model.kernel.leg import lookup, matrix_of
+from model.kernel.load import excess_aboard, some_limited
 from model.kernel.records import Record, Records, record
 from model.kernel.start import counted_from, leaves_first
-from model.kernel.stop import as_late, end_of_service, in_same_window, start_of_service, too_late
+from model.kernel.stop import (
+    as_late, end_of_service, in_same_window, places_by_air, places_of, start_of_service, too_late,
+)
 from model.problem import IntArray
 
 LOGGED_STOP = record("node", "arrival", "start", "leave")
@@ -38,11 +41,16 @@ IN_FLIGHT = -1
 class Setting(NamedTuple):
     """What one vehicle type meets in one problem: views into an `Instance`."""
 
-    node: Records  # (node,) NODE
+    node: Records  # (node, row) NODE
+    node_by_air: Records  # (node, row) NODE, as drones meet them
     amount: IntArray  # (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
+    goods: Records  # (node,) GOODS, none where all go together
+    fresh_for: IntArray  # (node,) ms, none where nothing is limited
     type: Record  # TYPE
     drive: IntArray  # (node, node) ms
     fly: IntArray  # (node, node) ms
+    fly_home: IntArray  # (node, node) ms, to where the truck is
+    setup: Records  # (node,) SETUP, none where nobody sets up
     profile_time: IntArray  # (change,)
     profile_factor: IntArray  # (change + 1,)
 
@@ -78,17 +86,25 @@ def log_of(logs: VehicleLog, r: int) -> VehicleLog:
 def setting_of(instance: Instance, b: int, k: int) -> Setting:
     """Return what vehicle type `k` meets in problem `b`, as views."""
     kind = instance.type[b, k]
-    return Setting(instance.node[b], instance.amount[b], kind,
+    nodes = instance.node[b]
+    return Setting(places_of(nodes, kind), places_by_air(nodes, kind), instance.amount[b],
+                   instance.goods[b], instance.fresh_for[b], kind,
                    matrix_of(instance.duration, b, kind.travel),
                    matrix_of(instance.duration, b, kind.drone_travel),
+                   matrix_of(instance.duration, b, kind.home_travel), instance.setup[b],
                    instance.profile_time[b, k], instance.profile_factor[b, k])
 
 
 @inlined
 def travel_arrival(setting: Setting, origin: int, to: int, leave: int) -> int:
-    """Return when a truck that leaves at `leave` arrives, by its speed at the time of day."""
-    return leg_end(setting.type, setting.profile_time, setting.profile_factor,
-                   lookup(setting.drive, origin, to), leave)
+    """Return when a truck that leaves at `leave` arrives, by its speed at the time of day.
+
+    And is set up.
+    """
+    return leg_end(
+        setting.type, setting.profile_time, setting.profile_factor,
+        lookup(setting.drive, origin, to), leave) + setup_beside(
+            setting.type, setting.setup, origin, to)
 
 
 @inlined
@@ -107,6 +123,13 @@ def _arrival_allowed(log: VehicleLog, place: Records, arrival: int, before: int,
 
 
 @inlined
+def aboard_too_long(setting: Setting, node: int, departure: int, start: int) -> bool:
+    """Tell whether a parcel is too long aboard on a trip that has left at `departure`."""
+    return some_limited(setting.fresh_for) and excess_aboard(
+        setting.fresh_for, node, departure, start) > 0
+
+
+@inlined
 def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int) -> int:
     """Return when a sortie takes off whose launch may begin at `free`.
 
@@ -116,28 +139,32 @@ def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int)
     if sortie.recovery_stop != IN_FLIGHT:
         customer = sortie.node
         here, to = log.stop[sortie.launch_stop].node, log.stop[sortie.recovery_stop].node
-        takeoff = held_takeoff(setting.type, setting.node[customer], takeoff,
+        takeoff = held_takeoff(setting.type, setting.node_by_air[customer], takeoff,
                                lookup(setting.fly, here, customer),
-                               lookup(setting.fly, customer, to))
+                               lookup(setting.fly_home, customer, to))
     return takeoff
 
 
 @inlined
 def _replay_launch(setting: Setting, log: VehicleLog, sortie: Record, node: int, free: int,
-                   write: bool) -> int:
-    """Time one launch begun at `free`; return the take-off, -1 if it is not allowed."""
+                   departure: int, write: bool) -> int:
+    """Time one launch begun at `free`; return the take-off, -1 if it is not allowed.
+
+    `departure` is that of the trip, if any came before.
+    """
     customer = sortie.node
-    place = setting.node[customer]
+    place = setting.node_by_air[customer]
     takeoff = sortie_takeoff(setting, log, sortie, free)
     arrival = takeoff + lookup(setting.fly, node, customer)
     if not _arrival_allowed(log, place, arrival, sortie.arrival, write):
         return -1
-    served = ready(setting.type, place, arrival)
+    served = end_of_service(place, arrival)
     sortie.trial_takeoff, sortie.trial_ready = takeoff, served
     if write:
         sortie.takeoff, sortie.arrival = takeoff, arrival
         sortie.start, sortie.ready = start_of_service(place, arrival), served
-    elif sortie.recovery_stop == IN_FLIGHT and served > sortie.ready:
+    elif (sortie.recovery_stop == IN_FLIGHT and served > sortie.ready) or aboard_too_long(
+            setting, customer, min(departure, takeoff), start_of_service(place, arrival)):
         return -1
     return takeoff
 
@@ -147,11 +174,11 @@ def _replay_recovery(setting: Setting, log: VehicleLog, sortie: Record, node: in
                      write: bool) -> int:
     """Time one recovery begun at `free` or later; return its end, -1 if it is not allowed."""
     takeoff, customer = sortie.trial_takeoff, sortie.node
-    home = lookup(setting.fly, customer, node)
+    home = lookup(setting.fly_home, customer, node)
     back = sortie.trial_ready + home
     begin = max(free, back)
     # A sortie as long as before may wait where that takes more.
-    if not within_energy(setting.type, setting.node[customer],
+    if not within_energy(setting.type, setting.node_by_air[customer],
                          lookup(setting.fly, log.stop[sortie.launch_stop].node, customer), home,
                          takeoff, sortie.trial_ready, begin):
         return -1
@@ -166,6 +193,19 @@ def _replay_recovery(setting: Setting, log: VehicleLog, sortie: Record, node: in
 
 
 @inlined
+def _serve(setting: Setting, log: VehicleLog, index: int, arrival: int, departure: int,
+           write: bool) -> tuple[int, int]:
+    """Time service at a stop; return when it begins and ends, -1 if it is not allowed."""
+    stop = log.stop[index]
+    place = setting.node[stop.node]
+    start = start_of_service(place, arrival)
+    if not _arrival_allowed(log, place, arrival, stop.arrival, write) or (
+            not write and aboard_too_long(setting, stop.node, departure, start)):
+        return -1, -1
+    return start, end_of_service(place, arrival)
+
+
+@inlined
 def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, start: int,
            write: bool) -> bool:
     """Time the trips from `first_trip` on, the first begun at `start`, all else without delay.
@@ -173,19 +213,19 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
     In place where `write` is set: the log takes the new times, and the result tells whether hard
     windows and endurance hold (the times written are void where not). Else only the result counts:
     whether the later start costs nothing, that is, no more lateness, no longer sortie, no later
-    end than in the log.
+    end than in the log, and keeps no parcel too long aboard.
     """
     op = log.trip[first_trip].first_op
     leave = start
     for trip in range(first_trip, log.count.trips):
         first = log.trip[trip].first_stop
-        behind = log.count.stops
-        if trip + 1 < log.count.trips:
-            behind = log.trip[trip + 1].first_stop
+        further = trip + 1 < log.count.trips
+        behind = log.trip[trip + 1].first_stop if further else log.count.stops
         if trip > first_trip:
             start = max(log.trip[trip].release, leave + setting.type.reload_duration)
         if write:
             log.trip[trip].start = start
+        departure = FAR  # the first of all that leave
         for index in range(first, behind):
             node = log.stop[index].node
             arrival = start if index == first else travel_arrival(
@@ -193,11 +233,9 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
             service_start = free = launched = arrival
             leave = leaves_first(setting.type, arrival) if index == first else arrival
             if node >= num_depots:
-                place = setting.node[node]
-                if not _arrival_allowed(log, place, arrival, log.stop[index].arrival, write):
+                service_start, leave = _serve(setting, log, index, arrival, departure, write)
+                if leave < 0:
                     return False
-                service_start = start_of_service(place, arrival)
-                leave = end_of_service(place, arrival)
             while op < log.count.ops and log.op[op].stop == index:
                 sortie = log.sortie[log.op[op].sortie]
                 if log.op[op].is_recovery:
@@ -205,16 +243,38 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                     begin = free if recoveries_take_time(setting.type) else launched
                     end = _replay_recovery(setting, log, sortie, node, begin, write)
                 else:
-                    end = launched = _replay_launch(setting, log, sortie, node, free, write)
+                    end = launched = _replay_launch(setting, log, sortie, node, free, departure,
+                                                    write)
                 if end < 0:
                     return False
-                free = max(free, end)
+                free, departure = max(free, end), min(departure, launched)
                 op += 1
             leave = max(leave, free)
+            departure = min(departure, leave)
             if write:
-                log.stop[index].arrival, log.stop[index].start = arrival, service_start
-                log.stop[index].leave = leave
+                stop = log.stop[index]
+                stop.arrival, stop.start, stop.leave = arrival, service_start, leave
     return write or leave <= log.stop[log.count.stops - 1].leave
+
+
+@inlined
+def most_excess(setting: Setting, num_depots: int, log: VehicleLog) -> int:
+    """Return by how much a parcel is too long aboard on the last trip; at most 0 if none is."""
+    first, most = log.trip[log.count.trips - 1].first_stop, -FAR
+    departure = log.stop[first].leave
+    for index in range(log.count.sorties):
+        if log.sortie[index].launch_stop == first:
+            departure = min(departure, log.sortie[index].takeoff)
+    for index in range(first, log.count.stops):
+        node = log.stop[index].node
+        if node >= num_depots:
+            most = max(most, excess_aboard(setting.fresh_for, node, departure,
+                                           log.stop[index].start))
+    for index in range(log.count.sorties):
+        sortie = log.sortie[index]
+        if sortie.launch_stop >= first:
+            most = max(most, excess_aboard(setting.fresh_for, sortie.node, departure, sortie.start))
+    return most
 
 
 @inlined

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
 from model.judge.energy import hover_energy, leg_energy, sortie_energy
+from model.judge.freshness import most_excess
 from model.judge.rules import airborne_duration
 from model.judge.timing import (
-    Operation, RouteDecision, SortieDecision, TripDecision, held_takeoff, schedule,
+    Operation, SortieDecision, TripDecision, held_takeoff, latest_release, schedule_trip,
 )
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
@@ -38,6 +39,7 @@ class OpenTrip:
     nodes: tuple[int, ...]
     flights: tuple[Flight, ...] = ()
     operations: tuple[tuple[Operation, ...], ...] = ((),)
+    begins: int = 0  # no sooner, so that no parcel of those served so far is aboard too long
 
     @property
     def flying(self) -> list[int]:
@@ -73,26 +75,56 @@ def _recovered(trip: OpenTrip, to: int, loops: list[int], order: list[int],
         else replace(flight, recovery_stop=last if index in loops else last + 1)
         for index, flight in enumerate(trip.flights))
     after = tuple(Operation(index, False) for index in order if index not in loops)
-    return OpenTrip((*trip.nodes, to), flights, (*trip.operations[:-1], tuple(here), after))
+    return OpenTrip((*trip.nodes, to), flights, (*trip.operations[:-1], tuple(here), after),
+                    trip.begins)
 
 
 def _timed(problem: Problem, vehicle: Vehicle, trip: OpenTrip) -> Trip:
     """Time the last trip, cut short by a way home, as soon as possible."""
     home = problem.vehicle_types[vehicle.kind].ends_at
     if trip.nodes[-1] >= problem.num_depots:
-        trip = OpenTrip((*trip.nodes, home), trip.flights, (*trip.operations, ()))
-    trips = tuple(done.decision() for done in (*vehicle.trips[:-1], trip))
-    return schedule(problem, RouteDecision(vehicle.kind, vehicle.index, trips)).trips[-1]
+        trip = OpenTrip((*trip.nodes, home), trip.flights, (*trip.operations, ()), trip.begins)
+    return _timed_route(problem, replace(vehicle, trips=(*vehicle.trips[:-1], trip))).trips[-1]
+
+
+def _timed_route(problem: Problem, vehicle: Vehicle, start: int | None = None) -> Route:
+    """Time all trips, the first begun at `start`, the others no sooner than they are held."""
+    kind = problem.vehicle_types[vehicle.kind]
+    trips: list[Trip] = []
+    ready = kind.earliest
+    for trip in vehicle.trips:
+        decision = trip.decision()
+        begin = max(ready, trip.begins, latest_release(problem, decision))
+        if start is not None and not trips:
+            begin = start
+        trips.append(schedule_trip(problem, kind, replace(decision, start=begin), ready))
+        ready = trips[-1].stops[-1].departure + kind.reload_duration
+    return Route(vehicle.kind, vehicle.index, tuple(trips))
+
+
+def _held(problem: Problem, vehicle: Vehicle) -> Vehicle | None:
+    """Return the vehicle with its trip held until no parcel is too long aboard, if that helps."""
+    trip = vehicle.trips[-1]
+    timed = _timed(problem, vehicle, trip)
+    excess = most_excess(problem, timed)
+    while excess > 0:
+        trip = replace(trip, begins=timed.stops[0].arrival + excess)
+        vehicle = replace(vehicle, trips=(*vehicle.trips[:-1], trip))
+        timed = _timed(problem, vehicle, trip)
+        left = most_excess(problem, timed)
+        if left >= excess:
+            return None
+        excess = left
+    return vehicle
 
 
 def _flight(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: int) -> int:
     """Return how long a flight takes that ends at `to`, if nobody waits."""
     flight, legs = trip.flights[index], problem.travel[drones.travel].duration
-    service = drones.service_duration
-    if service is None:
-        service = problem.customer_at(flight.customer).service_duration
-    return legs.item(trip.nodes[flight.launch_stop], flight.customer) + service + legs.item(
-        flight.customer, to)
+    service = drones.service_at(problem.customer_at(flight.customer))
+    here = trip.nodes[flight.launch_stop]
+    setup = problem.setup_between(here, flight.customer)
+    return legs.item(here, flight.customer) + setup + service + legs.item(flight.customer, to)
 
 
 def _lasts(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: int) -> bool:
@@ -104,13 +136,12 @@ def _lasts(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: 
         return True
     legs, customer = problem.travel[drones.travel].duration, problem.customer_at(flight.customer)
     weight = customer.demand[drones.energy.dimension]
-    out = legs.item(trip.nodes[flight.launch_stop], flight.customer)
+    here = trip.nodes[flight.launch_stop]
+    out = legs.item(here, flight.customer) + problem.setup_between(here, flight.customer)
     taken = leg_energy(drones.energy, out, weight) + leg_energy(
         drones.energy, legs.item(flight.customer, to), 0)
     if not drones.energy.lands:
-        own = drones.service_duration
-        service = customer.service_duration if own is None else own
-        taken += hover_energy(drones.energy, service, weight)
+        taken += hover_energy(drones.energy, drones.service_at(customer), weight)
     return taken <= drones.energy.available
 
 
@@ -152,8 +183,9 @@ def _back(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, take_
     """Return when a loop is back that takes off then."""
     flight, legs = trip.flights[index], problem.travel[drones.travel].duration
     place, customer = trip.nodes[flight.launch_stop], problem.customer_at(flight.customer)
-    arrival = take_off + legs.item(place, flight.customer)
-    waiting = max(0, opening(customer, arrival) - arrival)
+    begun = (take_off + legs.item(place, flight.customer)
+             + problem.setup_between(place, flight.customer))
+    waiting = max(0, opening(customer, begun) - begun)
     return take_off + waiting + _flight(problem, drones, trip, index, place)
 
 
@@ -171,7 +203,7 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
             rough = _recovered(trip, to, loops, flying, [
                 *operations, *(Operation(index, False) for index in loops)])
             timed = _timed(problem, vehicle, rough)
-            crew = max([timed.stops[here].arrival,
+            crew = max([timed.stops[here].ready,
                         *(timed.sorties[index].recovery_time for index, _ in arrived)])
             operations = _at_this_stop(problem, drones, rough, arrived, crew, flying, loops)
         drafted = _timed(problem, vehicle, _recovered(trip, to, loops, flying, operations))
@@ -190,7 +222,7 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
             < airborne_duration(problem, drones, timed, timed.sorties[index])
             or _drained(problem, drones, timed, index))]
         if not late:
-            return replace(vehicle, trips=(*vehicle.trips[:-1], settled))
+            return _held(problem, replace(vehicle, trips=(*vehicle.trips[:-1], settled)))
         if set(late) & set(loops):
             return None
         assert settled.flights[late[0]].recovery_stop == here + 1
@@ -221,15 +253,13 @@ def _launched(problem: Problem, vehicle: Vehicle, node: int) -> Vehicle | None:
     flight = Flight(node, free[0], len(trip.nodes) - 1)
     launch = Operation(len(trip.flights), True)
     operations = (*trip.operations[:-1], (*trip.operations[-1], launch))
-    trip = OpenTrip(trip.nodes, (*trip.flights, flight), operations)
+    trip = OpenTrip(trip.nodes, (*trip.flights, flight), operations, trip.begins)
     return replace(vehicle, trips=(*vehicle.trips[:-1], trip))
 
 
 def judge(problem: Problem, vehicle: Vehicle, start: int | None) -> tuple[Route, Evaluation]:
     """Time and check the route of a vehicle at home whose first trip begins at `start`."""
-    first, *more = [trip.decision() for trip in vehicle.trips]
-    decision = RouteDecision(vehicle.kind, vehicle.index, (replace(first, start=start), *more))
-    route = schedule(problem, decision)
+    route = _timed_route(problem, vehicle, start)
     served = {node for trip in vehicle.trips for node in trip.nodes}
     served |= {flight.customer for trip in vehicle.trips for flight in trip.flights}
     rest = tuple(set(range(problem.num_depots, problem.num_nodes)) - served)
@@ -246,9 +276,9 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
 
     def may_be(halt: Stop | Visit, later: Stop | Visit) -> bool:
         customer = problem.customer_at(halt.node)
-        if has_drones and opening(customer, halt.arrival) != opening(customer, later.arrival):
+        if has_drones and opening(customer, halt.ready) != opening(customer, later.ready):
             return False
-        return later.arrival <= max(halt.arrival, customer.latest)
+        return later.ready <= max(halt.ready, customer.latest)
 
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):

@@ -100,6 +100,8 @@ ON_CUSTOMER: dict[str, Callable[[Customer, str], Customer]] = {
     "fits if its (?:last )?window closed (.+) minutes? later": lambda customer, text: replace(
         customer, latest=customer.latest + _units(text, MINUTE)),
     r"fits if its window (\d+ closed .+) minutes? later": _wider_window,
+    "fits if it could be aboard (.+) minutes? longer": lambda customer, text: replace(
+        customer, max_time_aboard=(customer.max_time_aboard or 0) + _units(text, MINUTE)),
     "served if its unassigned_cost were above (.+)": lambda customer, text: replace(
         customer, unassigned_cost=float(text) + 0.01),
     "fits if a truck may serve (it)": lambda customer, _: replace(customer, served_by="either"),

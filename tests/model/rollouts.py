@@ -74,7 +74,7 @@ def roll(problems: Sequence[Problem], seed: int) -> Batch:
     """
     instance, rows = pack(problems), len(problems)
     scale = token_module.scales(instance)
-    width = instance.node.shape[1]
+    width = instance.node.shape[2]
     coordinates = np.zeros((rows, width, 2))
     for row, problem in enumerate(problems):
         coordinates[row, : problem.num_nodes] = problem.coordinates

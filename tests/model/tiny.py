@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Energy, Overtime,
-    Problem, SpeedProfile, Travel, VehicleType,
+    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Energy,
+    IncompatibleGoods, Overtime, Problem, SpeedProfile, Travel, VehicleType,
 )
 from model.travel.matrices import with_nowhere
 
@@ -193,6 +193,55 @@ def with_dimensions(rng: np.random.Generator, problem: Problem) -> Problem:
         for customer in problem.customers)
     return replace(problem, customers=customers, amount_decimals=(3,) * number,
                    vehicle_types=tuple(map(kind_of, problem.vehicle_types)))
+
+
+def with_own_durations(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which service takes trucks, and drones, of a type longer or shorter."""
+    def durations() -> dict[str, int]:
+        return {customer.id: _draw(rng, 0, 6) for customer in problem.customers
+                if rng.random() < 0.6}
+
+    def changed(kind: VehicleType) -> VehicleType:
+        drones = kind.drones
+        if drones is not None:
+            drones = replace(drones, service_durations=durations())
+        return replace(kind, service_durations=durations(), drones=drones)
+
+    return replace(problem, vehicle_types=tuple(map(changed, problem.vehicle_types)))
+
+
+def with_setups(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem whose customers ask for a setup, some of them at one place."""
+    def site() -> int | None:
+        return int(rng.integers(3)) if rng.random() < 0.7 else None
+
+    return replace(
+        problem, depots=tuple(replace(depot, site=site()) for depot in problem.depots),
+        customers=tuple(replace(customer, setup_duration=_maybe(rng, 0.7, 1, 5) or 0, site=site())
+                        for customer in problem.customers))
+
+
+def with_limits_aboard(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which some parcels may be aboard for so long and no longer."""
+    return replace(problem, customers=tuple(
+        replace(customer, max_time_aboard=_maybe(rng, 0.6, 3, 25))
+        for customer in problem.customers))
+
+
+def with_goods(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which some goods must not go with others on one trip or vehicle."""
+    names = ("food", "paint", "glass")
+    def loaded(customer: Customer) -> Customer:
+        number = int(rng.choice(3, p=(0.15, 0.8, 0.05)))
+        return replace(customer, goods=frozenset(rng.choice(names, number, replace=False).tolist()))
+
+    apart = tuple(
+        IncompatibleGoods(frozenset(rng.choice(names, int(rng.integers(2, 4)),
+                                               replace=False).tolist()),
+                          "vehicle" if rng.random() < 0.4 else "trip")
+        for _ in range(int(rng.integers(1, 3))))
+    return replace(problem, customers=tuple(map(loaded, problem.customers)),
+                   incompatible_goods=apart)
 
 
 def with_table(rng: np.random.Generator, problem: Problem) -> Problem:

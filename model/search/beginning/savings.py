@@ -18,7 +18,7 @@ from model.kernel.load import (
 from model.kernel.records import Record, Records, record
 from model.kernel.shift import allows_stops
 from model.kernel.start import leaves_first
-from model.kernel.stop import end_of_service, latest_arrival
+from model.kernel.stop import end_of_service, latest_arrival, places_of
 from model.problem import IntArray
 from model.search.route.layout import NOWHERE, World
 
@@ -88,7 +88,7 @@ def set_chain_cargo(link: Record, cargo: Cargo) -> None:
 def set_up_cargo(world: World, node: int, cargo: Records) -> None:
     """Let a chain be one customer. In place: `cargo` (tier,)."""
     if num_tiers(world.amount) == 0:
-        demand = demand_of(world.place[node])
+        demand = demand_of(world.place[0, node])
         set_chain_cargo(cargo[0], (demand, NOTHING, demand, total(demand), 0))
     for tier in range(num_tiers(world.amount)):
         set_chain_cargo(cargo[tier], cargo_for(world.amount, node, tier))
@@ -113,10 +113,10 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records,
     In place: `chain` (node,) and `cargo` (node, tier) are set up here.
     """
     kind = world.type[k]
-    legs = legs_of(world.leg, kind.travel)
+    legs, places = legs_of(world.leg, kind.travel), places_of(world.place, kind)
     start, end = kind.begins_at, kind.ends_at
     for node in range(world.num_depots, world.num_nodes):
-        place, link = world.place[node], chain[node]
+        place, link = places[node], chain[node]
         link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
         link.length = 1
         set_up_cargo(world, node, cargo[node])
@@ -134,7 +134,7 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records,
         length = chain[head].length + chain[b].length
         if (head != b and allows_stops(kind, length)
                 and may_join(kind, cargo[head], cargo[b])):
-            link_up(world, legs, chain, a, b, head, tail)
+            link_up(places, legs, chain, a, b, head, tail)
             chain[head].length = length
             for tier in range(cargo.shape[1]):
                 joined = followed(chain_cargo(cargo[head, tier]), chain_cargo(cargo[b, tier]))
@@ -142,7 +142,7 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records,
 
 
 @compiled
-def link_up(world: World, legs: IntArray, chain: Records, a: int, b: int, head: int,
+def link_up(places: Records, legs: IntArray, chain: Records, a: int, b: int, head: int,
             tail: int) -> None:
     """Put the route from `b` to `tail` behind that from `head` to `a`. In place."""
     chain[a].behind, chain[b].before = b, a
@@ -150,7 +150,7 @@ def link_up(world: World, legs: IntArray, chain: Records, a: int, b: int, head: 
     node, leave = b, chain[a].leave + leg(legs, a, b).duration
     while node != NOWHERE:
         behind = chain[node].behind
-        leave = end_of_service(world.place[node], leave)
+        leave = end_of_service(places[node], leave)
         chain[node].leave = leave
         if behind != NOWHERE:
             leave += leg(legs, node, behind).duration
@@ -158,7 +158,7 @@ def link_up(world: World, legs: IntArray, chain: Records, a: int, b: int, head: 
     node, latest = a, chain[b].latest - leg(legs, a, b).duration
     while node != NOWHERE:
         before = chain[node].before
-        latest = latest_arrival(world.place[node], latest)
+        latest = latest_arrival(places[node], latest)
         chain[node].latest = latest
         if before != NOWHERE:
             latest -= leg(legs, before, node).duration

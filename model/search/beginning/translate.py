@@ -6,10 +6,11 @@ import numpy as np
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
-from model.kernel.flight import ready, recovery_end
+from model.kernel.flight import recovery_end
 from model.kernel.instance import NONE, TIER
+from model.kernel.load import some_limited
 from model.kernel.records import Record, one, read_rows, Records
-from model.kernel.stop import start_of_service
+from model.kernel.stop import end_of_service, places_by_air, start_of_service
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.savings import savings_routes
 from model.search.insertion.evaluate import INFEASIBLE, serve_alone
@@ -17,6 +18,7 @@ from model.search.insertion.offers import AT_ONE_STOP
 from model.search.moves.split import LINE
 from model.search.route.block import SUMS
 from model.search.route.edit import MOVE
+from model.search.route.freshness import hold_trips
 from model.search.route.layout import (
     CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, World, empty_fleet, BOUND, KEPT,
 )
@@ -90,7 +92,7 @@ def first_plan(problem: Problem, world: World) -> Solution:
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
     types, number = world.type, problem.num_customers
-    demand = np.sort(world.place[problem.num_depots:, 0]["demand"], axis=0).cumsum(axis=0)
+    demand = np.sort(world.place[0, problem.num_depots:, 0]["demand"], axis=0).cumsum(axis=0)
     asked = _asked_for(problem)
     most, fewest = 0, number
     for kind in types:
@@ -182,7 +184,7 @@ def leg_cost(world: World, searcher: Searcher) -> float:
     if cost > 0.0:
         return cost / legs
     left_out = left_out_cost(world, searcher.missing, searcher.count.missing)
-    return max(1e-9, (searcher.value.cost - left_out) / len(world.place))
+    return max(1e-9, (searcher.value.cost - left_out) / world.num_nodes)
 
 
 def write_route(fleet: Fleet, slot: int, route: Route) -> None:
@@ -230,6 +232,8 @@ def finish_route(world: World, fleet: Fleet, slot: int, acc: Record) -> None:
     load_trips(world, route, stops, trips, sorties)
     clear_holds(route, stops, trips)
     drive_forward(world, route, stops, sorties, acc)
+    if some_limited(world.fresh_for):
+        hold_trips(world, route, stops, trips, sorties, acc)
     settle(world, route, stops, trips, sorties, acc)
 
 
@@ -242,49 +246,63 @@ def service_starts(place: Records, nodes: IntArray, arrivals: IntArray) -> IntAr
     return starts
 
 
+def setups_of(setup: Records, origins: IntArray, nodes: IntArray) -> IntArray:
+    """Return how long whoever comes from some nodes to others sets up there."""
+    if len(setup) == 0:
+        return np.zeros_like(nodes)
+    here, there = setup[origins], setup[nodes]
+    setups: IntArray = np.where(here["site"] == there["site"], 0, there["setup_duration"])
+    return setups
+
+
 @compiled
-def sortie_ends(place: Records, kind: Record, nodes: IntArray, arrivals: IntArray,
+def sortie_ends(places: Records, kind: Record, nodes: IntArray, arrivals: IntArray,
                 begin: int) -> tuple[IntArray, int]:
     """Return when a drone has served its customers, and when it is aboard, recovered from `begin`.
     """
-    ends = np.empty_like(nodes)
+    ends, by_air = np.empty_like(nodes), places_by_air(places, kind)
     for index in range(len(nodes)):
-        ends[index] = ready(kind, place[nodes[index]], arrivals[index])
+        ends[index] = end_of_service(by_air[nodes[index]], arrivals[index])
     return ends, recovery_end(kind, begin)
 
 
 def _trips(world: World, fleet: Fleet, slot: int, route: Any) -> tuple[Trip, ...]:
     """Return the trips of a timed route, whose own row is given."""
     rows, trips = fleet.stop[slot, : route.length], fleet.trip[slot, : route.trips]
-    starts = service_starts(world.place, rows["node"].copy(), rows["arrival"].copy())
+    starts = service_starts(world.place[0], rows["node"].copy(), rows["arrival"].copy())
     columns = (rows[name].tolist() for name in (
         "node", "kind", "arrival", "release", "hold", "leave"))
-    halts = [_stop(*row) for row in zip(*columns, starts.tolist(), strict=True)]
+    setups = setups_of(world.setup, np.roll(rows["node"], 1), rows["node"].copy())
+    halts = [_stop(*row) for row in zip(*columns, starts.tolist(), setups.tolist(), strict=True)]
     sorties = read_rows(fleet.sortie[slot, : route.sorties]) if route.sorties > 0 else []
     return tuple(
         Trip(tuple(halts[first:last + 1]),
-             tuple(_sortie(world, world.type[route.type], row, first) for row in sorties
-                   if first <= row.launch <= last))
+             tuple(_sortie(world, world.type[route.type], row, halts[row.launch].node, first)
+                   for row in sorties if first <= row.launch <= last))
         for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))
 
 
 def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: int,
-          start: int) -> Stop:
-    """Return a timed stop; `start` is when service begins if it is a customer's."""
+          start: int, setup: int) -> Stop:
+    """Return a timed stop; `start` is when service begins, `setup` of the arrival, if it is a
+    customer's.
+    """
     begin = arrival
     if kind == START:
         arrival = begin = max(arrival, release, hold)
     elif kind == CUSTOMER:
-        begin = start
-    return Stop(node, arrival, begin, leave)
+        begin, arrival = start, arrival - setup
+    return Stop(node, arrival, begin, leave, setup if kind == CUSTOMER else 0)
 
 
-def _sortie(world: World, kind: Record, row: Any, first: int) -> Sortie:
+def _sortie(world: World, kind: Record, row: Any, launch_node: int, first: int) -> Sortie:
     nodes = np.array(row.nodes[: row.count], np.int64)
     arrivals = np.array(row.arrivals[: row.count], np.int64)
-    starts = service_starts(world.place, nodes, arrivals)
+    starts = service_starts(world.place[0], nodes, arrivals)
     ends, aboard = sortie_ends(world.place, kind, nodes, arrivals, row.begin)
+    setups = setups_of(world.setup, np.array([launch_node, *nodes[:-1]], np.int64), nodes)
     visits = tuple(Visit(*visit) for visit in zip(
-        nodes.tolist(), arrivals.tolist(), starts.tolist(), ends.tolist(), strict=True))
+        nodes.tolist(), (arrivals - setups).tolist(), starts.tolist(), ends.tolist(),
+        setups.tolist(), strict=True))
     return Sortie(row.drone, row.launch - first, row.recovery - first, visits, row.takeoff,
                   row.begin, int(aboard))

@@ -5,10 +5,11 @@ from model.kernel.instance import FAR
 from model.kernel.leg import leg_at, legs_from, legs_to
 from model.kernel.load import num_tiers, release_of
 from model.kernel.records import Record, Records
-from model.kernel.stop import end_of_service, too_late
+from model.kernel.stop import end_of_service, places_of, too_late
 from model.problem import IntArray, UIntArray
 from model.search.insertion.evaluate import INFEASIBLE, price_stop
 from model.search.route.edit import AT_STOP
+from model.search.route.goods import goods_may_join
 from model.search.route.halts import Room, room_behind, room_on
 from model.search.route.layout import CHANGING, MODE_SIMPLE, MODE_TIMED, NOWHERE, Fleet, World
 from model.search.route.randomness import uniform
@@ -51,11 +52,12 @@ def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, l
 
 
 @inlined
-def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Records, start: int,
-                 first: int, last: int, node: int, room: Room, spare: int, rate: float,
+def scan_delayed(world: World, k: int, inward: IntArray, onward: IntArray, stops: Records,
+                 start: int, first: int, last: int, node: int, room: Room, spare: int, rate: float,
                  best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
-    chosen, place = -1, world.place[node]
+    places = places_of(world.place, world.type[k])
+    chosen, place = -1, places[node]
     leave = release_of(place)
     if leave > stops[start].latest:
         return best, chosen
@@ -64,7 +66,7 @@ def scan_delayed(world: World, inward: IntArray, onward: IntArray, stops: Record
             arrival = leave + stops[p - 1].gap
             if arrival > stops[p].latest:
                 break
-            leave = end_of_service(world.place[stops[p].node], arrival)
+            leave = end_of_service(places[stops[p].node], arrival)
         if too_late(place, leave):
             break
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
@@ -85,8 +87,9 @@ def scan_limited(world: World, fleet: Fleet, slot: int, first: int, last: int, n
                  room: Room, spare: int, rate: float, best: float, blink: float, rng: UIntArray
                  ) -> tuple[float, int]:
     """As `scan_stops`, on a route whose vehicle may only work for some time."""
-    chosen, stops, place = -1, fleet.stop[slot], world.place[node]
-    m = world.type[fleet.route[slot].type].travel
+    kind = world.type[fleet.route[slot].type]
+    chosen, stops, place = -1, fleet.stop[slot], places_of(world.place, kind)[node]
+    m = kind.travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     for p in range(first, last + 1):
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
@@ -108,15 +111,15 @@ def scan_trip(world: World, fleet: Fleet, slot: int, index: int, first: int, las
     k, trip, stops = fleet.route[slot].type, fleet.trip[slot, index], fleet.stop[slot]
     m = world.type[k].travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
-    place, rate = world.place[node], world.rate[by].distance
+    place, rate = places_of(world.place, world.type[k])[node], world.rate[by].distance
     room = room_on(world, fleet, slot, by, node)
     spare = world.type[k].max_trip_distance - trip.distance
     if world.mode[k] & MODE_TIMED:
         return scan_limited(world, fleet, slot, first, last, node, room, spare, rate, best, blink,
                             rng)
     if release_of(place) > stops[trip.first].leave:
-        return scan_delayed(world, inward, onward, stops, trip.first, first, last, node, room,
-                            spare, rate, best, blink, rng)
+        return scan_delayed(world, k, inward, onward, stops, trip.first, first, last, node,
+                            room, spare, rate, best, blink, rng)
     return scan_stops(inward, onward, stops, first, last, -1, place, room, spare, rate, best,
                       blink, rng)
 
@@ -129,6 +132,8 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
     A larger one if `enlarge`; or `NOWHERE`.
     """
     k = fleet.route[slot].type
+    if not goods_may_join(world, fleet, slot, index, node):
+        return NOWHERE, 0.0
     if takes(world, fleet, slot, index, k, node):
         return k, world.rate[k].stop
     if not enlarge:
@@ -173,7 +178,8 @@ def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, bes
     """
     stamp = fleet.route[slot].stamp
     if kept.stamp != stamp or (kept.stop < 0 and kept.detour * rate < best):
-        m = world.type[fleet.route[slot].type].travel
+        kind = world.type[fleet.route[slot].type]
+        m = kind.travel
         most = FAR
         # Also where distance costs nothing, or a larger vehicle saves more than any detour costs.
         if abs(best) < FAR * rate:
@@ -181,7 +187,7 @@ def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, bes
         kept.stamp = stamp
         kept.detour, kept.stop = shortest_detour(
             legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot],
-            fleet.trip[slot, 0].last, world.place[node],
+            fleet.trip[slot, 0].last, places_of(world.place, kind)[node],
             room_on(world, fleet, slot, fleet.route[slot].type, node), most)
     cost = kept.detour * rate
     if cost >= best:
@@ -217,7 +223,8 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
             m = world.type[k].travel
             cost, p = scan_stops(
                 legs_to(world.back, m, node), legs_from(world.leg, m, node), fleet.stop[slot], 0,
-                fleet.trip[slot, 0].last - 1, skipped, world.place[node],
+                fleet.trip[slot, 0].last - 1, skipped,
+                places_of(world.place, world.type[k])[node],
                 room_on(world, fleet, slot, by, node), FAR, rate, best - base, world.blink, rng)
         if p >= 0:
             best = cost + base
@@ -271,7 +278,6 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
 def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
                      move: Record, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where all routes are lean. As `scan_lean`."""
-    place = world.place[node]
     for rank in range(world.fit.shape[1]):
         other = world.fit[node, rank]
         slot, behind = fleet.where[other].slot, fleet.where[other].position
@@ -285,7 +291,8 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
             continue
         m, rate = world.type[k].travel, world.rate[by].distance
         inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
-        stops, room = fleet.stop[slot], room_on(world, fleet, slot, by, node)
+        stops, place = fleet.stop[slot], places_of(world.place, world.type[k])[node]
+        room = room_on(world, fleet, slot, by, node)
         for p in (behind - 1, behind):
             out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
             cost = (out.distance + on.distance - stops[p].leg) * rate + base

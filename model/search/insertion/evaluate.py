@@ -6,7 +6,7 @@ from model.kernel.leg import leg, leg_at, legs_of, legs_to
 from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from
-from model.kernel.stop import as_late, end_of_service, service_duration, too_late
+from model.kernel.stop import as_late, end_of_service, places_of, service_duration, too_late
 from model.search.route.block import make_ready, plain_block, time_block
 from model.search.route.edit import (
     AT_STOP, BY_SORTIE, BY_TRUCK, FLIGHT_TRIP, FROM_START, NEW_TRIP, ON_SORTIE, TRIP_FROM,
@@ -204,7 +204,7 @@ def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record)
     trip = fleet.trip[slot, fleet.stop[slot, max(move.first, 0)].trip]
     if kind == ON_SORTIE:
         trip = fleet.trip[slot, fleet.stop[slot, fleet.sortie[slot, move.sortie].launch].trip]
-    release = release_of(world.place[node])
+    release = release_of(world.place[0, node])
     alone = kind in (NEW_TRIP, FLIGHT_TRIP)
     held = not alone and release > trip.release
     first, last = part_of(fleet, slot, move, held)
@@ -230,7 +230,7 @@ def stands_alone(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bo
                                or fleet.route[slot].sorties > 0):
         return False
     return (stop.flying == 0
-            and release_of(world.place[node]) <= fleet.trip[slot, stop.trip].release)
+            and release_of(world.place[0, node]) <= fleet.trip[slot, stop.trip].release)
 
 
 @inlined
@@ -242,12 +242,13 @@ def follow(world: World, route: Record, stops: Records, p: int, time: int, cum: 
     and `depart` are those up to stop `p`. No drone flies.
     """
     cost, last = 0.0, route.length - 1
+    places = places_of(world.place, world.type[route.type])
     for q in range(p, last + 1):
         stop = stops[q]
         leave = time
         if stop.kind == CUSTOMER:
             node = stop.node
-            place = world.place[node]
+            place = places[node]
             cost += window_cost(world, node, time) - stop.window_cost
             depart = min(depart, as_late(place, time) - cum)
             leave, cum = end_of_service(place, time), cum + service_duration(place)
@@ -265,8 +266,9 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
 
     For where `stands_alone`; in constant time unless lateness costs.
     """
-    route, stops, place = fleet.route[slot], fleet.stop[slot], world.place[node]
+    route, stops = fleet.route[slot], fleet.stop[slot]
     k, here, behind = route.type, stops[p], stops[p + 1]
+    place = places_of(world.place, world.type[k])[node]
     m = world.type[k].travel
     out = leg_at(legs_to(world.back, m, node), here.node)
     on = leg(legs_of(world.leg, m), node, behind.node)

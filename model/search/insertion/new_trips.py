@@ -4,27 +4,45 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import FAR
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import (
-    EMPTY, cargo_at, cargo_for, demand_of, followed, holds, may_be_all, may_follow, num_tiers,
-    plus, release_of,
+    EMPTY, barred_on_trip, cargo_at, cargo_for, demand_of, followed, go_together, holds, may_be_all,
+    may_follow, num_tiers, plus, release_of, some_apart,
 )
 from model.kernel.records import Records
 from model.kernel.shift import allows_stops
-from model.kernel.stop import end_of_service, too_late
+from model.kernel.stop import end_of_service, places_of, too_late
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
 from model.search.route.layout import CUSTOMER, Fleet, World
 
 
+@inlined
+def part_joins(world: World, fleet: Fleet, slot: int, first: int, last: int, node: int) -> bool:
+    """Tell whether a customer's goods may go with those from stop `first` to `last` of a trip."""
+    if not some_apart(world.goods):
+        return True
+    stops, sorties, barred = fleet.stop[slot], fleet.sortie[slot], 0
+    for q in range(first, last + 1):
+        if stops[q].kind == CUSTOMER:
+            barred |= barred_on_trip(world.goods[stops[q].node])
+    for s in range(fleet.route[slot].sorties):
+        if first <= sorties[s].launch <= last:
+            for visit in range(sorties[s].count):
+                barred |= barred_on_trip(world.goods[sorties[s].nodes[visit]])
+    return go_together(world.goods[node], barred, fleet.route[slot].barred)
+
+
 @spliced
 def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: bool) -> bool:
-    """Tell whether a customer may join a trip's up to stop `p`, or the rest, by load and number."""
+    """Tell whether a customer may join a trip's up to stop `p`, or the rest, by what is carried."""
     stops, sorties = fleet.stop[slot], fleet.sortie[slot]
     trip = fleet.trip[slot, stops[p].trip]
     first, last = (trip.first, p) if front else (p + 1, trip.last)
-    load, count = demand_of(world.place[node]), 1
+    if not part_joins(world, fleet, slot, first, last, node):
+        return False
+    load, count = demand_of(world.place[0, node]), 1
     for q in range(first, last + 1):
         if stops[q].kind == CUSTOMER:
             count += 1
-            load = plus(load, demand_of(world.place[stops[q].node]))
+            load = plus(load, demand_of(world.place[0, stops[q].node]))
     kind = world.type[fleet.route[slot].type]
     if not allows_stops(kind, count):
         return False
@@ -36,7 +54,7 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
     for s in range(fleet.route[slot].sorties):
         if first <= sorties[s].launch <= last:
             for visit in range(sorties[s].count):
-                load = plus(load, demand_of(world.place[sorties[s].nodes[visit]]))
+                load = plus(load, demand_of(world.place[0, sorties[s].nodes[visit]]))
     return holds(kind, load)
 
 
@@ -71,17 +89,17 @@ def may_begin(world: World, k: int, node: int) -> bool:
 
 
 @spliced
-def serve_at(world: World, node: int, arrival: int) -> int:
+def serve_at(places: Records, node: int, arrival: int) -> int:
     """Return when a truck that arrives at a customer has served; FAR if it is too late."""
-    place = world.place[node]
+    place = places[node]
     return FAR if too_late(place, arrival) else end_of_service(place, arrival)
 
 
 @spliced
-def drive_to(world: World, stops: Records, first: int, last: int, time: int) -> int:
+def drive_to(places: Records, stops: Records, first: int, last: int, time: int) -> int:
     """Return when a truck that leaves stop `first` at `time` leaves stop `last`; FAR: too late."""
     for p in range(first + 1, last + 1):
-        time = serve_at(world, stops[p].node, time + stops[p - 1].gap)
+        time = serve_at(places, stops[p].node, time + stops[p - 1].gap)
         if time >= FAR:
             break
     return time
@@ -95,11 +113,12 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     """
     stops = fleet.stop[slot]
     kind, trip = world.type[fleet.route[slot].type], fleet.trip[slot, stops[p].trip]
+    places = places_of(world.place, kind)
     legs, depot = legs_of(world.leg, kind.travel), kind.depot
     first, last = trip.first, trip.last
     front = rear = front_length = rear_length = 0
     for q in range(first, last):
-        release = release_of(world.place[stops[q].node]) if q > first else 0
+        release = release_of(places[stops[q].node]) if q > first else 0
         if q <= p:
             front = max(front, release)
         else:
@@ -107,15 +126,15 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
             rear_length += stops[q].leg
         if q < p:
             front_length += stops[q].leg
-    release = release_of(world.place[node])
+    release = release_of(places[node])
     if until:
         front = max(front, release)
     else:
         rear = max(rear, release)
     here, there = stops[p].node, stops[p + 1].node
-    time = drive_to(world, stops, first, p, max(stops[first].arrival, front))
+    time = drive_to(places, stops, first, p, max(stops[first].arrival, front))
     if until:
-        time = serve_at(world, node, time + leg(legs, here, node).duration)
+        time = serve_at(places, node, time + leg(legs, here, node).duration)
         front_length += leg(legs, here, node).distance
         here = node
     time += leg(legs, here, depot).duration
@@ -125,7 +144,7 @@ def split_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, until: 
     time = max(time + kind.reload_duration, rear)
     here = depot
     if not until:
-        time = serve_at(world, node, time + leg(legs, depot, node).duration)
+        time = serve_at(places, node, time + leg(legs, depot, node).duration)
         rear_length += leg(legs, depot, node).distance
         here = node
     rear_length += leg(legs, here, there).distance
@@ -138,13 +157,14 @@ def trip_fits(world: World, fleet: Fleet, slot: int, p: int, node: int) -> bool:
     """Tell whether a customer can be served by a trip of its own behind stop `p`, or -1."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     kind = world.type[route.type]
+    places = places_of(world.place, kind)
     legs, depot = legs_of(world.leg, kind.travel), kind.depot
     time = kind.shift_earliest
     if p >= 0:
         time = stops[p].leave + kind.reload_duration
-    time = max(time, release_of(world.place[node]))
+    time = max(time, release_of(places[node]))
     out, home = leg(legs, depot, node), leg(legs, node, depot)
-    time = serve_at(world, node, time + out.duration) + home.duration
+    time = serve_at(places, node, time + out.duration) + home.duration
     if p + 1 < route.length and time + kind.reload_duration > stops[p + 1].latest:
         return False
     return (time <= kind.shift_latest

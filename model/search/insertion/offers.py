@@ -3,12 +3,14 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.flight import (
-    can_serve, drone_service, earliest_back, recovery_end, take_off, unreachable, within_endurance,
+    can_serve, earliest_back, recovery_end, take_off, unreachable, within_endurance,
 )
 from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
 from model.kernel.load import num_tiers
 from model.kernel.records import Record, Records
-from model.kernel.stop import end_of_service, service_duration, too_late
+from model.kernel.stop import (
+    end_of_service, places_by_air, places_of, service_duration, too_late,
+)
 from model.problem import FloatArray, IntArray
 from model.search.insertion.cheapest_stop import is_simple
 from model.search.insertion.evaluate import INFEASIBLE, price_move, price_stop, stands_alone
@@ -17,6 +19,7 @@ from model.search.route.edit import (
     AT_STOP, BY_SORTIE, FLIGHT_TRIP, NEW_TRIP, ON_SORTIE, TRIP_FROM, TRIP_UNTIL, copy_move,
 )
 from model.search.route.ends import detour_by_reload, is_apart
+from model.search.route.goods import goods_may_join
 from model.search.route.halts import (
     can_carry, load_cost, load_more, load_more_behind, room_behind, room_between, room_on,
 )
@@ -55,7 +58,8 @@ def stop_costs(world: World, k: int, inward: IntArray, onward: IntArray, stops: 
     Or not allowed. `spare` is the time that the route could work longer at no cost, `early` what
     its waiting costs, which may become less.
     """
-    place, here, there = world.place[node], stops[p].node, stops[p + 1].node
+    place = places_of(world.place, world.type[k])[node]
+    here, there = stops[p].node, stops[p + 1].node
     out, on = leg_at(inward, here), leg_at(onward, there)
     cost = (out.distance + on.distance - stops[p].leg) * world.rate[k].distance - early
     cost += world.rate[k].stop
@@ -135,13 +139,13 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     k, stops = now.route[slot].type, now.stop[slot]
     kind = world.type[k]
     m = kind.drone_travel
-    inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
+    inward, onward = legs_to(world.back, m, node), legs_from(world.leg, kind.home_travel, node)
     out = leg_at(inward, stops[launch].node)
-    place, left = world.place[node], stops[launch].leave
+    place, left = places_by_air(world.place, kind)[node], stops[launch].leave
     begun = stops[launch].arrival
     if launch > 0:
         begun = take_off(kind, begun)
-    service = drone_service(kind, place)
+    service = service_duration(place)
     late = 0.0
     if world.mode[k] & MODE_PRICED:
         late = lateness_cost(world, node, begun + out.duration)
@@ -156,9 +160,9 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         flight = out.duration + service + home.duration
         if not within_endurance(kind, left, left, met):
             # Held back for the window, the truck leaves later and may wait less on its way.
-            if earliest_back(kind, place, left + out.duration, 0) <= left:
+            if earliest_back(place, left + out.duration, 0) <= left:
                 break
-            if met > earliest_back(kind, place, left + out.duration, home.duration):
+            if met > earliest_back(place, left + out.duration, home.duration):
                 continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         longer = max(0, begun + flight - stops[recovery].leave)
@@ -183,6 +187,7 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
         sortie = sorties[s]
         trip = stops[sortie.launch].trip
         if (sortie.count >= world.visits[k] or not may_fit(world, now, slot, trip, k, node)
+                or not goods_may_join(world, now, slot, trip, node)
                 or not room_between(room_on(world, now, slot, k, node), sortie.launch,
                                     sortie.recovery)):
             continue
@@ -256,7 +261,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
             cost -= load_cost(world, now, slot)
         if kind == NEW_TRIP and not may_begin(world, k, node):
             continue
-        if cost < best and (p < 0 or not too_late(world.place[node], stops[p].leave)):
+        if cost < best and (p < 0 or not too_late(world.place[0, node], stops[p].leave)):
             add_offer(searcher.offer, searcher.least, searcher.count, cost, kind, slot, p)
 
 

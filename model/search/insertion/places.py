@@ -15,6 +15,7 @@ from model.search.insertion.offers import (
 )
 from model.search.route.edit import NEW_ROUTE, copy_move
 from model.search.route.ends import is_apart
+from model.search.route.goods import goods_may_follow, goods_may_join
 from model.search.route.layout import CHANGING, NOWHERE, World
 from model.search.route.randomness import uniform
 from model.search.route.refresh import stop_beside
@@ -59,7 +60,8 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
         return
     for index in range(now.route[slot].trips):
         trip = now.trip[slot, index]
-        if not may_fit(world, now, slot, index, k, node):
+        if not (may_fit(world, now, slot, index, k, node)
+                and goods_may_join(world, now, slot, index, node)):
             continue
         first, last = trip.first, trip.last
         if by_truck and not simple and allows_stops(world.type[k], stops_on(trip) + 1):
@@ -69,7 +71,7 @@ def try_route(world: World, searcher: Searcher, slot: int, node: int, enlarge: b
                 offer_sorties(world, searcher, slot, p, node)
             leave = now.stop[slot, first].leave
             # Who would have to wait for a flight from the depot may fly when the trip is over.
-            soonest = held_until(opening(world.place[node], leave), endurance_of(world.type[k]))
+            soonest = held_until(opening(world.place[0, node], leave), endurance_of(world.type[k]))
             if leave < soonest:
                 offer_sorties(world, searcher, slot, last, node)
     if world.visits[k] > 1 and by_drone:
@@ -157,7 +159,8 @@ def find_place(world: World, searcher: Searcher, node: int, enlarge: bool) -> fl
         for index in range(searcher.count.active):
             slot = searcher.active[index]
             k = now.route[slot].type
-            if now.route[slot].trips >= world.type[k].max_trips or rung(world.stop):
+            if (now.route[slot].trips >= world.type[k].max_trips or rung(world.stop)
+                    or not goods_may_follow(world, now, slot, node)):
                 continue
             if world.can[k, 0, node] and is_apart(world, k):
                 offer_trips_apart(world, searcher, slot, node)
@@ -191,7 +194,8 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
                     and allows_stops(world.type[k], stops_on(trip) + 1))
         by_drone = world.can[k, 1, node] and may_launch(
             world.type[k], now.route[slot], now.sortie[slot], trip)
-        if not (by_truck or by_drone) or not may_fit(world, now, slot, index, k, node):
+        if (not (by_truck or by_drone) or not may_fit(world, now, slot, index, k, node)
+                or not goods_may_join(world, now, slot, index, node)):
             continue
         first = max(p - 1, trip.first)
         if by_truck:

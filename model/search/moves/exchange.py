@@ -5,7 +5,8 @@ import math
 from model.kernel.compiled import inlined, spliced
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import (
-    EMPTY, NOTHING, cargo_at, demand_of, followed, holds, may_be_all, may_follow, plus,
+    EMPTY, NOTHING, barred_on_trip, cargo_at, demand_of, followed, go_together, holds, may_be_all,
+    may_follow, plus, some_apart,
 )
 from model.kernel.shift import allows_stops
 from model.problem import IntArray
@@ -195,17 +196,34 @@ def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> boo
     """
     load, index = NOTHING, p
     while fleet.stop[a, index].kind == CUSTOMER:
-        load = plus(load, demand_of(world.place[fleet.stop[a, index].node]))
+        load = plus(load, demand_of(world.place[0, fleet.stop[a, index].node]))
         index -= 1
     count, index = p - index, q + 1
     while fleet.stop[b, index].kind == CUSTOMER:
-        load = plus(load, demand_of(world.place[fleet.stop[b, index].node]))
+        load = plus(load, demand_of(world.place[0, fleet.stop[b, index].node]))
         index += 1
     kind = world.type[fleet.route[a].type]
     allowed = holds(kind, load) and allows_stops(kind, count + index - q - 1)
     for tier in range(fleet.halt.shape[1]):
         allowed = allowed and is_cargo(world, fleet, a, p, b, q, tier)
     return not allowed
+
+
+@inlined
+def clashes(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
+    """Tell whether goods clash on the trip that `overloads` is asked of."""
+    if not some_apart(world.goods):
+        return False
+    barred, index = 0, p
+    while fleet.stop[a, index].kind == CUSTOMER:
+        barred |= barred_on_trip(world.goods[fleet.stop[a, index].node])
+        index -= 1
+    index = q + 1
+    while fleet.stop[b, index].kind == CUSTOMER:
+        if not go_together(world.goods[fleet.stop[b, index].node], barred, 0):
+            return True
+        index += 1
+    return False
 
 
 @inlined
@@ -229,6 +247,7 @@ def may_swap(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> bool
     """Tell whether tails may be swapped, by what trips carry, how many there are, and to whom."""
     return not (leaves_nothing(fleet, a, p, b, q)
                 or overloads(world, fleet, a, p, b, q) or overloads(world, fleet, b, q, a, p)
+                or clashes(world, fleet, a, p, b, q) or clashes(world, fleet, b, q, a, p)
                 or too_long(world, fleet, a, p, b, q) or too_long(world, fleet, b, q, a, p))
 
 

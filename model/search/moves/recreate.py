@@ -41,7 +41,7 @@ def draw_order(world: World, rng: UIntArray) -> int:
 @inlined
 def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     """Return where a customer comes in an order; least first."""
-    place = world.place[node]
+    place = world.place[0, node]
     if order == BY_COST:
         return -world.unassigned_more[node]
     if order == BY_DEMAND:

@@ -184,7 +184,7 @@ def overloads(world: World, k: int, line: Records, begin: int, end: int) -> bool
     """
     load = NOTHING
     for place in range(begin + 1, end):
-        load = plus(load, demand_of(world.place[line[place].node]))
+        load = plus(load, demand_of(world.place[0, line[place].node]))
     return not holds(world.type[k], load)
 
 

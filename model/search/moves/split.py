@@ -13,11 +13,11 @@ import math
 
 from model.kernel.compiled import inlined, spliced
 from model.kernel.flight import (
-    can_serve, can_wait, drone_service, handling_duration, launch_duration, within_endurance,
+    can_serve, can_wait, handling_duration, launch_duration, within_endurance,
 )
 from model.kernel.leg import leg, legs_of
 from model.kernel.records import Records, record
-from model.kernel.stop import service_duration
+from model.kernel.stop import places_by_air, places_of, service_duration
 from model.problem import FloatArray, UIntArray
 from model.search.route.layout import World
 from model.search.route.randomness import below, uniform
@@ -86,11 +86,12 @@ def shuffle(world: World, line: Records, length: int, rng: UIntArray) -> None:
 def measure(world: World, k: int, line: Records, length: int) -> None:
     """Write what a truck that served the whole line would drive. In place."""
     legs = legs_of(world.leg, world.type[k].travel)
+    places = places_of(world.place, world.type[k])
     line[0].drive = line[0].distance = line[0].grounded = 0
     for j in range(1, length):
         before, node = line[j - 1].node, line[j].node
         way = leg(legs, before, node)
-        served = line[j - 1].drive + service_duration(world.place[before])
+        served = line[j - 1].drive + service_duration(places[before])
         line[j].drive = served + way.duration
         line[j].distance = line[j - 1].distance + way.distance
         line[j].grounded = line[j - 1].grounded
@@ -99,7 +100,7 @@ def measure(world: World, k: int, line: Records, length: int) -> None:
     for j in range(1, length - 1):
         direct = leg(legs, line[j - 1].node, line[j + 1].node)
         line[j].spared_drive = line[j + 1].drive - line[j - 1].drive - direct.duration
-        line[j].spared_drive -= service_duration(world.place[line[j - 1].node])
+        line[j].spared_drive -= service_duration(places[line[j - 1].node])
         line[j].spared_distance = line[j + 1].distance - line[j - 1].distance
         line[j].spared_distance -= direct.distance
 
@@ -115,18 +116,21 @@ def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: i
     node, customer, to = line[i].node, line[flown].node, line[j].node
     drive = line[j].drive - line[i].drive - line[flown].spared_drive
     distance = line[j].distance - line[i].distance - line[flown].spared_distance
-    here, handled = service_duration(world.place[node]), handling_duration(kind)
+    here = service_duration(places_of(world.place, kind)[node])
+    handled = handling_duration(kind)
     driven = drive - here + max(0, here - launch_duration(kind))
     ground = distance * rate.distance + (j - i - 1) * rate.stop
     if (handled + driven) * rate.time + ground >= most:
         return math.inf
     flights = legs_of(world.leg, kind.drone_travel)
-    service = drone_service(kind, world.place[customer])
-    out, home = leg(flights, node, customer), leg(flights, customer, to)
+    homeward = legs_of(world.leg, kind.home_travel)
+    place = places_by_air(world.place, kind)[customer]
+    service = service_duration(place)
+    out, home = leg(flights, node, customer), leg(homeward, customer, to)
     flight = out.duration + service + home.duration
     airborne = max(flight, driven)
     if not within_endurance(kind, 0, flight, airborne) or not can_wait(
-            kind, world.place[customer], out.duration, home.duration, airborne - flight):
+            kind, place, out.duration, home.duration, airborne - flight):
         return math.inf
     return ((handled + airborne) * rate.time + ground
             + airborne * rate.drone_time
@@ -138,10 +142,12 @@ def loop_cost(world: World, k: int, node: int, customer: int) -> float:
     """Return what a flight costs for which the truck waits at a stop."""
     kind, rate = world.type[k], world.rate[k]
     flights = legs_of(world.leg, kind.drone_travel)
-    service = drone_service(kind, world.place[customer])
-    out, home = leg(flights, node, customer), leg(flights, customer, node)
+    homeward = legs_of(world.leg, kind.home_travel)
+    place = places_by_air(world.place, kind)[customer]
+    service = service_duration(place)
+    out, home = leg(flights, node, customer), leg(homeward, customer, node)
     airborne = out.duration + service + home.duration
-    if not world.loops or not can_serve(kind, world.place[customer], out.duration,
+    if not world.loops or not can_serve(kind, place, out.duration,
                                         home.duration):
         return math.inf
     handled = handling_duration(kind)
@@ -155,7 +161,7 @@ def extend(world: World, k: int, line: Records, cost: FloatArray, length: int, i
     rate = world.rate[k]
     legs = legs_of(world.leg, world.type[k].travel)
     here, loops = line[i].node, 0.0
-    service = service_duration(world.place[here])
+    service = service_duration(places_of(world.place, world.type[k])[here])
     for j in range(i + 1, min(length, i + LONGEST_OPERATION + 1)):
         to = line[j].node
         lands = j == length - 1 or world.can[k, 0, to]
@@ -198,6 +204,7 @@ def split(world: World, k: int, line: Records, cost: FloatArray, length: int) ->
 def present_cost(world: World, k: int, line: Records, length: int) -> float:
     """Return what the operations that are noted in the line cost."""
     rate, legs = world.rate[k], legs_of(world.leg, world.type[k].travel)
+    places = places_of(world.place, world.type[k])
     cost, j = 0.0, length - 1
     while j > 0:
         i, flown = line[j].before, line[j].flight
@@ -205,7 +212,7 @@ def present_cost(world: World, k: int, line: Records, length: int) -> float:
             cost += operation_cost(world, k, line, i, j, flown, math.inf)
         else:
             here = line[i].node
-            way, service = leg(legs, here, line[j].node), service_duration(world.place[here])
+            way, service = leg(legs, here, line[j].node), service_duration(places[here])
             cost += (way.duration + service) * rate.time + way.distance * rate.distance
             cost += rate.stop
             for place in range(i + 1, j):

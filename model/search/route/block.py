@@ -3,23 +3,23 @@
 By pairs `(d, c)`, which docs/search.md derives under "Times on a route".
 """
 
-from model.kernel.clock import is_steady, leg_end
+from model.kernel.clock import is_steady, leg_end, setup_beside
 from model.kernel.compiled import inlined
 from model.kernel.energy import (
     after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_hover,
     weight_of,
 )
 from model.kernel.flight import (
-    counted_until, drone_service, earliest_back, endurance_of, held_until, lasting_within,
-    launch_begin, longest_hold, ready, recovery_end, take_off, unreachable,
+    counted_until, earliest_back, endurance_of, held_until, lasting_within,
+    launch_begin, longest_hold, recovery_end, take_off, unreachable,
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
 from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import (
-    allowed_within, are_single, in_same_window, latest_allowed, service_duration, start_within,
-    too_late, waiting,
+    allowed_within, are_single, end_of_service, in_same_window, latest_allowed, places_by_air,
+    places_of, service_duration, start_within, too_late, waiting,
 )
 from model.problem import IntArray
 from model.search.route.layout import CUSTOMER, DONE, END, FLYING, START, WAITING, World
@@ -38,11 +38,13 @@ def origin(world: World, k: int, time: int) -> tuple[int, int]:
 
 
 @inlined
-def travel(world: World, k: int, duration: int, d: int, c: int) -> tuple[int, int]:
-    """Return the pair at the end of a leg of `duration` at full speed."""
+def travel(world: World, k: int, node: int, to: int, duration: int, d: int,
+           c: int) -> tuple[int, int]:
+    """Return the pair at the end of a leg of `duration` at full speed, from `node` to another."""
     if is_steady(world.type[k]):
         return d + duration, c + duration
-    return NONE, leg_end(world.type[k], world.profile_time[k], world.profile_factor[k], duration, c)
+    arrival = leg_end(world.type[k], world.profile_time[k], world.profile_factor[k], duration, c)
+    return NONE, arrival + setup_beside(world.type[k], world.setup, node, to)
 
 
 @inlined
@@ -50,7 +52,7 @@ def serve(world: World, k: int, stop: Record, time: int, d: int, c: int) -> tupl
     """Return the pair at the end of what a truck does at a stop by itself, reached at (d, c)."""
     kind = stop.kind
     if kind == CUSTOMER:
-        place = world.place[stop.node]
+        place = places_of(world.place, world.type[k])[stop.node]
         start_d, start_c = start_within(place, time, d, c)
         return start_d + service_duration(place), start_c + service_duration(place)
     if kind == START:
@@ -66,7 +68,7 @@ def plain_block(world: World, k: int, stop: Record, time: int) -> None:
     stop.d, stop.c = serve(world, k, stop, time, d, c)
     stop.lo, stop.hi, stop.dep = NONE, FAR, FAR
     if stop.kind == CUSTOMER:
-        place = world.place[stop.node]
+        place = world.place[0, stop.node]
         stop.hi = latest_allowed(place)
         stop.dep = in_same_window(place, time)
     elif stop.kind == END:
@@ -81,28 +83,30 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
     have several, that hangs on when it could begin, and is for `soonest_takeoff`.
     """
     kind, single = world.type[k], are_single(world.place)
-    legs = legs_of(world.leg, kind.drone_travel)
+    legs, places = legs_of(world.leg, kind.drone_travel), places_by_air(world.place, kind)
+    homeward = legs_of(world.leg, kind.home_travel)
     for s in range(count):
         sortie = sorties[s]
         node = sortie.home = stops[sortie.recovery].node
         sortie.state, sortie.held, sortie.limit = WAITING, NONE, endurance_of(kind)
         if is_limited(kind):
-            charge(world.place, legs, kind, sortie, stops[sortie.launch].node)
+            charge(places, legs, homeward, kind, sortie, stops[sortie.launch].node)
         if not single:
             continue
-        back = home = 0
+        back, home = 0, leg(homeward, sortie.nodes[sortie.count - 1], node).duration
         for index in range(sortie.count - 1, -1, -1):
             customer = sortie.nodes[index]
-            place = world.place[customer]
-            home += leg(legs, customer, node).duration
-            back = max(back, earliest_back(kind, place, NONE, home))
-            home += drone_service(kind, place)
-            node = customer
+            place = places[customer]
+            back = max(back, earliest_back(place, NONE, home))
+            home += service_duration(place)
+            if index > 0:
+                home += leg(legs, sortie.nodes[index - 1], customer).duration
         sortie.held = held_until(back, sortie.limit)
 
 
 @inlined
-def charge(places: Records, legs: IntArray, kind: Record, sortie: Record, node: int) -> None:
+def charge(places: Records, legs: IntArray, homeward: IntArray, kind: Record, sortie: Record,
+           node: int) -> None:
     """Write what a sortie launched at `node` may hover for, without and before windows. In place.
 
     That is what its flight leaves of its battery.
@@ -110,10 +114,11 @@ def charge(places: Records, legs: IntArray, kind: Record, sortie: Record, node: 
     left, aboard, flown, here = battery_of(kind), 0, 0, sortie.home
     for index in range(sortie.count - 1, -1, -1):
         customer = sortie.nodes[index]
-        place, flight = places[customer], leg(legs, customer, here).duration
+        place, way = places[customer], homeward if index == sortie.count - 1 else legs
+        flight = leg(way, customer, here).duration
         left = after_leg(kind, left, aboard, flight)
         aboard += weight_of(kind, place)
-        service = drone_service(kind, place)
+        service = service_duration(place)
         if hovers_at_customers(kind):
             left = after_hovering(kind, left, aboard, service)
         flown += flight + service
@@ -140,31 +145,31 @@ def hover(places: Records, kind: Record, sortie: Record, acc: Record) -> None:
 
 
 @inlined
-def held_by_windows(places: Records, legs: IntArray, kind: Record, sortie: Record, node: int,
-                    takeoff: int) -> int:
+def held_by_windows(places: Records, legs: IntArray, homeward: IntArray, kind: Record,
+                    sortie: Record, node: int, takeoff: int) -> int:
     """Return until when the windows hold a sortie back that it meets if it leaves at `takeoff`."""
     time, back, here = takeoff, NONE, node
     for index in range(sortie.count):
         customer = sortie.nodes[index]
         place, flight = places[customer], leg(legs, here, customer).duration
-        back = max(back + flight + drone_service(kind, place),
-                   earliest_back(kind, place, time + flight, 0))
-        time = ready(kind, place, time + flight)
+        back = max(back + flight + service_duration(place),
+                   earliest_back(place, time + flight, 0))
+        time = end_of_service(place, time + flight)
         here = customer
-    return held_until(back + leg(legs, here, sortie.home).duration, sortie.limit)
+    return held_until(back + leg(homeward, here, sortie.home).duration, sortie.limit)
 
 
 @inlined
-def soonest_takeoff(places: Records, legs: IntArray, kind: Record, sortie: Record, node: int,
-                    takeoff: int) -> int:
+def soonest_takeoff(places: Records, legs: IntArray, homeward: IntArray, kind: Record,
+                    sortie: Record, node: int, takeoff: int) -> int:
     """Return when a sortie takes off at `node` that can at `takeoff`: then, or held back."""
     takeoff = max(takeoff, sortie.held)
     if are_single(places):
         return takeoff
-    held = held_by_windows(places, legs, kind, sortie, node, takeoff)
+    held = held_by_windows(places, legs, homeward, kind, sortie, node, takeoff)
     while held > takeoff:
         takeoff = held
-        held = held_by_windows(places, legs, kind, sortie, node, takeoff)
+        held = held_by_windows(places, legs, homeward, kind, sortie, node, takeoff)
     return takeoff
 
 
@@ -189,13 +194,13 @@ def reach(place: Records, arrival: int, d: int, c: int, acc: Record) -> bool:
 
 
 @inlined
-def fly_out(places: Records, legs: IntArray, kind: Record, sortie: Record, node: int,
-            acc: Record) -> bool:
+def fly_out(places: Records, legs: IntArray, homeward: IntArray, kind: Record, sortie: Record,
+            node: int, acc: Record) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
     d = take_off(kind, acc.free_d)
     c = take_off(kind, acc.free_c)
     takeoff = max(acc.time + d, c)
-    held = soonest_takeoff(places, legs, kind, sortie, node, takeoff)
+    held = soonest_takeoff(places, legs, homeward, kind, sortie, node, takeoff)
     if held > takeoff:
         c = held
     acc.free_d, acc.free_c = d, c
@@ -211,7 +216,7 @@ def fly_out(places: Records, legs: IntArray, kind: Record, sortie: Record, node:
             return False
         sortie.arrivals[index] = arrival
         d, c = start_within(place, acc.time, d, c)
-        service = drone_service(kind, place)
+        service = service_duration(place)
         d, c = d + service, c + service
         node = customer
     sortie.ready_d, sortie.ready_c = d, c
@@ -223,11 +228,11 @@ def fly_out(places: Records, legs: IntArray, kind: Record, sortie: Record, node:
 
 
 @inlined
-def bring_home(legs: IntArray, kind: Record, sortie: Record, node: int,
+def bring_home(homeward: IntArray, kind: Record, sortie: Record, node: int,
                acc: Record) -> bool:
     """Recover a sortie at `node`. In place; False if endurance or energy forbids it."""
     last = sortie.nodes[sortie.count - 1]
-    flight = leg(legs, last, node).duration
+    flight = leg(homeward, last, node).duration
     back_d, back_c = sortie.ready_d + flight, sortie.ready_c + flight
     begin_d, begin_c = max(acc.free_d, back_d), max(acc.free_c, back_c)
     if unreachable(flight):
@@ -264,8 +269,8 @@ def is_aboard(sorties: Records, index: int, oldest: int) -> bool:
 
 
 @inlined
-def next_operation(places: Records, legs: IntArray, kind: Record, sorties: Records,
-                   count: int, p: int, node: int, acc: Record) -> int:
+def next_operation(places: Records, legs: IntArray, homeward: IntArray, kind: Record,
+                   sorties: Records, count: int, p: int, node: int, acc: Record) -> int:
     """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 
     A drone that is there is recovered before another is launched.
@@ -279,34 +284,35 @@ def next_operation(places: Records, legs: IntArray, kind: Record, sorties: Recor
         if sorties[index].state == FLYING:
             if sorties[index].recovery == p:
                 last = sorties[index].nodes[sorties[index].count - 1]
-                flight = leg(legs, last, node).duration
+                flight = leg(homeward, last, node).duration
                 begin = max(2 * free, 2 * (max(acc.time + sorties[index].ready_d,
                                                sorties[index].ready_c) + flight))
         elif (sorties[index].state == WAITING and sorties[index].launch == p
               and is_aboard(sorties, index, acc.oldest)):
             begin = 2 * launch_begin(kind, soonest_takeoff(
-                places, legs, kind, sorties[index], node, take_off(kind, free))) + 1
+                places, legs, homeward, kind, sorties[index], node, take_off(kind, free))) + 1
         if begin < earliest:
             chosen, earliest = index, begin
     return chosen
 
 
 @inlined
-def operate(places: Records, legs: IntArray, kind: Record, sorties: Records, count: int,
-            p: int, node: int, acc: Record) -> bool:
+def operate(places: Records, legs: IntArray, homeward: IntArray, kind: Record, sorties: Records,
+            count: int, p: int, node: int, acc: Record) -> bool:
     """Launch and recover all that stop `p` asks for. In place; False if not allowed.
 
-    `legs` (origin, to, 2) are flown; `kind` is the row of the vehicle type.
+    `legs` (origin, to, 2) are flown to customers, `homeward` to the truck; `kind` is the row of the
+    vehicle type.
     """
     # The whole world would be copied at each call.
     while True:
-        index = next_operation(places, legs, kind, sorties, count, p, node, acc)
+        index = next_operation(places, legs, homeward, kind, sorties, count, p, node, acc)
         if index < 0:
             break
         if sorties[index].state == FLYING:
-            if not bring_home(legs, kind, sorties[index], node, acc):
+            if not bring_home(homeward, kind, sorties[index], node, acc):
                 return False
-        elif not fly_out(places, legs, kind, sorties[index], node, acc):
+        elif not fly_out(places, legs, homeward, kind, sorties[index], node, acc):
             return False
     for index in range(acc.oldest, count):
         if sorties[index].launch > p:
@@ -341,6 +347,9 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
     """
     vehicle_type = world.type[k]
     flights = legs_of(world.leg, vehicle_type.drone_travel)
+    homeward = legs_of(world.leg, vehicle_type.home_travel)
+    places, by_air = (places_of(world.place, vehicle_type),
+                      places_by_air(world.place, vehicle_type))
     d, c = origin(world, k, time)
     acc.time, acc.hi, acc.lo, acc.dep = time, FAR, NONE, FAR
     acc.oldest, acc.flying, p = oldest, 0, first
@@ -349,13 +358,13 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
         kind, node = stop.kind, stop.node
         stop.arrival, stop.block = max(time + d, c), first
         if kind == CUSTOMER:
-            if not reach(world.place[node], stop.arrival, d, c, acc):
+            if not reach(places[node], stop.arrival, d, c, acc):
                 return -1
         elif kind == START:
             c = max(c, max(stop.release, stop.hold))
         acc.free_d, acc.free_c = d, c
         d, c = serve(world, k, stop, time, d, c)
-        if not operate(world.place, flights, vehicle_type, sorties, count, p, node, acc):
+        if not operate(by_air, flights, homeward, vehicle_type, sorties, count, p, node, acc):
             return -1
         d, c = max(d, acc.free_d), max(c, acc.free_c)
         stop.leave, stop.flying = max(time + d, c), acc.flying
@@ -370,9 +379,9 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
             return -1
         legs = legs_of(world.leg, vehicle_type.travel)
         stop.gap = leg(legs, node, stops[p + 1].node).duration
-        d, c = travel(world, k, stop.gap, d, c)
+        d, c = travel(world, k, node, stops[p + 1].node, stop.gap, d, c)
         p += 1
     stops[first].d, stops[first].c, stops[first].hi = d, c, acc.hi
     stops[first].lo, stops[first].dep = acc.lo, acc.dep
-    note_idle(world.place, stops, first, p)
+    note_idle(places, stops, first, p)
     return p

@@ -36,9 +36,9 @@ def flown(world: World, k: int, sortie: Record, place: int, node: int,
 def can_carry(world: World, k: int, sortie: Record, place: int, node: int) -> bool:
     """Tell whether a drone of type `k` may carry what a sortie does, as in `flown`."""
     if num_tiers(world.amount) == 0:
-        load = demand_of(world.place[node]) if place >= 0 else NOTHING
+        load = demand_of(world.place[0, node]) if place >= 0 else NOTHING
         for visit in range(sortie.count):
-            load = plus(load, demand_of(world.place[sortie.nodes[visit]]))
+            load = plus(load, demand_of(world.place[0, sortie.nodes[visit]]))
         return lifts(world.type[k], load, 0)
     for tier in range(num_tiers(world.amount)):
         _, may = flown(world, k, sortie, place, node, tier)

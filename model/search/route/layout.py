@@ -43,9 +43,10 @@ SORTIE = record(
 """Where it begins and ends; its customers, and when it reaches them; what `block` knows of it."""
 WAITING, FLYING, DONE = range(3)
 
-TRIP = record("first", "last", "release", "distance", load=TIER)
+TRIP = record("first", "last", "release", "distance", "barred", load=TIER)
 
-ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "offset", "stamp")
+ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "offset", "stamp",
+               "barred")
 
 CHANGING = 0
 """Stamp of a route that this turn changes; any other stands for what the route in the slot is."""
@@ -93,9 +94,12 @@ class World(NamedTuple):
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that
     unequal: bool  # leaving out some costs more than others
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
-    place: Records  # (node,) NODE
+    place: Records  # (variant, node, row) NODE
     amount: IntArray  # (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
     price: Records  # (node,) PRICE, per ms
+    goods: Records  # (node,) GOODS, none where all go together
+    setup: Records  # (node,) SETUP, none where nobody sets up
+    fresh_for: IntArray  # (node,) ms, none where nothing is limited
     type: Records  # (type,) TYPE
     rate: Records  # (type,) RATE, per mm and per ms
     mode: IntArray  # (type,) MODE_ flags

@@ -5,7 +5,7 @@ from model.kernel.leg import leg, legs_of
 from model.kernel.load import demand_of
 from model.kernel.records import Records
 from model.kernel.start import leaves_first
-from model.kernel.stop import end_of_service, latest_arrival, too_late
+from model.kernel.stop import end_of_service, latest_arrival, places_of, too_late
 from model.search.route.halts import weigh
 from model.search.route.layout import CUSTOMER, NOWHERE, Fleet, World, clear_trip, copy_lean
 from model.search.route.vehicles import add_load, may_make, route_cost
@@ -17,7 +17,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     route, stops, trip = fleet.route[slot], fleet.stop[slot], fleet.trip[slot, 0]
     k, last = route.type, route.length - 1
     kind = world.type[k]
-    legs = legs_of(world.leg, kind.travel)
+    legs, places = legs_of(world.leg, kind.travel), places_of(world.place, kind)
     clear_trip(trip)
     route.trips, trip.last = 1, last
     time, node = leaves_first(kind, kind.shift_earliest), stops[0].node
@@ -30,7 +30,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
         time += way.duration
         node = following
         if p < last:
-            place = world.place[node]
+            place = places[node]
             if too_late(place, time):
                 return False
             time = end_of_service(place, time)
@@ -42,7 +42,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
     latest = kind.shift_latest
     stops[last].latest = latest
     for p in range(last - 1, 0, -1):
-        latest = latest_arrival(world.place[stops[p].node], latest - stops[p].gap)
+        latest = latest_arrival(places[stops[p].node], latest - stops[p].gap)
         stops[p].latest = latest
     stops[0].latest = latest - stops[0].gap
     fleet.cost[slot] = route_cost(world, k, trip)
@@ -80,26 +80,26 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     trip.last += 1
     trip.distance += detour
     fleet.cost[slot] += detour * world.rate[k].distance + world.rate[k].stop
-    add_load(trip, demand_of(world.place[node]))
-    spread(world, stops, trip.last, p + 1)
+    add_load(trip, demand_of(world.place[0, node]))
+    spread(places_of(world.place, world.type[k]), stops, trip.last, p + 1)
     if fleet.halt.shape[1] > 0:
         weigh(world, fleet, slot)
 
 
 @spliced
-def spread(world: World, stops: Records, last: int, p: int) -> None:
+def spread(places: Records, stops: Records, last: int, p: int) -> None:
     """Bring departures behind a new stop `p`, and latest arrivals before, up to date. In place."""
     time = stops[p - 1].leave
     for q in range(p, last + 1):
         time += stops[q - 1].gap
         if q < last:
-            time = end_of_service(world.place[stops[q].node], time)
+            time = end_of_service(places[stops[q].node], time)
         if q > p and stops[q].leave == time:
             break
         stops[q].leave = time
     latest = stops[p + 1].latest
     for q in range(p, 0, -1):
-        latest = latest_arrival(world.place[stops[q].node], latest - stops[q].gap)
+        latest = latest_arrival(places[stops[q].node], latest - stops[q].gap)
         if q < p and stops[q].latest == latest:
             return
         stops[q].latest = latest

@@ -1,13 +1,16 @@
 """Bringing a route up to date after its sequence has changed."""
 
-from model.kernel.clock import is_steady, leg_start
+from model.kernel.clock import is_steady, leg_start, setup_beside
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import FAR, NONE
+from model.kernel.load import some_apart, some_limited
 from model.kernel.records import Record, Records
-from model.kernel.start import counted_from, leaves_first
-from model.kernel.stop import latest_free_arrival
+from model.kernel.start import counted_from
+from model.kernel.stop import latest_free_arrival, places_of
 from model.problem import UIntArray
 from model.search.route.ends import is_apart, nearest_reload
+from model.search.route.freshness import any_too_long, departure_of, hold_trips
+from model.search.route.goods import take_goods
 from model.search.route.halts import load_cost, weigh
 from model.search.route.layout import (
     CUSTOMER, ELSEWHERE, END, MODE_LEAN, MODE_LOADED, MODE_RETIMED, MODE_SETTLED, NOWHERE, START,
@@ -59,6 +62,7 @@ def latest_by_stops(world: World, route: Record, stops: Records, sorties: Record
                       first: int) -> int:
     """Return the latest start of a trip that costs nothing, by each stop's last arrival."""
     k, length = route.type, route.length
+    places = places_of(world.place, world.type[k])
     leave = FAR
     p = length - 1
     while p >= first:
@@ -68,8 +72,7 @@ def latest_by_stops(world: World, route: Record, stops: Records, sorties: Record
         if p == length - 1 and plain:
             leave = stop.leave
         if plain and stop.kind == CUSTOMER:
-            place = world.place[stop.node]
-            arrival = latest_free_arrival(place, stop.arrival, leave)
+            arrival = latest_free_arrival(places[stop.node], stop.arrival, leave)
         elif plain:
             arrival = leave
         leave = arrival
@@ -78,6 +81,7 @@ def latest_by_stops(world: World, route: Record, stops: Records, sorties: Record
             if stop.kind == START:
                 leave = arrival - gap
             else:
+                arrival -= setup_beside(world.type[k], world.setup, stops[p - 1].node, stop.node)
                 leave = leg_start(world.type[k], world.profile_time[k], world.profile_factor[k],
                                   gap, arrival)
         p -= 1
@@ -102,7 +106,8 @@ def settle(world: World, route: Record, stops: Records, trips: Records, sorties:
         if hold > max(stop.arrival, stop.release):
             end = route.end
             stop.hold = hold
-            if not drive_forward(world, route, stops, sorties, acc) or route.end > end:
+            if (not drive_forward(world, route, stops, sorties, acc) or route.end > end
+                    or any_too_long(world, route, stops, trips, sorties)):
                 # Drones in another order of arrival took longer.
                 stop.hold = NONE
                 if not drive_forward(world, route, stops, sorties, acc):
@@ -113,14 +118,7 @@ def settle(world: World, route: Record, stops: Records, trips: Records, sorties:
 @inlined
 def settled_departure(world: World, route: Record, stops: Records, sorties: Records) -> int:
     """Return when truck or drone first leaves the depot on a settled route."""
-    depart, kind = FAR, world.type[route.type]
-    for s in range(route.sorties):
-        if sorties[s].launch == 0:
-            depart = min(depart, sorties[s].takeoff)
-    if depart == FAR:
-        depart = max(stops[0].arrival, max(stops[0].release, stops[0].hold))
-        depart = leaves_first(kind, depart)
-    return counted_from(kind, depart)
+    return counted_from(world.type[route.type], departure_of(world, route, stops, sorties, 0))
 
 
 @inlined
@@ -164,10 +162,14 @@ def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     mode = world.mode[route.type]
     if not load_trips(world, route, stops, trips, sorties):
         return False
+    if some_apart(world.goods) and not take_goods(world.goods, route, stops, trips, sorties):
+        return False
     if fleet.halt.shape[1] > 0 and not weigh(world, fleet, slot):
         return False
     clear_holds(route, stops, trips)
     if not drive_forward(world, route, stops, sorties, acc):
+        return False
+    if some_limited(world.fresh_for) and not hold_trips(world, route, stops, trips, sorties, acc):
         return False
     depart = first_departure(world, route, stops, sorties)
     if mode & MODE_SETTLED:

@@ -8,7 +8,7 @@ from model.kernel.load import demand_of, release_of
 from model.kernel.records import Record, Records
 from model.kernel.shift import allows_sorties, overtime
 from model.kernel.start import counted_from, has_begun
-from model.kernel.stop import are_single, latest_arrival, lateness, waiting
+from model.kernel.stop import are_single, lateness, latest_arrival, places_of, waiting
 from model.search.route.block import make_ready, plain_block, time_block, travel
 from model.search.route.ends import is_apart, place_ends
 from model.search.route.layout import CUSTOMER, END, MODE_PRICED, START, World, clear_trip
@@ -18,7 +18,7 @@ from model.search.route.vehicles import add_load, may_make
 @inlined
 def carry(world: World, trip: Record, node: int) -> None:
     """Put a customer's parcel on a trip. In place."""
-    place = world.place[node]
+    place = world.place[0, node]
     trip.release = max(trip.release, release_of(place))
     add_load(trip, demand_of(place))
 
@@ -100,7 +100,7 @@ def drive_forward(world: World, route: Record, stops: Records, sorties: Records,
         if behind.kind == END:
             time += behind.gap
         else:
-            _, time = travel(world, k, behind.gap, NONE, leave)
+            _, time = travel(world, k, behind.node, stops[last + 1].node, behind.gap, NONE, leave)
         cum += behind.gap
         p = last + 1
     route.end, route.cum = stops[length - 1].leave, stops[length - 1].cum
@@ -114,7 +114,8 @@ def look_back(world: World, route: Record, stops: Records) -> None:
     As docs/search.md derives under "Times on a route".
     """
     latest, earliest, rest, end = FAR, NONE, 0, NONE
-    single = are_single(world.place)
+    places = places_of(world.place, world.type[route.type])
+    single = are_single(places)
     q = route.length - 1
     gap = 0
     while q >= 0:
@@ -130,7 +131,7 @@ def look_back(world: World, route: Record, stops: Records) -> None:
         latest = min(stop.hi, leave - d)
         if stop.kind == CUSTOMER and not single:
             # No drone flies, or the route would be retimed.
-            latest = latest_arrival(world.place[stop.node], leave)
+            latest = latest_arrival(places[stop.node], leave)
         earliest = early
         end = max(c + gap + rest, end)
         rest += d + gap
@@ -148,13 +149,13 @@ def open_up(route: Record, stops: Records) -> None:
 @spliced
 def lateness_cost(world: World, node: int, arrival: int) -> float:
     """Return what being late at a customer costs; nothing at a depot."""
-    return lateness(world.place[node], arrival) * world.price[node].lateness
+    return lateness(world.place[0, node], arrival) * world.price[node].lateness
 
 
 @spliced
 def waiting_cost(world: World, node: int, arrival: int) -> float:
     """Return what being early at a customer costs."""
-    return waiting(world.place[node], arrival) * world.price[node].waiting
+    return waiting(world.place[0, node], arrival) * world.price[node].waiting
 
 
 @spliced

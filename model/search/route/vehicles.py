@@ -61,7 +61,7 @@ def may_fit(world: World, fleet: Fleet, slot: int, index: int, k: int, node: int
     Where more than its load tells, that hangs on where the customer is served: see `has_room`.
     """
     kind, trip = world.type[k], fleet.trip[slot, index]
-    if not fits(kind, load_of(trip), world.place[node]):
+    if not fits(kind, load_of(trip), world.place[0, node]):
         return False
     for tier in range(fleet.halt.shape[1]):
         halts = fleet.halt[slot, tier]

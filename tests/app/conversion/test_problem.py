@@ -8,8 +8,9 @@ import pytest
 
 from app.conversion.leaving_out import default_unassigned_cost
 from app.conversion.problem import to_problem
+from app.conversion.travels import Travels
 from app.requests.reading import read_request
-from model.problem import UNLIMITED, UNREACHABLE, Overtime, Problem, SpeedProfile
+from model.problem import UNLIMITED, UNREACHABLE, IncompatibleGoods, Overtime, Problem, SpeedProfile
 
 Request = dict[str, Any]
 
@@ -230,6 +231,62 @@ def test_without_locations_the_policy_sees_an_embedding(smallest: Request) -> No
     smallest["matrices"] = {"truck": {"durations": table, "distances": table}}
     points = problem_of(smallest).coordinates
     assert np.hypot(*(points[1] - points[2])) == pytest.approx(4000)
+
+
+def test_service_durations_by_type_are_the_trucks_and_the_drones(smallest: Request) -> None:
+    smallest["fleet"][0]["drones"] = {"count": 1, "capacity": [1], "service_duration": 40}
+    kind, (one, *_) = smallest["fleet"][0]["id"], smallest["customers"]
+    one |= {"service_duration": 60, "service_duration_by_type": {kind: 120, f"{kind}/drone": 30.5}}
+    problem = problem_of(smallest)
+    truck, (first, second) = problem.vehicle_types[0], problem.customers[:2]
+    assert truck.drones is not None
+    assert (truck.service_at(first), truck.drones.service_at(first)) == (120_000, 30_500)
+    assert (truck.service_at(second), truck.drones.service_at(second)) == (0, 40_000)
+
+
+def test_setups_are_spared_at_one_place(smallest: Request) -> None:
+    first, second = smallest["customers"]
+    first |= {"setup_duration": 90, "location": second["location"]}
+    second["setup_duration"] = 60
+    problem = problem_of(smallest)
+    assert problem.setup_between(0, 1) == 90_000
+    assert problem.setup_between(0, 2) == 60_000
+    assert problem.setup_between(1, 2) == problem.setup_between(2, 0) == 0
+    for place, index in zip([*smallest["depots"], *smallest["customers"]], (1, 0, 1), strict=True):
+        place["location_index"] = index
+    table = [[0, 10], [20, 0]]
+    smallest["matrices"] = {"truck": {"durations": table, "distances": table}}
+    problem = problem_of(smallest)
+    assert (problem.setup_between(0, 2), problem.setup_between(1, 2)) == (0, 60_000)
+
+
+def test_flights_back_are_legs_of_their_own_where_somebody_sets_up(smallest: Request) -> None:
+    def ways() -> int:
+        return Travels(read_request(json.dumps(smallest).encode(), policies=None)).count()
+
+    smallest["fleet"][0]["drones"] = {"count": 1, "capacity": [1]}
+    assert ways() == 2
+    smallest["customers"][0]["setup_duration"] = 1
+    assert ways() == 3
+
+
+def test_open_ends_and_vehicles_own_places_have_sites_too(smallest: Request) -> None:
+    first, second = smallest["customers"]
+    first["setup_duration"] = second["setup_duration"] = 60
+    smallest["fleet"][0] |= {"start_location": first["location"], "end": "open"}
+    problem = problem_of(smallest)
+    assert [depot.kind for depot in problem.depots] == ["depot", "start", "nowhere"]
+    assert [problem.setup_between(depot, 3) for depot in range(3)] == [60_000, 0, 60_000]
+    assert problem.setup_between(1, 4) == problem.setup_between(3, 4) == 60_000
+
+
+def test_goods_that_must_not_go_together_are_read(smallest: Request) -> None:
+    smallest["customers"][0]["goods"] = ["food", "ice"]
+    smallest["incompatible_goods"] = [{"goods": ["food", "paint"], "scope": "vehicle"}]
+    problem = problem_of(smallest)
+    assert problem.customers[0].goods == {"food", "ice"}
+    assert problem.incompatible_goods == (
+        IncompatibleGoods(frozenset({"food", "paint"}), "vehicle"),)
 
 
 def test_leaving_a_customer_out_costs_more_than_any_detour(smallest: Request) -> None:

@@ -10,7 +10,9 @@ from model.judge.past import Vehicle
 from model.judge.screening import Screen
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Solution
-from tests.model.tiny import draw_tiny, with_gaps, with_own_costs, with_table
+from tests.model.tiny import (
+    draw_tiny, with_gaps, with_limits_aboard, with_own_costs, with_setups, with_table,
+)
 
 MINUTE = 60_000
 
@@ -142,6 +144,7 @@ def test_what_is_said_is_what_the_judge_says(seed):
     problem = with_own_costs(rng, draw_tiny(rng))
     problem = with_gaps(rng, problem, 0.4) if seed % 2 else problem
     problem = with_table(rng, problem) if seed % 3 == 0 else problem
+    problem = with_limits_aboard(rng, with_setups(rng, problem)) if seed % 4 == 3 else problem
     solution = greedy(problem)
     assert check(problem, solution).is_feasible
     for node in range(problem.num_depots, problem.num_nodes):

@@ -8,6 +8,7 @@ from model.judge.bench import Bench
 from model.judge.binding import find_binding
 from model.judge.check import check
 from model.problem import MICROJOULES_PER_WH, Energy, Overtime
+from model.solution import Solution, Trip
 from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
 from tests.model.tiny import draw_tiny, with_duty
 
@@ -46,6 +47,26 @@ def test_minute_of_the_shift_or_of_work_lets_others_stay_at_home(tiny_problem, c
     problem = tiny_problem(*customers, truck=replace(limits, latest=10**9,
                                                      max_working_duration=35 * MINUTE))
     assert binding(problem, solution, D)["max_working_duration"] == (14.0, pytest.approx(6.0))
+
+
+def test_setup_counts_before_a_window_though_the_plan_does_not_state_it(tiny_problem, customers,
+                                                                         truck):
+    a, b, c, d = customers
+    problem = tiny_problem(replace(a, setup_duration=2 * MINUTE, latest=4 * MINUTE), b, c, d,
+                           truck=truck)
+    timed, = plan(problem, route(A, start=0)).routes
+    stops = tuple(replace(stop, setup=0) for stop in timed.trips[0].stops)
+    stated = Solution((replace(timed, trips=(Trip(stops),)),), (B, C, D))
+    assert binding(problem, stated, A) == {"time_window.latest": (0.0, 0.0)}
+
+
+def test_minute_aboard_saves_what_it_costs_to_come_sooner(tiny_problem, customers, truck):
+    a, b, c, d = customers
+    problem = tiny_problem(a, b, c, replace(d, max_time_aboard=17 * MINUTE),
+                           truck=replace(truck, cost_per_km=1.0))
+    solution = plan(problem, route(A, B, C), route(D, vehicle=1))
+    # Behind a and b, and before c, d is served after 18 minutes; before b, it is a detour of 2 km.
+    assert binding(problem, solution, D)["max_time_aboard"] == (9.0, pytest.approx(2.0))
 
 
 def test_minute_of_overtime_or_a_stop_more_lets_others_stay_at_home(tiny_problem, customers,

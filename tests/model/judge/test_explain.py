@@ -6,7 +6,7 @@ import pytest
 from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    MAX_MONEY, MAX_QUANTITY, UNREACHABLE, Overtime, SpeedProfile, Travel,
+    MAX_MONEY, MAX_QUANTITY, UNREACHABLE, IncompatibleGoods, Overtime, SpeedProfile, Travel,
 )
 from model.solution import Solution
 from tests.model.remedies import applied
@@ -97,6 +97,34 @@ def serve(problem, *nodes):
     """One vehicle for each node."""
     return tuple(schedule(problem, RouteDecision(0, vehicle, (TripDecision((0, node, 0)),)))
                  for vehicle, node in enumerate(nodes))
+
+
+def test_a_setup_makes_it_late(tiny_problem, customers, truck):
+    *others, d = customers
+    problem = tiny_problem(
+        *others, replace(d, setup_duration=2 * MINUTE, latest=9 * MINUTE), truck=truck)
+    assert reason_for_d(problem) == Reason(
+        0, "TIME_WINDOW", "The earliest arrival is 1 minute after its window closes.",
+        "fits if its window closed 1 minute later")
+
+
+def test_a_parcel_is_aboard_too_long(tiny_problem, customers, truck):
+    *others, d = customers
+    # the way to d takes 8 minutes, from whenever the truck leaves
+    problem = tiny_problem(
+        *others, replace(d, max_time_aboard=7 * MINUTE, earliest=60 * MINUTE), truck=truck)
+    assert reason_for_d(problem) == Reason(
+        0, "TIME_ABOARD", "Its parcel would be aboard 1 minute longer than it may be.",
+        "fits if it could be aboard 1 minute longer")
+
+
+def test_goods_of_one_customer_may_not_go_together(tiny_problem, customers, truck):
+    *others, d = customers
+    problem = replace(
+        tiny_problem(*others, replace(d, goods=frozenset({"food", "paint", "ice"})), truck=truck),
+        incompatible_goods=(IncompatibleGoods(frozenset({"paint", "food"})),))
+    assert reason_for_d(problem) == Reason(
+        0, "GOODS", "Its own food and paint may not be carried together.")
 
 
 def test_one_more_vehicle_would_do(tiny_problem, customers, truck):

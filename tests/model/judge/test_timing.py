@@ -156,6 +156,60 @@ def test_loop_at_the_depot_needs_no_driving(tiny_problem, customers, truck, dron
     assert trip.stops == (stop_at(0, 0, 0, 13), stop_at(0, 13, 13, 13))
 
 
+def test_service_takes_trucks_and_drones_of_a_type_their_own_time(
+    tiny_problem, customers, truck, drones
+):
+    flown = replace(drones, service_duration=7 * MINUTE, service_durations={"c": 2 * MINUTE})
+    slow = replace(truck, service_durations={"a": 4 * MINUTE, "c": 9 * MINUTE}, drones=flown)
+    problem = tiny_problem(*customers, truck=slow)
+    trip = one_trip(problem, TripDecision((0, 1, 2, 0), (SortieDecision((3,), 1, 2),)))
+    assert trip.stops[1:3] == (stop_at(1, 2, 2, 6), stop_at(2, 8, 8, 13))
+    assert trip.sorties[0].visits == (Visit(3, *minutes(5, 5, 7)),)
+    trip = one_trip(problem, TripDecision((0, 1, 2, 0), (SortieDecision((4,), 1, 2),)))
+    visit, = trip.sorties[0].visits
+    assert visit.departure - visit.arrival == 7 * MINUTE
+
+
+def test_whoever_comes_from_elsewhere_sets_up_first(tiny_problem, customers, truck, drones):
+    a, b, c, d = customers
+    a = replace(a, setup_duration=3 * MINUTE, site=1, earliest=4 * MINUTE, latest=5 * MINUTE)
+    b = replace(b, setup_duration=9 * MINUTE, site=1)
+    c = replace(c, setup_duration=2 * MINUTE)
+    problem = tiny_problem(a, b, c, d, truck=replace(truck, drones=drones))
+    decision = TripDecision((0, 1, 2, 0), (SortieDecision((3,), 1, 2),))
+    route = schedule(problem, RouteDecision(0, 0, (decision,)))
+    trip = route.trips[0]
+    # b is where a is; the launch waits for the setup at a
+    assert trip.stops[1:3] == (stop_at(1, 2, 5, 10), stop_at(2, 12, 12, 17))
+    assert [stop.setup for stop in trip.stops] == list(minutes(0, 3, 0, 0))
+    assert trip.sorties[0].launch_time == 6 * MINUTE
+    assert trip.sorties[0].visits == (Visit(3, *minutes(8, 10, 15)),)
+    assert trip.sorties[0].visits[0].setup == 2 * MINUTE
+    assert check(problem, Solution((route,), (4,))).violations == ()
+    late = tiny_problem(replace(a, latest=5 * MINUTE - 1), b, c, d, truck=problem.vehicle_types[0])
+    violation, = check(late, Solution((route,), (4,))).violations
+    assert (violation.code, violation.path) == ("TIME_WINDOW", "routes[0].trips[0].stops[1]")
+
+
+def test_a_trip_leaves_as_late_as_parcels_have_to_be_fresh(tiny_problem, customers, truck, drones):
+    a, b, c, d = customers
+    b = replace(b, earliest=40 * MINUTE, max_time_aboard=10 * MINUTE)
+    c = replace(c, max_time_aboard=5 * MINUTE)
+    problem = tiny_problem(a, b, c, d, truck=replace(truck, max_trips=2, drones=drones))
+    trips = (TripDecision((0, 4, 0)), TripDecision((0, 1, 2, 0), (SortieDecision((3,), 1, 2),)))
+    route = schedule(problem, RouteDecision(0, 0, trips))
+    # back at 21, and b opens at 40: to leave at 30 is soon enough; c is flown to by 35
+    assert route.trips[1].stops[:3] == (stop_at(0, 30, 30, 30), stop_at(1, 32, 32, 37),
+                                        stop_at(2, 39, 40, 45))
+    assert check(problem, Solution((route,))).violations == ()
+    fresher = tiny_problem(a, b, replace(c, max_time_aboard=5 * MINUTE - 1), d,
+                           truck=problem.vehicle_types[0])
+    late = schedule(fresher, RouteDecision(0, 0, trips))
+    violation, = check(fresher, Solution((late,))).violations
+    assert (violation.code, violation.path) == (
+        "TIME_ABOARD", "routes[0].trips[1].sorties[0].visits[0]")
+
+
 def test_two_drones_are_launched_and_recovered_one_after_another(
     tiny_problem, customers, truck, drones
 ):

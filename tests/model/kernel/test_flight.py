@@ -7,22 +7,24 @@ from model.judge.timing import RouteDecision, SortieDecision, TripDecision, sche
 from model.kernel.compiled import compiled
 from model.kernel.flight import (
     can_serve, counted_until, endurance_of, handling_duration, held_takeoff, lasting_within,
-    launch_begin, launch_duration, ready, recovery_end, take_off, unreachable, within_endurance,
+    launch_begin, launch_duration, recovery_end, take_off, unreachable, within_endurance,
     within_energy,
 )
 from model.kernel.instance import pack
 from model.kernel.records import Record, Records
+from model.kernel.stop import end_of_service, places_by_air
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.solution import Solution
 from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_energy, with_gaps
 
 
 @compiled
-def flown(kind: Record, place: Records, begin: int, out: int,
+def flown(kind: Record, places: Records, node: int, begin: int, out: int,
           home: int) -> tuple[int, int, int, int]:
+    place = places_by_air(places, kind)[node]
     takeoff = held_takeoff(kind, place, take_off(kind, begin), out, home)
     arrival = takeoff + out
-    back = ready(kind, place, arrival) + home
+    back = end_of_service(place, arrival) + home
     return takeoff, arrival, back, recovery_end(kind, back)
 
 
@@ -32,8 +34,9 @@ def is_short_enough(kind: Record, takeoff: int, back: int, begin: int) -> bool:
 
 
 @compiled
-def lasts(kind: Record, place: Records, out: int, home: int) -> tuple[bool, bool]:
-    return can_serve(kind, place, out, home), unreachable(out) or unreachable(home)
+def lasts(kind: Record, places: Records, node: int, out: int, home: int) -> tuple[bool, bool]:
+    return (can_serve(kind, places_by_air(places, kind)[node], out, home),
+            unreachable(out) or unreachable(home))
 
 
 @compiled
@@ -43,9 +46,9 @@ def enduring(kind: Record, takeoff_d: int, takeoff_c: int, d: int,
 
 
 @compiled
-def is_charged(kind: Record, place: Records, out: int, home: int, takeoff: int, served: int,
-               begin: int) -> bool:
-    return within_energy(kind, place, out, home, takeoff, served, begin)
+def is_charged(kind: Record, places: Records, node: int, out: int, home: int, takeoff: int,
+               served: int, begin: int) -> bool:
+    return within_energy(kind, places_by_air(places, kind)[node], out, home, takeoff, served, begin)
 
 
 @compiled
@@ -82,11 +85,11 @@ def test_a_sortie_is_timed_and_allowed_as_the_judge_says() -> None:
         route = schedule(problem, RouteDecision(0, 0, (decision,)))
         sortie, = route.trips[0].sorties
         instance = pack([problem])
-        kind, place = instance.type[0, 0], instance.node[0, node]
-        if not lasts(kind, place, out, home)[0]:
+        kind, places = instance.type[0, 0], instance.node[0]
+        if not lasts(kind, places, node, out, home)[0]:
             too_long += 1
             continue
-        takeoff, arrival, back, end = flown(kind, place, start, out, home)
+        takeoff, arrival, back, end = flown(kind, places, node, start, out, home)
         assert (takeoff, arrival, end) == (sortie.launch_time, sortie.visits[0].arrival,
                                            sortie.recovery_time)
         assert back == sortie.visits[0].departure + home == sortie.recovery_start
@@ -94,7 +97,7 @@ def test_a_sortie_is_timed_and_allowed_as_the_judge_says() -> None:
                        if other != node)
         codes = {v.code for v in check(problem, Solution((route,), others)).violations}
         assert is_short_enough(kind, takeoff, back, back) == ("ENDURANCE" not in codes)
-        charged = is_charged(kind, place, out, home, takeoff, back - home, back)
+        charged = is_charged(kind, places, node, out, home, takeoff, back - home, back)
         assert charged == ("ENERGY" not in codes)
         fine, held = fine + ("ENDURANCE" not in codes), held + (
             takeoff > start + drones.launch_duration)
@@ -114,9 +117,9 @@ def test_waiting_for_the_recovery_counts_where_it_is_said_to() -> None:
 def test_a_flight_that_nobody_can_fly_never_lasts() -> None:
     for problem, _, node, _ in drawn(seed=13, count=40):
         instance = pack([problem])
-        kind, place = instance.type[0, 0], instance.node[0, node]
+        kind, places = instance.type[0, 0], instance.node[0]
         for out, home in ((UNREACHABLE, 0), (0, UNREACHABLE)):
-            assert lasts(kind, place, out, home) == (False, True)
+            assert lasts(kind, places, node, out, home) == (False, True)
 
 
 def test_launch_and_recovery_take_what_the_drone_says() -> None:

@@ -32,9 +32,9 @@ def test_columns_state_limits_windows_and_demands(tiny_problem, customers, truck
                            more_types=(replace(truck, max_working_duration=7, drones=drones),))
     instance = pack([problem])
     assert instance.size.tolist() == [(1, 2, 2, 1)]
-    assert instance.node[0, 1:, 0]["window_latest"].tolist() == [5, UNLIMITED]
-    assert instance.node[0, 1:, 0]["arrival_limit"].tolist() == [FAR, UNLIMITED]
-    assert instance.node[0, 1:, 0]["demand"][:, 0].tolist() == [1000, 1000]
+    assert instance.node[0, 0, 1:, 0]["window_latest"].tolist() == [5, UNLIMITED]
+    assert instance.node[0, 0, 1:, 0]["arrival_limit"].tolist() == [FAR, UNLIMITED]
+    assert instance.node[0, 0, 1:, 0]["demand"][:, 0].tolist() == [1000, 1000]
     assert instance.price[0, 1].tolist() == (2.0, 0.0)
     assert instance.type[0]["max_working_duration"].tolist() == [UNLIMITED, 7]
     assert instance.type[0]["capacity"][:, 0].tolist() == [10_000, 10_000]

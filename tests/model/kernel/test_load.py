@@ -63,7 +63,7 @@ def test_loads_fit_in_all_dimensions_or_not_at_all() -> None:
         load = np.sum([problem.customer_at(node).demand for node in nodes], axis=0)
         held = bool((load <= kind.capacity).all())
         lifted = bool((load <= (kind.drones.capacity if kind.drones else 0)).all())
-        assert judged(vehicle_type, pack([problem]).node[0][nodes]) == (held, held, lifted)
+        assert judged(vehicle_type, pack([problem]).node[0, 0][nodes]) == (held, held, lifted)
         seen.add((held, lifted))
     assert seen >= {(True, True), (True, False), (False, False)}
 
@@ -72,7 +72,7 @@ def test_what_is_left_is_what_was_there_less_the_demand() -> None:
     for problem, vehicle_type, nodes in drawn(seed=22):
         kind, demand = problem.vehicle_types[0], problem.customer_at(nodes[0]).demand
         inside = all(one <= most for one, most in zip(demand, kind.capacity, strict=True))
-        assert left(vehicle_type, pack([problem]).node[0, nodes[0]]) == (
+        assert left(vehicle_type, pack([problem]).node[0, 0, nodes[0]]) == (
             inside, sum(demand), sum(kind.capacity) - sum(demand))
 
 

@@ -55,7 +55,7 @@ def drawn(seed: int, count: int = 150) -> list[tuple[Problem, int, Records, int]
         if len(found) % 2:
             problem = with_gaps(rng, problem)
         node = int(rng.integers(problem.num_depots, problem.num_nodes))
-        found.append((problem, node, pack([problem]).node[0, node],
+        found.append((problem, node, pack([problem]).node[0, 0, node],
                       int(rng.integers(0, 70)) * MINUTE))
     return found
 

@@ -90,7 +90,7 @@ def test_features_are_free_of_units(problems: list[Problem], alone: list[Batch],
 def test_padding_has_no_effect(problems: list[Problem], alone: list[Batch]) -> None:
     for first in range(0, len(problems), 16):
         together = roll(problems[first : first + 16], seed=4)
-        width = together.instance.node.shape[1]
+        width = together.instance.node.shape[2]
         for row, one in enumerate(alone[first : first + 16]):
             nodes, kinds = one.tokens.node.shape[1], one.tokens.type.shape[1]
             np.testing.assert_array_equal(together.tokens.node[row, :nodes], one.tokens.node[0])

@@ -14,8 +14,8 @@ from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
 from tests.model.tiny import (
-    draw_late, draw_tiny, with_duty, with_energy, with_open_ends, with_open_reloads, with_pickups,
-    with_reloads, with_table,
+    draw_late, draw_tiny, with_duty, with_energy, with_goods, with_limits_aboard, with_open_ends,
+    with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups, with_table,
 )
 from training.instances import VARIANTS, generate
 
@@ -224,6 +224,23 @@ def test_tiny_plans_go_on_from_place_to_place(
     # Who begins no more trips may stay where the last one was to end.
     replan_and_check(planner, change(rng, draw_tiny(rng)), rng,
                      ("TIME_MISMATCH", "RELEASE", "DEPOT"))
+
+
+def with_all_at_once(rng: np.random.Generator, problem: Problem) -> Problem:
+    for change in (with_own_durations, with_goods, with_setups, with_pickups):
+        if rng.random() < 0.5:
+            problem = change(rng, problem)
+    return with_limits_aboard(rng, problem)
+
+
+@pytest.mark.parametrize("change", [
+    with_own_durations, with_goods, with_setups, with_limits_aboard, with_all_at_once])
+@pytest.mark.parametrize("seed", range(25))
+def test_tiny_plans_go_on_by_what_else_is_stated(
+        planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],
+        seed: int) -> None:
+    rng = np.random.default_rng((seed, 10))
+    replan_and_check(planner, change(rng, draw_tiny(rng)), rng)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)

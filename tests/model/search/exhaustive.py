@@ -76,7 +76,7 @@ def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, 
     kilometres = sum(_sum(truck.distance, trip.nodes) for trip in trips) / MM_PER_KM
     cost = kind.fixed_cost + kilometres * kind.cost_per_km
     busy = Counter({"truck": sum(_sum(truck.duration, trip.nodes) for trip in trips)})
-    busy["truck"] += sum(problem.customer_at(node).service_duration
+    busy["truck"] += sum(kind.service_at(problem.customer_at(node))
                          for trip in trips for node in trip.nodes[1:-1])
     flights = [(trip, sortie) for trip in trips for sortie in trip.sorties]
     for trip, sortie in flights:
@@ -84,8 +84,7 @@ def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, 
             path = (trip.nodes[sortie.launch_stop], *sortie.nodes,
                     trip.nodes[sortie.recovery_stop])
             flight = _sum(problem.travel[drones.travel].duration, path)
-            if drones.service_duration is None:
-                flight += sum(problem.customer_at(node).service_duration for node in sortie.nodes)
+            flight += sum(drones.service_at(problem.customer_at(node)) for node in sortie.nodes)
             if flight > drones.endurance:
                 return math.inf
             busy[f"drone {sortie.drone}"] += flight

@@ -54,7 +54,7 @@ def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int
     """Return the detour for a customer behind each stop of a route where no rule is broken."""
     stops = searcher.now.stop[slot]
     legs = world.leg[world.type[searcher.now.route[slot].type].travel]
-    place, detours = world.place[node], {}
+    place, detours = world.place[0, node], {}
     for p in range(searcher.now.route[slot].length - 1):
         here, there = stops[p].node, stops[p + 1].node
         arrival = stops[p].leave + legs[here, node, 0]

@@ -16,8 +16,9 @@ from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_open_ends,
-    with_open_reloads, with_pickups, with_places, with_reloads,
+    draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_goods,
+    with_limits_aboard, with_open_ends, with_open_reloads, with_own_durations, with_pickups,
+    with_places, with_reloads, with_setups,
 )
 
 MINUTE = 60_000
@@ -313,6 +314,31 @@ def all_rules_both_ways(rng: np.random.Generator) -> Problem:
     return with_dimensions(rng, problem) if rng.random() < 0.2 else problem
 
 
+def all_rules_own_durations(rng: np.random.Generator) -> Problem:
+    return with_own_durations(rng, all_rules(rng))
+
+
+def all_rules_goods_apart(rng: np.random.Generator) -> Problem:
+    return with_goods(rng, all_rules(rng))
+
+
+def all_rules_setups(rng: np.random.Generator) -> Problem:
+    return with_setups(rng, all_rules(rng))
+
+
+def all_rules_limits_aboard(rng: np.random.Generator) -> Problem:
+    return with_limits_aboard(rng, all_rules(rng))
+
+
+def all_rules_at_once(rng: np.random.Generator) -> Problem:
+    problem = all_rules(rng)
+    for change in (with_gaps, with_duty, with_pickups, with_own_durations, with_goods, with_setups,
+                   with_limits_aboard):
+        if rng.random() < 0.5:
+            problem = change(rng, problem)
+    return problem
+
+
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     # What many plans of two drones are compared with takes seconds each.
@@ -334,7 +360,8 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 
 @pytest.mark.parametrize("draw", [
     all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
-    all_rules_of_duty, all_rules_both_ways],
+    all_rules_of_duty, all_rules_both_ways, all_rules_own_durations, all_rules_goods_apart,
+    all_rules_setups, all_rules_limits_aboard, all_rules_at_once],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:

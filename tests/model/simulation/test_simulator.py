@@ -21,11 +21,14 @@ from model.simulation.simulator import (
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_open_ends,
-    with_open_reloads, with_own_costs, with_pickups, with_places, with_reloads, with_table,
+    draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_goods,
+    with_limits_aboard, with_open_ends, with_open_reloads, with_own_costs, with_own_durations,
+    with_pickups, with_places, with_reloads, with_setups, with_table,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
+
+Change = Callable[[np.random.Generator, Problem], Problem]
 
 
 @dataclass
@@ -93,9 +96,9 @@ def many_dimensions(rng: np.random.Generator, problem: Problem) -> Problem:
 
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
-    with_open_reloads, with_duty])
+    with_open_reloads, with_duty, with_own_durations, with_goods, with_setups, with_limits_aboard])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
-        change: Callable[[np.random.Generator, Problem], Problem]) -> None:
+        change: Change) -> None:
     for seed in range(200):
         rng = np.random.default_rng(seed)
         problem = change(rng, draw_tiny(rng))
@@ -106,10 +109,26 @@ def with_pickups_and_all_else(rng: np.random.Generator, problem: Problem) -> Pro
     return with_pickups(rng, with_duty(rng, with_open_reloads(rng, with_gaps(rng, problem))))
 
 
+def with_some(rng: np.random.Generator, problem: Problem, *changes: Change) -> Problem:
+    for change in (*changes, with_own_durations, with_goods, with_setups, with_limits_aboard):
+        if rng.random() < 0.6:
+            problem = change(rng, problem)
+    return problem
+
+
+def with_times_and_all_else(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_some(rng, problem, with_pickups_and_all_else, with_beginnings)
+
+
+def with_times_on_batteries(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_some(rng, problem, with_gaps, with_energy, with_duty)
+
+
 @pytest.mark.parametrize("change", [
-    with_pickups, begun_with_pickups, many_dimensions, with_pickups_and_all_else])
+    with_pickups, begun_with_pickups, many_dimensions, with_pickups_and_all_else,
+    with_times_and_all_else, with_times_on_batteries])
 def test_what_is_aboard_at_each_stop_decides_what_is_legal(
-        change: Callable[[np.random.Generator, Problem], Problem]) -> None:
+        change: Change) -> None:
     for seed in range(200):
         rng = np.random.default_rng((seed, 5))
         problem = change(rng, draw_tiny(rng))

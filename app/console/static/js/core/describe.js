@@ -29,10 +29,18 @@ function customerFacts(customer) {
   ];
   if (customer.pickup) facts.push(['Pickup', amounts(customer.pickup)]);
   if (customer.service_duration) facts.push(['Service', duration(customer.service_duration)]);
+  for (const [type, seconds] of Object.entries(customer.service_duration_by_type ?? {})) {
+    facts.push([`By ${type}`, duration(seconds)]);
+  }
   if (customer.served_by && customer.served_by !== 'either') {
     facts.push(['For', SERVED_BY[customer.served_by]]);
   }
   if (customer.skills?.length) facts.push(['Skills', customer.skills.join(', ')]);
+  if (customer.max_time_aboard != null) {
+    facts.push(['Aboard', `at most ${duration(customer.max_time_aboard)}`]);
+  }
+  if (customer.setup_duration) facts.push(['Setup', duration(customer.setup_duration)]);
+  if (customer.goods?.length) facts.push(['Goods', customer.goods.join(', ')]);
   if (customer.release_time) facts.push(['Parcel there', `from ${clock(customer.release_time)}`]);
   const { allowed, forbidden } = customer.vehicles ?? {};
   if (allowed) facts.push(['Only by', allowed.join(', ')]);
@@ -56,6 +64,7 @@ export function haltFacts(halt) {
     ['Arrival', clock(halt.arrival, { precise: true })],
   ];
   if (halt.kind !== 'customer') facts[0][0] = 'Vehicle';
+  if (halt.setup > 0) facts.push(['Sets up', duration(halt.setup)]);
   if (halt.waiting > 0) {
     facts.push([
       'Waits',

@@ -112,7 +112,7 @@ function indexTrip(index, vehicle, reply, number) {
         stop: null,
         sortie: entry,
         load: source.demand,
-        waiting: visit.service_start - visit.arrival,
+        waiting: visit.service_start - visit.arrival - (visit.setup ?? 0),
       });
     });
     return entry;
@@ -132,6 +132,7 @@ function haltOf(key, reply, trip, source) {
     window: windowAt(source, reply.service_start),
     arrival: reply.arrival,
     serviceStart: reply.service_start,
+    setup: reply.setup ?? 0,
     departure: reply.departure,
     lateness: reply.lateness,
   };

@@ -68,6 +68,11 @@ const CHANGES = [
       closeLater(request, customer, numberOf(position) - 1, more),
   ],
   [
+    new RegExp(`^fits if it could be aboard ${NUMBER} minutes? longer$`),
+    (request, { customer }, more) =>
+      add(request, [...customer, 'max_time_aboard'], numberOf(more) * SECONDS_PER_MINUTE),
+  ],
+  [
     new RegExp(`^fits if .+'s shift ended ${NUMBER} minutes? later$`),
     (request, { type }, more) =>
       add(request, [...type, 'shift', 'latest'], numberOf(more) * SECONDS_PER_MINUTE),

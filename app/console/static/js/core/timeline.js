@@ -41,7 +41,7 @@ function truckBars(vehicle) {
           to: halt.key,
         });
       }
-      bars.push(...stopBars(halt));
+      bars.push(...stopBars(halt, vehicle.type?.id));
     });
     return bars.filter(isSeen);
   });
@@ -52,11 +52,21 @@ function isSeen(bar) {
   return bar.until > bar.from || (bar.kind === 'serve' && bar.key[0] === 'c');
 }
 
-function stopBars(halt) {
-  const duration = halt.kind === 'customer' ? (halt.source.service_duration ?? 0) : 0;
+/** Return the bar of a setup, if there is one: work for the customer, as service is. */
+function setupBars({ arrival, setup, key }) {
+  return setup > 0 ? [{ kind: 'serve', from: arrival, until: arrival + setup, key }] : [];
+}
+
+function serviceBy(type, customer) {
+  return customer.service_duration_by_type?.[type] ?? customer.service_duration ?? 0;
+}
+
+function stopBars(halt, type) {
+  const duration = halt.kind === 'customer' ? serviceBy(type, halt.source) : 0;
   const served = Math.min(halt.serviceStart + duration, halt.departure);
   return [
-    { kind: 'wait', from: halt.arrival, until: halt.serviceStart, key: halt.key },
+    ...setupBars(halt),
+    { kind: 'wait', from: halt.arrival + halt.setup, until: halt.serviceStart, key: halt.key },
     { kind: 'serve', from: halt.serviceStart, until: served, key: halt.key },
     { kind: 'handle', from: served, until: halt.departure, key: halt.key },
   ];
@@ -92,7 +102,8 @@ function sortieBars(vehicle, sortie) {
   for (const halt of sortie.visits) {
     bars.push(
       { kind: 'fly', from: since, until: halt.arrival, key: sortie.key },
-      { kind: 'wait', from: halt.arrival, until: halt.serviceStart, key: halt.key },
+      ...setupBars(halt),
+      { kind: 'wait', from: halt.arrival + halt.setup, until: halt.serviceStart, key: halt.key },
       { kind: 'serve', from: halt.serviceStart, until: halt.departure, key: halt.key },
     );
     since = halt.departure;

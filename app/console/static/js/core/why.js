@@ -12,6 +12,7 @@ const RULES = {
   'time_window.latest': ['the end of its window', 'later'],
   'time_window.earliest': ['the beginning of its window', 'earlier'],
   release_time: ['its release', 'earlier'],
+  max_time_aboard: ['its time aboard', 'longer'],
   capacity: ['the capacity', 'more'],
   'shift.latest': ['the end of the shift', 'later'],
   max_working_duration: ['the longest working duration', 'more'],

@@ -1,0 +1,52 @@
+"""What some customers ask for, as rows of numbers: goods kept apart, setups."""
+
+import numpy as np
+
+from model.problem import BoolArray, Customer, DroneType, Problem
+
+
+def goods_rows(problem: Problem) -> list[tuple[int, int, int]]:
+    """Return the GOODS of all customers."""
+    named = sorted(frozenset().union(*(each.goods for each in problem.incompatible_goods)))
+    bit = {goods: 1 << index for index, goods in enumerate(named)}
+    barred = {(scope, goods): sum(bit[other] for other in frozenset().union(
+                  *(each.goods for each in problem.incompatible_goods
+                    if each.scope == scope and goods in each.goods)) - {goods})
+              for scope in ("trip", "vehicle") for goods in named}
+
+    def row(customer: Customer) -> tuple[int, int, int]:
+        held = on_trip = on_vehicle = 0
+        for goods in customer.goods & bit.keys():
+            held |= bit[goods]
+            on_trip |= barred["trip", goods]
+            on_vehicle |= barred["vehicle", goods]
+        return held, on_trip, on_vehicle
+
+    return [row(customer) for customer in problem.customers]
+
+
+def setup_rows(problem: Problem) -> list[tuple[int, int]]:
+    """Return the SETUP of all nodes."""
+    places = [(depot.site, 0) for depot in problem.depots]
+    places += [(each.site, each.setup_duration) for each in problem.customers]
+    # Whoever states no place is at one alone.
+    return [(-1 - node if site is None else site, duration)
+            for node, (site, duration) in enumerate(places)]
+
+
+def has_setups(problem: Problem) -> bool:
+    """Tell whether anybody asks for a setup."""
+    return any(customer.setup_duration for customer in problem.customers)
+
+
+def may_be_flown_to(problem: Problem, drones: DroneType, dimensions: int) -> BoolArray:
+    """Mark the customers whose weight aboard a drone is known by `NODE`, if a battery limits it.
+
+    There are so many `dimensions`. What drones pick up then, and weights in later ones, are left to
+    trucks.
+    """
+    if drones.energy is None:
+        return np.ones(problem.num_customers, np.bool_)
+    if drones.energy.dimension >= dimensions:
+        return np.zeros(problem.num_customers, np.bool_)
+    return np.array([not any(customer.pickup) for customer in problem.customers], np.bool_)

@@ -1,0 +1,80 @@
+"""What differs by who comes: tables of nodes by how long service takes, legs by who sets up."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from model.kernel.asked import has_setups
+from model.kernel.pausing import Pause, matrix_blocks
+from model.kernel.records import Records
+from model.problem import DroneType, IntArray, Problem, VehicleType
+
+
+class Way(NamedTuple):
+    """Legs of one travel, to whose durations setups are added or not."""
+
+    travel: int  # index into Problem.travel
+    sets_up: bool
+
+
+def durations_of(problem: Problem) -> dict[bytes, IntArray]:
+    """Return how long service at each customer takes, in all ways that differ, their own first."""
+    own = np.array([customer.service_duration for customer in problem.customers], np.int64)
+    found = {own.tobytes(): own}
+    for kind in problem.vehicle_types:
+        for served in (kind, kind.drones):
+            if served is not None and _has_own_service(served):
+                each = _served_by(served, problem)
+                found.setdefault(each.tobytes(), each)
+    return found
+
+
+def _has_own_service(kind: VehicleType | DroneType) -> bool:
+    """Tell whether service may last otherwise than customers say."""
+    return bool(kind.service_durations) or (
+        isinstance(kind, DroneType) and kind.service_duration is not None)
+
+
+def _served_by(kind: VehicleType | DroneType, problem: Problem) -> IntArray:
+    return np.array([kind.service_at(customer) for customer in problem.customers], np.int64)
+
+
+def variant_of(kind: VehicleType | DroneType | None, problem: Problem,
+               durations: dict[bytes, IntArray]) -> int:
+    """Return the number of the table of nodes as trucks, or drones, of a type meet them."""
+    if kind is None or not _has_own_service(kind):
+        return 0
+    return list(durations).index(_served_by(kind, problem).tobytes())
+
+
+def ways_of(problem: Problem) -> list[Way]:
+    """Return all ways to travel that legs are needed of."""
+    if not has_setups(problem):
+        return [Way(travel, False) for travel in range(len(problem.travel))]
+    ways: dict[Way, None] = {}
+    for kind in problem.vehicle_types:
+        ways[Way(kind.travel, kind.speed_profile is None)] = None
+        if kind.drones is not None:
+            ways |= {Way(kind.drones.travel, True): None, Way(kind.drones.travel, False): None}
+    return list(ways)
+
+
+def index_of(ways: Sequence[Way], travel: int, sets_up: bool) -> int:
+    """Return which legs are those of a travel, with setups if any are told apart."""
+    way = Way(travel, sets_up)
+    return ways.index(way if way in ways else Way(travel, False))
+
+
+def write_legs(problem: Problem, ways: Sequence[Way], setup: Records, duration: IntArray,
+               distance: IntArray, pause: Pause) -> None:
+    """Write the legs of all ways, (way, origin, to); `setup` has the SETUP of nodes. In place."""
+    nodes = problem.num_nodes
+    for index, way in enumerate(ways):
+        travel = problem.travel[way.travel]
+        for part in matrix_blocks(nodes, pause):
+            duration[index, part, :nodes] = travel.duration[part]
+            distance[index, part, :nodes] = travel.distance[part]
+            if way.sets_up:
+                elsewhere = setup["site"][part, None] != setup["site"][:nodes]
+                duration[index, part, :nodes] += elsewhere * setup["setup_duration"][:nodes]
