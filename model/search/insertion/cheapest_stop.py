@@ -196,14 +196,28 @@ def scan_kept(world: World, fleet: Fleet, slot: int, node: int, rate: float, bes
 
 
 @spliced
+def is_too_far(world: World, fleet: Fleet, slot: int, node: int, best: float,
+               kept: Records) -> bool:
+    """Tell whether a customer is known to cost no less than `best` on a route as it is.
+
+    That is so of most routes, so nothing else is asked of them. `kept` as in `Searcher`.
+    """
+    stamp, rate = fleet.route[slot].stamp, world.rate[fleet.route[slot].type]
+    return (world.scan_all and stamp != CHANGING and kept[node, slot].stamp == stamp
+            and kept[node, slot].detour * rate.distance >= best - rate.stop)
+
+
+@spliced
 def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, node: int,
-              best: float, enlarge: bool, kept: Record, move: Record, rng: UIntArray) -> float:
+              best: float, enlarge: bool, kept: Records, move: Record, rng: UIntArray) -> float:
     """Find the cheapest stop where all routes are lean; return the best cost so far.
 
     In place: `move`, if that is a stop that costs less than `best`; also `kept`, as in `Searcher`.
     """
     for index in range(num_active):
         slot = active[index]
+        if not enlarge and is_too_far(world, fleet, slot, node, best, kept):
+            continue
         k = fleet.route[slot].type
         if not world.can[k, 0, node]:
             continue

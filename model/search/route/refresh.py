@@ -148,13 +148,13 @@ def choose_reloads(world: World, fleet: Fleet, slot: int, acc: Record) -> None:
         _, place = nearest_reload(world, route.type, stops[p - 1].node, stops[p + 2].node)
         if place == node:
             continue
-        stops[p].node = place
-        if not refresh_as_is(world, fleet, slot, acc) or fleet.cost[slot] >= cost:
-            stops[p].node = node
-            refresh_as_is(world, fleet, slot, acc)
+        for end in (place, node):
+            stops[p].node = end
+            if refresh_as_is(world, fleet, slot, acc) and fleet.cost[slot] < cost:
+                break
 
 
-@inlined
+@spliced
 def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     """As `refresh`, of a route that isn't lean, with trips that end where they do."""
     route, stops = fleet.route[slot], fleet.stop[slot]
