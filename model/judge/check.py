@@ -95,8 +95,7 @@ def _total(costs: list[Cost]) -> Cost:
 def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
           known: KnownTrip | None, now: int) -> TimedTrip:
     """Recompute a trip from the choices it states, and what is known of it."""
-    drones = vehicle_type.drones
-    decision = read_decision(stated, 0 if drones is None else drones.launch_duration)
+    decision = read_decision(stated, vehicle_type.drones)
     if known is not None and begins_with(stated, known):
         trip = resume_trip(problem, vehicle_type, decision, known, now)
     else:

@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
+from model.judge.launches import launch_begins
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
@@ -89,9 +90,8 @@ def known_trips(problem: Problem, plan: Solution, now: int,
     known = {}
     for route in plan.routes:
         drones = problem.vehicle_types[route.vehicle_type].drones
-        launch_duration = 0 if drones is None else drones.launch_duration
         vehicle = Vehicle(route.vehicle_type, route.vehicle)
-        trips = tuple(_known_trips(problem, route, launch_duration, now, vehicle in unavailable))
+        trips = tuple(_known_trips(problem, route, drones, now, vehicle in unavailable))
         if trips:
             known[vehicle] = trips
     return known
@@ -109,10 +109,10 @@ def parcels_aboard(problem: Problem, plan: Solution, now: int,
     return {vehicle: trips[-1].aboard for vehicle, trips in begun.items()}
 
 
-def _known_trips(problem: Problem, route: Route, launch_duration: int, now: int,
+def _known_trips(problem: Problem, route: Route, drones: DroneType | None, now: int,
                  is_unavailable: bool) -> Iterator[KnownTrip]:
     for trip in route.trips:
-        known = _known_trip(problem, trip, launch_duration, now)
+        known = _known_trip(problem, trip, drones, now)
         if known is None:
             return
         if is_unavailable and known.rest != "nothing":
@@ -122,12 +122,14 @@ def _known_trips(problem: Problem, route: Route, launch_duration: int, now: int,
         yield known
 
 
-def _known_trip(problem: Problem, trip: Trip, launch_duration: int, now: int) -> KnownTrip | None:
+def _known_trip(problem: Problem, trip: Trip, drones: DroneType | None,
+                now: int) -> KnownTrip | None:
     """Return what has happened on a trip; None if it has not begun."""
     left = 0
     while left < len(trip.stops) and trip.stops[left].departure <= now:
         left += 1
-    launched = [sortie for sortie in trip.sorties if sortie.launch_time - launch_duration <= now]
+    launched = [sortie for sortie, begin in zip(
+        trip.sorties, launch_begins(trip.sorties, drones), strict=True) if begin <= now]
     if not left and not launched:
         return None
     first = problem.num_depots

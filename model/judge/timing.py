@@ -13,6 +13,7 @@ from typing import NamedTuple
 from model.judge.clock import leg_end, opening, service_start, with_setups
 from model.judge.energy import longest_hold
 from model.judge.freshness import most_excess
+from model.judge.launches import launch_begins
 from model.judge.past import KnownStop, KnownTrip
 from model.problem import DroneType, Problem, VehicleType
 from model.solution import Route, Sortie, Stop, Trip, Visit
@@ -99,7 +100,7 @@ def _is_complete(
     )
 
 
-def read_decision(trip: Trip, launch_duration: int) -> TripDecision:
+def read_decision(trip: Trip, drones: DroneType | None) -> TripDecision:
     """Return the choices that a timed trip states; the order at a stop is that of beginnings.
 
     Operations that take no time come before others that begin with them, as their times demand.
@@ -110,11 +111,12 @@ def read_decision(trip: Trip, launch_duration: int) -> TripDecision:
         return TripDecision(nodes, (), None, start)
     keyed: list[list[tuple[tuple[int, ...], Operation]]] = [[] for _ in nodes]
     sorties = []
+    begins = launch_begins(trip.sorties, drones)
     for index, sortie in enumerate(trip.sorties):
         visited = tuple([visit.node for visit in sortie.visits])
         first, last = sortie.launch_stop, sortie.recovery_stop
         sorties.append(SortieDecision(visited, first, last, sortie.drone))
-        begin, end = sortie.launch_time - launch_duration, sortie.launch_time
+        begin, end = begins[index], sortie.launch_time
         phase = 1 if first == last else 2
         keyed[first].append(((begin, end, phase, index, 0), Operation(index, True)))
         recovery = (sortie.recovery_start, sortie.recovery_time, 0, index, 1)

@@ -1,6 +1,7 @@
 """What a flight may last, and all instants of one but those on the way. Compiled.
 
-`kind` is the row of the vehicle type, `place` the customer's rows from its drones' table of nodes.
+`kind` is the row of the vehicle type, `place` the customer's rows from its drones' table of nodes,
+`launched` how many launches of the trip come before one.
 """
 
 from model.kernel.compiled import inlined
@@ -21,27 +22,27 @@ def unreachable(duration: int) -> bool:
 
 
 @inlined
-def take_off(kind: Record, begin: int) -> int:
-    """Return when a drone is in the air whose launch begins at `begin`."""
-    return begin + kind.launch_duration
+def launch_duration(kind: Record, launched: int) -> int:
+    """Return how long a launch takes, however many came before."""
+    return kind.launch_duration
 
 
 @inlined
-def launch_begin(kind: Record, takeoff: int) -> int:
+def take_off(kind: Record, begin: int, launched: int) -> int:
+    """Return when a drone is in the air whose launch begins at `begin`."""
+    return begin + launch_duration(kind, launched)
+
+
+@inlined
+def launch_begin(kind: Record, takeoff: int, launched: int) -> int:
     """Return when the launch begins of a drone that takes off at `takeoff`."""
-    return takeoff - kind.launch_duration
+    return takeoff - launch_duration(kind, launched)
 
 
 @inlined
 def recovery_end(kind: Record, begin: int) -> int:
     """Return when a drone is aboard whose recovery begins at `begin`."""
     return begin + kind.recovery_duration
-
-
-@inlined
-def launch_duration(kind: Record) -> int:
-    """Return how long a launch takes."""
-    return kind.launch_duration
 
 
 @inlined

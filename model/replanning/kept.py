@@ -65,8 +65,7 @@ def retimed(problem: Problem, decision: RouteDecision, known: tuple[KnownTrip, .
 def _kept(problem: Problem, route: Route, vehicle: Vehicle, past: Past) -> Kept:
     known = past.trips[vehicle]
     kind = problem.vehicle_types[vehicle.type]
-    launch_duration = 0 if kind.drones is None else kind.drones.launch_duration
-    trips = [read_decision(_settled(kind, trip, facts), launch_duration)
+    trips = [read_decision(_settled(kind, trip, facts), kind.drones)
              for trip, facts in zip(route.trips[:len(known)], known, strict=True)]
     decision = RouteDecision(*vehicle, tuple(trips))
     if known[-1].rest != "anything":
@@ -185,5 +184,5 @@ def _rest(problem: Problem, vehicle: Vehicle, planned: Trip, meeting: int,
                 recovery_stop=sortie.recovery_stop - meeting)
         for sortie in planned.sorties if drones is not None and sortie.launch_stop >= meeting)
     trip = Trip(planned.stops[meeting:], sorties)
-    decision = read_decision(trip, 0 if drones is None else drones.launch_duration)
+    decision = read_decision(trip, drones)
     return without(decision, {-1, *served})

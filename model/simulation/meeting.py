@@ -19,15 +19,15 @@ from model.simulation.vehicle_log import IN_FLIGHT, Setting, travel_arrival
 
 VEHICLE = record(
     "type", "index", "node", "idle", "service_end", "crew", "free", "distance", "start_best",
-    "departure_best", "next_start", "flying", "given", "picked", "taken", "barred_on_trip",
-    "barred_on_vehicle", load=MAX_TIERS * TIER, aboard=MAX_TIERS * TIER)
+    "departure_best", "next_start", "launched", "flying", "given", "picked", "taken",
+    "barred_on_trip", "barred_on_vehicle", load=MAX_TIERS * TIER, aboard=MAX_TIERS * TIER)
 """The open vehicle: type (`NO_VEHICLE` before the first opens), index within the type,
 node, idle (at the depot, no trip begun), end of service here, end of the recoveries here, end of
 the launches after them as if none was held back, distance of the trip, the latest known start of
 the first trip that costs nothing, the departure that follows from it, earliest start of the next
-trip, drones in flight; of the trip, sums over dimensions of what is delivered and of what is picked
-up before the stop here and by now; goods that may not be added to the trip and to the vehicle; the
-load left by dimension and what of pickups is aboard."""
+trip, launches on the trip before this stop, drones in flight; of the trip, sums over dimensions of
+what is delivered and of what is picked up before the stop here and by now; goods that may not be
+added to the trip and to the vehicle; the load left by dimension and what of pickups is aboard."""
 
 DRONE = record("sortie", "place", "node", "takeoff", "ready", "back", "recovery")
 """A drone: sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,
@@ -52,16 +52,19 @@ def mark_place(setting: Setting, drone: Record, here: int, to: int) -> None:
 
 
 @inlined
-def next_launch(setting: Setting, drones: Records, here: int, to: int,
-                free: int) -> tuple[int, int]:
-    """Return the drone that can be launched first from `free` on, and its take-off; -1: none."""
+def next_launch(setting: Setting, drones: Records, here: int, to: int, free: int,
+                launched: int) -> tuple[int, int]:
+    """Return the drone that can be launched first from `free` on, and its take-off; -1: none.
+
+    `launched` is how many launches of the trip come before.
+    """
     chosen, takeoff = -1, 0
     for d in range(len(drones)):
         if drones[d].place != ABOARD and drones[d].takeoff == NOT_YET:
             end = to if drones[d].place == MEET else here
             node = drones[d].node
             soonest = held_takeoff(setting.type, setting.node_by_air[node],
-                                   take_off(setting.type, free),
+                                   take_off(setting.type, free, launched),
                                    lookup(setting.fly, here, node),
                                    lookup(setting.fly_home, node, end))
             if chosen < 0 or soonest < takeoff:
@@ -117,12 +120,12 @@ def operate(setting: Setting, vehicle: Record, drones: Records, to: int) -> int:
     can be launched first is; loops are recovered behind, or while a launch is held back.
     """
     here, free = vehicle.node, vehicle.crew
-    waiting, looping = vehicle.flying, 0
+    waiting, looping, before = vehicle.flying, 0, vehicle.launched
     for d in range(len(drones)):
         drones[d].takeoff = drones[d].recovery = NOT_YET
     while waiting + looping > 0:
-        launched, takeoff = next_launch(setting, drones, here, to, free)
-        begin = launch_begin(setting.type, takeoff)
+        launched, takeoff = next_launch(setting, drones, here, to, free, before)
+        begin = launch_begin(setting.type, takeoff, before)
         landed = next_back(drones, LOOP) if looping > 0 else -1
         if landed >= 0 and (launched < 0 or (
                 begin > free and max(free, drones[landed].back) <= begin)):
@@ -133,7 +136,7 @@ def operate(setting: Setting, vehicle: Record, drones: Records, to: int) -> int:
         else:
             fly(setting, drones[launched], here, to, takeoff)
             free = takeoff
-            waiting -= 1
+            waiting, before = waiting - 1, before + 1
             if drones[launched].place == LOOP:
                 looping += 1
     return free

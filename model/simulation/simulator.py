@@ -103,7 +103,7 @@ def _judge_launch(setting: Setting, vehicle: Record, drones: Records, departure:
     """
     place = setting.node[node]
     flight = lookup(setting.fly, vehicle.node, node)
-    takeoff = take_off(setting.type, vehicle.free)
+    takeoff = take_off(setting.type, vehicle.free, vehicle.launched + vehicle.flying)
     arrival = takeoff + flight
     if unreachable(flight) or too_late(place, arrival):
         return NO
@@ -135,13 +135,10 @@ def _may_go_on(instance: Instance, setting: Setting, b: int, k: int, vehicle: Re
 @inlined
 def _may_add(setting: Setting, vehicle: Record, log: VehicleLog) -> tuple[bool, bool]:
     """Tell whether a trip, or the next one, may have a stop more, and a sortie, by their number."""
-    served = flown = 0
+    served = 0
     if vehicle.idle == 0:
-        first = log.trip[log.count.trips - 1].first_stop
-        served = log.count.stops - first - 1
-        while (flown < log.count.sorties
-               and log.sortie[log.count.sorties - 1 - flown].launch_stop >= first):
-            flown += 1
+        served = log.count.stops - log.trip[log.count.trips - 1].first_stop - 1
+    flown = vehicle.launched + vehicle.flying
     return (allows_stops(setting.type, served + 1),
             vehicle.flying < setting.type.drones and allows_sorties(setting.type, flown + 1))
 

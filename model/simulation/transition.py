@@ -105,11 +105,15 @@ def log_recoveries(setting: Setting, log: VehicleLog, drones: Records, place: in
 
 @inlined
 def op_times(setting: Setting, log: VehicleLog, row: int) -> tuple[int, int]:
-    """Return when a launch or recovery begins and ends."""
+    """Return when a launch or recovery begins and ends.
+
+    As if each launch were the trip's first: later than that none begins, so that the order is the
+    same.
+    """
     sortie = log.sortie[log.op[row].sortie]
     if log.op[row].is_recovery:
         return sortie.recovery_start, sortie.recovery_end
-    return launch_begin(setting.type, sortie.takeoff), sortie.takeoff
+    return launch_begin(setting.type, sortie.takeoff, 0), sortie.takeoff
 
 
 @inlined
@@ -250,7 +254,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
         begin_trip(setting, log, vehicle, release)
     elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
-    takeoff = take_off(setting.type, vehicle.free)
+    takeoff = take_off(setting.type, vehicle.free, vehicle.launched + vehicle.flying)
     flight = lookup(setting.fly, vehicle.node, node)
     arrival = takeoff + flight
     if unreachable(flight) or too_late(setting.node[node], arrival):
@@ -296,7 +300,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
         here = log.count.stops - 1
         log.stop[here].leave = max(vehicle.service_end, left)
         log_sorties(setting, log, vehicle, drones)
-        vehicle.flying = 0
+        vehicle.launched, vehicle.flying = vehicle.launched + vehicle.flying, 0
         # The start known so far kept the drones' return, not the last take-off before recoveries.
         vehicle.start_best = log.trip[0].start
     start = arrival
@@ -311,7 +315,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
         return False
     if not is_customer:
         vehicle.idle = 1
-        vehicle.distance = 0
+        vehicle.distance = vehicle.launched = 0
         vehicle.next_start = vehicle.free + setting.type.reload_duration
         vehicle.barred_on_trip = 0
         empty(setting.type, vehicle)
@@ -323,7 +327,8 @@ def clear_vehicle(vehicle: Record) -> None:
     """Let no vehicle be open. In place."""
     vehicle.type, vehicle.index, vehicle.node, vehicle.idle = NO_VEHICLE, 0, 0, 0
     vehicle.service_end = vehicle.crew = vehicle.free = vehicle.distance = 0
-    vehicle.start_best = vehicle.departure_best = vehicle.next_start = vehicle.flying = 0
+    vehicle.start_best = vehicle.departure_best = vehicle.next_start = 0
+    vehicle.launched = vehicle.flying = 0
     vehicle.barred_on_trip = vehicle.barred_on_vehicle = 0
     vehicle.given = vehicle.picked = vehicle.taken = 0
     clear(vehicle.load)

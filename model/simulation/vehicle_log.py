@@ -130,12 +130,14 @@ def aboard_too_long(setting: Setting, node: int, departure: int, start: int) -> 
 
 
 @inlined
-def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int) -> int:
+def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int,
+                   launched: int) -> int:
     """Return when a sortie takes off whose launch may begin at `free`.
 
-    It is held back for the customer's window once it is known where it is recovered.
+    It is held back for the customer's window once it is known where it is recovered. `launched`
+    counts the launches of the trip before it.
     """
-    takeoff = take_off(setting.type, free)
+    takeoff = take_off(setting.type, free, launched)
     if sortie.recovery_stop != IN_FLIGHT:
         customer = sortie.node
         here, to = log.stop[sortie.launch_stop].node, log.stop[sortie.recovery_stop].node
@@ -147,14 +149,14 @@ def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int)
 
 @inlined
 def _replay_launch(setting: Setting, log: VehicleLog, sortie: Record, node: int, free: int,
-                   departure: int, write: bool) -> int:
+                   launched: int, departure: int, write: bool) -> int:
     """Time one launch begun at `free`; return the take-off, -1 if it is not allowed.
 
     `departure` is that of the trip, if any came before.
     """
     customer = sortie.node
     place = setting.node_by_air[customer]
-    takeoff = sortie_takeoff(setting, log, sortie, free)
+    takeoff = sortie_takeoff(setting, log, sortie, free, launched)
     arrival = takeoff + lookup(setting.fly, node, customer)
     if not _arrival_allowed(log, place, arrival, sortie.arrival, write):
         return -1
@@ -218,7 +220,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
     op = log.trip[first_trip].first_op
     leave = start
     for trip in range(first_trip, log.count.trips):
-        first = log.trip[trip].first_stop
+        first, launched = log.trip[trip].first_stop, 0
         further = trip + 1 < log.count.trips
         behind = log.trip[trip + 1].first_stop if further else log.count.stops
         if trip > first_trip:
@@ -230,7 +232,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
             node = log.stop[index].node
             arrival = start if index == first else travel_arrival(
                 setting, log.stop[index - 1].node, node, leave)
-            service_start = free = launched = arrival
+            service_start = free = aloft = arrival
             leave = leaves_first(setting.type, arrival) if index == first else arrival
             if node >= num_depots:
                 service_start, leave = _serve(setting, log, index, arrival, departure, write)
@@ -240,14 +242,15 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                 sortie = log.sortie[log.op[op].sortie]
                 if log.op[op].is_recovery:
                     # Recoveries that take no time never hold up one another.
-                    begin = free if recoveries_take_time(setting.type) else launched
+                    begin = free if recoveries_take_time(setting.type) else aloft
                     end = _replay_recovery(setting, log, sortie, node, begin, write)
                 else:
-                    end = launched = _replay_launch(setting, log, sortie, node, free, departure,
-                                                    write)
+                    end = aloft = _replay_launch(setting, log, sortie, node, free, launched,
+                                                 departure, write)
+                    launched += 1
                 if end < 0:
                     return False
-                free, departure = max(free, end), min(departure, launched)
+                free, departure = max(free, end), min(departure, aloft)
                 op += 1
             leave = max(leave, free)
             departure = min(departure, leave)
@@ -301,7 +304,7 @@ def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
     """
     departure = leaves_first(setting.type, start)
     if log.count.ops > 0 and log.op[0].stop == 0:
-        departure = sortie_takeoff(setting, log, log.sortie[log.op[0].sortie], start)
+        departure = sortie_takeoff(setting, log, log.sortie[log.op[0].sortie], start, 0)
     return counted_from(setting.type, departure)
 
 
@@ -309,5 +312,5 @@ def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
 def start_to_depart(setting: Setting, log: VehicleLog, departure: int) -> int:
     """Return the start of the first trip by which none leaves the depot before `departure`."""
     if log.count.ops > 0 and log.op[0].stop == 0:
-        return launch_begin(setting.type, departure)
+        return launch_begin(setting.type, departure, 0)
     return departure

@@ -144,7 +144,7 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     place, left = places_by_air(world.place, kind)[node], stops[launch].leave
     begun = stops[launch].arrival
     if launch > 0:
-        begun = take_off(kind, begun)
+        begun = take_off(kind, begun, 0)
     service = service_duration(place)
     late = 0.0
     if world.mode[k] & MODE_PRICED:

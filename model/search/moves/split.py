@@ -118,7 +118,7 @@ def operation_cost(world: World, k: int, line: Records, i: int, j: int, flown: i
     distance = line[j].distance - line[i].distance - line[flown].spared_distance
     here = service_duration(places_of(world.place, kind)[node])
     handled = handling_duration(kind)
-    driven = drive - here + max(0, here - launch_duration(kind))
+    driven = drive - here + max(0, here - launch_duration(kind, 1))
     ground = distance * rate.distance + (j - i - 1) * rate.stop
     if (handled + driven) * rate.time + ground >= most:
         return math.inf

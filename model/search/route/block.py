@@ -25,6 +25,8 @@ from model.problem import IntArray
 from model.search.route.layout import CUSTOMER, DONE, END, FLYING, START, WAITING, World
 
 SUMS = record("time", "free_d", "free_c", "hi", "lo", "dep", "oldest", "flying",
+              # Of the trip so far.
+              "launched",
               # What `evaluate` makes of a part.
               "end", "cum", "depart", "driven")
 
@@ -197,8 +199,8 @@ def reach(place: Records, arrival: int, d: int, c: int, acc: Record) -> bool:
 def fly_out(places: Records, legs: IntArray, homeward: IntArray, kind: Record, sortie: Record,
             node: int, acc: Record) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
-    d = take_off(kind, acc.free_d)
-    c = take_off(kind, acc.free_c)
+    d = take_off(kind, acc.free_d, acc.launched)
+    c = take_off(kind, acc.free_c, acc.launched)
     takeoff = max(acc.time + d, c)
     held = soonest_takeoff(places, legs, homeward, kind, sortie, node, takeoff)
     if held > takeoff:
@@ -222,6 +224,7 @@ def fly_out(places: Records, legs: IntArray, homeward: IntArray, kind: Record, s
     sortie.ready_d, sortie.ready_c = d, c
     sortie.state = FLYING
     acc.flying += 1
+    acc.launched += 1
     if hovers_at_customers(kind):
         hover(places, kind, sortie, acc)
     return not is_limited(kind) or sortie.left >= 0
@@ -289,8 +292,9 @@ def next_operation(places: Records, legs: IntArray, homeward: IntArray, kind: Re
                                                sorties[index].ready_c) + flight))
         elif (sorties[index].state == WAITING and sorties[index].launch == p
               and is_aboard(sorties, index, acc.oldest)):
-            begin = 2 * launch_begin(kind, soonest_takeoff(
-                places, legs, homeward, kind, sorties[index], node, take_off(kind, free))) + 1
+            takeoff = soonest_takeoff(places, legs, homeward, kind, sorties[index], node,
+                                      take_off(kind, free, acc.launched))
+            begin = 2 * launch_begin(kind, takeoff, acc.launched) + 1
         if begin < earliest:
             chosen, earliest = index, begin
     return chosen

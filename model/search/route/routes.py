@@ -79,6 +79,8 @@ def drive_forward(world: World, route: Record, stops: Records, sorties: Records,
     while p < length:
         stop = stops[p]
         last = p
+        if stop.kind == START:
+            acc.launched = 0
         if s < count and sorties[s].launch == p:
             last = time_block(world, k, stops, length, sorties, count, p, s, time, acc)
             if last < 0:
@@ -204,7 +206,7 @@ def first_departure(world: World, route: Record, stops: Records, sorties: Record
     depart = min(stops[route.length - 1].depart, route.end - route.cum)
     offset, kind = 0, world.type[route.type]
     if route.sorties > 0 and sorties[0].launch == 0 and not has_begun(kind):
-        offset = launch_duration(kind)
+        offset = launch_duration(kind, 0)
     route.offset = offset
     return counted_from(kind, depart + offset)
 

@@ -254,7 +254,7 @@ def test_order_of_operations_is_a_choice(tiny_problem, customers, truck, drones)
     trip = one_trip(problem, launch_first)
     assert trip.sorties[1].launch_time == 4 * MINUTE
     assert trip.sorties[0].recovery_start == 11 * MINUTE
-    assert read_decision(trip, drones.launch_duration).operations == launch_first.operations
+    assert read_decision(trip, drones).operations == launch_first.operations
 
 
 def test_operation_without_duration_is_read_before_one_that_begins_with_it(
@@ -267,7 +267,7 @@ def test_operation_without_duration_is_read_before_one_that_begins_with_it(
                   (Operation(1, False),))
     trip = one_trip(problem, TripDecision((0, 1, 2, 0), sorties, operations))
     assert trip.sorties[1].launch_time == trip.sorties[0].recovery_start == 9 * MINUTE
-    assert read_decision(trip, 0).operations == operations
+    assert read_decision(trip, instant).operations == operations
 
 
 @pytest.mark.parametrize("decision", [

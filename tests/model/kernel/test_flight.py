@@ -22,7 +22,7 @@ from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_energy, with_gap
 def flown(kind: Record, places: Records, node: int, begin: int, out: int,
           home: int) -> tuple[int, int, int, int]:
     place = places_by_air(places, kind)[node]
-    takeoff = held_takeoff(kind, place, take_off(kind, begin), out, home)
+    takeoff = held_takeoff(kind, place, take_off(kind, begin, 0), out, home)
     arrival = takeoff + out
     back = end_of_service(place, arrival) + home
     return takeoff, arrival, back, recovery_end(kind, back)
@@ -53,7 +53,7 @@ def is_charged(kind: Record, places: Records, node: int, out: int, home: int, ta
 
 @compiled
 def handled(kind: Record, time: int) -> tuple[int, int, int, int]:
-    return (launch_begin(kind, take_off(kind, time)), launch_duration(kind),
+    return (launch_begin(kind, take_off(kind, time, 1), 1), launch_duration(kind, 0),
             handling_duration(kind), counted_until(kind, time, time + 1))
 
 

@@ -53,8 +53,7 @@ def begun_soon(problem: Problem, solution: Solution) -> Solution:
     routes = []
     for route in solution.routes:
         drones = problem.vehicle_types[route.vehicle_type].drones
-        launch_duration = 0 if drones is None else drones.launch_duration
-        trips = tuple(replace(read_decision(trip, launch_duration), start=None)
+        trips = tuple(replace(read_decision(trip, drones), start=None)
                       for trip in route.trips)
         routes.append(schedule(problem, RouteDecision(route.vehicle_type, route.vehicle, trips)))
     return replace(solution, routes=tuple(routes))

@@ -23,8 +23,7 @@ def planned(problem: Problem, seed: int) -> Iterator[tuple[Route, RouteDecision]
     rollout = roll([problem], seed).rollouts[0]
     for route in extract(problem, pack([problem]), rollout.actions).routes:
         drones = problem.vehicle_types[route.vehicle_type].drones
-        launch_duration = 0 if drones is None else drones.launch_duration
-        trips = tuple(read_decision(trip, launch_duration) for trip in route.trips)
+        trips = tuple(read_decision(trip, drones) for trip in route.trips)
         yield route, RouteDecision(route.vehicle_type, route.vehicle, trips)
 
 
