@@ -7,7 +7,7 @@ from app.conversion.energy import to_energy
 from app.conversion.places import places_of_type
 from app.conversion.travels import Travels
 from app.conversion.units import optional_thousandths, thousandths
-from app.schemas.drones import DronesInput
+from app.schemas.drones import DronesInput, TurnaroundInput
 from app.schemas.vehicle import OvertimeInput, VehicleTypeInput
 from model.problem import UNLIMITED, Depot, DroneType, Overtime, VehicleType
 
@@ -62,6 +62,7 @@ def _drones(stated: DronesInput | None, travels: Travels, decimals: Sequence[int
             demands: Collection[Sequence[int]]) -> DroneType | None:
     if stated is None or stated.count == 0:
         return None
+    turnaround = stated.turnaround or TurnaroundInput()
     return DroneType(
         count=stated.count,
         capacity=counted(stated.capacity, decimals),
@@ -71,6 +72,8 @@ def _drones(stated: DronesInput | None, travels: Travels, decimals: Sequence[int
         launch_duration=thousandths(stated.launch_duration),
         recovery_duration=thousandths(stated.recovery_duration),
         service_duration=optional_thousandths(stated.service_duration),
+        swap_duration=thousandths(turnaround.swap_duration),
+        batteries=turnaround.batteries,
         max_customers_per_sortie=stated.max_customers_per_sortie,
         energy=(None if stated.energy is None
                 else to_energy(stated, stated.energy, decimals, demands)),

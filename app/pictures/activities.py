@@ -7,7 +7,9 @@ from itertools import pairwise
 from math import inf
 from typing import Literal
 
+from app.conversion.launches import launch_durations
 from app.conversion.names import number_in
+from app.conversion.units import whole
 from app.pictures.scene import Scene
 from app.schemas.drones import DronesInput
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
@@ -108,13 +110,13 @@ def _halt_bars(scene: Scene, kind: str, stop: StopInput, trip: int) -> Iterator[
 
 
 def _handling_bars(trip: TripInput, number: int, drones: DronesInput) -> Iterator[Bar]:
-    for sortie in trip.sorties:
-        yield from _ends(sortie, number, drones)
+    for sortie, launch in zip(trip.sorties, launch_durations(drones, trip), strict=True):
+        yield from _ends(sortie, number, drones, whole(launch))
 
 
-def _ends(sortie: SortieInput, trip: int, drones: DronesInput) -> Iterator[Bar]:
-    """Yield launch and recovery."""
-    yield Bar("launch", sortie.launch_time - drones.launch_duration, sortie.launch_time, trip)
+def _ends(sortie: SortieInput, trip: int, drones: DronesInput, launch: float) -> Iterator[Bar]:
+    """Yield launch, which takes so long, and recovery."""
+    yield Bar("launch", sortie.launch_time - launch, sortie.launch_time, trip)
     yield Bar("launch", sortie.recovery_time - drones.recovery_duration, sortie.recovery_time,
               trip)
 
@@ -125,16 +127,17 @@ def _drone_row(scene: Scene, index: int, route: RouteInput, drone: int,
     bars: list[Bar] = []
     windows = []
     for number, trip in enumerate(route.trips):
-        for sortie in trip.sorties:
+        for sortie, launch in zip(trip.sorties, launch_durations(drones, trip), strict=True):
             if sortie.drone == name:
-                bars += _flight_bars(sortie, number, drones)
+                bars += _flight_bars(sortie, number, drones, whole(launch))
                 windows += [_window(scene, visit.id, visit.ready, visit.service_start)
                             for visit in sortie.customers]
     return Row(name, index, True, tuple(bar for bar in bars if bar.end >= bar.start),
                _stated(windows))
 
 
-def _flight_bars(sortie: SortieInput, trip: int, drones: DronesInput | None) -> Iterator[Bar]:
+def _flight_bars(sortie: SortieInput, trip: int, drones: DronesInput | None,
+                 launch: float) -> Iterator[Bar]:
     recovery = 0.0 if drones is None else drones.recovery_duration
     yield Bar("fly", sortie.launch_time, sortie.recovery_time - recovery, trip)
     for visit in sortie.customers:
@@ -142,7 +145,7 @@ def _flight_bars(sortie: SortieInput, trip: int, drones: DronesInput | None) -> 
             yield Bar("wait", visit.arrival, visit.service_start, trip)
         yield Bar("serve", visit.service_start, visit.departure, trip)
     if drones is not None:
-        yield from _ends(sortie, trip, drones)
+        yield from _ends(sortie, trip, drones, launch)
 
 
 def _window(scene: Scene, customer: str, ready: float, service_start: float) -> Window | None:

@@ -5,12 +5,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
+from app.conversion.launches import launch_durations
 from app.conversion.names import number_in
 from app.conversion.places import stands_of
 from app.conversion.units import thousandths
 from app.errors import ErrorCode, InputError, json_path
 from app.schemas.customer import CustomerInput
-from app.schemas.plan import MAX_INSTANT, RouteInput, SortieInput, TripInput
+from app.schemas.plan import MAX_INSTANT, RouteInput, TripInput
 from app.schemas.request import DepotInput, ReplanInput
 from app.schemas.vehicle import VehicleTypeInput
 
@@ -87,18 +88,19 @@ class _Begun:
 
     left: int  # stops
     launched: tuple[int, ...]  # sorties
+    launch_durations: list[int]  # ms, of all its sorties
 
     def __bool__(self) -> bool:
         return bool(self.left or self.launched)
 
 
-def _begun(trip: TripInput, launch_duration: int, now: int) -> _Begun:
-    left = 0
+def _begun(trip: TripInput, kind: VehicleTypeInput | None, now: int) -> _Begun:
+    left, durations = 0, launch_durations(None if kind is None else kind.drones, trip)
     while left < len(trip.stops) and thousandths(trip.stops[left].departure) <= now:
         left += 1
     return _Begun(left, tuple(
         index for index, sortie in enumerate(trip.sorties)
-        if thousandths(sortie.launch_time) - launch_duration <= now))
+        if thousandths(sortie.launch_time) - durations[index] <= now), durations)
 
 
 class _Checker:
@@ -139,8 +141,6 @@ class _Checker:
                          "vehicle in replan.unavailable if it does nothing more.")
 
     def _trips(self, path: Path, route: RouteInput, kind: VehicleTypeInput | None) -> Errors:
-        launch_duration = (0 if kind is None or kind.drones is None
-                           else thousandths(kind.drones.launch_duration))
         free = last_end = 0
         for number, trip in enumerate(route.trips):
             here = (*path, "trips", number)
@@ -149,7 +149,7 @@ class _Checker:
                        and (len(trip.stops) < 2 or trip.stops[-1].kind == "customer"))
             shape = list(self._shape_errors(here, trip, route.vehicle, is_open))
             yield from shape
-            begun = _begun(trip, launch_duration, self._now)
+            begun = _begun(trip, kind, self._now)
             if shape or not begun:
                 free += 1
                 continue
@@ -161,7 +161,7 @@ class _Checker:
                 yield from _place_errors(here, trip, kind, None if begin is None else [begin],
                                          self._names.ends(kind, is_last))
                 yield from self._begun_errors(here, trip, kind, begun)
-            yield from _order_errors(here, trip, begun, launch_duration, last_end)
+            yield from _order_errors(here, trip, begun, last_end)
             last_end = thousandths(trip.stops[-1].departure)
             # What follows a trip that is not over has not begun.
             free += begun.left < len(trip.stops)
@@ -305,8 +305,7 @@ def _committed(trip: TripInput, begun: _Begun) -> Iterator[tuple[Path, str]]:
             yield ("sorties", flight, "customers", place), visit.id
 
 
-def _order_errors(path: Path, trip: TripInput, begun: _Begun, launch_duration: int,
-                  last_end: int) -> Errors:
+def _order_errors(path: Path, trip: TripInput, begun: _Begun, last_end: int) -> Errors:
     """What of a trip that has begun can't have happened in the order of its times."""
     time = last_end
     for place, stop in enumerate(trip.stops[:begun.left + 1]):
@@ -320,17 +319,16 @@ def _order_errors(path: Path, trip: TripInput, begun: _Begun, launch_duration: i
                 return
             time = thousandths(instant)
     for flight in begun.launched:
-        yield from _flight_errors((*path, "sorties", flight), trip, trip.sorties[flight], begun,
-                                  launch_duration)
+        yield from _flight_errors((*path, "sorties", flight), trip, flight, begun)
 
 
-def _flight_errors(path: Path, trip: TripInput, sortie: SortieInput, begun: _Begun,
-                   launch_duration: int) -> Errors:
+def _flight_errors(path: Path, trip: TripInput, flight: int, begun: _Begun) -> Errors:
+    sortie = trip.sorties[flight]
     place = trip.stops[sortie.launch_stop]
     take_off = thousandths(sortie.launch_time)
     has_left = sortie.launch_stop < begun.left
     if (sortie.launch_stop > begun.left
-            or take_off - launch_duration < thousandths(place.arrival)
+            or take_off - begun.launch_durations[flight] < thousandths(place.arrival)
             or (has_left and take_off > thousandths(place.departure))):
         yield _error("TIMES_DISORDERED", (*path, "launch_time"),
                      "The drone has been launched while the truck was not at the launch stop: "

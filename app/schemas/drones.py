@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from app.schemas.energy import EnergyInput
-from app.schemas.fields import Demand, Input, Money, Name, Seconds, Speed
+from app.schemas.fields import Count, Demand, Input, Money, Name, Seconds, Speed
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
 
@@ -13,6 +13,21 @@ class DroneCostsInput(Input):
 
     per_km: Money = Field(0.25, description="Cost per kilometre flown.")
     per_hour: Money = Field(0.0, description="Cost per hour from take-off to the end of recovery.")
+
+
+class TurnaroundInput(Input):
+    """What a drone needs before it takes off again."""
+
+    swap_duration: Seconds = Field(
+        0.0,
+        description="Time to swap the battery in seconds, by which each launch of a trip takes "
+        "longer, but for its first.",
+    )
+    batteries: Count | None = Field(
+        None,
+        description="Charged batteries that a truck has for each trip, those in its drones among "
+        "them: every sortie takes one. Null: enough.",
+    )
 
 
 class DronesInput(Input):
@@ -43,6 +58,9 @@ class DronesInput(Input):
     )
     service_duration: Seconds | None = Field(
         None, description="Time at a customer in seconds. Null: the customer's `service_duration`."
+    )
+    turnaround: TurnaroundInput | None = Field(
+        None, description="What a drone needs before it takes off again. Null: nothing."
     )
     max_customers_per_sortie: int = Field(
         1, ge=1, le=100, description="Most customers on one flight."

@@ -13,6 +13,7 @@ MAX_AMOUNT = MAX_QUANTITY // 1000
 MAX_DEPOTS = 100
 
 Name = Annotated[str, Field(min_length=1, max_length=200)]
+Count = Annotated[int, Field(ge=0, le=1_000_000)]
 Amount = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
 Seconds = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
 Metres = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]

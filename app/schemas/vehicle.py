@@ -10,6 +10,7 @@ from app.schemas.fields import (
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
     MAX_DEPOTS,
+    Count,
     Demand,
     Input,
     Location,
@@ -24,7 +25,6 @@ from app.schemas.fields import (
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
 
-Count = Annotated[int, Field(ge=0, le=1_000_000)]
 Kilograms = Annotated[float, Field(ge=0, le=1_000_000)]
 
 

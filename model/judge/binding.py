@@ -254,6 +254,12 @@ def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         longer = min(drones.endurance + MS_PER_MINUTE, UNLIMITED)
         yield ("drones.endurance", "minute", slack,
                replace(kind, drones=replace(drones, endurance=longer)))
+    if drones.batteries is not None:
+        slack = None
+        if is_here and trip is not None:
+            slack = float(drones.batteries - len(trip.sorties))
+        richer = replace(drones, batteries=drones.batteries + 1)
+        yield "drones.turnaround.batteries", "unit", slack, replace(kind, drones=richer)
     if drones.energy is not None:
         slack = None
         if sortie is not None and trip is not None:

@@ -194,6 +194,14 @@ def _sorties(attempt: Attempt) -> Diagnosis:
                       _with_type(attempt, replace(vehicle_type, max_sorties=1)))
 
 
+def _batteries(attempt: Attempt) -> Diagnosis:
+    vehicle_type = attempt.vehicle_type
+    drones = replace(_drones(attempt), batteries=1)
+    return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its batteries.",
+                      f"fits if {vehicle_type.id} carried 1 battery",
+                      _with_type(attempt, replace(vehicle_type, drones=drones)))
+
+
 def _time_window(attempt: Attempt) -> Diagnosis:
     customer = attempt.customer
     late = _up_to_tenth(_ready(attempt) - customer.latest, MS_PER_MINUTE)
@@ -315,6 +323,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "TRIP_DISTANCE": _trip_distance,
     "MAX_STOPS": _stops,
     "MAX_SORTIES": _sorties,
+    "BATTERIES": _batteries,
     "TIME_WINDOW": _time_window,
     "TIME_ABOARD": _time_aboard,
     "SHIFT": _shift,

@@ -84,6 +84,7 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
         yield Violation("TRIP_DISTANCE", message, path)
     yield from _count_violations(vehicle_type, trip, path)
     yield from _goods_violations(problem, [timed], "trip", path)
+    yield from _battery_violations(vehicle_type, trip, path)
     release = latest_release(problem, timed.decision)
     if trip.stops[0].arrival < release:
         message = f"begins at {seconds(trip.stops[0].arrival)}, released at {seconds(release)}"
@@ -106,6 +107,14 @@ def _count_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Itera
         if limit is not None and count > limit:
             what = "customers of the truck" if code == "MAX_STOPS" else "sorties"
             yield Violation(code, f"{count} {what}, at most {limit} are allowed", path)
+
+
+def _battery_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
+    """Whether each sortie has a battery of its own."""
+    stock = None if vehicle_type.drones is None else vehicle_type.drones.batteries
+    if stock is not None and len(trip.sorties) > stock:
+        message = f"{len(trip.sorties)} sorties, with {stock} batteries, one for each"
+        yield Violation("BATTERIES", message, f"{path}.sorties[{stock}]")
 
 
 def _halt_violations(

@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from model.judge.clock import service_start
+from model.judge.launches import launch_duration
 from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
@@ -184,7 +185,8 @@ class Screen:
         legs = self._legs_of(drones.travel)
         for launch in range(first_stop - 1, last + 1):
             begin = trip.stops[launch]
-            arrival = begin.ready + drones.launch_duration + legs.there[begin.node]
+            arrival = (begin.ready + launch_duration(drones, not trip.sorties)
+                       + legs.there[begin.node])
             too_late = 0
             if customer.late_cost_per_hour is None:
                 too_late = max(0, arrival - customer.latest)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from model.judge.clock import leg_end, opening, service_start, with_setups
 from model.judge.energy import longest_hold
 from model.judge.freshness import most_excess
-from model.judge.launches import launch_begins
+from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownStop, KnownTrip
 from model.problem import DroneType, Problem, VehicleType
 from model.solution import Route, Sortie, Stop, Trip, Visit
@@ -249,8 +249,8 @@ def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: 
             visits = with_setups(problem, decision.nodes[sortie.launch_stop], fact.visits)
             flights[index] = _flight(problem, drones, decision, sortie, time, visits)
         elif is_launch:
-            time = held_takeoff(problem, drones, decision, sortie,
-                                max(time, earliest) + drones.launch_duration)
+            soonest = max(time, earliest) + launch_duration(drones, not flights)
+            time = held_takeoff(problem, drones, decision, sortie, soonest)
             flights[index] = _fly(problem, drones, decision, sortie, time)
         else:
             flight = flights[index]

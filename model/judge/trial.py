@@ -9,6 +9,7 @@ import numpy as np
 
 from model.judge.check import Evaluation, check
 from model.judge.clock import leg_start
+from model.judge.launches import launch_duration
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import Customer, DroneType, Problem, Travel, VehicleType
 from model.solution import Solution
@@ -177,7 +178,7 @@ def _try_loop(problem: Problem, drones: DroneType, opens: int) -> Attempt:
     customer, node, end = problem.customers[0], problem.num_depots, problem.vehicle_types[0].ends_at
     flight = problem.travel[1].duration.item(0, node) + problem.setup_between(0, node)
     start = max(problem.vehicle_types[0].earliest, customer.release_time,
-                opens - flight - drones.launch_duration)
+                opens - flight - launch_duration(drones, True))
     return _judge(problem, TripDecision((0, end), (SortieDecision((node,), 0, 0),), start=start))
 
 
@@ -185,7 +186,7 @@ def _try_loop_from_customer(problem: Problem, drones: DroneType, opens: int) -> 
     """Return a trip to the first customer with a loop to the second, as its window opens."""
     vehicle_type, (host, customer) = problem.vehicle_types[0], problem.customers
     there, node = problem.num_depots, problem.num_depots + 1
-    approach = (drones.launch_duration + problem.travel[1].duration.item(there, node)
+    approach = (launch_duration(drones, True) + problem.travel[1].duration.item(there, node)
                 + problem.setup_between(there, node))
     arrival = min(max(host.earliest, opens - approach), host.latest,
                   customer.latest - approach)

@@ -23,8 +23,14 @@ def unreachable(duration: int) -> bool:
 
 @inlined
 def launch_duration(kind: Record, launched: int) -> int:
-    """Return how long a launch takes, however many came before."""
-    return kind.launch_duration
+    """Return how long a launch takes: before all but a trip's first, a battery is swapped."""
+    return kind.relaunch_duration if launched > 0 else kind.launch_duration
+
+
+@inlined
+def launches_differ(kind: Record) -> bool:
+    """Tell whether it matters which launch is the first of a trip."""
+    return kind.relaunch_duration != kind.launch_duration
 
 
 @inlined
@@ -46,9 +52,18 @@ def recovery_end(kind: Record, begin: int) -> int:
 
 
 @inlined
+def gone_by(kind: Record, leave: int) -> int:
+    """Return when a drone takes off at the latest whose truck would leave at `leave` without it.
+
+    If nothing holds it back. A usual launch is taken to be over by then, a swap to begin.
+    """
+    return take_off(kind, leave, 1) if launches_differ(kind) else leave
+
+
+@inlined
 def handling_duration(kind: Record) -> int:
-    """Return how long launch and recovery take together."""
-    return kind.launch_duration + kind.recovery_duration
+    """Return how long launch and recovery take together, but for a trip's first launch."""
+    return kind.relaunch_duration + kind.recovery_duration
 
 
 @inlined

@@ -64,21 +64,22 @@ TYPE = record(
     "busy_until", "begun", "shift_latest", "max_working_duration", "usual_end", "usual_working",
     "max_trip_distance", "max_trips", "max_stops", "max_sorties", "reload_duration",
     "speed_changes", "drones", "drone_travel", "home_travel", "endurance", "waiting_counts",
-    "launch_duration", "recovery_duration", "variant", "drone_variant", "points", "battery",
-    "lands", "climb_duration", "descent_duration", "weight_dimension", "pickup_order", "carried",
-    capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER, weights=MAX_POINTS, cruise=MAX_POINTS,
-    hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS)
+    "launch_duration", "relaunch_duration", "recovery_duration", "variant", "drone_variant",
+    "points", "battery", "lands", "climb_duration", "descent_duration", "weight_dimension",
+    "pickup_order", "carried", capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER,
+    weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
 its working duration, and costs as if it were fixed. The end of the shift and the longest working
-duration are with overtime; what is `usual` is without. Its drones' powers are known at so many
-`points`, by weight; none if no battery limits them. It picks up in any order, or after all that a
-trip delivers, which is something, or was before the trip begins here; what else it carries in the
-first dimension."""
+duration are with overtime; what is `usual` is without. Each launch of a trip but the first takes
+the `relaunch_duration`; no more sorties are flown than there are batteries. Its drones' powers are
+known at so many `points`, by weight; none if no battery limits them. It picks up in any order, or
+after all that a trip delivers, which is something, or was before the trip begins here; what else it
+carries in the first dimension."""
 ANY, LAST, BEGUN = range(3)
 
 NO_PROFILE = -1
-NO_DRONES = (0,) * 7
+NO_DRONES = (0,) * 8
 NO_ENERGY = (0,) * 6
 
 RATE = record(fixed=float, distance=float, stop=float, time=float, overtime=float,
@@ -283,7 +284,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], variant: int,
         _changes_ends(kind), kind.earliest, kind.busy_until,
         int(kind.works_since is not None), *_limits_of_work(kind),
         _limit(kind.max_trip_distance), kind.max_trips, _limit(kind.max_stops),
-        _limit(kind.max_sorties), kind.reload_duration,
+        _most_sorties(kind), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
         *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
         *_battery(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
@@ -306,6 +307,12 @@ def _limit(stated: int | None) -> int:
     return UNLIMITED if stated is None else stated
 
 
+def _most_sorties(kind: VehicleType) -> int:
+    """Return how many sorties may be flown on a trip, and there are batteries for."""
+    batteries = None if kind.drones is None else kind.drones.batteries
+    return min(_limit(kind.max_sorties), _limit(batteries))
+
+
 def _limits_of_work(kind: VehicleType) -> tuple[int, int, int, int]:
     """Return the last end and the longest working duration, with overtime and without.
 
@@ -320,8 +327,10 @@ def _limits_of_work(kind: VehicleType) -> tuple[int, int, int, int]:
 
 def _drones(drones: DroneType, ways: Sequence[Way]) -> tuple[int, ...]:
     out, home = (index_of(ways, drones.travel, sets_up) for sets_up in (True, False))
+    relaunch = drones.launch_duration + drones.swap_duration
     return (drones.count, out, home, drones.endurance, int(drones.endurance_includes_waiting),
-            drones.launch_duration, drones.recovery_duration)
+            relaunch if drones.has_launched else drones.launch_duration, relaunch,
+            drones.recovery_duration)
 
 
 def _battery(energy: Energy | None) -> tuple[int, ...]:
@@ -366,7 +375,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
             goods = instance.goods[row, customers]
             fits &= goods["held"] & (goods["barred_on_trip"] | goods["barred_on_vehicle"]) == 0
         instance.can_drive[row, index, customers] = fits & by_truck & (kind.max_stops != 0)
-        if kind.drones is not None and kind.max_sorties != 0:
+        if kind.drones is not None and _most_sorties(kind) > 0:
             payload = instance.type[row, index].payload[dimensions]
             liftable = (most <= payload).all(axis=1)
             instance.can_fly[row, index, customers] = (

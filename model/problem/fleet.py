@@ -46,6 +46,9 @@ class DroneType:
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0
     energy: Energy | None = None  # what a sortie may take of the battery; None: any
+    swap_duration: int = 0  # of the battery, before each launch of a trip but the first
+    batteries: int | None = None  # for each trip, all drones' together; None: enough
+    has_launched: bool = False  # on the trip that its truck is on, before it goes on
 
     def __post_init__(self) -> None:
         require(self.count >= 1, "drone count", self.count)
@@ -58,6 +61,8 @@ class DroneType:
         require_quantity("drone recovery_duration", self.recovery_duration)
         for duration in (self.service_duration or 0, *self.service_durations.values()):
             require_quantity("drone service_duration", duration)
+        require_quantity("drone swap_duration", self.swap_duration)
+        require_quantity("drone batteries", self.batteries or 0)
         require_rate("drone cost_per_km", self.cost_per_km)
         require_rate("drone cost_per_hour", self.cost_per_hour)
 
@@ -138,7 +143,8 @@ class VehicleType:
     @property
     def has_begun(self) -> bool:
         """Tell whether its only trip was begun already."""
-        return any(self.initial_load) or self.busy_until > 0 or self.has_delivered
+        return (any(self.initial_load) or self.busy_until > 0 or self.has_delivered
+                or (self.drones is not None and self.drones.has_launched))
 
     def service_at(self, customer: Customer) -> int:
         """Return how long a truck serves a customer."""

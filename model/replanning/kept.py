@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
-from model.problem import UNREACHABLE, Problem, VehicleType
+from model.problem import UNREACHABLE, DroneType, Problem, VehicleType
 from model.replanning.amend import customers_of, repaired, without
 from model.solution import Route, Solution, Sortie, Stop, Trip
 
@@ -139,14 +139,21 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
         return kept
     ready, service_left = _free_from(problem, route, position, past.now)
     rest = _rest(problem, vehicle, planned, meeting, served)
-    planned_end = max(kept.end, _planned_end(problem, vehicle, ready, service_left, rest))
+    planned_end = max(kept.end, _planned_end(problem, kept, ready, service_left, rest))
     return replace(kept, way_on=WayOn(position, ready, service_left, aboard, rest, planned_end))
 
 
-def _planned_end(problem: Problem, vehicle: Vehicle, ready: int, service_left: int,
+def drones_then(kind: VehicleType, has_launched: bool) -> DroneType | None:
+    """Return a truck's drones for the rest of its trip, by whether one has been launched on it."""
+    return None if kind.drones is None else replace(kind.drones, has_launched=has_launched)
+
+
+def _planned_end(problem: Problem, kept: Kept, ready: int, service_left: int,
                  rest: TripDecision) -> int:
     """Return when a trip is over that goes on as planned."""
-    kind = problem.vehicle_types[vehicle.type]
+    kind = problem.vehicle_types[kept.vehicle.type]
+    drones = drones_then(kind, bool(kept.decision.trips[-1].sorties))
+    kind = replace(kind, max_trips=1, drones=drones)
     node, begun = rest.nodes[0], ready + service_left
     if node >= problem.num_depots:
         begun -= kind.service_at(problem.customer_at(node))
@@ -178,7 +185,8 @@ def _free_from(problem: Problem, route: Route, position: int, now: int) -> tuple
 def _rest(problem: Problem, vehicle: Vehicle, planned: Trip, meeting: int,
           served: set[int]) -> TripDecision:
     """Return how the plan goes on from a stop, but for those who are served before or no more."""
-    drones = problem.vehicle_types[vehicle.type].drones
+    has_launched = any(sortie.launch_stop < meeting for sortie in planned.sorties)
+    drones = drones_then(problem.vehicle_types[vehicle.type], has_launched)
     sorties = tuple(
         replace(sortie, launch_stop=sortie.launch_stop - meeting,
                 recovery_stop=sortie.recovery_stop - meeting)

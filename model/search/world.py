@@ -198,11 +198,12 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
 def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     """Tell whether to insert a customer never saves anything, if no detour does.
 
-    What is aboard is driven less far where a trip is split, and whoever sets up sooner where others
-    have to as well saves their setups.
+    What is aboard is driven less far where a trip is split, where a drone more has a fresh battery
+    too; and whoever sets up sooner where others have to as well saves their setups.
     """
     saves = (mode & MODE_TIMED > 0) & (instance.setup.shape[1] > 0)
-    split = (mode & MODE_LOADED > 0) & (types["max_trips"] > 1)
+    swapped = types["relaunch_duration"] != types["launch_duration"]
+    split = ((mode & MODE_LOADED > 0) | swapped) & (types["max_trips"] > 1)
     return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
 
 

@@ -49,6 +49,8 @@ PROBLEMS = {
                              overtime={"max_duration": 300, "cost_per_hour": 1}),
     "make 1 stop": problem([{}], max_stops=0),
     "launch 1 sortie": problem([{"served_by": "drone"}], drones=DRONES, max_sorties=0),
+    "carried 1 battery": problem([{"served_by": "drone"}], drones=DRONES | {
+        "turnaround": {"batteries": 0}}),
     "pick up at any time": problem([{"demand": [0], "pickup": [5]}], pickups="last"),
     "a truck may serve": problem([{"served_by": "drone"}]),
 }

@@ -11,6 +11,7 @@ from model.judge.check import Evaluation, check
 from model.judge.clock import opening
 from model.judge.energy import hover_energy, leg_energy, sortie_energy
 from model.judge.freshness import most_excess
+from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.timing import (
     Operation, SortieDecision, TripDecision, held_takeoff, latest_release, schedule_trip,
@@ -160,18 +161,20 @@ def _at_this_stop(problem: Problem, drones: DroneType, recovered: OpenTrip,
     What can be launched first is; loops are recovered behind, or while a launch is held back.
     """
     decision, order, back = recovered.decision(), list(arrived), dict[int, int]()
+    launched = len(launches) < len(recovered.flights)
     while launches or back:
+        lasting = launch_duration(drones, is_first=not launched)
         take_off = {index: held_takeoff(problem, drones, decision, decision.sorties[index],
-                                        crew + drones.launch_duration) for index in launches}
+                                        crew + lasting) for index in launches}
         launch = min(launches, key=lambda index: (take_off[index], index), default=None)
         loop = min(back, key=lambda index: (back[index], index), default=None)
-        begin = 0 if launch is None else take_off[launch] - drones.launch_duration
+        begin = 0 if launch is None else take_off[launch] - lasting
         if loop is not None and (launch is None or (
                 begin > crew and max(crew, back[loop]) <= begin)):
             crew = max(crew, back.pop(loop)) + drones.recovery_duration
             order.append(Operation(loop, False))
         elif launch is not None:
-            crew = take_off[launch]
+            crew, launched = take_off[launch], True
             order.append(Operation(launch, True))
             launches = [index for index in launches if index != launch]
             if launch in loops:

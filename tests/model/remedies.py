@@ -89,6 +89,8 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
         kind, overtime=_longer(kind.overtime, text)),
     "fits if .+ could make (.+) stop": lambda kind, text: replace(kind, max_stops=int(text)),
     "fits if .+ could launch (.+) sortie": lambda kind, text: replace(kind, max_sorties=int(text)),
+    "fits if .+ carried (.+) battery": lambda kind, text: replace(
+        kind, drones=replace(_drones(kind), batteries=int(text))),
     "fits if .+ could work (.+) minutes? longer": lambda kind, text: replace(
         kind, max_working_duration=(kind.max_working_duration or 0) + _units(text, MINUTE)),
     "fits if trips could be (.+) km longer": lambda kind, text: replace(

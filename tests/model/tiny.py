@@ -143,6 +143,22 @@ def with_energy(rng: np.random.Generator, problem: Problem, share: float = 1.0) 
         for kind in problem.vehicle_types))
 
 
+def with_turnaround(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which drones' batteries are swapped, and most stocks are small.
+
+    On trips of vehicles under way drones may have been launched before.
+    """
+    def swapping(kind: VehicleType) -> VehicleType:
+        if kind.drones is None:
+            return kind
+        has_launched = kind.max_trips == 1 and bool(rng.random() < 0.3)
+        return replace(kind, drones=replace(
+            kind.drones, swap_duration=_draw(rng, 0, 4), batteries=_maybe(rng, 0.6, 0, 3, 1),
+            has_launched=has_launched))
+
+    return replace(problem, vehicle_types=tuple(map(swapping, problem.vehicle_types)))
+
+
 def with_duty(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem with overtime, whose stops cost and are limited, as are sorties."""
     def tired(kind: VehicleType) -> VehicleType:

@@ -20,6 +20,7 @@ from model.search.route.layout import (
 )
 from model.search.route.refresh import refresh
 from model.search.route.routes import longer_cost, sortie_cost, window_cost
+from model.search.route.vehicles import launch_changed, launches_before
 
 INFEASIBLE = 1e300
 
@@ -51,7 +52,8 @@ def copy_part(fleet: Fleet, slot: int, first: int, last: int, to: int) -> int:
 
 
 @inlined
-def part_of(fleet: Fleet, slot: int, move: Record, held: bool) -> tuple[int, int]:
+def part_of(vehicle_type: Record, fleet: Fleet, slot: int, move: Record,
+            held: bool) -> tuple[int, int]:
     """Return the first and last stop of the blocks that a move changes.
 
     `held` tells that the trip will begin later, so that all from its beginning on changes.
@@ -65,6 +67,9 @@ def part_of(fleet: Fleet, slot: int, move: Record, held: bool) -> tuple[int, int
         p = fleet.sortie[slot, move.sortie].launch
         q = fleet.sortie[slot, move.sortie].recovery
     p, q = max(p, 0), min(q, fleet.route[slot].length - 1)
+    if kind in (BY_SORTIE, TRIP_FROM, TRIP_UNTIL):
+        q = max(q, launch_changed(vehicle_type, fleet.route[slot], fleet.sortie[slot],
+                                  fleet.trip[slot, stops[p].trip], p, kind == BY_SORTIE))
     if held:
         p = fleet.trip[slot, stops[p].trip].first
     return stops[p].block, stops[stops[q].block].last
@@ -83,10 +88,13 @@ def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: R
     time, cum = old[first].arrival, old[first].before
     depart = old[first - 1].depart if first > 0 else FAR
     make_ready(world, k, stops, sorties, count)
+    acc.launched = launches_before(world.type[k], fleet.route[slot], fleet.sortie[slot],
+                                   fleet.trip[slot, old[first].trip], first)
     p = s = driven = 0
     while p < length:
-        stop = stops[p]
-        last = p
+        stop, last = stops[p], p
+        if stop.kind == START:
+            acc.launched = 0
         if s < count and sorties[s].launch == p:
             last = time_block(world, k, stops, length, sorties, count, p, s, time, acc)
             if last < 0:
@@ -207,7 +215,7 @@ def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record)
     release = release_of(world.place[0, node])
     alone = kind in (NEW_TRIP, FLIGHT_TRIP)
     held = not alone and release > trip.release
-    first, last = part_of(fleet, slot, move, held)
+    first, last = part_of(world.type[k], fleet, slot, move, held)
     skipped = copy_part(fleet, slot, first, last, to)
     apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, first, skipped)
     give_releases(fleet, to, alone, trip, release)

@@ -3,7 +3,7 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.flight import (
-    can_serve, earliest_back, recovery_end, take_off, unreachable, within_endurance,
+    can_serve, earliest_back, gone_by, recovery_end, take_off, unreachable, within_endurance,
 )
 from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
 from model.kernel.load import num_tiers
@@ -141,7 +141,7 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
     m = kind.drone_travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, kind.home_travel, node)
     out = leg_at(inward, stops[launch].node)
-    place, left = places_by_air(world.place, kind)[node], stops[launch].leave
+    place, left = places_by_air(world.place, kind)[node], gone_by(kind, stops[launch].leave)
     begun = stops[launch].arrival
     if launch > 0:
         begun = take_off(kind, begun, 0)

@@ -3,6 +3,7 @@
 import math
 
 from model.kernel.compiled import inlined, spliced
+from model.kernel.flight import launches_differ
 from model.kernel.load import (
     Amount, amount_of, fits, holds, holds_in, most_of, picked_of, plus, write_amount,
 )
@@ -27,6 +28,34 @@ def may_launch(kind: Record, route: Record, sorties: Records, trip: Record) -> b
         if trip.first <= sorties[s].launch <= trip.last:
             count += 1
     return allows_sorties(kind, count)
+
+
+@inlined
+def launches_before(kind: Record, route: Record, sorties: Records, trip: Record, p: int) -> int:
+    """Return how many launches of a trip come before its stop `p`, if that matters."""
+    count = 0
+    if launches_differ(kind):
+        for s in range(route.sorties):
+            if trip.first <= sorties[s].launch < p:
+                count += 1
+    return count
+
+
+@inlined
+def launch_changed(kind: Record, route: Record, sorties: Records, trip: Record, p: int,
+                   is_sortie: bool) -> int:
+    """Return the stop of the launch that takes another time since a trip changes at stop `p`.
+
+    That was the trip's first launch where a sortie from stop `p` comes before it; where the trip is
+    cut behind stop `p`, the next launch becomes one. NOWHERE: none does.
+    """
+    if not launches_differ(kind):
+        return NOWHERE
+    first = trip.first if is_sortie else p + 1
+    for s in range(route.sorties):
+        if first <= sorties[s].launch <= trip.last:
+            return sorties[s].launch
+    return NOWHERE
 
 
 @spliced

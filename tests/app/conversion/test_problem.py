@@ -96,6 +96,7 @@ def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
         "drones": {"count": 2, "capacity": [1.5], "speed_kmh": 30, "endurance": 1.25,
                    "endurance_includes_waiting": False, "launch_duration": 0.1,
                    "recovery_duration": 0.2, "service_duration": 0.3,
+                   "turnaround": {"swap_duration": 0.4, "batteries": 5},
                    "max_customers_per_sortie": 3, "costs": {"per_km": 8, "per_hour": 9}}}
     problem = problem_of(smallest)
     customer = problem.customers[0]
@@ -115,6 +116,7 @@ def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
     assert (drones.count, drones.capacity, drones.max_customers_per_sortie) == (2, (1500,), 3)
     assert (drones.endurance, drones.endurance_includes_waiting) == (1250, False)
     assert (drones.launch_duration, drones.recovery_duration) == (100, 200)
+    assert (drones.swap_duration, drones.batteries) == (400, 5)
     assert (drones.service_duration, drones.cost_per_km, drones.cost_per_hour) == (300, 8, 9)
     assert problem.travel[drones.travel].duration[0, 1] == 600_000
 

@@ -85,6 +85,19 @@ def test_rows_hold_what_is_done_and_when(rich: Request, two_trips: Request) -> N
     assert second.bars == ()
 
 
+def test_launches_begin_sooner_where_a_battery_is_swapped(rich: Request,
+                                                          two_trips: Request) -> None:
+    rich["fleet"][0]["drones"]["turnaround"] = {"swap_duration": 60}
+    first, = two_trips["routes"][0]["trips"][0]["sorties"]
+    again = first | {"drone": "truck-1/drone-2", "launch_time": 3990.0}
+    two_trips["routes"][0]["trips"][0]["sorties"] = [again, first]
+    rows = rows_of(scene_of(rich, two_trips))
+    launched = [{(bar.start, bar.end) for bar in row.bars if bar.activity == "launch"}
+                for row in rows]
+    assert launched[0] >= {(3900, 3930), (3900, 3990)}
+    assert [(3900, 3930) in launched[1], (3900, 3990) in launched[2]] == [True, True]
+
+
 def test_windows_at_the_same_time_have_lanes_of_their_own(rich: Request,
                                                          two_trips: Request) -> None:
     rich["customers"][1]["time_window"] = {"earliest": 5000, "latest": 6000}

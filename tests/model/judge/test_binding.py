@@ -87,6 +87,14 @@ def test_minute_of_endurance_lets_a_drone_go(tiny_problem, customers, truck, dro
     assert binding(problem, solution, D)["drones.endurance"] == (None, pytest.approx(2.0))
 
 
+def test_battery_more_lets_a_drone_go(tiny_problem, customers, truck, drones):
+    carrier = replace(truck, count=1, cost_per_km=1.0, drones=replace(drones, batteries=0))
+    problem = tiny_problem(*customers, truck=carrier)
+    solution = plan(problem, route(A, B, C, D))
+    found = binding(problem, solution, D)
+    assert found["drones.turnaround.batteries"] == (0.0, pytest.approx(2.0))
+
+
 def test_watt_hour_lets_a_drone_go(tiny_problem, customers, truck, drones):
     watts = (30_000, 30_000)
     # A minute there and one back: a watt-hour.

@@ -73,6 +73,8 @@ def test_reason_names_the_rule_and_a_remedy_that_works(
     ("RANGE", {"endurance": 6 * MINUTE},
      "A flight from the depot and back lasts 7 minutes more than the endurance.",
      "fits if endurance were 7 minutes longer"),
+    ("SORTIES", {"batteries": 0}, "No drone of truck takes off, by its batteries.",
+     "fits if truck carried 1 battery"),
 ])
 def test_reason_of_a_drone(code, on_drones, message, remedy, tiny_problem, customers, truck,
                            drones):

@@ -66,6 +66,21 @@ def test_sorties_of_a_trip_are_counted_but_no_stops(tiny_problem, customers, tru
     assert [item.code for item in check(grounded, solution).violations] == ["MAX_SORTIES"]
 
 
+def test_each_sortie_of_a_trip_takes_a_battery(tiny_problem, customers, truck, drones):
+    sorties = (SortieDecision((3,), 1, 1), SortieDecision((4,), 1, 2))
+    for batteries, broken in ((2, []), (1, ["routes[0].trips[0].sorties[1]"])):
+        carrier = replace(truck, drones=replace(drones, batteries=batteries), max_trips=2)
+        problem = tiny_problem(*customers, truck=carrier)
+        both = plan(problem, TripDecision((0, 1, 2, 0), sorties))
+        found = check(problem, both).violations
+        assert [item.path for item in found if item.code == "BATTERIES"] == broken
+        # The next trip begins with new ones.
+        trips = (TripDecision((0, 1, 0), sorties[:1]),
+                 TripDecision((0, 2, 0), (SortieDecision((4,), 1, 1),)))
+        each = Solution((schedule(problem, RouteDecision(0, 0, trips)),))
+        assert check(problem, each).violations == ()
+
+
 def test_leaving_out_costs_what_the_customer_states(tiny_problem, customers, truck):
     problem = tiny_problem(replace(customers[0], unassigned_cost=0.0), *customers[1:3],
                            replace(customers[3], unassigned_cost=7.5), truck=truck,

@@ -241,6 +241,32 @@ def test_loop_that_is_back_sooner_ends_before_another_drone_is_launched_again(
     assert check(problem, Solution((route,), ())).is_feasible
 
 
+def test_battery_is_swapped_before_each_launch_of_a_trip_but_the_first(
+    tiny_problem, customers, truck, drones
+):
+    swapping = replace(drones, count=2, swap_duration=3 * MINUTE)
+    problem = tiny_problem(*customers, truck=replace(truck, drones=swapping))
+    sorties = (SortieDecision((3,), 1, 1, 0), SortieDecision((4,), 1, 2, 1),
+               SortieDecision((2,), 2, 2, 0))
+    trip = one_trip(problem, TripDecision((0, 1, 0), sorties))
+    # the first is swapped for the second drone; at the depot from minute 15, which is back at 19
+    assert [sortie.launch_time for sortie in trip.sorties] == list(minutes(3, 7, 24))
+    assert [sortie.recovery_start for sortie in trip.sorties] == list(minutes(12, 19, 33))
+    decision = read_decision(trip, swapping)
+    assert schedule(problem, RouteDecision(0, 0, (decision,))).trips == (trip,)
+
+
+def test_battery_is_swapped_again_once_the_truck_has_reloaded(
+    tiny_problem, customers, truck, drones
+):
+    swapping = replace(drones, swap_duration=3 * MINUTE)
+    problem = tiny_problem(*customers, truck=replace(truck, max_trips=2, drones=swapping))
+    loops = tuple(TripDecision((0, 0), (SortieDecision((node,), 0, 0),)) for node in (1, 2))
+    first, second = schedule(problem, RouteDecision(0, 0, loops)).trips
+    begin = second.stops[0].arrival
+    assert (first.sorties[0].launch_time, second.sorties[0].launch_time) == (MINUTE, begin + MINUTE)
+
+
 def test_order_of_operations_is_a_choice(tiny_problem, customers, truck, drones):
     problem = tiny_problem(*customers, truck=replace(truck, drones=replace(drones, count=2)))
     sorties = (SortieDecision((3,), 0, 1, 0), SortieDecision((4,), 1, 2, 1))

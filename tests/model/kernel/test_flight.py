@@ -1,13 +1,16 @@
 """Tests of the compiled meaning of flights against the judge's."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from model.judge.check import check
+from model.judge.launches import launch_duration
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.kernel.compiled import compiled
 from model.kernel.flight import (
     can_serve, counted_until, endurance_of, handling_duration, held_takeoff, lasting_within,
-    launch_begin, launch_duration, recovery_end, take_off, unreachable, within_endurance,
+    launch_begin, launches_differ, recovery_end, take_off, unreachable, within_endurance,
     within_energy,
 )
 from model.kernel.instance import pack
@@ -52,9 +55,10 @@ def is_charged(kind: Record, places: Records, node: int, out: int, home: int, ta
 
 
 @compiled
-def handled(kind: Record, time: int) -> tuple[int, int, int, int]:
-    return (launch_begin(kind, take_off(kind, time, 1), 1), launch_duration(kind, 0),
-            handling_duration(kind), counted_until(kind, time, time + 1))
+def handled(kind: Record, time: int, launched: int) -> tuple[int, int, int, int, bool]:
+    takeoff = take_off(kind, time, launched)
+    return (launch_begin(kind, takeoff, launched), takeoff - time, handling_duration(kind),
+            counted_until(kind, time, time + 1), launches_differ(kind))
 
 
 def drawn(seed: int, count: int = 200) -> list[tuple[Problem, DroneType, int, int]]:
@@ -124,10 +128,24 @@ def test_a_flight_that_nobody_can_fly_never_lasts() -> None:
 
 def test_launch_and_recovery_take_what_the_drone_says() -> None:
     for problem, drones, _, time in drawn(seed=14, count=40):
-        begin, launch, both, counted = handled(pack([problem]).type[0, 0], time)
+        begin, launch, both, counted, differ = handled(pack([problem]).type[0, 0], time, 0)
         assert (begin, launch) == (time, drones.launch_duration)
         assert both == drones.launch_duration + drones.recovery_duration
         assert counted == time + drones.endurance_includes_waiting
+        assert not differ
+
+
+def test_each_launch_but_the_first_of_a_trip_takes_a_swap_longer() -> None:
+    for problem, drones, _, time in drawn(seed=16, count=40):
+        for has_launched in (False, True):
+            swapping = replace(drones, swap_duration=MINUTE, has_launched=has_launched)
+            truck = replace(problem.vehicle_types[0], max_trips=1, drones=swapping)
+            kind = pack([replace(problem, vehicle_types=(truck,))]).type[0, 0]
+            for launched in range(3):
+                begin, launch, both, _, differ = handled(kind, time, launched)
+                assert (begin, differ) == (time, not has_launched)
+                assert launch == launch_duration(swapping, is_first=launched == 0)
+                assert both == drones.launch_duration + MINUTE + drones.recovery_duration
 
 
 def test_endurance_allows_an_interval_of_arrivals_at_the_beginning_of_a_block() -> None:

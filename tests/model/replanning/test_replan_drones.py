@@ -39,6 +39,24 @@ def test_truck_meets_a_drone_in_the_air_where_planned(planner: Planner, street: 
     assert served(*solution.routes) == {A, B, C, D}
 
 
+def test_rest_of_a_trip_has_the_batteries_that_are_left(planner: Planner, street: Problem,
+                                                        drones: DroneType) -> None:
+    swapping = replace(drones, swap_duration=3 * MINUTE, batteries=2)
+    problem, _ = _flying(street, swapping)
+    problem = with_customer(problem, D, served_by="drone")
+    trip = TripDecision((0, A, B, 0), (SortieDecision((C,), 1, 2), SortieDecision((D,), 2, 3)))
+    plan = solution_of(problem, RouteDecision(0, 0, (trip,)))
+    for batteries, flown in ((2, {A, B, C, D}), (1, {A, B, C})):
+        stock = replace(problem.vehicle_types[0], count=1,
+                        drones=replace(swapping, batteries=batteries))
+        solution = replan(planner, replace(problem, vehicle_types=(stock,)),
+                          Terms(plan, 4 * MINUTE))
+        assert served(*solution.routes) == flown
+        later = [sortie.launch_time for sortie in solution.routes[0].trips[0].sorties[1:]]
+        # The first is aboard at b at 12 min.
+        assert later == [16 * MINUTE][:len(flown) - 3]
+
+
 def test_launch_that_has_not_begun_may_change(planner: Planner, street: Problem,
                                               drones: DroneType) -> None:
     problem, plan = _flying(street, drones)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
+from model.judge.launches import launch_begins
 from model.judge.past import Vehicle
 from model.planner import Planner, PlanOptions
 from model.problem import Problem, Travel
@@ -16,6 +17,7 @@ from tests.model.street import served
 from tests.model.tiny import (
     draw_late, draw_tiny, with_duty, with_energy, with_goods, with_limits_aboard, with_open_ends,
     with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups, with_table,
+    with_turnaround,
 )
 from training.instances import VARIANTS, generate
 
@@ -58,12 +60,11 @@ def instants(plan: Solution) -> list[int]:
 def begun(problem: Problem, route: Route, now: int) -> list[tuple[int, list[int], list[int]]]:
     """Return the trips that have begun: number, stops left, sorties launched."""
     drones = problem.vehicle_types[route.vehicle_type].drones
-    launch_duration = 0 if drones is None else drones.launch_duration
     found = []
     for number, trip in enumerate(route.trips):
         left = [index for index, stop in enumerate(trip.stops) if stop.departure <= now]
-        launched = [index for index, sortie in enumerate(trip.sorties)
-                    if sortie.launch_time - launch_duration <= now]
+        launched = [index for index, begin in enumerate(launch_begins(trip.sorties, drones))
+                    if begin <= now]
         if left or launched:
             found.append((number, left, launched))
     return found
@@ -213,6 +214,13 @@ def test_tiny_plans_on_batteries_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     draw = draw_late if seed % 2 else draw_tiny
     replan_and_check(planner, with_energy(rng, draw(rng)), rng)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_tiny_plans_with_few_batteries_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 13))
+    problem = with_turnaround(rng, draw_tiny(rng, drone_share=1.0))
+    replan_and_check(planner, with_energy(rng, problem) if seed % 2 else problem, rng)
 
 
 @pytest.mark.parametrize("change", [with_open_ends, with_reloads, with_open_reloads])

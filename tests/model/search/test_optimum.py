@@ -18,7 +18,7 @@ from tests.model.search.exhaustive import cheapest_cost
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_goods,
     with_limits_aboard, with_open_ends, with_open_reloads, with_own_durations, with_pickups,
-    with_places, with_reloads, with_setups,
+    with_places, with_reloads, with_setups, with_turnaround,
 )
 
 MINUTE = 60_000
@@ -193,6 +193,15 @@ def few_sorties(rng: np.random.Generator) -> Problem:
     return street_problem(rng, one_by_truck(rng), truck)
 
 
+def swapped_batteries(rng: np.random.Generator) -> Problem:
+    """Each launch of a trip but the first takes long, and there are few batteries or trips."""
+    drones = replace(DRONES, swap_duration=int(rng.integers(1, 6)) * MINUTE,
+                     batteries=(None, 2, 3)[int(rng.integers(3))])
+    truck = replace(TRUCK, count=1, capacity=(20_000,), cost_per_hour=30.0, drones=drones,
+                    max_trips=int(rng.integers(1, 3)))
+    return street_problem(rng, one_by_truck(rng), truck)
+
+
 def both_ways(rng: np.random.Generator) -> Problem:
     """Most have something to be picked up, some nothing else."""
     def changed(customer: Customer) -> Customer:
@@ -241,7 +250,7 @@ KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     plain, windows, timed_windows, limited_work, two_depots, soft_windows, costly_waiting,
     two_types, two_trips, one_drone, two_drones, long_sorties, rush_hour, optional_customers,
     unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties, both_ways, backhauls,
-    timed_both_ways, priced_loads, many_dimensions, drones_both_ways)
+    timed_both_ways, priced_loads, many_dimensions, drones_both_ways, swapped_batteries)
 
 
 def searched_cost(problem: Problem, turns: int) -> float:
@@ -290,6 +299,15 @@ def all_rules_on_batteries(rng: np.random.Generator) -> Problem:
         problem = with_energy(rng, all_rules(rng))
         if any(kind.drones for kind in problem.vehicle_types):
             return problem
+
+
+def all_rules_swapping(rng: np.random.Generator) -> Problem:
+    """Return problems half of which have batteries, windows or vehicles under way as well."""
+    while True:
+        problem = with_turnaround(rng, all_rules(rng))
+        if any(kind.drones for kind in problem.vehicle_types):
+            change = (with_energy, with_gaps, with_beginnings)[int(rng.integers(3))]
+            return change(rng, problem) if rng.random() < 0.5 else problem
 
 
 def all_rules_open(rng: np.random.Generator) -> Problem:
@@ -361,7 +379,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 @pytest.mark.parametrize("draw", [
     all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
     all_rules_of_duty, all_rules_both_ways, all_rules_own_durations, all_rules_goods_apart,
-    all_rules_setups, all_rules_limits_aboard, all_rules_at_once],
+    all_rules_setups, all_rules_limits_aboard, all_rules_at_once, all_rules_swapping],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:

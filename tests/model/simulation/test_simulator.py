@@ -23,7 +23,7 @@ from tests.model.rollouts import choose, legal, random_problems, record, roll
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_goods,
     with_limits_aboard, with_open_ends, with_open_reloads, with_own_costs, with_own_durations,
-    with_pickups, with_places, with_reloads, with_setups, with_table,
+    with_pickups, with_places, with_reloads, with_setups, with_table, with_turnaround,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -94,9 +94,14 @@ def many_dimensions(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_dimensions(rng, with_pickups(rng, problem) if rng.random() < 0.5 else problem)
 
 
+def swapping_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_turnaround(rng, with_energy(rng, with_gaps(rng, with_places(rng, problem))))
+
+
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
-    with_open_reloads, with_duty, with_own_durations, with_goods, with_setups, with_limits_aboard])
+    with_open_reloads, with_duty, with_own_durations, with_goods, with_setups, with_limits_aboard,
+    with_turnaround, swapping_among_all])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(200):

@@ -91,6 +91,10 @@ const CHANGES = [
     (request, { type }) => setIn(request, [...type, 'max_sorties'], 1),
   ],
   [
+    /^fits if .+ carried 1 battery$/,
+    (request, { type }) => setIn(request, [...type, 'drones', 'turnaround', 'batteries'], 1),
+  ],
+  [
     new RegExp(`^fits if .+ could work ${NUMBER} minutes? longer$`),
     (request, { type }, more) =>
       add(request, [...type, 'max_working_duration'], numberOf(more) * SECONDS_PER_MINUTE),

@@ -6,6 +6,7 @@
  */
 
 import { clock } from './format.js';
+import { launchDurations } from './launches.js';
 import { removeIn, setIn } from './paths.js';
 
 /** Return the request that goes on from a plan at an instant; null: nothing has happened yet. */
@@ -81,12 +82,12 @@ export function progressOf(route, type, { freeze_before: now, unavailable = [] }
   const isBroken = unavailable.includes(route.vehicle);
   const progress = { trip: -1, stop: -1, left: 0, flights: [], isBroken };
   if (now === null || now === undefined) return progress;
-  const launching = type?.drones?.launch_duration ?? 0;
   route.trips.forEach(({ stops, sorties = [] }, trip) => {
     const standing = stops.findIndex(({ departure }) => departure > now);
     const left = standing < 0 ? stops.length : standing;
+    const launching = launchDurations(type?.drones, sorties);
     const flights = sorties.flatMap(({ launch_time: launch }, flight) =>
-      launch - launching <= now ? [flight] : [],
+      launch - launching[flight] <= now ? [flight] : [],
     );
     if (!left && !flights.length) return;
     const meetings = flights.map((flight) => sorties[flight].recovery_stop);

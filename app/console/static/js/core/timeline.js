@@ -1,5 +1,7 @@
 /** A plan as rows of bars: what each vehicle and drone does when. Times in seconds. */
 
+import { launchDurations } from './launches.js';
+
 /** What bars mean, in the order of the legend. */
 export const ACTIVITIES = {
   drive: 'Drive',
@@ -74,26 +76,30 @@ function stopBars(halt, type) {
 
 function droneRows(vehicle) {
   const rows = new Map();
-  for (const sortie of vehicle.trips.flatMap((trip) => trip.sorties)) {
+  const sorties = vehicle.trips.flatMap((trip) => {
+    const durations = launchDurations(vehicle.type?.drones, trip.sorties.map(({ reply }) => reply));
+    return trip.sorties.map((sortie, index) => [sortie, durations[index]]);
+  });
+  for (const [sortie, launching] of sorties) {
     if (!rows.has(sortie.drone)) {
       const label = sortie.drone.slice(sortie.drone.lastIndexOf('/') + 1);
       rows.set(sortie.drone, { key: sortie.drone, kind: 'drone', label, vehicle, bars: [] });
     }
-    rows.get(sortie.drone).bars.push(...sortieBars(vehicle, sortie));
+    rows.get(sortie.drone).bars.push(...sortieBars(vehicle, sortie, launching));
   }
   return [...rows.values()].sort((first, second) =>
     first.key.localeCompare(second.key, 'en', { numeric: true }),
   );
 }
 
-function sortieBars(vehicle, sortie) {
+function sortieBars(vehicle, sortie, launching) {
   const { launch_time: launch, recovery_time: recovered } = sortie.reply;
   const drones = vehicle.type?.drones ?? {};
   const landing = Math.max(recovered - (drones.recovery_duration ?? 0), launch);
   const bars = [
     {
       kind: 'handle',
-      from: launch - (drones.launch_duration ?? 0),
+      from: launch - launching,
       until: launch,
       key: sortie.key,
     },

@@ -18,6 +18,7 @@ const RULES = {
   max_working_duration: ['the longest working duration', 'more'],
   max_trip_distance: ['the longest trip', 'more'],
   'drones.endurance': ['the endurance', 'more'],
+  'drones.turnaround.batteries': ['the number of batteries', 'more'],
   'drones.energy.battery_wh': ['the battery of drones', 'more'],
   'drones.capacity': ['the drone capacity', 'more'],
   count: ['the number', 'more'],

@@ -1,0 +1,91 @@
+"""What an insertion costs where a trip's first launch is shorter than all others."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.kernel.compiled import compiled_on_arrays
+from model.kernel.instance import pack
+from model.kernel.records import Record
+from model.problem import UNLIMITED, Problem
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import make_searcher
+from model.search.insertion.evaluate import price_move
+from model.search.route.edit import AT_STOP, BY_SORTIE, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL
+from model.search.route.layout import END, MODE_PRICED, START, Fleet, World
+from model.search.route.state import Searcher
+from model.search.world import make_world
+from model.solution import Solution
+from tests.model.tiny import MINUTE
+from training.instances import generate
+
+SPAN = 3
+"""Stops behind its launch where a sortie is recovered at most."""
+
+
+@compiled_on_arrays
+def priced(world: World, fleet: Fleet, move: Record, node: int, acc: Record) -> float:
+    return price_move(world, fleet, move, node, acc)
+
+
+def swapping(seed: int, count: int) -> Problem:
+    """Return a problem with several trips and many sorties."""
+    rng = np.random.default_rng(seed)
+    problem = generate(rng, count, "drone")
+    truck = problem.vehicle_types[0]
+    assert truck.drones is not None
+    carrier = replace(
+        truck, cost_per_hour=20.0, max_trips=8, reload_duration=5 * MINUTE, latest=UNLIMITED,
+        max_trip_distance=None, max_working_duration=None,
+        drones=replace(
+            truck.drones, count=2, swap_duration=int(rng.integers(1, 15)) * MINUTE,
+            cost_per_hour=0.0))
+    customers = tuple(
+        replace(customer, late_cost_per_hour=None, early_cost_per_hour=0.0, service_duration=MINUTE,
+                latest=UNLIMITED if rng.random() < 0.7 else customer.latest,
+                served_by="drone" if rng.random() < 0.4 else "either")
+        for customer in problem.customers)
+    return replace(problem, vehicle_types=(carrier,), customers=customers)
+
+
+def places(searcher: Searcher, slot: int) -> Iterator[tuple[int, int, int]]:
+    """Yield moves that change which launch of a trip is the first, or none: kind, stop, last."""
+    stops, route = searcher.now.stop[slot], searcher.now.route[slot]
+    for p in range(1, route.length):
+        last = searcher.now.trip[slot, stops[p].trip].last
+        yield from ((BY_SORTIE, p, q) for q in range(p, min(p + SPAN, last) + 1))
+        if stops[p].kind == END:
+            yield FLIGHT_TRIP, p, 0
+        else:
+            yield AT_STOP, p, 0
+            if stops[p].kind != START and stops[p].flying == 0 and stops[p + 1].kind != END:
+                yield from ((TRIP_FROM, p, 0), (TRIP_UNTIL, p, 0))
+
+
+def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
+    compared = dict.fromkeys((BY_SORTIE, AT_STOP, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL), 0)
+    refused = 0
+    for seed in range(12):
+        problem = swapping(seed, 14)
+        world = make_world(problem, pack([problem]))
+        timed = world._replace(mode=world.mode | MODE_PRICED)
+        nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+        searcher = make_searcher(problem, world, nobody, np.random.SeedSequence(seed))
+        begin_anew(world, searcher, False)
+        # How much is aboard is looked at before.
+        world.type["capacity"] *= 100
+        rng, move = np.random.default_rng(seed), searcher.move
+        for slot in searcher.active[: searcher.count.active].tolist():
+            others = [node for node in range(problem.num_depots, problem.num_nodes)
+                      if searcher.now.where[node].slot != slot]
+            for kind, first, last in places(searcher, slot):
+                move.kind, move.slot, move.first, move.last, move.drone = kind, slot, first, last, 1
+                node = int(rng.choice(others))
+                part, whole = (priced(each, searcher.now, move, node, searcher.acc)
+                               for each in (world, timed))
+                assert part == pytest.approx(whole), (seed, slot, kind, first, last, node)
+                refused += part > 1e200
+                compared[kind] += part < 1e200
+    assert min(refused, *compared.values()) > 5, (refused, compared)
