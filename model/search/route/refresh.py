@@ -154,7 +154,7 @@ def choose_reloads(world: World, fleet: Fleet, slot: int, acc: Record) -> None:
                 break
 
 
-@spliced
+@inlined
 def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     """As `refresh`, of a route that isn't lean, with trips that end where they do."""
     route, stops = fleet.route[slot], fleet.stop[slot]
