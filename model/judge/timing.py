@@ -79,15 +79,11 @@ class _Flight:
     recovery_start: int = 0
 
 
-def _is_complete(
-    operations: tuple[tuple[Operation, ...], ...], sorties: tuple[SortieDecision, ...]
-) -> bool:
+def _is_complete(operations: tuple[tuple[Operation, ...], ...],
+                 sorties: tuple[SortieDecision, ...]) -> bool:
     """Tell whether every sortie is launched and then recovered, once each, at its stops."""
-    planned = [
-        (stop, operation.sortie, not operation.is_launch)
-        for stop, group in enumerate(operations)
-        for operation in group
-    ]
+    planned = [(stop, operation.sortie, not operation.is_launch)
+               for stop, group in enumerate(operations) for operation in group]
     needed = [
         place
         for index, sortie in enumerate(sorties)

@@ -212,10 +212,9 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
            write: bool) -> bool:
     """Time the trips from `first_trip` on, the first begun at `start`, all else without delay.
 
-    In place where `write` is set: the log takes the new times, and the result tells whether hard
-    windows and endurance hold (the times written are void where not). Else only the result counts:
-    whether the later start costs nothing, that is, no more lateness, no longer sortie, no later
-    end than in the log, and keeps no parcel too long aboard.
+    In place where `write` is set: the log takes new times, void unless the result tells that hard
+    windows and endurance hold. Else it tells alone whether the later start costs nothing: no more
+    lateness, no longer sortie, no later end than logged, and no parcel too long aboard.
     """
     op = log.trip[first_trip].first_op
     leave = start

@@ -5,17 +5,17 @@ import os
 import signal
 import subprocess
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import torch
 
 from training.config import TrainConfig
-from training.export import export
 from training.heuristics import nearest_neighbour
-from training.policies import POLICIES
 from training.train import train, validation_batches
+
+EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 
 TINY = TrainConfig(sizes=((0, 6), (2, 8)), num_problems=4, num_rollouts=3, warm_up=2)
 
@@ -47,36 +47,19 @@ def test_resumed_run_equals_an_uninterrupted_one(tmp_path: Path) -> None:
             assert torch.equal(value, second[part][name]), name
 
 
-@dataclass(frozen=True)
-class Exported:
-    """A policy's weights, and where they are kept."""
-
-    weights: dict[str, torch.Tensor]
-    folder: Path
-
-
-@pytest.fixture(scope="module")
-def exported(tmp_path_factory: pytest.TempPathFactory) -> Exported:
-    """Return the weights of an `attention` policy that was exported."""
-    torch.manual_seed(5)
-    policy, folder = POLICIES["attention"](), tmp_path_factory.mktemp("exported")
-    export(policy, folder, {})
-    return Exported(policy.state_dict(), folder)
-
-
-def test_training_begins_with_an_exported_policy(exported: Exported, tmp_path: Path) -> None:
+def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:
     config = replace(TINY, policy="attention", baseline="shared")
-    train(config, tmp_path, 5.0, "cpu", max_steps=0, validation_size=8,
-          begin_with=exported.folder)
+    train(config, tmp_path, 5.0, "cpu", max_steps=0, validation_size=8, begin_with=EXPORTED)
     content = torch.load(tmp_path / "checkpoint.pt", weights_only=False)
-    for name, value in exported.weights.items():
+    weights = torch.load(EXPORTED / "weights.pt", weights_only=True)
+    assert weights.keys() == content["policy"].keys()
+    for name, value in weights.items():
         assert torch.equal(value, content["policy"][name]), name
 
 
-def test_another_policys_weights_are_refused(exported: Exported, tmp_path: Path) -> None:
+def test_another_policys_weights_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="begin_with"):
-        train(TINY, tmp_path, 5.0, "cpu", max_steps=0, validation_size=8,
-              begin_with=exported.folder)
+        train(TINY, tmp_path, 5.0, "cpu", max_steps=0, validation_size=8, begin_with=EXPORTED)
 
 
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:

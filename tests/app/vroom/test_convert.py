@@ -139,10 +139,10 @@ def test_amounts_that_cant_fill_a_vehicle_are_no_dimension(street: Data) -> None
 
 def test_more_binding_amounts_than_dimensions_are_refused(street: Data) -> None:
     for vehicle in street["vehicles"]:
-        vehicle["capacity"] = [3, 3, 3, 3]
+        vehicle["capacity"] = [3] * 9
     for job in street["jobs"]:
-        job["delivery"] = [1, 1, 1, 1]
-    with pytest.raises(RefusedError, match="4 amounts may fill a vehicle"):
+        job["delivery"] = [1] * 9
+    with pytest.raises(RefusedError, match="9 amounts may fill a vehicle"):
         Case(street)
 
 

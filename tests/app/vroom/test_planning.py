@@ -6,10 +6,12 @@ import random
 import statistics
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import pytest
 
+from app.conversion.preparing import StoppedError
 from app.load.bodies import ReceivedBody
 from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.answering import answer
@@ -182,7 +184,9 @@ def test_nobody_can_be_served(ours: Solve, street: Data) -> None:
 
 def test_abandoned_request_ends_early(planner: Planner, street: Data) -> None:
     body = ReceivedBody(json.dumps(street).encode(), time.perf_counter())
-    answer(planner, body, Settings(vroom_seconds=30.0), lambda: True)
+    # A machine that stalls has no plan yet when the client is found gone.
+    with suppress(StoppedError):
+        answer(planner, body, Settings(vroom_seconds=30.0), lambda: True)
     assert time.perf_counter() - body.received_at < 5
 
 

@@ -104,7 +104,7 @@ def swapping_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     with_turnaround, swapping_among_all])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
-    for seed in range(200):
+    for seed in range(80):
         rng = np.random.default_rng(seed)
         problem = change(rng, draw_tiny(rng))
         assert_exact(problem, rng, seed)
@@ -134,7 +134,7 @@ def with_times_on_batteries(rng: np.random.Generator, problem: Problem) -> Probl
     with_times_and_all_else, with_times_on_batteries])
 def test_what_is_aboard_at_each_stop_decides_what_is_legal(
         change: Change) -> None:
-    for seed in range(200):
+    for seed in range(80):
         rng = np.random.default_rng((seed, 5))
         problem = change(rng, draw_tiny(rng))
         assert_exact(problem, rng, seed)
