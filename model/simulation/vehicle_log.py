@@ -216,8 +216,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
     windows and endurance hold. Else it tells alone whether the later start costs nothing: no more
     lateness, no longer sortie, no later end than logged, and no parcel too long aboard.
     """
-    op = log.trip[first_trip].first_op
-    leave = start
+    op, leave = log.trip[first_trip].first_op, start
     for trip in range(first_trip, log.count.trips):
         first, launched = log.trip[trip].first_stop, 0
         further = trip + 1 < log.count.trips
