@@ -17,6 +17,7 @@ from model.problem import (
     MAX_BATTERY, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Overtime,
     Problem, VehicleType,
 )
+from model.solution import Stop, Visit
 
 
 class Diagnosis(NamedTuple):
@@ -61,7 +62,7 @@ def _km(distance: int) -> str:
 def _vehicle(attempt: Attempt) -> Diagnosis:
     name = attempt.vehicle_type.id
     return Diagnosis("VEHICLE", f"{name} may not serve it.", f"fits if {name} may serve it",
-                      replace(attempt.problem, may_serve=None))
+                     replace(attempt.problem, may_serve=None))
 
 
 def _skills(attempt: Attempt) -> Diagnosis:
@@ -69,7 +70,7 @@ def _skills(attempt: Attempt) -> Diagnosis:
     missing = ", ".join(sorted(needed - vehicle_type.skills))
     changed = replace(vehicle_type, skills=vehicle_type.skills | needed)
     return Diagnosis("SKILLS", f"{vehicle_type.id} lacks {missing}.",
-                      f"fits if {vehicle_type.id} had {missing}", _with_type(attempt, changed))
+                     f"fits if {vehicle_type.id} had {missing}", _with_type(attempt, changed))
 
 
 def _goods(attempt: Attempt) -> Diagnosis:
@@ -175,36 +176,37 @@ def _trip_distance(attempt: Attempt) -> Diagnosis:
     )
 
 
-def _ready(attempt: Attempt) -> int:
+def _halt(attempt: Attempt) -> Stop | Visit:
+    """Return where the customer is served, by the truck or a drone."""
     trip = attempt.solution.routes[0].trips[0]
-    return (trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]).ready
+    return trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]
 
 
 def _stops(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     return Diagnosis("STOPS", f"{vehicle_type.id} serves nobody itself, by its max_stops.",
-                      f"fits if {vehicle_type.id} could make 1 stop",
-                      _with_type(attempt, replace(vehicle_type, max_stops=1)))
+                     f"fits if {vehicle_type.id} could make 1 stop",
+                     _with_type(attempt, replace(vehicle_type, max_stops=1)))
 
 
 def _sorties(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its max_sorties.",
-                      f"fits if {vehicle_type.id} could launch 1 sortie",
-                      _with_type(attempt, replace(vehicle_type, max_sorties=1)))
+                     f"fits if {vehicle_type.id} could launch 1 sortie",
+                     _with_type(attempt, replace(vehicle_type, max_sorties=1)))
 
 
 def _batteries(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     drones = replace(_drones(attempt), batteries=1)
     return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its batteries.",
-                      f"fits if {vehicle_type.id} carried 1 battery",
-                      _with_type(attempt, replace(vehicle_type, drones=drones)))
+                     f"fits if {vehicle_type.id} carried 1 battery",
+                     _with_type(attempt, replace(vehicle_type, drones=drones)))
 
 
 def _time_window(attempt: Attempt) -> Diagnosis:
     customer = attempt.customer
-    late = _up_to_tenth(_ready(attempt) - customer.latest, MS_PER_MINUTE)
+    late = _up_to_tenth(_halt(attempt).ready - customer.latest, MS_PER_MINUTE)
     enough = customer.latest + late
     changed = replace(customer, latest=min(enough, UNLIMITED))
     window = "last window" if customer.gaps else "window"
@@ -221,7 +223,7 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
 
     None if nobody waits between two windows, or that doesn't suffice.
     """
-    customer, arrival = attempt.customer, _ready(attempt)
+    customer, arrival = attempt.customer, _halt(attempt).ready
     missed = [number for number, (closes, opens) in enumerate(customer.gaps)
               if closes < arrival < opens]
     if not missed:
@@ -245,8 +247,7 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
 
 def _time_aboard(attempt: Attempt) -> Diagnosis:
     customer, trip = attempt.customer, attempt.solution.routes[0].trips[0]
-    halt = trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]
-    excess = _up_to_tenth(excess_aboard(attempt.problem, trip, halt), MS_PER_MINUTE)
+    excess = _up_to_tenth(excess_aboard(attempt.problem, trip, _halt(attempt)), MS_PER_MINUTE)
     enough = (customer.max_time_aboard or 0) + excess
     changed = replace(customer, max_time_aboard=min(enough, MAX_QUANTITY))
     return Diagnosis(

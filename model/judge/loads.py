@@ -44,20 +44,21 @@ def trip_loads(problem: Problem, kind: VehicleType, trip: Trip) -> list[Amount]:
 
 def _leaving(problem: Problem, trip: Trip) -> list[list[Customer]]:
     """Return whose parcels leave the truck at each stop."""
-    customers, first = problem.customers, problem.num_depots
-    leaving = [[], *([customers[stop.node - first]] for stop in trip.stops[1:-1]), []]
-    for sortie in trip.sorties:
-        leaving[sortie.launch_stop] += [customers[visit.node - first] for visit in sortie.visits]
-    return leaving
+    return _by_stop(problem, trip, [sortie.launch_stop for sortie in trip.sorties])
 
 
 def _coming(problem: Problem, trip: Trip) -> list[list[Customer]]:
     """Return whose pickups come aboard the truck at each stop."""
+    return _by_stop(problem, trip, [sortie.recovery_stop for sortie in trip.sorties])
+
+
+def _by_stop(problem: Problem, trip: Trip, flown_at: list[int]) -> list[list[Customer]]:
+    """Return who counts at each stop: whom the truck serves there, and those of sorties."""
     customers, first = problem.customers, problem.num_depots
-    coming = [[], *([customers[stop.node - first]] for stop in trip.stops[1:-1]), []]
-    for sortie in trip.sorties:
-        coming[sortie.recovery_stop] += [customers[visit.node - first] for visit in sortie.visits]
-    return coming
+    groups = [[], *([customers[stop.node - first]] for stop in trip.stops[1:-1]), []]
+    for sortie, stop in zip(trip.sorties, flown_at, strict=True):
+        groups[stop] += [customers[visit.node - first] for visit in sortie.visits]
+    return groups
 
 
 def sortie_loads(problem: Problem, sortie: Sortie) -> list[Amount]:
