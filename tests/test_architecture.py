@@ -61,7 +61,7 @@ HOMES = {
                       ".relaunch_duration", ".waiting_counts",
                       "UNREACHABLE"},
     "kernel/energy": {".battery", ".lands", ".climb_duration", ".descent_duration", ".cruise",
-                      ".hover", ".weight_dimension"},
+                      ".hover"},
     "kernel/load": {".capacity", ".demand", ".payload", ".pickup_order"},
     "kernel/clock": {".setup_duration", ".site", ".speed_changes", "FULL_SPEED",
                      "arrival_by_profile", "leave_by_profile"},
@@ -73,7 +73,7 @@ With a dot: a field, which may be read as an attribute or by its name in quotes.
 """
 DESCRIBING = {
     "kernel/instance": set.union(*HOMES.values()),
-    "kernel/asked": {".setup_duration", ".site"},
+    "kernel/asked": {".demand", ".setup_duration", ".site"},
     "kernel/variants": {".service_duration", ".setup_duration", ".site"},
     "policy/tokens": set.union(*HOMES.values()),
     "policy/features": {".capacity", ".demand", ".endurance"},

@@ -21,15 +21,15 @@ def climb_duration(drones: DronesInput) -> int:
 
 
 def to_energy(drones: DronesInput, stated: EnergyInput, decimals: Sequence[int],
-              demands: Collection[Sequence[int]]) -> Energy:
-    """Convert what is stated of a drone's energy; `demands` are the customers'."""
+              amounts: Collection[Sequence[int]]) -> Energy:
+    """Convert what is stated of a drone's energy; `amounts` are delivered and picked up."""
     dimension, speed = stated.weight_dimension, drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
     powers, climb = powers_of(stated, speed), climb_of(stated, speed)
     most = counted(drones.capacity, decimals)[dimension]
-    most = max(1, min(most, sum([demand[dimension] for demand in demands])))
+    most = max(1, min(most, sum([amount[dimension] for amount in amounts])))
     weights: tuple[int, ...] = (0, most)
     if not powers.are_linear:
-        weights = _points(most, {demand[dimension] for demand in demands})
+        weights = _points(most, {amount[dimension] for amount in amounts})
     kg = [weight / 10 ** decimals[dimension] * stated.kg_per_unit for weight in weights]
 
     def rounded(curve: Curve) -> tuple[int, ...]:
@@ -59,10 +59,10 @@ def _points(most: int, weights: set[int]) -> tuple[int, ...]:
 
 
 def is_countable(drones: DronesInput, stated: EnergyInput, decimals: Sequence[int],
-                 demands: Collection[Sequence[int]]) -> bool:
+                 amounts: Collection[Sequence[int]]) -> bool:
     """Tell whether what flying takes with the most aboard can be counted."""
     try:
-        to_energy(drones, stated, decimals, demands)
+        to_energy(drones, stated, decimals, amounts)
     except (OverflowError, ValueError):
         return False
     return True

@@ -29,8 +29,8 @@ def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
     customers = tuple([
         to_customer(customer, decimals, site)
         for customer, site in zip(request.customers, sites[len(depots):], strict=True)])
-    demands = [customer.demand for customer in customers]
-    vehicle_types = tuple([to_vehicle_type(stated, depots, travels, decimals, demands)
+    amounts = [amount for customer in customers for amount in (customer.demand, customer.taken_in)]
+    vehicle_types = tuple([to_vehicle_type(stated, depots, travels, decimals, amounts)
                            for stated in request.fleet])
     vehicle_types = with_service_durations(vehicle_types, request.customers)
     groups = list(groups_of(request.fleet, request.customers))

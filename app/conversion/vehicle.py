@@ -14,8 +14,8 @@ from model.problem import UNLIMITED, Depot, DroneType, Overtime, VehicleType
 
 def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: Travels,
                     decimals: Sequence[int],
-                    demands: Collection[Sequence[int]]) -> VehicleType:
-    """Convert a valid vehicle type; `depots` are the problem's, `demands` customers'."""
+                    amounts: Collection[Sequence[int]]) -> VehicleType:
+    """Convert a valid vehicle type; of the problem are `depots`, and `amounts` both ways."""
     travel, speed_profile = travels.drive(stated)
     places = places_of_type(stated, depots)
     shift = stated.shift
@@ -45,7 +45,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         reload_duration=thousandths(stated.reload_duration),
         skills=frozenset(stated.skills),
         pickups=stated.pickups,
-        drones=_drones(stated.drones, travels, decimals, demands),
+        drones=_drones(stated.drones, travels, decimals, amounts),
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
     )
@@ -59,7 +59,7 @@ def _overtime(stated: OvertimeInput | None) -> Overtime | None:
 
 
 def _drones(stated: DronesInput | None, travels: Travels, decimals: Sequence[int],
-            demands: Collection[Sequence[int]]) -> DroneType | None:
+            amounts: Collection[Sequence[int]]) -> DroneType | None:
     if stated is None or stated.count == 0:
         return None
     turnaround = stated.turnaround or TurnaroundInput()
@@ -76,7 +76,7 @@ def _drones(stated: DronesInput | None, travels: Travels, decimals: Sequence[int
         batteries=turnaround.batteries,
         max_customers_per_sortie=stated.max_customers_per_sortie,
         energy=(None if stated.energy is None
-                else to_energy(stated, stated.energy, decimals, demands)),
+                else to_energy(stated, stated.energy, decimals, amounts)),
         cost_per_km=stated.costs.per_km,
         cost_per_hour=stated.costs.per_hour,
     )

@@ -60,13 +60,14 @@ def _is_countable(draft: Draft, drones: DronesInput, energy: EnergyInput) -> boo
     """Tell whether powers can be counted, or can't be looked at for other errors."""
     customers = [customer for _, customer in draft.known_customers()]
     fleet = [vehicle_type for _, vehicle_type in draft.vehicle_types()]
-    stated = [*(customer.demand for customer in customers), *(kind.capacity for kind in fleet),
+    asked = [amount for customer in customers for amount in (customer.demand, customer.pickup)
+             if amount is not None]
+    stated = [*asked, *(kind.capacity for kind in fleet),
               *(kind.drones.capacity for kind in fleet if kind.drones is not None)]
     if len(set(map(len, stated))) > 1:
         return True
     decimals = decimals_of(customers, fleet)
-    demands = [counted(customer.demand, decimals) for customer in customers]
-    return is_countable(drones, energy, decimals, demands)
+    return is_countable(drones, energy, decimals, [counted(each, decimals) for each in asked])
 
 
 def speed_errors(draft: Draft) -> Errors:

@@ -58,7 +58,8 @@ class EnergyInput(Input):
         1.0, description="Weight of a unit of the demand's `weight_dimension` in kg."
     )
     weight_dimension: int = Field(
-        0, ge=0, le=7, description="Dimension of `demand` that tells the weight, from 0."
+        0, ge=0, le=7,
+        description="Dimension of `demand` and `pickup` that tells the weight, from 0."
     )
     power: PowerInput | None = Field(
         None, description="What level flight and hovering take. Null: as `preset` says."

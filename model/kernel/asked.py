@@ -1,8 +1,8 @@
-"""What some customers ask for, as rows of numbers: goods kept apart, setups."""
+"""What some customers ask for, as rows of numbers: goods kept apart, setups, weights."""
 
 import numpy as np
 
-from model.problem import BoolArray, Customer, DroneType, Problem
+from model.problem import Customer, IntArray, Problem
 
 
 def goods_rows(problem: Problem) -> list[tuple[int, int, int]]:
@@ -39,14 +39,9 @@ def has_setups(problem: Problem) -> bool:
     return any(customer.setup_duration for customer in problem.customers)
 
 
-def may_be_flown_to(problem: Problem, drones: DroneType, dimensions: int) -> BoolArray:
-    """Mark the customers whose weight aboard a drone is known by `NODE`, if a battery limits it.
-
-    There are so many `dimensions`. What drones pick up then, and weights in later ones, are left to
-    trucks.
-    """
-    if drones.energy is None:
-        return np.ones(problem.num_customers, np.bool_)
-    if drones.energy.dimension >= dimensions:
-        return np.zeros(problem.num_customers, np.bool_)
-    return np.array([not any(customer.pickup) for customer in problem.customers], np.bool_)
+def weight_rows(problem: Problem, dimension: int, length: int) -> IntArray:
+    """Return what weighs of what each customer is brought, and gives, padded to so many columns."""
+    rows = np.zeros((problem.num_customers, length), np.int64)
+    rows[:, :2] = [(customer.demand[dimension], customer.taken_in[dimension])
+                   for customer in problem.customers]
+    return rows

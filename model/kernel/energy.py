@@ -6,8 +6,7 @@ it than it held.
 
 from model.kernel.compiled import inlined
 from model.kernel.instance import FAR
-from model.kernel.load import demanded
-from model.kernel.records import Record, Records
+from model.kernel.records import Record
 from model.problem import IntArray
 
 EMPTY = -1
@@ -29,12 +28,6 @@ def hovers_at_customers(kind: Record) -> bool:
 def battery_of(kind: Record) -> int:
     """Return what a sortie may take."""
     return kind.battery
-
-
-@inlined
-def weight_of(kind: Record, place: Records) -> int:
-    """Return what a customer's parcel weighs."""
-    return demanded(place, kind.weight_dimension)
 
 
 @inlined

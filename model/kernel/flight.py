@@ -7,9 +7,10 @@
 from model.kernel.compiled import inlined
 from model.kernel.energy import (
     after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_cruise,
-    longest_hover, weight_of,
+    longest_hover,
 )
 from model.kernel.instance import FAR, NONE
+from model.kernel.load import weight_brought, weight_taken
 from model.kernel.records import Record, Records
 from model.kernel.stop import opening, service_duration
 from model.problem import UNREACHABLE
@@ -86,7 +87,7 @@ def longest_hold(kind: Record, flight: int, left: int, weight: int) -> int:
     """Return in how long after its take-off windows may let a drone be back.
 
     Its endurance; and where it hovers before windows, what it can beside the `flight`, services
-    included, after which so much is `left` of its battery, with the most `weight` at a customer.
+    included, after which so much is `left` of its battery, with the most `weight` aboard.
     """
     limit = kind.endurance
     if hovers_at_customers(kind) and left >= 0:
@@ -112,7 +113,8 @@ def held_takeoff(kind: Record, place: Records, takeoff: int, out: int, home: int
     limit = kind.endurance
     if hovers_at_customers(kind):
         limit = longest_hold(kind, out + service_duration(place) + home,
-                             after_flight(kind, place, out, home), weight_of(kind, place))
+                             after_flight(kind, place, out, home),
+                             max(weight_brought(place), weight_taken(place)))
     held = held_until(earliest_back(place, takeoff + out, home), limit)
     while held > takeoff:
         takeoff = held
@@ -123,11 +125,11 @@ def held_takeoff(kind: Record, place: Records, takeoff: int, out: int, home: int
 @inlined
 def after_flight(kind: Record, place: Records, out: int, home: int) -> int:
     """Return what is left of the battery after a flight to one customer without any waiting."""
-    weight = weight_of(kind, place)
+    weight = weight_brought(place)
     left = after_leg(kind, battery_of(kind), weight, out)
     if hovers_at_customers(kind):
         left = after_hovering(kind, left, weight, service_duration(place))
-    return after_leg(kind, left, 0, home)
+    return after_leg(kind, left, weight_taken(place), home)
 
 
 @inlined
@@ -151,7 +153,8 @@ def can_wait(kind: Record, place: Records, out: int, home: int, waiting: int) ->
     """Tell whether energy lasts for a flight to one customer and so long a wait to be recovered."""
     if not is_limited(kind):
         return True
-    return after_hovering(kind, after_flight(kind, place, out, home), 0, waiting) >= 0
+    return after_hovering(kind, after_flight(kind, place, out, home), weight_taken(place),
+                          waiting) >= 0
 
 
 @inlined
@@ -163,8 +166,8 @@ def within_energy(kind: Record, place: Records, out: int, home: int, takeoff: in
     left = after_flight(kind, place, out, home)
     if hovers_at_customers(kind):
         waited = served - service_duration(place) - takeoff - out
-        left = after_hovering(kind, left, weight_of(kind, place), waited)
-    return after_hovering(kind, left, 0, recovery_start - served - home) >= 0
+        left = after_hovering(kind, left, weight_brought(place), waited)
+    return after_hovering(kind, left, weight_taken(place), recovery_start - served - home) >= 0
 
 
 @inlined

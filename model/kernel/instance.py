@@ -9,11 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.kernel.asked import goods_rows, has_setups, may_be_flown_to, setup_rows
+from model.kernel.asked import goods_rows, has_setups, setup_rows, weight_rows
 from model.kernel.nearest import write_nearest
 from model.kernel.pausing import Pause, go_on
 from model.kernel.records import Records, record
-from model.kernel.variants import Way, durations_of, index_of, variant_of, ways_of, write_legs
+from model.kernel.variants import (
+    Variant, Way, durations_of, index_of, variant_of, ways_of, write_legs,
+)
 from model.problem import (
     MAX_DIMENSIONS, MAX_POINTS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, Energy,
     FloatArray, IntArray, Problem, VehicleType,
@@ -41,7 +43,9 @@ that is allowed, `FAR` where lateness only costs; service duration; release; the
 is not late; demand in the first dimensions.
 
 There are as many tables of nodes, variants, as there are ways to be served: they differ in the
-service duration alone, in the first it is the customers' own. `kernel/stop` says which is whose.
+service duration, in the first it is the customers' own. `kernel/stop` says which is whose. In those
+of drones that a battery limits, `demand` tells what weighs, as `kernel/load` says: of what is
+delivered, and of what is picked up.
 
 Where somebody has several windows, each node has more rows, one for each gap between two: its
 `window_latest` closes the window before, `FAR` behind the last, and its `window_earliest` opens the
@@ -65,8 +69,8 @@ TYPE = record(
     "max_trip_distance", "max_trips", "max_stops", "max_sorties", "reload_duration",
     "speed_changes", "drones", "drone_travel", "home_travel", "endurance", "waiting_counts",
     "launch_duration", "relaunch_duration", "recovery_duration", "variant", "drone_variant",
-    "points", "battery", "lands", "climb_duration", "descent_duration", "weight_dimension",
-    "pickup_order", "carried", capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER,
+    "points", "battery", "lands", "climb_duration", "descent_duration", "pickup_order", "carried",
+    capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER,
     weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
@@ -80,7 +84,7 @@ ANY, LAST, BEGUN = range(3)
 
 NO_PROFILE = -1
 NO_DRONES = (0,) * 8
-NO_ENERGY = (0,) * 6
+NO_ENERGY = (0,) * 5
 
 RATE = record(fixed=float, distance=float, stop=float, time=float, overtime=float,
               drone_distance=float, drone_time=float, load=float)
@@ -189,8 +193,8 @@ def _num_tiers(problems: Sequence[Problem]) -> int:
     return tiers if tiers > 1 or changes or costs else 0
 
 
-def _pack_row(instance: Instance, row: int, problem: Problem, durations: dict[bytes, IntArray],
-              ways: Sequence[Way]) -> None:
+def _pack_row(instance: Instance, row: int, problem: Problem,
+              durations: dict[Variant, IntArray], ways: Sequence[Way]) -> None:
     """Write one problem. In place."""
     instance.size[row] = (problem.num_depots, problem.num_customers, len(problem.vehicle_types),
                           problem.num_dimensions)
@@ -215,15 +219,17 @@ def _pack_row(instance: Instance, row: int, problem: Problem, durations: dict[by
 
 
 def _pack_customers(instance: Instance, row: int, problem: Problem,
-                    durations: dict[bytes, IntArray]) -> None:
+                    durations: dict[Variant, IntArray]) -> None:
     """Write what the customers of one problem ask for, and the setups at all nodes. In place."""
     depots, nodes = problem.num_depots, problem.num_nodes
     served = instance.node[row, :, depots:nodes]
     served[0, :, 0] = [_customer_row(customer) for customer in problem.customers]
     _pack_gaps(served[0, :, 1:], problem.customers)
-    for variant, duration in enumerate(durations.values()):
+    for variant, ((_, weighs), duration) in enumerate(durations.items()):
         served[variant] = served[0]
         served[variant, :, 0]["service_duration"] = duration
+        if weighs is not None:
+            served[variant, :, 0]["demand"] = weight_rows(problem, weighs, TIER)
     _pack_amounts(instance.amount[row, depots:nodes], problem.customers)
     instance.price[row, depots:nodes] = [
         (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
@@ -337,7 +343,7 @@ def _battery(energy: Energy | None) -> tuple[int, ...]:
     if energy is None:
         return NO_ENERGY
     return (len(energy.weights), energy.available, int(energy.lands), energy.climb_duration,
-            energy.descent_duration, energy.dimension)
+            energy.descent_duration)
 
 
 def _powers(energy: Energy | None) -> tuple[tuple[int, ...], ...]:
@@ -378,8 +384,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
         if kind.drones is not None and _most_sorties(kind) > 0:
             payload = instance.type[row, index].payload[dimensions]
             liftable = (most <= payload).all(axis=1)
-            instance.can_fly[row, index, customers] = (
-                fits & by_drone & liftable & may_be_flown_to(problem, kind.drones, TIER))
+            instance.can_fly[row, index, customers] = fits & by_drone & liftable
 
 
 def _most_asked_for(problem: Problem, rows: Records) -> IntArray:

@@ -127,9 +127,15 @@ def total_picked(amounts: IntArray, node: int) -> int:
 
 
 @inlined
-def demanded(place: Records, dimension: int) -> int:
-    """Return what a customer's parcel takes of one dimension."""
-    return place[0].demand[dimension]
+def weight_brought(place: Records) -> int:
+    """Return what a customer's parcel weighs, by the drones' table of nodes."""
+    return place[0].demand[0]
+
+
+@inlined
+def weight_taken(place: Records) -> int:
+    """Return what weighs of that which is picked up at a customer, likewise."""
+    return place[0].demand[1]
 
 
 @inlined

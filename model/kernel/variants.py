@@ -1,4 +1,6 @@
-"""What differs by who comes: tables of nodes by how long service takes, legs by who sets up."""
+"""What differs by who comes: tables of nodes by how long service takes and what weighs, legs by who
+sets up.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -11,6 +13,11 @@ from model.kernel.records import Records
 from model.problem import DroneType, IntArray, Problem, VehicleType
 
 
+Variant = tuple[bytes, int | None]
+"""How long service at each customer takes; for drones that a battery limits, which dimension of
+load weighs."""
+
+
 class Way(NamedTuple):
     """Legs of one travel, to whose durations setups are added or not."""
 
@@ -18,22 +25,29 @@ class Way(NamedTuple):
     sets_up: bool
 
 
-def durations_of(problem: Problem) -> dict[bytes, IntArray]:
+def durations_of(problem: Problem) -> dict[Variant, IntArray]:
     """Return how long service at each customer takes, in all ways that differ, their own first."""
     own = np.array([customer.service_duration for customer in problem.customers], np.int64)
-    found = {own.tobytes(): own}
+    found: dict[Variant, IntArray] = {(own.tobytes(), None): own}
     for kind in problem.vehicle_types:
         for served in (kind, kind.drones):
-            if served is not None and _has_own_service(served):
+            if served is not None and _has_own_table(served):
                 each = _served_by(served, problem)
-                found.setdefault(each.tobytes(), each)
+                found.setdefault((each.tobytes(), _weighs(served)), each)
     return found
 
 
-def _has_own_service(kind: VehicleType | DroneType) -> bool:
-    """Tell whether service may last otherwise than customers say."""
-    return bool(kind.service_durations) or (
+def _has_own_table(kind: VehicleType | DroneType) -> bool:
+    """Tell whether service may last otherwise than customers say, or some of a load weighs."""
+    return bool(kind.service_durations) or _weighs(kind) is not None or (
         isinstance(kind, DroneType) and kind.service_duration is not None)
+
+
+def _weighs(kind: VehicleType | DroneType) -> int | None:
+    """Return which dimension of load weighs, if a battery limits drones."""
+    if isinstance(kind, DroneType) and kind.energy is not None:
+        return kind.energy.dimension
+    return None
 
 
 def _served_by(kind: VehicleType | DroneType, problem: Problem) -> IntArray:
@@ -41,11 +55,11 @@ def _served_by(kind: VehicleType | DroneType, problem: Problem) -> IntArray:
 
 
 def variant_of(kind: VehicleType | DroneType | None, problem: Problem,
-               durations: dict[bytes, IntArray]) -> int:
+               durations: dict[Variant, IntArray]) -> int:
     """Return the number of the table of nodes as trucks, or drones, of a type meet them."""
-    if kind is None or not _has_own_service(kind):
+    if kind is None or not _has_own_table(kind):
         return 0
-    return list(durations).index(_served_by(kind, problem).tobytes())
+    return list(durations).index((_served_by(kind, problem).tobytes(), _weighs(kind)))
 
 
 def ways_of(problem: Problem) -> list[Way]:

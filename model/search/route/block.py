@@ -7,7 +7,6 @@ from model.kernel.clock import is_steady, leg_end, setup_beside
 from model.kernel.compiled import inlined
 from model.kernel.energy import (
     after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_hover,
-    weight_of,
 )
 from model.kernel.flight import (
     counted_until, earliest_back, endurance_of, held_until, lasting_within,
@@ -15,6 +14,7 @@ from model.kernel.flight import (
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
+from model.kernel.load import weight_brought, weight_taken
 from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import (
@@ -113,13 +113,18 @@ def charge(places: Records, legs: IntArray, homeward: IntArray, kind: Record, so
 
     That is what its flight leaves of its battery.
     """
-    left, aboard, flown, here = battery_of(kind), 0, 0, sortie.home
+    sortie.taken = 0
+    for index in range(sortie.count):
+        sortie.taken += weight_taken(places[sortie.nodes[index]])
+    left, aboard, flown, here = battery_of(kind), sortie.taken, 0, sortie.home
+    most = aboard
     for index in range(sortie.count - 1, -1, -1):
         customer = sortie.nodes[index]
         place, way = places[customer], homeward if index == sortie.count - 1 else legs
         flight = leg(way, customer, here).duration
         left = after_leg(kind, left, aboard, flight)
-        aboard += weight_of(kind, place)
+        aboard += weight_brought(place) - weight_taken(place)
+        most = max(most, aboard)
         service = service_duration(place)
         if hovers_at_customers(kind):
             left = after_hovering(kind, left, aboard, service)
@@ -127,7 +132,7 @@ def charge(places: Records, legs: IntArray, homeward: IntArray, kind: Record, so
         here = customer
     flight = leg(legs, node, here).duration
     sortie.left = after_leg(kind, left, aboard, flight)
-    sortie.limit = longest_hold(kind, flown + flight, sortie.left, aboard)
+    sortie.limit = longest_hold(kind, flown + flight, sortie.left, most)
 
 
 @inlined
@@ -136,10 +141,10 @@ def hover(places: Records, kind: Record, sortie: Record, acc: Record) -> None:
 
     Later it waits no longer, as long as windows are the same; sooner, nothing is said of.
     """
-    aboard = 0
+    aboard = sortie.taken
     for index in range(sortie.count - 1, -1, -1):
         place = places[sortie.nodes[index]]
-        aboard += weight_of(kind, place)
+        aboard += weight_brought(place) - weight_taken(place)
         waited = waiting(place, sortie.arrivals[index])
         if waited > 0:
             sortie.left = after_hovering(kind, sortie.left, aboard, waited)
@@ -245,8 +250,8 @@ def bring_home(homeward: IntArray, kind: Record, sortie: Record, node: int,
                                  counted_until(kind, back_c, begin_c))
     bound_arrival(acc, first, last)
     if is_limited(kind):
-        first, last = lasting_within(longest_hover(kind, sortie.left, 0), back_d, back_c, begin_d,
-                                     begin_c)
+        first, last = lasting_within(longest_hover(kind, sortie.left, sortie.taken), back_d, back_c,
+                                     begin_d, begin_c)
         bound_arrival(acc, first, last)
         # A sortie as long as before may wait where that takes more.
         acc.dep = min(acc.dep, last)

@@ -38,7 +38,7 @@ CUSTOMER, START, END = range(3)
 
 SORTIE = record(
     "launch", "recovery", "drone", "count", "state", "takeoff_d", "takeoff_c", "ready_d", "ready_c",
-    "takeoff", "begin", "held", "home", "limit", "left",
+    "takeoff", "begin", "held", "home", "limit", "left", "taken",
     nodes=MOST_VISITS, arrivals=MOST_VISITS)
 """Where it begins and ends; its customers, and when it reaches them; what `block` knows of it."""
 WAITING, FLYING, DONE = range(3)

@@ -40,6 +40,19 @@ def test_a_reply_tells_what_flights_take(client: httpx.Client, smallest: Request
     assert (again["feasible"], again["summary"]["energy_wh"]) == (True, sortie["energy_wh"])
 
 
+def test_what_a_drone_picks_up_weighs_on_its_way_home(client: httpx.Client,
+                                                      smallest: Request) -> None:
+    request = flying(smallest, power={"cruise_w": 100, "cruise_w_per_kg": 20}, weight_dimension=3)
+    for asking in (*request["customers"], *request["fleet"], request["fleet"][0]["drones"]):
+        name = "capacity" if "capacity" in asking else "demand"
+        asking[name] = [10 if name == "capacity" else 1] * 3 + [*asking[name]]
+    request["customers"][1]["pickup"] = [0, 0, 0, 8]
+    trip, = planned(client, request)["routes"][0]["trips"]
+    sortie, = trip["sorties"]
+    hours = sortie["distance"] / 1000 / 60 / 2
+    assert sortie["energy_wh"] == pytest.approx(hours * 200 + hours * 260, rel=1e-5)
+
+
 def test_co2_is_that_of_kilometres_and_of_what_flights_take(client: httpx.Client,
                                                             smallest: Request) -> None:
     request = flying(smallest, power={"cruise_w": 100, "cruise_w_per_kg": 20})

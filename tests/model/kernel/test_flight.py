@@ -18,7 +18,7 @@ from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, places_by_air
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.solution import Solution
-from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_energy, with_gaps
+from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_energy, with_gaps, with_pickups
 
 
 @compiled
@@ -70,7 +70,7 @@ def drawn(seed: int, count: int = 200) -> list[tuple[Problem, DroneType, int, in
         if len(found) % 4 > 1:
             problem = with_gaps(rng, problem)
         if len(found) % 3 == 2:
-            problem = with_energy(rng, problem)
+            problem = with_energy(rng, with_pickups(rng, problem))
         drones = problem.vehicle_types[0].drones
         if drones is not None:
             node = int(rng.integers(problem.num_depots, problem.num_nodes))

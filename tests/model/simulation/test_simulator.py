@@ -129,9 +129,15 @@ def with_times_on_batteries(rng: np.random.Generator, problem: Problem) -> Probl
     return with_some(rng, problem, with_gaps, with_energy, with_duty)
 
 
+def flown_both_ways(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which what drones pick up weighs, in any dimension."""
+    problem = with_pickups(rng, problem)
+    return with_energy(rng, with_dimensions(rng, problem) if rng.random() < 0.5 else problem)
+
+
 @pytest.mark.parametrize("change", [
     with_pickups, begun_with_pickups, many_dimensions, with_pickups_and_all_else,
-    with_times_and_all_else, with_times_on_batteries])
+    with_times_and_all_else, with_times_on_batteries, flown_both_ways])
 def test_what_is_aboard_at_each_stop_decides_what_is_legal(
         change: Change) -> None:
     for seed in range(80):
