@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
-from model.judge.energy import sortie_energy
+from model.judge.energy import charges, sortie_energy
 from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics
@@ -263,9 +263,9 @@ def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
     if drones.energy is not None:
         slack = None
         if sortie is not None and trip is not None:
+            there = charges(bench.problem, drones, drones.energy, trip)[trip.sorties.index(sortie)]
             taken = sortie_energy(bench.problem, drones, drones.energy, trip, sortie)
-            slack = (drones.energy.available - taken) / (
-                drones.energy.usable_share * MICROJOULES_PER_WH)
+            slack = (there - taken) / (drones.energy.usable_share * MICROJOULES_PER_WH)
         yield "drones.energy.battery_wh", "Wh", slack, replace(
             kind, drones=replace(drones, energy=_one_wh_more(drones.energy)))
     for dimension, (most, places) in enumerate(zip(drones.capacity, bench.problem.amount_decimals,

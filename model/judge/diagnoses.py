@@ -8,7 +8,7 @@ from operator import gt
 from typing import NamedTuple
 
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.energy import sortie_energy
+from model.judge.energy import charges, sortie_energy
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
@@ -147,7 +147,8 @@ def _energy(attempt: Attempt) -> Diagnosis:
     if energy is None:
         raise ValueError("drone energy: None is not allowed")
     taken = sortie_energy(attempt.problem, drones, energy, trip, trip.sorties[0])
-    missing = ceil((taken - energy.available) / energy.usable_share)
+    there, = charges(attempt.problem, drones, energy, trip)
+    missing = ceil((taken - there) / energy.usable_share)
     tenths = -(-missing * 10 // MICROJOULES_PER_WH)
     enough = energy.available + round(tenths / 10 * energy.usable_share * MICROJOULES_PER_WH)
     largest = MAX_BATTERY * energy.usable_share * MICROJOULES_PER_WH
@@ -155,8 +156,10 @@ def _energy(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "RANGE",
         f"A flight from the depot and back takes {watt_hours(taken)}, and "
-        f"{watt_hours(energy.available)} may be taken.",
-        f"fits with a battery of {decimal(tenths, 1)} Wh more" if enough <= largest else None,
+        f"{watt_hours(there)} may be taken.",
+        # One that isn't full when its truck goes on is none the fuller for holding more.
+        f"fits with a battery of {decimal(tenths, 1)} Wh more"
+        if enough <= largest and there == energy.available else None,
         _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
     )
 

@@ -2,9 +2,38 @@
 
 from bisect import bisect_right
 from collections.abc import Sequence
+from typing import NamedTuple
 
+from model.judge.launches import launch_begins
 from model.problem import DroneType, Energy, Problem
-from model.solution import Sortie, Trip
+from model.solution import Sortie, Trip, Visit
+
+
+class Rest(NamedTuple):
+    """What a drone has in its battery, beside the reserve, as it comes aboard, and when."""
+
+    left: int
+    since: int
+
+
+def first_rest(energy: Energy) -> Rest:
+    """Return what a drone has before the first sortie of its truck's trip."""
+    return Rest(energy.available if energy.left is None else energy.left, energy.left_at)
+
+
+def charge_after(energy: Energy, rest: Rest, time: int) -> int:
+    """Return what a drone that rests aboard has at an instant; each time all where none is charged.
+    """
+    if not energy.charge:
+        return energy.available
+    return min(energy.available, rest.left + energy.charge * max(0, time - rest.since))
+
+
+def charged_by(energy: Energy, rest: Rest, needed: int) -> int:
+    """Return when a drone that rests aboard has so much; at once if it never has."""
+    if not rest.left < needed <= energy.available:
+        return rest.since
+    return rest.since - (rest.left - needed) // energy.charge
 
 
 def power_at(energy: Energy, powers: Sequence[int], weight: int) -> int:
@@ -42,18 +71,38 @@ def weights_aboard(problem: Problem, energy: Energy, nodes: Sequence[int]) -> li
 def sortie_energy(problem: Problem, drones: DroneType, energy: Energy, trip: Trip,
                   sortie: Sortie) -> int:
     """Return what a sortie takes: its legs, and the time that it waits in the air."""
-    duration = problem.travel[drones.travel].duration
     nodes = [visit.node for visit in sortie.visits]
-    aboard = weights_aboard(problem, energy, nodes)
-    node, time, taken = trip.stops[sortie.launch_stop].node, sortie.launch_time, 0
-    for visit, weight in zip(sortie.visits, aboard, strict=False):
+    path = (trip.stops[sortie.launch_stop].node, *nodes, trip.stops[sortie.recovery_stop].node)
+    return flight_energy(problem, drones, energy, path, sortie.visits, sortie.launch_time,
+                         sortie.recovery_start)
+
+
+def flight_energy(problem: Problem, drones: DroneType, energy: Energy, path: Sequence[int],
+                  visits: Sequence[Visit], launch_time: int, recovery_start: int) -> int:
+    """Return what a flight takes, by the nodes where it begins, comes and ends."""
+    duration = problem.travel[drones.travel].duration
+    aboard = weights_aboard(problem, energy, path[1:-1])
+    node, time, taken = path[0], launch_time, 0
+    for visit, weight in zip(visits, aboard, strict=False):
         taken += leg_energy(energy, duration.item(node, visit.node) + visit.setup, weight)
         if not energy.lands:
             taken += hover_energy(energy, visit.departure - visit.ready, weight)
         node, time = visit.node, visit.departure
-    home = duration.item(node, trip.stops[sortie.recovery_stop].node)
+    home = duration.item(node, path[-1])
     return (taken + leg_energy(energy, home, aboard[-1])
-            + hover_energy(energy, sortie.recovery_start - time - home, aboard[-1]))
+            + hover_energy(energy, recovery_start - time - home, aboard[-1]))
+
+
+def least_energy(problem: Problem, energy: Energy, nodes: Sequence[int], legs: Sequence[int],
+                 services: Sequence[int]) -> int:
+    """Return what a flight takes if nobody waits; `legs` and `services` are the durations."""
+    aboard = weights_aboard(problem, energy, nodes)
+    taken = sum([leg_energy(energy, leg, weight)
+                 for leg, weight in zip(legs, aboard, strict=True)])
+    if energy.lands:
+        return taken
+    return taken + sum([hover_energy(energy, service, weight)
+                        for service, weight in zip(services, aboard, strict=False)])
 
 
 def longest_hold(problem: Problem, energy: Energy, nodes: Sequence[int], legs: Sequence[int],
@@ -67,10 +116,24 @@ def longest_hold(problem: Problem, energy: Energy, nodes: Sequence[int], legs: S
     most = power_at(energy, energy.hover, max(aboard))
     if energy.lands or most == 0:
         return None
-    taken = sum([leg_energy(energy, leg, weight)
-                 for leg, weight in zip(legs, aboard, strict=True)])
-    taken += sum([hover_energy(energy, service, weight)
-                  for service, weight in zip(services, aboard, strict=False)])
+    taken = least_energy(problem, energy, nodes, legs, services)
     if taken > energy.available:
         return None
     return sum(legs) + sum(services) + (energy.available - taken) // most
+
+
+def charges(problem: Problem, drones: DroneType, energy: Energy, trip: Trip) -> list[int]:
+    """Return what each sortie of a trip may take, by the battery as its launch begins."""
+    rests: dict[int, Rest] = {}
+    found = [energy.available for _ in trip.sorties]
+    if not energy.charge:
+        return found
+    begins = launch_begins(trip.sorties, drones)
+    for index in sorted(range(len(found)), key=lambda i: (trip.sorties[i].launch_stop, begins[i])):
+        sortie = trip.sorties[index]
+        rest = rests.get(sortie.drone, first_rest(energy))
+        found[index] = charge_after(energy, rest, begins[index])
+        rests[sortie.drone] = Rest(
+            found[index] - sortie_energy(problem, drones, energy, trip, sortie),
+            sortie.recovery_time)
+    return found

@@ -4,13 +4,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from operator import gt
 
-from model.judge.energy import sortie_energy
+from model.judge.energy import charges, sortie_energy
 from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
 from model.judge.timing import TripDecision, latest_release
 from model.problem import (
-    MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType,
+    MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Energy, Problem, VehicleType,
 )
 from model.solution import Sortie, Stop, Trip, Visit
 
@@ -95,6 +95,8 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     drones = vehicle_type.drones
     if drones is not None and trip.sorties:
         yield from _drone_busy(timed)
+        if drones.energy is not None:
+            yield from _energy_violations(problem, drones, drones.energy, timed)
         for index, sortie in enumerate(trip.sorties):
             sortie_path = f"{path}.sorties[{index}]"
             yield from _sortie_violations(problem, kind, drones, trip, sortie, sortie_path)
@@ -211,11 +213,18 @@ def _sortie_violations(
     if flight > drones.endurance:
         message = f"{seconds(flight)} in the air, endurance is {seconds(drones.endurance)}"
         yield Violation("ENDURANCE", message, path)
-    if drones.energy is not None:
-        energy = sortie_energy(problem, drones, drones.energy, trip, sortie)
-        if energy > drones.energy.available:
-            message = f"takes {watt_hours(energy)}, {watt_hours(drones.energy.available)} are there"
-            yield Violation("ENERGY", message, path)
+
+
+def _energy_violations(problem: Problem, drones: DroneType, energy: Energy,
+                       timed: TimedTrip) -> Iterator[Violation]:
+    """Sorties that take more than there is, beside the reserve, as they are launched."""
+    trip = timed.trip
+    there = charges(problem, drones, energy, trip)
+    for index, (sortie, charge) in enumerate(zip(trip.sorties, there, strict=True)):
+        taken = sortie_energy(problem, drones, energy, trip, sortie)
+        if taken > charge:
+            message = f"takes {watt_hours(taken)}, {watt_hours(max(0, charge))} are there"
+            yield Violation("ENERGY", message, f"{timed.path}.sorties[{index}]")
 
 
 def airborne_duration(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie) -> int:

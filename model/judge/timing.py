@@ -3,18 +3,19 @@
 A decision fixes sequences, the order of launches and recoveries at each stop and when a trip
 begins; every other time follows as soon as possible, but for launches: one is held back as long as
 windows would let its flight last longer than the endurance, or hover for more than its battery
-holds. Times in ms, plain Python integers.
+holds, or its battery is being charged. Times in ms, plain Python integers.
 """
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from model.judge.clock import leg_end, opening, service_start, with_setups
-from model.judge.energy import longest_hold
+from model.judge.clock import leg_end, service_start, with_setups
+from model.judge.energy import Rest
 from model.judge.freshness import most_excess
 from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownStop, KnownTrip
+from model.judge.takeoff import charged_launch, held_takeoff, rest_after
 from model.problem import DroneType, Problem, VehicleType
 from model.solution import Route, Sortie, Stop, Trip, Visit
 
@@ -50,6 +51,10 @@ class TripDecision:
         """Nodes of those whom it serves, the truck's first."""
         return (*self.nodes[1:-1], *(node for sortie in self.sorties for node in sortie.nodes))
 
+    def path_of(self, sortie: SortieDecision) -> tuple[int, ...]:
+        """Return the nodes of a sortie: where it is launched, customers, where it is recovered."""
+        return (self.nodes[sortie.launch_stop], *sortie.nodes, self.nodes[sortie.recovery_stop])
+
     def __post_init__(self) -> None:
         if len(self.nodes) < 2:
             raise ValueError(f"trip nodes: {self.nodes!r} is not allowed")
@@ -77,6 +82,7 @@ class _Flight:
     visits: tuple[Visit, ...]
     arrival: int  # at the recovery stop's node
     recovery_start: int = 0
+    rest: Rest | None = None  # as it comes aboard, where batteries are charged there
 
 
 def _is_complete(operations: tuple[tuple[Operation, ...], ...],
@@ -158,44 +164,6 @@ def _flight(problem: Problem, drones: DroneType, decision: TripDecision, sortie:
     return _Flight(launch_time, visits, time + home)
 
 
-def held_takeoff(problem: Problem, drones: DroneType, decision: TripDecision,
-                 sortie: SortieDecision, soonest: int) -> int:
-    """Return when a drone takes off that can from `soonest` on.
-
-    As early as the windows that it then meets let it be back within its endurance, and its energy
-    if it hovers before them; at once where the flight is too long in any case, since holding it
-    back wouldn't help.
-    """
-    takeoff, held = soonest, _held_until(problem, drones, decision, sortie, soonest)
-    while held > takeoff:
-        takeoff, held = held, _held_until(problem, drones, decision, sortie, held)
-    return takeoff
-
-
-def _held_until(problem: Problem, drones: DroneType, decision: TripDecision,
-                sortie: SortieDecision, takeoff: int) -> int:
-    """Return when the windows met from `takeoff` on let a drone be back within its limits."""
-    duration, first = problem.travel[drones.travel].duration, len(problem.depots)
-    node, time, back = decision.nodes[sortie.launch_stop], takeoff, 0
-    legs, services = [], []
-    for following in sortie.nodes:
-        customer = problem.customers[following - first]
-        leg = duration.item(node, following) + problem.setup_between(node, following)
-        service = drones.service_at(customer)
-        opens = opening(customer, time + leg)
-        time = max(time + leg, opens) + service
-        back = max(back + leg, opens) + service
-        legs.append(leg)
-        services.append(service)
-        node = following
-    legs.append(duration.item(node, decision.nodes[sortie.recovery_stop]))
-    limit = drones.endurance
-    if drones.energy is not None:
-        hold = longest_hold(problem, drones.energy, sortie.nodes, legs, services)
-        limit = limit if hold is None else min(limit, hold)
-    return back + legs[-1] - limit if sum(legs) + sum(services) <= limit else takeoff
-
-
 def _by_arrival(
     sorties: tuple[SortieDecision, ...], stop: int, flights: dict[int, _Flight]
 ) -> Iterator[Operation]:
@@ -240,13 +208,15 @@ def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: 
     for index, is_launch in operations:
         fact = facts[index] if index < len(facts) else None
         sortie = decision.sorties[index]
+        path, rest = decision.path_of(sortie), _rest_before(decision, flights, index)
         if is_launch and fact is not None:
             time = fact.launch_time
             visits = with_setups(problem, decision.nodes[sortie.launch_stop], fact.visits)
             flights[index] = _flight(problem, drones, decision, sortie, time, visits)
         elif is_launch:
-            soonest = max(time, earliest) + launch_duration(drones, not flights)
-            time = held_takeoff(problem, drones, decision, sortie, soonest)
+            begin = max(time, earliest, charged_launch(problem, drones, path, rest))
+            soonest = begin + launch_duration(drones, not flights)
+            time = held_takeoff(problem, drones, path, soonest)
             flights[index] = _fly(problem, drones, decision, sortie, time)
         else:
             flight = flights[index]
@@ -254,7 +224,17 @@ def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: 
             flight.recovery_start = (max(time, flight.arrival, earliest) if begun is None
                                      else begun)
             time = flight.recovery_start + drones.recovery_duration
+            flight.rest = rest_after(problem, drones, rest, path, flight.visits,
+                                     flight.launch_time, flight.recovery_start)
     return time
+
+
+def _rest_before(decision: TripDecision, flights: dict[int, _Flight], index: int) -> Rest | None:
+    """Return how the drone of a sortie came aboard before; None if that is not known."""
+    drone = decision.sorties[index].drone
+    rests = [flight.rest for other, flight in flights.items()
+             if other != index and decision.sorties[other].drone == drone]
+    return rests[-1] if rests else None
 
 
 def _timed_sorties(

@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
-from model.judge.energy import hover_energy, leg_energy, sortie_energy
+from model.judge.energy import Rest, charges, hover_energy, leg_energy, sortie_energy
 from model.judge.freshness import most_excess
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
+from model.judge.takeoff import charged_launch, held_takeoff
 from model.judge.timing import (
-    Operation, SortieDecision, TripDecision, held_takeoff, latest_release, schedule_trip,
+    Operation, SortieDecision, TripDecision, latest_release, schedule_trip,
 )
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
@@ -140,7 +141,8 @@ def _lasts(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: 
     here = trip.nodes[flight.launch_stop]
     out = legs.item(here, flight.customer) + problem.setup_between(here, flight.customer)
     taken = leg_energy(drones.energy, out, weight) + leg_energy(
-        drones.energy, legs.item(flight.customer, to), 0)
+        drones.energy, legs.item(flight.customer, to),
+        customer.taken_in[drones.energy.dimension])
     if not drones.energy.lands:
         taken += hover_energy(drones.energy, drones.service_at(customer), weight)
     return taken <= drones.energy.available
@@ -149,23 +151,41 @@ def _lasts(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: 
 def _drained(problem: Problem, drones: DroneType, trip: Trip, index: int) -> bool:
     """Tell whether a sortie takes more than its battery has."""
     energy = drones.energy
-    return energy is not None and energy.available < sortie_energy(
-        problem, drones, energy, trip, trip.sorties[index])
+    return energy is not None and sortie_energy(
+        problem, drones, energy, trip, trip.sorties[index]) > charges(
+        problem, drones, energy, trip)[index]
+
+
+def _rest(problem: Problem, drones: DroneType, trip: Trip, drone: int, stop: int) -> Rest | None:
+    """Return how a drone has last come aboard that was launched before a stop."""
+    flown = [index for index, sortie in enumerate(trip.sorties)
+             if sortie.drone == drone and sortie.launch_stop < stop]
+    if drones.energy is None or not flown:
+        return None
+    last = trip.sorties[flown[-1]]
+    left = charges(problem, drones, drones.energy, trip)[flown[-1]]
+    return Rest(left - sortie_energy(problem, drones, drones.energy, trip, last),
+                last.recovery_time)
 
 
 def _at_this_stop(problem: Problem, drones: DroneType, recovered: OpenTrip,
-                  arrived: list[Operation], crew: int, launches: list[int],
+                  arrived: list[Operation], crew: int, rests: dict[int, Rest | None],
                   loops: list[int]) -> list[Operation]:
     """Return what is done at the last stop, the crew being free from `crew` on.
 
-    What can be launched first is; loops are recovered behind, or while a launch is held back.
+    What can be launched first is, of sorties whose drones have come aboard as `rests` says; loops
+    are recovered behind, or while a launch is held back.
     """
+    launches = list(rests)
     decision, order, back = recovered.decision(), list(arrived), dict[int, int]()
+    paths = {index: decision.path_of(decision.sorties[index]) for index in launches}
     launched = len(launches) < len(recovered.flights)
     while launches or back:
         lasting = launch_duration(drones, is_first=not launched)
-        take_off = {index: held_takeoff(problem, drones, decision, decision.sorties[index],
-                                        crew + lasting) for index in launches}
+        take_off = {index: held_takeoff(
+            problem, drones, paths[index],
+            max(crew, charged_launch(problem, drones, paths[index], rests[index])) + lasting)
+            for index in launches}
         launch = min(launches, key=lambda index: (take_off[index], index), default=None)
         loop = min(back, key=lambda index: (back[index], index), default=None)
         begin = 0 if launch is None else take_off[launch] - lasting
@@ -208,7 +228,9 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
             timed = _timed(problem, vehicle, rough)
             crew = max([timed.stops[here].ready,
                         *(timed.sorties[index].recovery_time for index, _ in arrived)])
-            operations = _at_this_stop(problem, drones, rough, arrived, crew, flying, loops)
+            rests = {index: _rest(problem, drones, timed, trip.flights[index].drone, here)
+                     for index in flying}
+            operations = _at_this_stop(problem, drones, rough, arrived, crew, rests, loops)
         drafted = _timed(problem, vehicle, _recovered(trip, to, loops, flying, operations))
         arrivals = {}
         for index in flying:
