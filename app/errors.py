@@ -28,6 +28,8 @@ ErrorCode = Literal[
     "TOO_MANY_ERRORS",
     "TOO_MANY_PARTS",
     "DUPLICATE_ID",
+    "MISSING_DRONE_ID",
+    "NOT_PLANNED",
     "NO_DEPOT",
     "EMPTY_FLEET",
     "UNKNOWN_DEPOT",
@@ -97,8 +99,10 @@ _CODES: dict[str, ErrorCode] = {
     "string_too_long": "WRONG_LENGTH",
 }
 
-IN_WORDS, IN_PLACE = "(word)", "(place)"
+IN_WORDS, IN_PLACE, ALONE, LISTED = "(word)", "(place)", "(one)", "(list)"
 """Tags of values that may be one or the other; no part of a path."""
+
+TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED})
 
 _TYPE_NAMES = {
     "float_type": "a JSON number",
@@ -233,7 +237,7 @@ def json_path(location: Iterable[str | int]) -> str:
 def schema_error(details: ErrorDetails) -> InputError:
     """Return what pydantic found, in our words."""
     kind = details["type"]
-    location = tuple(key for key in details["loc"] if key not in (IN_WORDS, IN_PLACE))
+    location = tuple(key for key in details["loc"] if key not in TAGS)
     context: dict[str, Any] = details.get("ctx", {})
     if kind in _TYPE_NAMES:
         message = f"The value must be {_TYPE_NAMES[kind]}: state one, not {_shown(details)}."

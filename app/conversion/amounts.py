@@ -57,8 +57,8 @@ def _stated(customers: Customers, fleet: Fleet) -> Iterator[tuple[Path, Sequence
     for index, vehicle_type in enumerate(fleet):
         if vehicle_type is not None:
             yield ("fleet", index, "capacity"), vehicle_type.capacity
-            if vehicle_type.drones is not None:
-                yield ("fleet", index, "drones", "capacity"), vehicle_type.drones.capacity
+            for path, drones in vehicle_type.drones_by_path:
+                yield ("fleet", index, *path, "capacity"), drones.capacity
     for index, customer in enumerate(customers):
         if customer is not None:
             yield ("customers", index, "demand"), customer.demand

@@ -1,18 +1,37 @@
 """How long launches take that a plan states."""
 
 from app.conversion.units import thousandths
+from app.conversion.names import drone_number
 from app.schemas.drones import DronesInput, TurnaroundInput
-from app.schemas.plan import TripInput
+from app.schemas.plan import SortieInput, TripInput
+from app.schemas.vehicle import VehicleTypeInput
 from model.judge.launches import first_launch, launch_duration
 from model.problem import DroneType
 
 
-def launch_durations(drones: DronesInput | None, trip: TripInput) -> list[int]:
-    """Return how long the launch of each sortie of a trip takes, in ms."""
-    if drones is None:
-        return [0 for _ in trip.sorties]
+def launch_durations(kind: VehicleTypeInput | None, trip: TripInput) -> list[int]:
+    """Return how long the launch of each sortie of a vehicle's trip takes, in ms."""
+    first, durations = first_launch(trip.sorties), []
+    for index, sortie in enumerate(trip.sorties):
+        drones = drones_of_sortie(kind, sortie)
+        durations.append(0 if drones is None else _launch_duration(drones, index == first))
+    return durations
+
+
+def _launch_duration(drones: DronesInput, is_first: bool) -> int:
     turnaround = drones.turnaround or TurnaroundInput()
     handled = DroneType(1, (), 0, launch_duration=thousandths(drones.launch_duration),
                         swap_duration=thousandths(turnaround.swap_duration))
-    first = first_launch(trip.sorties)
-    return [launch_duration(handled, index == first) for index in range(len(trip.sorties))]
+    return launch_duration(handled, is_first)
+
+
+def drones_of_sortie(kind: VehicleTypeInput | None, sortie: SortieInput) -> DronesInput | None:
+    """Return the drones one of which flies a sortie; the last ones for one that there isn't."""
+    stated = [] if kind is None else kind.drone_types
+    carried = [drones for drones in stated if drones.count > 0] or stated
+    number = drone_number(sortie.drone) or 0
+    for drones in carried[:-1]:
+        number -= drones.count
+        if number < 0:
+            return drones
+    return carried[-1] if carried else None

@@ -28,8 +28,8 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     horizon = max([time for time in stated if time < UNLIMITED], default=0) / MS_PER_HOUR
     served = [customer.service_duration for customer in customers]
     for kind in vehicle_types:
-        for server in (kind, kind.drones):
-            served += [] if server is None else server.service_durations.values()
+        for server in (kind, *kind.drone_types):
+            served += server.service_durations.values()
     setup = max([customer.setup_duration for customer in customers], default=0)
     service = (max(served, default=0) + setup) / MS_PER_HOUR
     longest = [_longest_leg(travel) for travel in travels]
@@ -58,10 +58,10 @@ def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],
     per_hour = kind.cost_per_hour + (kind.overtime.cost_per_hour if kind.overtime else 0.0)
     cost = (kind.fixed_cost + kind.cost_per_stop + 2 * kilometres * kind.cost_per_km
             + (2 * hours / slowest + other_hours) * per_hour)
-    if kind.drones is not None:
-        kilometres, hours = longest[kind.drones.travel]
-        cost += (2 * kilometres * kind.drones.cost_per_km
-                 + (2 * hours + other_hours) * kind.drones.cost_per_hour)
+    for drones in kind.drone_types:
+        kilometres, hours = longest[drones.travel]
+        cost += (2 * kilometres * drones.cost_per_km
+                 + (2 * hours + other_hours) * drones.cost_per_hour)
     return cost
 
 

@@ -1,6 +1,6 @@
 """How long vehicle types serve customers who state a duration of their own for them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from app.conversion.names import drones_of
@@ -18,8 +18,14 @@ def with_service_durations(kinds: Sequence[VehicleType],
             stated.setdefault(name, {})[customer.id] = thousandths(seconds)
     if not stated:
         return tuple(kinds)
-    return tuple(
-        replace(kind, service_durations=stated.get(kind.id, {}),
-                drones=None if kind.drones is None else replace(
-                    kind.drones, service_durations=stated.get(drones_of(kind.id), {})))
-        for kind in kinds)
+    return tuple([_with_durations(kind, stated) for kind in kinds])
+
+
+def _with_durations(kind: VehicleType, stated: Mapping[str, Mapping[str, int]]) -> VehicleType:
+    kind = replace(kind, service_durations=stated.get(kind.id, {}))
+    if kind.drones is None:
+        return kind
+    first, *others = [
+        replace(drones, service_durations=stated.get(drones_of(kind.id, drones.id), {}))
+        for drones in kind.drone_types]
+    return replace(kind, drones=first, more_drones=tuple(others))

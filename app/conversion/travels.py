@@ -138,7 +138,7 @@ class Travels:
         """
         request = self._request
         sets_up = any(customer.setup_duration for customer in request.customers)
-        flown = {self._flying(kind.drones) for kind in request.fleet if kind.drones is not None}
+        flown = {self._flying(drones) for kind in request.fleet for drones in kind.drone_types}
         return len(self._keys()) + (len(flown) if sets_up else 0)
 
     def expect_legs(self) -> None:
@@ -183,7 +183,7 @@ class Travels:
     def _keys(self) -> set[_Key]:
         fleet = self._request.fleet
         return ({self._driving(kind)[0] for kind in fleet}
-                | {self._flying(kind.drones) for kind in fleet if kind.drones is not None})
+                | {self._flying(drones) for kind in fleet for drones in kind.drone_types})
 
     def _driving(self, vehicle_type: VehicleTypeInput) -> tuple[_Key, SpeedProfile | None]:
         matrix = self._matrix(vehicle_type.profile)

@@ -19,6 +19,8 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
     travel, speed_profile = travels.drive(stated)
     places = places_of_type(stated, depots)
     shift = stated.shift
+    drones = [_drones(each, travels, decimals, amounts) for each in stated.drone_types
+              if each.count > 0]
     return VehicleType(
         id=stated.id,
         count=stated.count,
@@ -45,7 +47,8 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         reload_duration=thousandths(stated.reload_duration),
         skills=frozenset(stated.skills),
         pickups=stated.pickups,
-        drones=_drones(stated.drones, travels, decimals, amounts),
+        drones=drones[0] if drones else None,
+        more_drones=tuple(drones[1:]),
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
     )
@@ -58,12 +61,11 @@ def _overtime(stated: OvertimeInput | None) -> Overtime | None:
     return Overtime(stated.cost_per_hour, UNLIMITED if longest is None else thousandths(longest))
 
 
-def _drones(stated: DronesInput | None, travels: Travels, decimals: Sequence[int],
-            amounts: Collection[Sequence[int]]) -> DroneType | None:
-    if stated is None or stated.count == 0:
-        return None
+def _drones(stated: DronesInput, travels: Travels, decimals: Sequence[int],
+            amounts: Collection[Sequence[int]]) -> DroneType:
     turnaround = stated.turnaround or TurnaroundInput()
     return DroneType(
+        id=stated.id,
         count=stated.count,
         capacity=counted(stated.capacity, decimals),
         travel=travels.fly(stated),

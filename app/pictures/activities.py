@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import inf
 from typing import Literal
 
-from app.conversion.launches import launch_durations
+from app.conversion.launches import drones_of_sortie, launch_durations
 from app.conversion.names import number_in
 from app.conversion.units import whole
 from app.pictures.scene import Scene
@@ -72,16 +72,17 @@ def rows_of(scene: Scene) -> list[Row]:
         windows = [_window(scene, stop.id, stop.ready, stop.service_start)
                    for trip in route.trips for stop in trip.stops if stop.kind == "customer"]
         rows.append(Row(route.vehicle, index, False, bars, _stated(windows)))
-        rows += [_drone_row(scene, index, route, drone, kind.drones)
-                 for drone in range(_num_drones(route, kind.drones))]
+        rows += [_drone_row(scene, index, route, drone, kind)
+                 for drone in range(_num_drones(route, kind))]
     return rows
 
 
-def _num_drones(route: RouteInput, drones: DronesInput | None) -> int:
+def _num_drones(route: RouteInput, kind: VehicleTypeInput) -> int:
     """Return how many drones a vehicle carries, or flies if a plan has more."""
     used = [number_in(f"{route.vehicle}/drone-", sortie.drone) or 0
             for trip in route.trips for sortie in trip.sorties]
-    return max([0 if drones is None else drones.count, *(number + 1 for number in used)])
+    return max([sum(drones.count for drones in kind.drone_types),
+                *(number + 1 for number in used)])
 
 
 def _truck_bars(scene: Scene, route: RouteInput, kind: VehicleTypeInput) -> Iterator[Bar]:
@@ -94,8 +95,7 @@ def _truck_bars(scene: Scene, route: RouteInput, kind: VehicleTypeInput) -> Iter
             yield Bar("drive", before.departure, stop.arrival, number)
         for stop in trip.stops:
             yield from _halt_bars(scene, kind.id, stop, number)
-        if kind.drones is not None:
-            yield from _handling_bars(trip, number, kind.drones)
+        yield from _handling_bars(trip, number, kind)
         end = trip.stops[-1].departure
 
 
@@ -109,9 +109,11 @@ def _halt_bars(scene: Scene, kind: str, stop: StopInput, trip: int) -> Iterator[
                   min(stop.service_start + duration, stop.departure), trip)
 
 
-def _handling_bars(trip: TripInput, number: int, drones: DronesInput) -> Iterator[Bar]:
-    for sortie, launch in zip(trip.sorties, launch_durations(drones, trip), strict=True):
-        yield from _ends(sortie, number, drones, whole(launch))
+def _handling_bars(trip: TripInput, number: int, kind: VehicleTypeInput) -> Iterator[Bar]:
+    for sortie, launch in zip(trip.sorties, launch_durations(kind, trip), strict=True):
+        drones = drones_of_sortie(kind, sortie)
+        if drones is not None:
+            yield from _ends(sortie, number, drones, whole(launch))
 
 
 def _ends(sortie: SortieInput, trip: int, drones: DronesInput, launch: float) -> Iterator[Bar]:
@@ -122,13 +124,14 @@ def _ends(sortie: SortieInput, trip: int, drones: DronesInput, launch: float) ->
 
 
 def _drone_row(scene: Scene, index: int, route: RouteInput, drone: int,
-               drones: DronesInput | None) -> Row:
+               kind: VehicleTypeInput) -> Row:
     name = f"{route.vehicle}/drone-{drone + 1}"
     bars: list[Bar] = []
     windows = []
     for number, trip in enumerate(route.trips):
-        for sortie, launch in zip(trip.sorties, launch_durations(drones, trip), strict=True):
+        for sortie, launch in zip(trip.sorties, launch_durations(kind, trip), strict=True):
             if sortie.drone == name:
+                drones = drones_of_sortie(kind, sortie)
                 bars += _flight_bars(sortie, number, drones, whole(launch))
                 windows += [_window(scene, visit.id, visit.ready, visit.service_start)
                             for visit in sortie.customers]

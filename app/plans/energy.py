@@ -16,18 +16,19 @@ def energy_wh(energies: Iterable[int | None]) -> float | None:
 
 def energy_models(problem: Problem) -> list[Data]:
     """Return the numbers of the presets that a problem's drones fly by."""
-    drones = [(kind.id, kind.drones.energy) for kind in problem.vehicle_types
-              if kind.drones is not None]
-    return [_model(problem, name, energy) for name, energy in drones
+    drones = [(kind.id, drones.id, drones.energy) for kind in problem.vehicle_types
+              for drones in kind.drone_types]
+    return [_model(problem, name, drone_type, energy) for name, drone_type, energy in drones
             if energy is not None and energy.preset is not None]
 
 
-def _model(problem: Problem, name: str, energy: Energy) -> Data:
+def _model(problem: Problem, name: str, drone_type: str | None, energy: Energy) -> Data:
     unit = 10 ** problem.amount_decimals[energy.dimension]
     points = zip(energy.weights, energy.cruise, energy.hover, energy.climb, energy.descent,
                  strict=True)
     return {
         "vehicle_type": name,
+        **({"drone_type": drone_type} if drone_type is not None else {}),
         "preset": energy.preset,
         "available_wh": energy.available / MICROJOULES_PER_WH,
         "up_seconds": energy.climb_duration / 1000,

@@ -178,7 +178,8 @@ class _Explainer:
         worth = list(sorties_worth(self._problem, self._solution, self._setting, until))
         each = (question.until - time.perf_counter()) / 2
         searched = None
-        if worth and self._task.replanning is None and each >= LEAST_SEARCH:
+        several = any(kind.more_drones for kind in self._problem.vehicle_types)
+        if worth and not several and self._task.replanning is None and each >= LEAST_SEARCH:
             searched = self._searched(each)
         reply = drones_reply(self._problem, self._solution, self._cost, worth, searched,
                              max(0.0, each) if searched else 0.0)
@@ -191,7 +192,7 @@ class _Explainer:
         if not self._task.check(begun).is_feasible:
             return None
         alone = replace(self._problem, vehicle_types=tuple(
-            [replace(kind, drones=None) for kind in self._problem.vehicle_types]))
+            [replace(kind, drones=None, more_drones=()) for kind in self._problem.vehicle_types]))
         options = PlanOptions(planner.policies[0], time_limit=seconds)
         listener = Listener(self._should_stop)
         flown, driven = [planner.plan(problem, options, None, listener, begun)

@@ -87,12 +87,12 @@ def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
         "working_rate": _finite(metrics.working_rate),
         "overtime": whole(metrics.overtime),
         "cost": metrics.cost,
-        "trips": [_trip(problem, name, trip, measured)
+        "trips": [_trip(problem, route.vehicle_type, name, trip, measured)
                   for trip, measured in zip(route.trips, metrics.trips, strict=True)],
     }
 
 
-def _trip(problem: Problem, vehicle: str, trip: Trip, metrics: TripMetrics) -> Data:
+def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMetrics) -> Data:
     return {
         "load": _amounts(problem, metrics.load),
         "load_rate": metrics.load_rate,
@@ -101,7 +101,7 @@ def _trip(problem: Problem, vehicle: str, trip: Trip, metrics: TripMetrics) -> D
         "stops": [_stop(problem, stop, load)
                   for stop, load in zip(trip.stops, metrics.stop_loads, strict=True)
                   if not problem.is_nowhere(stop.node)],
-        "sorties": [_sortie(problem, vehicle, sortie, measured)
+        "sorties": [_sortie(problem, kind, vehicle, sortie, measured)
                     for sortie, measured in zip(trip.sorties, metrics.sorties, strict=True)],
         "energy_wh": energy_wh([sortie.energy for sortie in metrics.sorties]),
     }
@@ -140,9 +140,12 @@ def _setup(halt: Stop | Visit) -> Data:
     return {"setup": halt.setup / 1000} if halt.setup else {}
 
 
-def _sortie(problem: Problem, vehicle: str, sortie: Sortie, metrics: SortieMetrics) -> Data:
+def _sortie(problem: Problem, kind: int, vehicle: str, sortie: Sortie,
+            metrics: SortieMetrics) -> Data:
+    drone_type = problem.vehicle_types[kind].drone_type(sortie.drone).id
     return {
         "drone": f"{vehicle}/drone-{sortie.drone + 1}",
+        **({"drone_type": drone_type} if drone_type is not None else {}),
         "launch_stop": sortie.launch_stop,
         "recovery_stop": sortie.recovery_stop,
         "load": _amounts(problem, metrics.loads[0]),

@@ -97,11 +97,14 @@ def service_errors(draft: Draft) -> Errors:
     """Say which durations are stated for vehicle types that aren't there."""
     if draft.fleet is None or None in draft.fleet:
         return
-    types = [kind.id for _, kind in draft.vehicle_types()]
-    known = {*types, *map(drones_of, types)}
+    kinds = [kind for _, kind in draft.vehicle_types()]
+    known = {kind.id for kind in kinds}
+    known |= {drones_of(kind.id, drones.id) for kind in kinds for drones in kind.drone_types}
+    # Who has no drones may be told of them, for another day.
+    known |= {drones_of(kind.id, None) for kind in kinds if not kind.drone_types}
     for path, customer in draft.known_customers():
         for name in customer.service_duration_by_type:
             if name not in known:
                 yield error_at("UNKNOWN_VEHICLE_TYPE", (*path, "service_duration_by_type", name),
                                f"No vehicle type is called {name!r}: use the id of one in fleet, "
-                               "or that and /drone for its drones.")
+                               "or that and /drone for its drones, or / and their id.")

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from app.conversion.places import Place, stands_of
 from app.errors import ErrorCode, InputError, json_path
 from app.schemas.customer import CustomerInput
+from app.schemas.drones import DronesInput
 from app.schemas.fields import Location
 from app.schemas.request import (
     AirspaceInput, DepotInput, IncompatibleGoodsInput, MatrixInput, OptionsInput, ReplanInput,
@@ -69,6 +70,12 @@ class Draft:
         for index, entry in enumerate(self.fleet or ()):
             if entry is not None:
                 yield ("fleet", index), entry
+
+    def drone_types(self) -> Iterator[tuple[Path, DronesInput]]:
+        """Yield types of drones with their paths."""
+        for path, kind in self.vehicle_types():
+            for inner, drones in kind.drones_by_path:
+                yield (*path, *inner), drones
 
 
 def error_at(code: ErrorCode, path: Path, message: str) -> InputError:

@@ -36,13 +36,28 @@ def depot_errors(draft: Draft) -> Errors:
                                "add it there.")
 
 
+def drone_errors(draft: Draft) -> Errors:
+    """Say which types of drones can't be told from others of their truck."""
+    for path, vehicle_type in draft.vehicle_types():
+        seen: dict[str, int] = {}
+        if not isinstance(vehicle_type.drones, list):
+            continue
+        for index, drones in enumerate(vehicle_type.drones):
+            here = (*path, "drones", index, "id")
+            if drones.id is None:
+                yield error_at("MISSING_DRONE_ID", here,
+                               "Each type of drones in a list needs an id: give it one.")
+            elif seen.setdefault(drones.id, index) != index:
+                yield error_at("DUPLICATE_ID", here,
+                               f"drones[{seen[drones.id]}] has the same id: give each its own.")
+
+
 def energy_errors(draft: Draft) -> Errors:
     """Say what is wrong with what flying takes."""
-    for path, vehicle_type in draft.vehicle_types():
-        drones = vehicle_type.drones
-        if drones is None or drones.energy is None:
+    for path, drones in draft.drone_types():
+        if drones.energy is None:
             continue
-        here, energy = (*path, "drones", "energy"), drones.energy
+        here, energy = (*path, "energy"), drones.energy
         if (energy.power is None) == (energy.preset is None):
             yield error_at("POWER_OR_PRESET", here,
                            "What flying takes is stated by power or by preset: state exactly one.")
@@ -63,7 +78,7 @@ def _is_countable(draft: Draft, drones: DronesInput, energy: EnergyInput) -> boo
     asked = [amount for customer in customers for amount in (customer.demand, customer.pickup)
              if amount is not None]
     stated = [*asked, *(kind.capacity for kind in fleet),
-              *(kind.drones.capacity for kind in fleet if kind.drones is not None)]
+              *(drones.capacity for _, drones in draft.drone_types())]
     if len(set(map(len, stated))) > 1:
         return True
     decimals = decimals_of(customers, fleet)

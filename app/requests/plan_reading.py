@@ -15,7 +15,7 @@ from app.schemas.customer import CustomerInput
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput
 from app.schemas.request import DepotInput
 from app.schemas.vehicle import VehicleTypeInput
-from model.problem import Problem
+from model.problem import Problem, VehicleType
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
 NO_MORE = -1
@@ -114,11 +114,17 @@ def _by_parts(problem: Problem, solution: Solution) -> Solution:
 
 
 class KnownType(NamedTuple):
-    """A vehicle type: its number, the time that a recovery takes in ms, and an open route's end."""
+    """A vehicle type: its number, itself if more is known of it, and an open route's end."""
 
     number: int = 0
-    recovery_duration: int = 0
+    kind: VehicleType | None = None
     nowhere: int | None = None
+
+    def recovery_duration(self, drone: int) -> int:
+        """Return how long the recovery of a drone takes in ms."""
+        if self.kind is None or self.kind.drones is None:
+            return 0
+        return self.kind.drone_type(drone).recovery_duration
 
 
 @dataclass(frozen=True)
@@ -142,8 +148,7 @@ class Known:
             {customer.id: node
              for node, customer in enumerate(problem.customers, problem.num_depots)},
             {kind.type_id: KnownType(
-                index, 0 if kind.drones is None else kind.drones.recovery_duration,
-                kind.ends_at if problem.is_nowhere(kind.ends_at) else None)
+                index, kind, kind.ends_at if problem.is_nowhere(kind.ends_at) else None)
              for index, kind in enumerate(problem.vehicle_types)})
 
     @classmethod
@@ -188,7 +193,7 @@ class _PlanReader:
         kind = self._find((*path, "type"), "vehicle type", self._known.types, route.type,
                           route.type, KnownType())
         vehicle = self._number((*path, "vehicle"), f"{route.type}-", route.vehicle)
-        trips = [self._trip((*path, "trips", index), trip, route.vehicle, kind.recovery_duration)
+        trips = [self._trip((*path, "trips", index), trip, route.vehicle, kind)
                  for index, trip in enumerate(route.trips)]
         if trips and kind.nowhere is not None:
             trips[-1] = self._open_ended(trips[-1], route.trips[-1], kind.nowhere)
@@ -207,12 +212,11 @@ class _PlanReader:
             return customers.get(name, self._cancelled)
         return self._find(path, "customer", customers, name, name, 0)
 
-    def _trip(self, path: Path, trip: TripInput, vehicle: str, recovery_duration: int) -> Trip:
+    def _trip(self, path: Path, trip: TripInput, vehicle: str, kind: KnownType) -> Trip:
         return Trip(
             stops=tuple(self._stop((*path, "stops", index), stop)
                         for index, stop in enumerate(trip.stops)),
-            sorties=tuple(self._sortie((*path, "sorties", index), sortie, vehicle,
-                                       recovery_duration)
+            sorties=tuple(self._sortie((*path, "sorties", index), sortie, vehicle, kind)
                           for index, sortie in enumerate(trip.sorties)),
         )
 
@@ -231,16 +235,16 @@ class _PlanReader:
             return self._find(path, "depot", self._known.depots, stop.id, stop.id, 0)
         return self._find(path, stop.kind, self._known.stands, (stop.kind, stop.id), stop.id, 0)
 
-    def _sortie(self, path: Path, sortie: SortieInput, vehicle: str,
-                recovery_duration: int) -> Sortie:
+    def _sortie(self, path: Path, sortie: SortieInput, vehicle: str, kind: KnownType) -> Sortie:
         recovery_time = thousandths(sortie.recovery_time)
+        drone = self._number((*path, "drone"), f"{vehicle}/drone-", sortie.drone)
         return Sortie(
-            drone=self._number((*path, "drone"), f"{vehicle}/drone-", sortie.drone),
+            drone=drone,
             launch_stop=sortie.launch_stop,
             recovery_stop=sortie.recovery_stop,
             visits=self._visits((*path, "customers"), sortie.customers),
             launch_time=thousandths(sortie.launch_time),
-            recovery_start=recovery_time - recovery_duration,
+            recovery_start=recovery_time - kind.recovery_duration(drone),
             recovery_time=recovery_time,
         )
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from app.conversion.launches import launch_durations
-from app.conversion.names import number_in
+from app.conversion.names import drone_number, number_in
 from app.conversion.places import stands_of
 from app.conversion.units import thousandths
 from app.errors import ErrorCode, InputError, json_path
@@ -95,7 +95,7 @@ class _Begun:
 
 
 def _begun(trip: TripInput, kind: VehicleTypeInput | None, now: int) -> _Begun:
-    left, durations = 0, launch_durations(None if kind is None else kind.drones, trip)
+    left, durations = 0, launch_durations(kind, trip)
     while left < len(trip.stops) and thousandths(trip.stops[left].departure) <= now:
         left += 1
     return _Begun(left, tuple(
@@ -198,9 +198,9 @@ class _Checker:
     def _begun_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
                       begun: _Begun) -> Errors:
         """What of a trip that has begun the request doesn't have."""
-        count = 0 if kind.drones is None else kind.drones.count
+        count = sum(drones.count for drones in kind.drone_types)
         for index in begun.launched:
-            number = number_in("", trip.sorties[index].drone.rpartition("-")[2])
+            number = drone_number(trip.sorties[index].drone)
             if number is not None and number >= count:
                 yield _error("UNKNOWN_DRONE", (*path, "sorties", index, "drone"),
                              f"The drone has been launched, and vehicles of {kind.id} have {count}:"

@@ -90,7 +90,7 @@ class _Collector:
         name = schema.get("$ref")
         if name in self._numbers:
             return self._numbers[name]
-        if not schema.keys() & {"$ref", "anyOf", "type"}:
+        if not schema.keys() & {"$ref", "anyOf", "oneOf", "type"}:
             return ANYTHING
         shape = _Shape()
         self.shapes.append(shape)
@@ -104,8 +104,8 @@ class _Collector:
     def _alternatives(self, schema: Schema) -> Iterator[Schema]:
         if "$ref" in schema:
             yield from self._alternatives(self._definitions[schema["$ref"].rpartition("/")[2]])
-        elif "anyOf" in schema:
-            for alternative in schema["anyOf"]:
+        elif schema.keys() & {"anyOf", "oneOf"}:
+            for alternative in schema.get("anyOf") or schema["oneOf"]:
                 yield from self._alternatives(alternative)
         else:
             yield schema

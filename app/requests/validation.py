@@ -9,7 +9,9 @@ from app.requests.customer_validation import (
     group_errors, service_errors, vehicle_errors, window_errors,
 )
 from app.requests.draft import Draft, Errors, Path, error_at, point_errors
-from app.requests.fleet_validation import depot_errors, energy_errors, shift_errors, speed_errors
+from app.requests.fleet_validation import (
+    depot_errors, drone_errors, energy_errors, shift_errors, speed_errors,
+)
 from app.requests.plan_validation import Names, replan_errors
 from app.schemas.customer import CustomerInput
 from app.schemas.request import DepotInput
@@ -41,9 +43,11 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *_rounding_errors(draft),
         *_index_errors(draft),
         *speed_errors(draft),
+        *drone_errors(draft),
         *energy_errors(draft),
         *airspace_errors(draft),
         *_policy_errors(draft, policies),
+        *_unplanned_errors(draft, policies),
         *replan_errors(draft.replan, Names.of(draft.depots, draft.customers, draft.fleet)),
     ]
 
@@ -81,8 +85,8 @@ def _dimension_errors(draft: Draft) -> Errors:
     amounts: list[tuple[Path, int]] = []
     for path, vehicle_type in draft.vehicle_types():
         amounts.append(((*path, "capacity"), len(vehicle_type.capacity)))
-        if vehicle_type.drones is not None:
-            amounts.append(((*path, "drones", "capacity"), len(vehicle_type.drones.capacity)))
+        amounts += [((*path, *inner, "capacity"), len(drones.capacity))
+                    for inner, drones in vehicle_type.drones_by_path]
     if not amounts:
         return
     reference, dimensions = amounts[0]
@@ -163,8 +167,7 @@ def _profile_without_matrix(draft: Draft) -> str | None:
 
 
 def _profiles(vehicle_type: VehicleTypeInput) -> list[str]:
-    drones = vehicle_type.drones
-    flying = [drones.profile] if drones is not None and drones.count > 0 else []
+    flying = [drones.profile for drones in vehicle_type.drone_types if drones.count > 0]
     return [vehicle_type.profile, *flying]
 
 
@@ -189,3 +192,12 @@ def _policy_errors(draft: Draft, policies: Collection[str] | None) -> Errors:
     if draft.options.policy not in policies:
         yield error_at("UNKNOWN_POLICY", ("options", "policy"),
                        f"No policy has this name: use one of {', '.join(sorted(policies))}.")
+
+
+def _unplanned_errors(draft: Draft, policies: Collection[str] | None) -> Errors:
+    """Say what may be judged and can't be planned."""
+    for path, kind in draft.vehicle_types():
+        if policies is not None and sum(drones.count > 0 for drones in kind.drone_types) > 1:
+            yield error_at("NOT_PLANNED", (*path, "drones"),
+                           "Plans with drones of several types on a truck are judged, and can't be "
+                           "made: state one type.")

@@ -83,7 +83,8 @@ class CustomerInput(Input):
     service_duration_by_type: DurationsByType = Field(
         {},
         description="Seconds instead of `service_duration` by vehicle type, such as `van`, and by "
-        "the drones of one, such as `van/drone`, before the drones' own `service_duration`.",
+        "the drones of one, such as `van/drone`, or `van/small` by the `id` of drones, before the "
+        "drones' own `service_duration`.",
     )
     setup_duration: Seconds = Field(
         0.0,

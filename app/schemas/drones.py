@@ -1,11 +1,17 @@
 """The drones of a vehicle type."""
 
-from pydantic import Field
+from typing import Annotated
 
+from pydantic import Discriminator, Field, Tag
+
+from app.errors import ALONE, LISTED
 from app.schemas.energy import EnergyInput
 from app.schemas.fields import Count, Demand, Input, Money, Name, Seconds, Speed
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
+
+MAX_DRONE_TYPES = 8
+"""Most types of drones on a truck."""
 
 
 class DroneCostsInput(Input):
@@ -31,8 +37,13 @@ class TurnaroundInput(Input):
 
 
 class DronesInput(Input):
-    """The drones that ride on every truck of a type."""
+    """Equal drones that ride on every truck of a type."""
 
+    id: Name | None = Field(
+        None,
+        description="Name of this type of drones, unique on its truck. Needed in a list; else it "
+        "may be null, and the drones are called `drone`.",
+    )
     count: int = Field(ge=0, le=32, description="Drones per truck.")
     capacity: Demand = Field(
         description="Largest payload at any point of a sortie, per dimension, in the unit of "
@@ -70,3 +81,14 @@ class DronesInput(Input):
         None,
         description="What flights take of the battery, beside `endurance`. Null: nothing is known.",
     )
+
+
+def _tag_of(value: object) -> str:
+    return LISTED if isinstance(value, list) else ALONE
+
+
+Drones = Annotated[
+    Annotated[DronesInput, Tag(ALONE)]
+    | Annotated[list[DronesInput], Field(max_length=MAX_DRONE_TYPES), Tag(LISTED)],
+    Discriminator(_tag_of),
+]

@@ -72,6 +72,7 @@ class SortieInput(_Plan):
     """One drone flight. Times in seconds since plan start."""
 
     drone: str = Field(description="Name of the drone, `<vehicle>/drone-<number>`.")
+    drone_type: str | None = Field(None, description="Not read: it follows from the number.")
     launch_stop: int = Field(description="Index in `stops` where it is launched.")
     recovery_stop: int = Field(description="Index in `stops` where it is recovered.")
     customers: list[VisitInput] = Field(description="Customers served, in order.")

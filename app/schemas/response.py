@@ -69,7 +69,10 @@ class VisitReply(_Reply):
 class SortieReply(_Reply):
     """One drone flight. Times in seconds since plan start."""
 
-    drone: str = Field(description="Name of the drone, `<vehicle>/drone-<number>`.")
+    drone: str = Field(
+        description="Name of the drone, `<vehicle>/drone-<number>`, numbered over all types.")
+    drone_type: str | None = Field(
+        None, description="Id of the drone's type. Left out if it has none.")
     launch_stop: int = Field(description="Index in `stops` where it is launched.")
     recovery_stop: int = Field(description="Index in `stops` where it is recovered.")
     load: list[float] = Field(description="What the drone carries at take-off, per dimension.")
@@ -215,6 +218,8 @@ class EnergyModelReply(_Reply):
     """The numbers of a preset, for a vehicle type's drones."""
 
     vehicle_type: str = Field(description="Id of the vehicle type.")
+    drone_type: str | None = Field(
+        None, description="Id of the drones' type. Left out if it has none.")
     preset: str = Field(description="Name of the preset.")
     available_wh: float = Field(description="What a sortie may take, without the reserve.")
     up_seconds: float = Field(description="Duration of the climb of each leg.")

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Discriminator, Field, Tag
 
 from app.errors import IN_PLACE, IN_WORDS
-from app.schemas.drones import DronesInput
+from app.schemas.drones import Drones, DronesInput
 from app.schemas.fields import (
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
@@ -171,7 +171,11 @@ class VehicleTypeInput(Input):
         0.0, description="Time at the depot between two trips in seconds."
     )
     skills: Skills = Field([], description="Skills of the vehicles, and of their drones.")
-    drones: DronesInput | None = Field(None, description="Drones on every truck. Null: none.")
+    drones: Drones | None = Field(
+        None,
+        description="Drones on every truck, or a list of them by type, which are numbered from "
+        "the first type on. Null: none.",
+    )
     co2_kg_per_km: Kilograms | None = Field(
         None, description="CO2 of the truck per kilometre, for `summary.co2_kg` alone, in kg."
     )
@@ -179,3 +183,17 @@ class VehicleTypeInput(Input):
         None,
         description="CO2 of its drones' energy per kWh, for `summary.co2_kg` alone, in kg.",
     )
+
+    @property
+    def drones_by_path(self) -> list[tuple[tuple[str | int, ...], DronesInput]]:
+        """The drones of each type, and the path of where they are stated."""
+        if self.drones is None:
+            return []
+        if isinstance(self.drones, DronesInput):
+            return [(("drones",), self.drones)]
+        return [(("drones", index), drones) for index, drones in enumerate(self.drones)]
+
+    @property
+    def drone_types(self) -> list[DronesInput]:
+        """The drones of each type."""
+        return [drones for _, drones in self.drones_by_path]

@@ -21,7 +21,8 @@ from model.judge.places import Place
 from model.judge.rules import airborne_duration
 from model.judge.screening import Screen
 from model.problem import (
-    MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy, Problem, VehicleType,
+    MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
+    VehicleType,
 )
 from model.solution import Trip
 
@@ -240,34 +241,47 @@ def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:
-    drones, trip, found = kind.drones, _trip_of(bench), bench.found
-    if drones is None:
-        return
+    for index, drones in enumerate(kind.drone_types):
+        name = "drones" if drones.id is None else f"drones[{drones.id}]"
+        for field, unit, slack, changed in _limits_of(bench, kind, index, is_here):
+            others = [*kind.drone_types]
+            others[index] = changed
+            yield (f"{name}.{field}", unit, slack,
+                   replace(kind, drones=others[0], more_drones=tuple(others[1:])))
+
+
+def _limits_of(bench: Bench, kind: VehicleType, index: int,
+               is_here: bool) -> Iterator[tuple[str, Unit, float | None, DroneType]]:
+    """Yield the limits of one of the types of drones on a type of vehicle."""
+    drones, trip = kind.drone_types[index], _trip_of(bench) if is_here else None
+    found = bench.found
     sortie = None
-    if is_here and found is not None and found.place.by == "drone" and trip is not None:
+    if found is not None and found.place.by == "drone" and trip is not None:
         sortie = trip.sorties[found.flight]
+    if sortie is not None and kind.drone_index(sortie.drone) != index:
+        sortie = None
     if drones.endurance < UNLIMITED:
         slack = None
         if sortie is not None and trip is not None:
             flown = airborne_duration(bench.problem, drones, trip, sortie)
             slack = _in_minutes(drones.endurance - flown)
         longer = min(drones.endurance + MS_PER_MINUTE, UNLIMITED)
-        yield ("drones.endurance", "minute", slack,
-               replace(kind, drones=replace(drones, endurance=longer)))
+        yield "endurance", "minute", slack, replace(drones, endurance=longer)
     if drones.batteries is not None:
         slack = None
-        if is_here and trip is not None:
-            slack = float(drones.batteries - len(trip.sorties))
+        if trip is not None:
+            flown = [each for each in trip.sorties if kind.drone_index(each.drone) == index]
+            slack = float(drones.batteries - len(flown))
         richer = replace(drones, batteries=drones.batteries + 1)
-        yield "drones.turnaround.batteries", "unit", slack, replace(kind, drones=richer)
+        yield "turnaround.batteries", "unit", slack, richer
     if drones.energy is not None:
         slack = None
         if sortie is not None and trip is not None:
-            there = charges(bench.problem, drones, drones.energy, trip)[trip.sorties.index(sortie)]
+            there = charges(bench.problem, kind, trip)[trip.sorties.index(sortie)]
             taken = sortie_energy(bench.problem, drones, drones.energy, trip, sortie)
             slack = (there - taken) / (drones.energy.usable_share * MICROJOULES_PER_WH)
-        yield "drones.energy.battery_wh", "Wh", slack, replace(
-            kind, drones=replace(drones, energy=_one_wh_more(drones.energy)))
+        yield "energy.battery_wh", "Wh", slack, replace(
+            drones, energy=_one_wh_more(drones.energy))
     for dimension, (most, places) in enumerate(zip(drones.capacity, bench.problem.amount_decimals,
                                                    strict=True)):
         slack = None
@@ -275,8 +289,8 @@ def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
             carried = highest(sortie_loads(bench.problem, sortie))
             slack = (most - carried[dimension]) / 10**places
         more = _one_more(drones.capacity, dimension, 10**places)
-        yield (_capacity_field("drones.capacity", kind, dimension), "unit", slack,
-               replace(kind, drones=replace(drones, capacity=more)))
+        yield (_capacity_field("capacity", kind, dimension), "unit", slack,
+               replace(drones, capacity=more))
 
 
 def _one_wh_more(energy: Energy) -> Energy:

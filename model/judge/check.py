@@ -95,7 +95,7 @@ def _total(costs: list[Cost]) -> Cost:
 def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
           known: KnownTrip | None, now: int) -> TimedTrip:
     """Recompute a trip from the choices it states, and what is known of it."""
-    decision = read_decision(stated, vehicle_type.drones)
+    decision = read_decision(stated, vehicle_type)
     if known is not None and begins_with(stated, known):
         trip = resume_trip(problem, vehicle_type, decision, known, now)
     else:
@@ -155,19 +155,20 @@ def _unreadable(problem: Problem, route: Route, path: str) -> Iterator[Violation
     if not 0 <= route.vehicle_type < len(problem.vehicle_types):
         yield Violation("UNKNOWN_TYPE", f"no vehicle type {route.vehicle_type}", path)
         return
-    drones = problem.vehicle_types[route.vehicle_type].drones
+    vehicle_type = problem.vehicle_types[route.vehicle_type]
     for index, trip in enumerate(route.trips):
         trip_path = f"{path}.trips[{index}]"
         if len(trip.stops) < 2:
             yield Violation("DEPOT", "a trip begins and ends at the depot", trip_path)
             continue
         yield from _unreadable_stops(problem, trip, trip_path)
-        if drones is None and trip.sorties:
+        if vehicle_type.drones is None and trip.sorties:
             yield Violation("COUNT", "sorties of a vehicle without drones", trip_path)
-        elif drones is not None:
+        elif vehicle_type.drones is not None:
             for number, sortie in enumerate(trip.sorties):
                 sortie_path = f"{trip_path}.sorties[{number}]"
-                yield from _unreadable_sortie(problem, drones, trip, sortie, sortie_path)
+                yield from _unreadable_sortie(problem, vehicle_type.drone_type(sortie.drone), trip,
+                                              sortie, sortie_path)
 
 
 def _unreadable_stops(problem: Problem, trip: Trip, path: str) -> Iterator[Violation]:

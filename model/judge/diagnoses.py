@@ -36,6 +36,11 @@ def _drones(attempt: Attempt) -> DroneType:
     return drones
 
 
+def _of(drones: DroneType) -> str:
+    """Say of which type drones are, where several are told apart."""
+    return "" if drones.id is None else f" of {drones.id}"
+
+
 def _with_type(attempt: Attempt, vehicle_type: VehicleType) -> Problem:
     return replace(attempt.problem, vehicle_types=(vehicle_type,))
 
@@ -105,11 +110,11 @@ def _capacity(attempt: Attempt) -> Diagnosis:
 
 def _payload(attempt: Attempt) -> Diagnosis:
     vehicle_type, drones = attempt.vehicle_type, _drones(attempt)
-    needed = _enough(attempt, drones.capacity)
+    needed, name = _enough(attempt, drones.capacity), f"drone capacity{_of(drones)}"
     changed = replace(vehicle_type, drones=replace(drones, capacity=needed))
     return Diagnosis(
-        "CAPACITY", _too_much(attempt, drones.capacity, "drone capacity"),
-        f"fits if the drone capacity were at least {amounts(attempt.problem, needed)}",
+        "CAPACITY", _too_much(attempt, drones.capacity, name),
+        f"fits if the {name} were at least {amounts(attempt.problem, needed)}",
         _with_type(attempt, changed),
     )
 
@@ -135,8 +140,9 @@ def _endurance(attempt: Attempt) -> Diagnosis:
     changed = replace(drones, endurance=min(enough, UNLIMITED))
     return Diagnosis(
         "RANGE",
-        f"A flight from the depot and back lasts {_minutes(excess)} more than the endurance.",
-        _if_stated(f"fits if endurance were {_minutes(excess)} longer", enough),
+        f"A flight from the depot and back lasts {_minutes(excess)} more than the endurance"
+        f"{_of(drones)}.",
+        _if_stated(f"fits if endurance{_of(drones)} were {_minutes(excess)} longer", enough),
         _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
     )
 
@@ -147,7 +153,7 @@ def _energy(attempt: Attempt) -> Diagnosis:
     if energy is None:
         raise ValueError("drone energy: None is not allowed")
     taken = sortie_energy(attempt.problem, drones, energy, trip, trip.sorties[0])
-    there, = charges(attempt.problem, drones, energy, trip)
+    there, = charges(attempt.problem, attempt.vehicle_type, trip)
     missing = ceil((taken - there) / energy.usable_share)
     tenths = -(-missing * 10 // MICROJOULES_PER_WH)
     enough = energy.available + round(tenths / 10 * energy.usable_share * MICROJOULES_PER_WH)
@@ -158,7 +164,7 @@ def _energy(attempt: Attempt) -> Diagnosis:
         f"A flight from the depot and back takes {watt_hours(taken)}, and "
         f"{watt_hours(there)} may be taken.",
         # One that isn't full when its truck goes on is none the fuller for holding more.
-        f"fits with a battery of {decimal(tenths, 1)} Wh more"
+        f"fits with a battery{_of(drones)} of {decimal(tenths, 1)} Wh more"
         if enough <= largest and there == energy.available else None,
         _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
     )
@@ -203,7 +209,7 @@ def _batteries(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     drones = replace(_drones(attempt), batteries=1)
     return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its batteries.",
-                     f"fits if {vehicle_type.id} carried 1 battery",
+                     f"fits if {vehicle_type.id} carried 1 battery{_of(drones)}",
                      _with_type(attempt, replace(vehicle_type, drones=drones)))
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from model.judge.launches import launch_begins
-from model.problem import DroneType, Energy, Problem
+from model.problem import DroneType, Energy, Problem, VehicleType
 from model.solution import Sortie, Trip, Visit
 
 
@@ -122,18 +122,25 @@ def longest_hold(problem: Problem, energy: Energy, nodes: Sequence[int], legs: S
     return sum(legs) + sum(services) + (energy.available - taken) // most
 
 
-def charges(problem: Problem, drones: DroneType, energy: Energy, trip: Trip) -> list[int]:
-    """Return what each sortie of a trip may take, by the battery as its launch begins."""
-    rests: dict[int, Rest] = {}
-    found = [energy.available for _ in trip.sorties]
-    if not energy.charge:
+def charges(problem: Problem, kind: VehicleType, trip: Trip) -> list[int]:
+    """Return what each sortie of a trip may take, by the battery as its launch begins.
+
+    0 for those of drones that no battery limits.
+    """
+    batteries = [kind.drone_type(sortie.drone).energy for sortie in trip.sorties]
+    found = [0 if energy is None else energy.available for energy in batteries]
+    if not any(energy is not None and energy.charge for energy in batteries):
         return found
-    begins = launch_begins(trip.sorties, drones)
+    rests: dict[int, Rest] = {}
+    begins = launch_begins(trip.sorties, kind)
     for index in sorted(range(len(found)), key=lambda i: (trip.sorties[i].launch_stop, begins[i])):
-        sortie = trip.sorties[index]
+        sortie, energy = trip.sorties[index], batteries[index]
+        if energy is None:
+            continue
         rest = rests.get(sortie.drone, first_rest(energy))
         found[index] = charge_after(energy, rest, begins[index])
         rests[sortie.drone] = Rest(
-            found[index] - sortie_energy(problem, drones, energy, trip, sortie),
+            found[index] - sortie_energy(problem, kind.drone_type(sortie.drone), energy, trip,
+                                         sortie),
             sortie.recovery_time)
     return found

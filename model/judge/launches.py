@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Protocol
 
-from model.problem import DroneType
+from model.problem import DroneType, VehicleType
 from model.solution import Sortie
 
 
@@ -32,10 +32,10 @@ def first_launch(sorties: Sequence[Launch]) -> int:
                key=lambda index: (sorties[index].launch_stop, sorties[index].launch_time))
 
 
-def launch_begins(sorties: Sequence[Sortie], drones: DroneType | None) -> list[int]:
-    """Return when the launch of each sortie of a trip begins."""
-    if drones is None:
+def launch_begins(sorties: Sequence[Sortie], kind: VehicleType) -> list[int]:
+    """Return when the launch of each sortie of a trip by a type of vehicle begins."""
+    if kind.drones is None:
         return [sortie.launch_time for sortie in sorties]
     first = first_launch(sorties)
-    return [sortie.launch_time - launch_duration(drones, index == first)
+    return [sortie.launch_time - launch_duration(kind.drone_type(sortie.drone), index == first)
             for index, sortie in enumerate(sorties)]

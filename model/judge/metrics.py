@@ -62,19 +62,22 @@ def flight_legs(trip: Trip, sortie: Sortie) -> Iterator[tuple[int, int]]:
 
 
 def _measure_sorties(
-    problem: Problem, drones: DroneType | None, trip: Trip
+    problem: Problem, kind: VehicleType, trip: Trip
 ) -> tuple[SortieMetrics, ...]:
-    if drones is None or not trip.sorties:
+    if kind.drones is None or not trip.sorties:
         return ()
+    return tuple(_measure_sortie(problem, kind.drone_type(sortie.drone), trip, sortie)
+                 for sortie in trip.sorties)
+
+
+def _measure_sortie(problem: Problem, drones: DroneType, trip: Trip,
+                    sortie: Sortie) -> SortieMetrics:
     distance = problem.travel[drones.travel].distance
-    return tuple(
-        SortieMetrics(sum([distance.item(*leg) for leg in flight_legs(trip, sortie)]),
-                      sortie.recovery_time - sortie.launch_time,
-                      tuple(sortie_loads(problem, sortie)),
-                      None if drones.energy is None
-                      else sortie_energy(problem, drones, drones.energy, trip, sortie))
-        for sortie in trip.sorties
-    )
+    return SortieMetrics(
+        sum([distance.item(*leg) for leg in flight_legs(trip, sortie)]),
+        sortie.recovery_time - sortie.launch_time, tuple(sortie_loads(problem, sortie)),
+        None if drones.energy is None
+        else sortie_energy(problem, drones, drones.energy, trip, sortie))
 
 
 def measure_trip(problem: Problem, vehicle_type: VehicleType, trip: Trip) -> TripMetrics:
@@ -92,7 +95,7 @@ def measure_trip(problem: Problem, vehicle_type: VehicleType, trip: Trip) -> Tri
         load_distance=sum(aboard[0] * leg for aboard, leg in zip(loads, legs, strict=False)),
         duration=trip.stops[-1].departure - first_departure(trip),
         stop_loads=tuple(loads),
-        sorties=_measure_sorties(problem, vehicle_type.drones, trip),
+        sorties=_measure_sorties(problem, vehicle_type, trip),
     )
 
 
@@ -137,6 +140,14 @@ def unassigned_cost(problem: Problem, nodes: Sequence[int]) -> float:
     return (len(nodes) - len(stated)) * problem.unassigned_cost + sum(stated)
 
 
+def _flown_by(kind: VehicleType, index: int, route: Route,
+              trips: tuple[TripMetrics, ...]) -> list[SortieMetrics]:
+    """Return the flights of drones of one of a vehicle's types."""
+    return [measured for trip, metrics in zip(route.trips, trips, strict=True)
+            for sortie, measured in zip(trip.sorties, metrics.sorties, strict=True)
+            if kind.drone_index(sortie.drone) == index]
+
+
 def measure_route(
     problem: Problem, route: Route, trips: tuple[TripMetrics, ...]
 ) -> tuple[RouteMetrics, Cost]:
@@ -155,9 +166,8 @@ def measure_route(
     if vehicle_type.cost_per_load_km:
         carried = sum([trip.load_distance for trip in trips]) / 10**problem.amount_decimals[0]
         distance += carried * vehicle_type.cost_per_load_km
-    drones = vehicle_type.drones
-    if drones is not None:
-        flights = [sortie for trip in trips for sortie in trip.sorties]
+    for index, drones in enumerate(vehicle_type.drone_types):
+        flights = _flown_by(vehicle_type, index, route, trips)
         distance += sum([flight.distance for flight in flights]) * drones.cost_per_km
         time += sum([flight.duration for flight in flights]) * drones.cost_per_hour
     lateness, earliness = _window_costs(problem, route)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from model.judge.launches import launch_begins
-from model.problem import UNREACHABLE, DroneType, Problem
+from model.problem import UNREACHABLE, Problem, VehicleType
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
 
@@ -89,9 +89,8 @@ def known_trips(problem: Problem, plan: Solution, now: int,
     """
     known = {}
     for route in plan.routes:
-        drones = problem.vehicle_types[route.vehicle_type].drones
         vehicle = Vehicle(route.vehicle_type, route.vehicle)
-        trips = tuple(_known_trips(problem, route, drones, now, vehicle in unavailable))
+        trips = tuple(_known_trips(problem, route, now, vehicle in unavailable))
         if trips:
             known[vehicle] = trips
     return known
@@ -109,10 +108,10 @@ def parcels_aboard(problem: Problem, plan: Solution, now: int,
     return {vehicle: trips[-1].aboard for vehicle, trips in begun.items()}
 
 
-def _known_trips(problem: Problem, route: Route, drones: DroneType | None, now: int,
+def _known_trips(problem: Problem, route: Route, now: int,
                  is_unavailable: bool) -> Iterator[KnownTrip]:
     for trip in route.trips:
-        known = _known_trip(problem, trip, drones, now)
+        known = _known_trip(problem, problem.vehicle_types[route.vehicle_type], trip, now)
         if known is None:
             return
         if is_unavailable and known.rest != "nothing":
@@ -122,14 +121,13 @@ def _known_trips(problem: Problem, route: Route, drones: DroneType | None, now: 
         yield known
 
 
-def _known_trip(problem: Problem, trip: Trip, drones: DroneType | None,
-                now: int) -> KnownTrip | None:
+def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> KnownTrip | None:
     """Return what has happened on a trip; None if it has not begun."""
     left = 0
     while left < len(trip.stops) and trip.stops[left].departure <= now:
         left += 1
     launched = [sortie for sortie, begin in zip(
-        trip.sorties, launch_begins(trip.sorties, drones), strict=True) if begin <= now]
+        trip.sorties, launch_begins(trip.sorties, kind), strict=True) if begin <= now]
     if not left and not launched:
         return None
     first = problem.num_depots
@@ -173,13 +171,13 @@ def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> Known
     if len(stops) > 1 and last.departure is None and not (is_home or is_serving):
         stops = stops[:-1]
     nodes = [stop.node for stop in stops] + ([] if is_home else [vehicle_type.ends_at])
-    landed = [_landed(problem, vehicle_type.drones, sortie, nodes, len(stops), now)
+    landed = [_landed(problem, vehicle_type, sortie, nodes, len(stops), now)
               for sortie in known.sorties]
     return KnownTrip(stops, tuple(sortie for sortie in landed if sortie is not None),
                      known.aboard, "nothing" if is_home else "home")
 
 
-def _landed(problem: Problem, drones: DroneType | None, sortie: KnownSortie, nodes: list[int],
+def _landed(problem: Problem, kind: VehicleType, sortie: KnownSortie, nodes: list[int],
             known_stops: int, now: int) -> KnownSortie | None:
     """Return a flight whose truck goes no further than the stops at `nodes`.
 
@@ -189,9 +187,9 @@ def _landed(problem: Problem, drones: DroneType | None, sortie: KnownSortie, nod
     if sortie.recovery_start is not None and stop is not None and stop < known_stops:
         return sortie
     visits = tuple(visit for visit in sortie.visits if visit.service_start <= now)
-    if drones is None or not visits:
+    if kind.drones is None or not visits:
         return None
-    flight = problem.travel[drones.travel].duration
+    flight = problem.travel[kind.drone_type(sortie.drone).travel].duration
     landings = [index for index in range(sortie.launch_stop, len(nodes))
                 if flight.item(visits[-1].node, nodes[index]) < UNREACHABLE]
     if not landings:

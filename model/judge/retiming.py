@@ -36,9 +36,9 @@ class TimedRoute(NamedTuple):
 
 def read_route(problem: Problem, route: Route) -> RouteDecision:
     """Return the choices that a timed route states."""
-    drones = problem.vehicle_types[route.vehicle_type].drones
+    kind = problem.vehicle_types[route.vehicle_type]
     return RouteDecision(route.vehicle_type, route.vehicle, tuple(
-        [read_decision(trip, drones) for trip in route.trips]))
+        [read_decision(trip, kind) for trip in route.trips]))
 
 
 def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past) -> TimedRoute:

@@ -10,7 +10,7 @@ from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
 from model.judge.timing import TripDecision, latest_release
 from model.problem import (
-    MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Energy, Problem, VehicleType,
+    MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType,
 )
 from model.solution import Sortie, Stop, Trip, Visit
 
@@ -92,14 +92,12 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     yield from _halt_violations(problem, kind, trip.stops[1:-1], f"{path}.stops", 1)
     if problem.limits_time_aboard:
         yield from _aboard_violations(problem, timed)
-    drones = vehicle_type.drones
-    if drones is not None and trip.sorties:
+    if vehicle_type.drones is not None and trip.sorties:
         yield from _drone_busy(timed)
-        if drones.energy is not None:
-            yield from _energy_violations(problem, drones, drones.energy, timed)
+        yield from _energy_violations(problem, vehicle_type, timed)
         for index, sortie in enumerate(trip.sorties):
             sortie_path = f"{path}.sorties[{index}]"
-            yield from _sortie_violations(problem, kind, drones, trip, sortie, sortie_path)
+            yield from _sortie_violations(problem, kind, trip, sortie, sortie_path)
 
 
 def _count_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
@@ -113,10 +111,13 @@ def _count_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Itera
 
 def _battery_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
     """Whether each sortie has a battery of its own."""
-    stock = None if vehicle_type.drones is None else vehicle_type.drones.batteries
-    if stock is not None and len(trip.sorties) > stock:
-        message = f"{len(trip.sorties)} sorties, with {stock} batteries, one for each"
-        yield Violation("BATTERIES", message, f"{path}.sorties[{stock}]")
+    for index, drones in enumerate(vehicle_type.drone_types):
+        stock, whose = drones.batteries, "" if drones.id is None else f" of {drones.id}"
+        flown = [number for number, sortie in enumerate(trip.sorties)
+                 if vehicle_type.drone_index(sortie.drone) == index]
+        if stock is not None and len(flown) > stock:
+            message = f"{len(flown)} sorties{whose}, with {stock} batteries, one for each"
+            yield Violation("BATTERIES", message, f"{path}.sorties[{flown[stock]}]")
 
 
 def _halt_violations(
@@ -193,13 +194,14 @@ def _drone_busy(timed: TimedTrip) -> Iterator[Violation]:
 def _sortie_violations(
     problem: Problem,
     kind: int,
-    drones: DroneType,
     trip: Trip,
     sortie: Sortie,
     path: str,
 ) -> Iterator[Violation]:
-    if not 0 <= sortie.drone < drones.count:
-        yield Violation("COUNT", f"drone {sortie.drone} of {drones.count}", path)
+    vehicle_type = problem.vehicle_types[kind]
+    drones, count = vehicle_type.drone_type(sortie.drone), vehicle_type.num_drones
+    if not 0 <= sortie.drone < count:
+        yield Violation("COUNT", f"drone {sortie.drone} of {count}", path)
     if not 1 <= len(sortie.visits) <= drones.max_customers_per_sortie:
         message = f"{len(sortie.visits)} customers, 1 to {drones.max_customers_per_sortie} allowed"
         yield Violation("SORTIE_SIZE", message, path)
@@ -215,12 +217,16 @@ def _sortie_violations(
         yield Violation("ENDURANCE", message, path)
 
 
-def _energy_violations(problem: Problem, drones: DroneType, energy: Energy,
+def _energy_violations(problem: Problem, vehicle_type: VehicleType,
                        timed: TimedTrip) -> Iterator[Violation]:
     """Sorties that take more than there is, beside the reserve, as they are launched."""
     trip = timed.trip
-    there = charges(problem, drones, energy, trip)
+    there = charges(problem, vehicle_type, trip)
     for index, (sortie, charge) in enumerate(zip(trip.sorties, there, strict=True)):
+        drones = vehicle_type.drone_type(sortie.drone)
+        energy = drones.energy
+        if energy is None:
+            continue
         taken = sortie_energy(problem, drones, energy, trip, sortie)
         if taken > charge:
             message = f"takes {watt_hours(taken)}, {watt_hours(max(0, charge))} are there"

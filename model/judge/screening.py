@@ -13,7 +13,7 @@ from model.judge.launches import launch_duration
 from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, DroneType, Problem
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, DroneType, Problem, VehicleType
 from model.solution import Solution, Trip
 
 BY_TRUCK: tuple[Means, ...] = ("truck",)
@@ -130,24 +130,25 @@ class Screen:
         cost = (fixed + (legs.far_there[begin] + legs.far_back[end]) * kind.cost_per_km / MM_PER_KM
                 + kind.cost_per_stop + hours * kind.cost_per_hour / MS_PER_HOUR)
         yield Guess(0, cost, hours, Place(vehicle, number, "truck", 1, own_trip=True))
-        drones = kind.drones
-        if drones is not None and "drone" in self._means:
+        if "drone" not in self._means:
+            return
+        for first, drones in _first_drones(kind):
             for recovery, place in enumerate((begin, end)):
                 duration, price = self._flight(drones, begin, place)
                 if duration < UNREACHABLE:
                     price += fixed + duration * kind.cost_per_hour / MS_PER_HOUR
                     yield Guess(max(0, duration - drones.endurance), price, duration,
-                                Place(vehicle, number, "drone", 0, recovery, own_trip=True))
+                                Place(vehicle, number, "drone", 0, recovery, first, own_trip=True))
 
     def _on_trip(self, vehicle: Vehicle, number: int, trip: Trip, first_stop: int,
                  first_flight: int) -> Iterator[Guess]:
         kind = self._problem.vehicle_types[vehicle.type]
         slacks = _slacks(self._problem, kind.latest + allowed_overtime(kind), trip)
         yield from self._by_truck(vehicle, number, trip, slacks, first_stop)
-        drones = kind.drones
-        if drones is not None and "drone" in self._means:
-            yield from self._by_drone(vehicle, number, trip, drones, first_stop)
-            yield from self._by_shared_flight(vehicle, number, trip, drones, first_flight)
+        if "drone" in self._means and kind.drones is not None:
+            for first, drones in _first_drones(kind):
+                yield from self._by_drone(vehicle, number, trip, drones, first, first_stop)
+            yield from self._by_shared_flight(vehicle, number, trip, kind, first_flight)
 
     def _by_truck(self, vehicle: Vehicle, number: int, trip: Trip, slacks: list[int],
                   first_stop: int) -> Iterator[Guess]:
@@ -177,9 +178,9 @@ class Screen:
         return duration, (distance * drones.cost_per_km / MM_PER_KM
                           + duration * drones.cost_per_hour / MS_PER_HOUR)
 
-    def _by_drone(self, vehicle: Vehicle, number: int, trip: Trip, drones: DroneType,
+    def _by_drone(self, vehicle: Vehicle, number: int, trip: Trip, drones: DroneType, first: int,
                   first_stop: int) -> Iterator[Guess]:
-        """Yield flights of their own, of drones that are aboard then."""
+        """Yield flights of their own, of drones of a type, numbered from `first`, aboard then."""
         per_hour = self._problem.vehicle_types[vehicle.type].cost_per_hour
         customer, last = self._customer, len(trip.stops) - 1
         legs = self._legs_of(drones.travel)
@@ -195,7 +196,7 @@ class Screen:
                 duration, cost = self._flight(drones, begin.node, end.node)
                 if duration >= UNREACHABLE:
                     continue
-                drone = _free_drone(trip, drones.count, launch, recovery)
+                drone = _free_drone(trip, range(first, first + drones.count), launch, recovery)
                 if drone is None:
                     continue
                 held = begin.ready + duration - end.departure
@@ -203,11 +204,12 @@ class Screen:
                             cost + max(0, held) * per_hour / MS_PER_HOUR, duration,
                             Place(vehicle, number, "drone", launch, recovery, drone))
 
-    def _by_shared_flight(self, vehicle: Vehicle, number: int, trip: Trip, drones: DroneType,
+    def _by_shared_flight(self, vehicle: Vehicle, number: int, trip: Trip, kind: VehicleType,
                           first_flight: int) -> Iterator[Guess]:
         """Yield places on flights that have room for one more."""
-        legs = self._legs_of(drones.travel)
         for index, sortie in enumerate(trip.sorties):
+            drones = kind.drone_type(sortie.drone)
+            legs = self._legs_of(drones.travel)
             if index < first_flight or len(sortie.visits) >= drones.max_customers_per_sortie:
                 continue
             nodes = [trip.stops[sortie.launch_stop].node, *[each.node for each in sortie.visits],
@@ -238,8 +240,16 @@ def _slacks(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:
     return [slack, *reversed(slacks)]
 
 
-def _free_drone(trip: Trip, count: int, launch: int, recovery: int) -> int | None:
+def _first_drones(kind: VehicleType) -> Iterator[tuple[int, DroneType]]:
+    """Yield the types of drones of a vehicle, each with the number of its first drone."""
+    first = 0
+    for drones in kind.drone_types:
+        yield first, drones
+        first += drones.count
+
+
+def _free_drone(trip: Trip, among: range, launch: int, recovery: int) -> int | None:
     """Return a drone that is aboard from one stop to another, by the order of stops."""
     busy = {sortie.drone for sortie in trip.sorties
             if sortie.launch_stop < recovery and launch < sortie.recovery_stop}
-    return next((drone for drone in range(count) if drone not in busy), None)
+    return next((drone for drone in among if drone not in busy), None)

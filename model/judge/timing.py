@@ -102,7 +102,7 @@ def _is_complete(operations: tuple[tuple[Operation, ...], ...],
     )
 
 
-def read_decision(trip: Trip, drones: DroneType | None) -> TripDecision:
+def read_decision(trip: Trip, kind: VehicleType) -> TripDecision:
     """Return the choices that a timed trip states; the order at a stop is that of beginnings.
 
     Operations that take no time come before others that begin with them, as their times demand.
@@ -113,7 +113,7 @@ def read_decision(trip: Trip, drones: DroneType | None) -> TripDecision:
         return TripDecision(nodes, (), None, start)
     keyed: list[list[tuple[tuple[int, ...], Operation]]] = [[] for _ in nodes]
     sorties = []
-    begins = launch_begins(trip.sorties, drones)
+    begins = launch_begins(trip.sorties, kind)
     for index, sortie in enumerate(trip.sorties):
         visited = tuple([visit.node for visit in sortie.visits])
         first, last = sortie.launch_stop, sortie.recovery_stop
@@ -193,7 +193,7 @@ def _by_arrival(
         yield Operation(index, False)
 
 
-def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: int, time: int,
+def _operate(problem: Problem, kind: VehicleType, decision: TripDecision, stop: int, time: int,
              flights: dict[int, _Flight], known: KnownTrip | None = None, now: int = 0) -> int:
     """Launch and recover at a stop from `time` on, in place; return when all is done.
 
@@ -208,6 +208,7 @@ def _operate(problem: Problem, drones: DroneType, decision: TripDecision, stop: 
     for index, is_launch in operations:
         fact = facts[index] if index < len(facts) else None
         sortie = decision.sorties[index]
+        drones = kind.drone_type(sortie.drone)
         path, rest = decision.path_of(sortie), _rest_before(decision, flights, index)
         if is_launch and fact is not None:
             time = fact.launch_time
@@ -238,12 +239,12 @@ def _rest_before(decision: TripDecision, flights: dict[int, _Flight], index: int
 
 
 def _timed_sorties(
-    decision: TripDecision, flights: dict[int, _Flight], recovery_duration: int
+    decision: TripDecision, flights: dict[int, _Flight], kind: VehicleType
 ) -> tuple[Sortie, ...]:
     return tuple(
         Sortie(sortie.drone, sortie.launch_stop, sortie.recovery_stop, flights[index].visits,
                flights[index].launch_time, flights[index].recovery_start,
-               flights[index].recovery_start + recovery_duration)
+               flights[index].recovery_start + kind.drone_type(sortie.drone).recovery_duration)
         for index, sortie in enumerate(decision.sorties)
     )
 
@@ -295,11 +296,12 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
             departure = start + vehicle_type.service_at(customer)
         if drones is not None and decision.sorties:
             departure = max(departure,
-                            _operate(problem, drones, decision, index, arrival + setup, flights))
+                            _operate(problem, vehicle_type, decision, index, arrival + setup,
+                                     flights))
         stops.append(Stop(node, arrival, start, departure, setup))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
-    return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
+    return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type))
 
 
 def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
@@ -324,15 +326,15 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
         ready = arrival + setup
         start, departure = _resume_service(problem, vehicle_type, node, ready, fact, now)
         if drones is not None and decision.sorties:
-            departure = max(departure, _operate(problem, drones, decision, index, ready, flights,
-                                                known, now))
+            departure = max(departure, _operate(problem, vehicle_type, decision, index, ready,
+                                                flights, known, now))
         departure = max(departure, now)
         if fact is not None and fact.departure is not None:
             departure = fact.departure
         stops.append(Stop(node, arrival, start, departure, setup))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
-    return Trip(tuple(stops), _timed_sorties(decision, flights, drones.recovery_duration))
+    return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type))
 
 
 def _resume_service(problem: Problem, vehicle_type: VehicleType, node: int, ready: int,

@@ -47,16 +47,16 @@ class Attempt(NamedTuple):
         return {violation.code for violation in self.evaluation.violations}
 
 
-def small_problem(problem: Problem, kind: int, nodes: list[int]) -> Problem:
+def small_problem(problem: Problem, kind: int, nodes: list[int],
+                  drones: DroneType | None = None) -> Problem:
     """Return a problem of one type of vehicle, where it begins and ends, and some customers.
 
-    The first depot is where it begins, the last one where it ends.
+    The first depot is where it begins, the last one where it ends. It has no other `drones`.
     """
     vehicle_type, table = problem.vehicle_types[kind], problem.may_serve
     depots = list(dict.fromkeys((vehicle_type.begins_at, vehicle_type.ends_at)))
     places = np.array([*depots, *nodes])
     grid = np.ix_(places, places)
-    drones = vehicle_type.drones
     travels = [problem.travel[vehicle_type.travel]]
     if drones is not None:
         travels.append(problem.travel[drones.travel])
@@ -65,7 +65,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int]) -> Problem:
         depots=tuple([problem.depots[depot] for depot in depots]),
         customers=tuple([problem.customer_at(node) for node in nodes]),
         vehicle_types=(replace(vehicle_type, depot=0, start=0, end=len(depots) - 1, travel=0,
-                               drones=drones, reload_depots=()),),
+                               drones=drones, more_drones=(), reload_depots=()),),
         travel=tuple([Travel(each.duration[grid], each.distance[grid]) for each in travels]),
         coordinates=problem.coordinates[places],
         unassigned_cost=problem.unassigned_cost,
@@ -82,7 +82,7 @@ def _judge(problem: Problem, decision: TripDecision) -> Attempt:
 
 def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:
     """Yield trips by a type that might serve a customer, as long as there is hope."""
-    customer, drones = problem.customer_at(node), problem.vehicle_types[kind].drones
+    customer = problem.customer_at(node)
     small = small_problem(problem, kind, [node])
     if customer.served_by != "drone":
         for attempt in try_truck(small):
@@ -92,14 +92,21 @@ def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:
         if _comes_second(problem, kind, customer):
             for host in _delivered_first(problem, kind, node):
                 yield _try_behind(small_problem(problem, kind, [host, node]))
-    if customer.served_by != "truck" and drones is not None:
-        loops = [_try_loop(small, drones, opens) for opens in customer.openings]
-        yield from loops
-        if not loops[0].codes & {*HOPELESS, "PAYLOAD"}:
-            for place in _launch_places(problem, kind, drones, node):
-                small = small_problem(problem, kind, [place, node])
-                for opens in customer.openings:
-                    yield _try_loop_from_customer(small, drones, opens)
+    if customer.served_by != "truck":
+        for drones in problem.vehicle_types[kind].drone_types:
+            yield from _try_drones(problem, kind, drones, node)
+
+
+def _try_drones(problem: Problem, kind: int, drones: DroneType, node: int) -> Iterator[Attempt]:
+    """Yield trips on which one of some drones flies to a customer."""
+    customer, small = problem.customer_at(node), small_problem(problem, kind, [node], drones)
+    loops = [_try_loop(small, drones, opens) for opens in customer.openings]
+    yield from loops
+    if not loops[0].codes & {*HOPELESS, "PAYLOAD"}:
+        for place in _launch_places(problem, kind, drones, node):
+            small = small_problem(problem, kind, [place, node], drones)
+            for opens in customer.openings:
+                yield _try_loop_from_customer(small, drones, opens)
 
 
 def try_truck(problem: Problem) -> Iterator[Attempt]:

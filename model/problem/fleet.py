@@ -31,7 +31,7 @@ class SpeedProfile:
 
 @dataclass(frozen=True)
 class DroneType:
-    """The drones that ride on each truck of a type."""
+    """Equal drones that ride on each truck of a type."""
 
     count: int
     capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
@@ -49,6 +49,7 @@ class DroneType:
     swap_duration: int = 0  # of the battery, before each launch of a trip but the first
     batteries: int | None = None  # for each trip, all drones' together; None: enough
     has_launched: bool = False  # on the trip that its truck is on, before it goes on
+    id: str | None = None  # among the types of drones on a truck; for people
 
     def __post_init__(self) -> None:
         require(self.count >= 1, "drone count", self.count)
@@ -100,7 +101,8 @@ class VehicleType:
     service_durations: Mapping[str, int] = field(default_factory=dict)  # by customer's id, instead
     pickups: Pickups = "any"  # "last": on each trip after all deliveries, of which there is one
     has_delivered: bool = False  # on its trip, before it begins
-    drones: DroneType | None = None
+    drones: DroneType | None = None  # on each truck, numbered from 0
+    more_drones: tuple[DroneType, ...] = ()  # of other types, numbered on behind those before
     start: int | None = None  # where its first trip begins, a node; None: at the depot
     end: int | None = None  # where its last trip ends
     reload_depots: tuple[int, ...] = ()  # other nodes where a trip may end and the next begin
@@ -129,6 +131,8 @@ class VehicleType:
         for name in ("fixed_cost", "cost_per_km", "cost_per_hour", "cost_per_stop",
                      "cost_per_load_km", "co2_kg_per_km", "co2_kg_per_kwh"):
             require_rate(f"vehicle type {self.id} {name}", getattr(self, name) or 0.0)
+        require(self.drones is not None or not self.more_drones,
+                f"vehicle type {self.id} more_drones", self.more_drones)
         self._require_beginning()
 
     def _require_beginning(self) -> None:
@@ -149,6 +153,36 @@ class VehicleType:
     def service_at(self, customer: Customer) -> int:
         """Return how long a truck serves a customer."""
         return self.service_durations.get(customer.id, customer.service_duration)
+
+    @property
+    def drone_types(self) -> tuple[DroneType, ...]:
+        """The types of drones on each truck, in the order of the drones' numbers."""
+        return () if self.drones is None else (self.drones, *self.more_drones)
+
+    @property
+    def num_drones(self) -> int:
+        """How many drones each truck carries, of all types."""
+        return sum([drones.count for drones in self.drone_types])
+
+    def drone_index(self, number: int) -> int:
+        """Return which of `drone_types` a truck's drone is; the last for one that there isn't."""
+        index = 0
+        while index < len(self.more_drones) and number >= self.drone_types[index].count:
+            number -= self.drone_types[index].count
+            index += 1
+        return index
+
+    def drone_type(self, number: int) -> DroneType:
+        """Return the type of a truck's drone, as `drone_index` says.
+
+        Raises
+        ------
+        ValueError
+            If there are no drones.
+        """
+        if self.drones is None:
+            raise ValueError(f"vehicle type {self.id} drones: None is not allowed")
+        return self.drone_types[self.drone_index(number)] if self.more_drones else self.drones
 
     @property
     def type_id(self) -> str:

@@ -99,12 +99,11 @@ class Problem:
                  vehicle_type.initial_load)
         require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
                  vehicle_type.travel)
-        if vehicle_type.drones is not None:
-            require(len(vehicle_type.drones.capacity) == self.num_dimensions,
-                     f"{name} drone capacity", vehicle_type.drones.capacity)
-            require(0 <= vehicle_type.drones.travel < len(self.travel), f"{name} drone travel",
-                     vehicle_type.drones.travel)
-            energy = vehicle_type.drones.energy
+        for drones in vehicle_type.drone_types:
+            require(len(drones.capacity) == self.num_dimensions, f"{name} drone capacity",
+                     drones.capacity)
+            require(0 <= drones.travel < len(self.travel), f"{name} drone travel", drones.travel)
+            energy = drones.energy
             require(energy is None or energy.dimension < self.num_dimensions,
                      f"{name} drone energy", energy)
 

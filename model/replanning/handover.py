@@ -49,11 +49,10 @@ def _trips_left(problem: Problem, route: Route, kept: Kept | None) -> list[TripD
     """Return the decisions of the trips that have not begun."""
     kind = problem.vehicle_types[route.vehicle_type]
     trips = route.trips[0 if kept is None else len(kept.route.trips):]
-    number = 0 if kind.drones is None else kind.drones.count
     decisions = []
     for trip in trips:
-        flown = tuple(sortie for sortie in trip.sorties if sortie.drone < number)
-        decision = read_decision(Trip(trip.stops, flown), kind.drones)
+        flown = tuple(sortie for sortie in trip.sorties if sortie.drone < kind.num_drones)
+        decision = read_decision(Trip(trip.stops, flown), kind)
         decisions.append(decision)
     return decisions
 
@@ -162,7 +161,7 @@ def _begun_at_once(problem: Problem, route: Route) -> Trip:
     kind, trip = problem.vehicle_types[route.vehicle_type], route.trips[0]
     if trip.stops[0].arrival == kind.earliest:
         return trip
-    decision = read_decision(trip, kind.drones)
+    decision = read_decision(trip, kind)
     return schedule_trip(problem, kind, replace(decision, start=None), kind.earliest)
 
 

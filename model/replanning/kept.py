@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
-from model.problem import UNREACHABLE, DroneType, Problem, VehicleType
+from model.problem import UNREACHABLE, Problem, VehicleType
 from model.replanning.amend import customers_of, repaired, without
 from model.solution import Route, Solution, Sortie, Stop, Trip
 
@@ -65,7 +65,7 @@ def retimed(problem: Problem, decision: RouteDecision, known: tuple[KnownTrip, .
 def _kept(problem: Problem, route: Route, vehicle: Vehicle, past: Past) -> Kept:
     known = past.trips[vehicle]
     kind = problem.vehicle_types[vehicle.type]
-    trips = [read_decision(_settled(kind, trip, facts), kind.drones)
+    trips = [read_decision(_settled(kind, trip, facts), kind)
              for trip, facts in zip(route.trips[:len(known)], known, strict=True)]
     decision = RouteDecision(*vehicle, tuple(trips))
     if known[-1].rest != "anything":
@@ -96,11 +96,10 @@ def _settled(kind: VehicleType, trip: Trip, known: KnownTrip) -> Trip:
         stops.append(trip.stops[-1])
     launched = {_identity(sortie) for sortie in known.sorties}
     begun = [sortie for sortie in trip.sorties if _identity(sortie) in launched]
-    number = 0 if kind.drones is None else kind.drones.count
     planned = [sortie for sortie in trip.sorties if _identity(sortie) not in launched
                and bound <= sortie.launch_stop and sortie.recovery_stop <= meeting
                and (sortie.launch_stop < meeting or meeting == len(trip.stops) - 1)
-               and sortie.drone < number]
+               and sortie.drone < kind.num_drones]
     return Trip(tuple(stops), (*begun, *planned))
 
 
@@ -143,17 +142,19 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
     return replace(kept, way_on=WayOn(position, ready, service_left, aboard, rest, planned_end))
 
 
-def drones_then(kind: VehicleType, has_launched: bool) -> DroneType | None:
-    """Return a truck's drones for the rest of its trip, by whether one has been launched on it."""
-    return None if kind.drones is None else replace(kind.drones, has_launched=has_launched)
+def with_drones_then(kind: VehicleType, has_launched: bool) -> VehicleType:
+    """Return a truck for the rest of its trip, by whether a drone has been launched on it."""
+    if kind.drones is None:
+        return kind
+    first, *others = [replace(drones, has_launched=has_launched) for drones in kind.drone_types]
+    return replace(kind, drones=first, more_drones=tuple(others))
 
 
 def _planned_end(problem: Problem, kept: Kept, ready: int, service_left: int,
                  rest: TripDecision) -> int:
     """Return when a trip is over that goes on as planned."""
     kind = problem.vehicle_types[kept.vehicle.type]
-    drones = drones_then(kind, bool(kept.decision.trips[-1].sorties))
-    kind = replace(kind, max_trips=1, drones=drones)
+    kind = replace(with_drones_then(kind, bool(kept.decision.trips[-1].sorties)), max_trips=1)
     node, begun = rest.nodes[0], ready + service_left
     if node >= problem.num_depots:
         begun -= kind.service_at(problem.customer_at(node))
@@ -186,11 +187,12 @@ def _rest(problem: Problem, vehicle: Vehicle, planned: Trip, meeting: int,
           served: set[int]) -> TripDecision:
     """Return how the plan goes on from a stop, but for those who are served before or no more."""
     has_launched = any(sortie.launch_stop < meeting for sortie in planned.sorties)
-    drones = drones_then(problem.vehicle_types[vehicle.type], has_launched)
+    kind = with_drones_then(problem.vehicle_types[vehicle.type], has_launched)
     sorties = tuple(
         replace(sortie, launch_stop=sortie.launch_stop - meeting,
                 recovery_stop=sortie.recovery_stop - meeting)
-        for sortie in planned.sorties if drones is not None and sortie.launch_stop >= meeting)
+        for sortie in planned.sorties
+        if kind.drones is not None and sortie.launch_stop >= meeting)
     trip = Trip(planned.stops[meeting:], sorties)
-    decision = read_decision(trip, drones)
+    decision = read_decision(trip, kind)
     return without(decision, {-1, *served})

@@ -16,7 +16,7 @@ from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType
 from model.replanning.amend import customers_of
-from model.replanning.kept import Kept, WayOn, drones_then
+from model.replanning.kept import Kept, WayOn, with_drones_then
 
 MAX_OWN_TYPES = 500
 """Types that vehicles may become; memory grows by them."""
@@ -149,12 +149,19 @@ def _left(limit: int | None, done: int) -> int | None:
     return None if limit is None else limit - done
 
 
-def _counts_left(problem: Problem, route: Kept) -> tuple[int | None, int | None, int | None]:
-    """Return how many stops and sorties a vehicle may add to its last trip, and its batteries."""
+def _counts_left(problem: Problem, route: Kept) -> tuple[int | None, int | None]:
+    """Return how many stops and sorties a vehicle may add to its last trip."""
     kind, trip = problem.vehicle_types[route.vehicle.type], route.decision.trips[-1]
-    flown, stock = len(trip.sorties), None if kind.drones is None else kind.drones.batteries
-    return (_left(kind.max_stops, len(trip.nodes) - 2), _left(kind.max_sorties, flown),
-            _left(stock, flown))
+    return (_left(kind.max_stops, len(trip.nodes) - 2),
+            _left(kind.max_sorties, len(trip.sorties)))
+
+
+def _batteries_left(problem: Problem, route: Kept) -> list[int | None]:
+    """Return how many batteries a vehicle has for the rest of its last trip, by type of drone."""
+    kind, trip = problem.vehicle_types[route.vehicle.type], route.decision.trips[-1]
+    return [_left(drones.batteries, sum([kind.drone_index(sortie.drone) == index
+                                         for sortie in trip.sorties]))
+            for index, drones in enumerate(kind.drone_types)]
 
 
 def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: int) -> bool:
@@ -164,7 +171,8 @@ def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: in
     is_blocked = (kind.pickups == "last" and _has(problem, served, "pickup")
                   and _has(problem, aboard, "demand"))
     return (route.end <= home_by and not is_blocked
-            and all(count is None or count >= 0 for count in _counts_left(problem, route))
+            and all(count is None or count >= 0
+                    for count in (*_counts_left(problem, route), *_batteries_left(problem, route)))
             and all(map(le, _load(problem, route, aboard), kind.capacity))
             and (limit is None or sum(_driven(problem, route)) <= limit))
 
@@ -172,13 +180,15 @@ def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: in
 def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> Worker:
     """Return what a vehicle can do on the trip that it is on."""
     kind, trip = problem.vehicle_types[route.vehicle.type], route.decision.trips[-1]
-    stops, sorties, batteries = _counts_left(problem, route)
-    drones = drones_then(kind, bool(trip.sorties))
+    stops, sorties = _counts_left(problem, route)
+    equipped = with_drones_then(kind, bool(trip.sorties))
+    drones = [replace(drones, batteries=left) for drones, left
+              in zip(equipped.drone_types, _batteries_left(problem, route), strict=True)]
     own = replace(
         _own_type(problem, route, way_on.ready, home_by, 1), end=trip.nodes[-1],
         max_trip_distance=_left(kind.max_trip_distance, _driven(problem, route)[0]),
         max_stops=stops, max_sorties=sorties,
-        drones=None if drones is None else replace(drones, batteries=batteries),
+        drones=drones[0] if drones else None, more_drones=tuple(drones[1:]),
         initial_load=_load(problem, route, way_on.aboard),
         has_delivered=_has(problem, customers_of(trip), "demand"),
         busy_until=way_on.ready + way_on.service_left, works_since=way_on.ready)

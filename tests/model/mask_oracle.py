@@ -9,50 +9,20 @@ from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
-from model.judge.energy import Rest, charges, hover_energy, leg_energy, sortie_energy
+from model.judge.energy import Rest, charges, sortie_energy
 from model.judge.freshness import most_excess
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import charged_launch, held_takeoff
 from model.judge.timing import (
-    Operation, SortieDecision, TripDecision, latest_release, schedule_trip,
+    Operation, latest_release, schedule_trip,
 )
-from model.problem import UNREACHABLE, DroneType, Problem
+from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Stop, Trip, Visit
+from tests.model.open_trip import Flight, OpenTrip, back_at, drones_of, lasts, preferred
 
 MINUTE = 60_000
-
-
-@dataclass(frozen=True)
-class Flight:
-    """A sortie; `recovery_stop` is None while it is in the air."""
-
-    customer: int
-    drone: int
-    launch_stop: int
-    recovery_stop: int | None = None
-
-
-@dataclass(frozen=True)
-class OpenTrip:
-    """A trip so far, with the launches and recoveries of each stop in order."""
-
-    nodes: tuple[int, ...]
-    flights: tuple[Flight, ...] = ()
-    operations: tuple[tuple[Operation, ...], ...] = ((),)
-    begins: int = 0  # no sooner, so that no parcel of those served so far is aboard too long
-
-    @property
-    def flying(self) -> list[int]:
-        """Sorties in the air."""
-        return [index for index, flight in enumerate(self.flights) if flight.recovery_stop is None]
-
-    def decision(self) -> TripDecision:
-        """Return the decisions of a trip that is over."""
-        sorties = tuple(SortieDecision((f.customer,), f.launch_stop, f.recovery_stop or 0, f.drone)
-                        for f in self.flights)
-        return TripDecision(self.nodes, sorties, self.operations)
 
 
 @dataclass(frozen=True)
@@ -120,55 +90,28 @@ def _held(problem: Problem, vehicle: Vehicle) -> Vehicle | None:
     return vehicle
 
 
-def _flight(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: int) -> int:
-    """Return how long a flight takes that ends at `to`, if nobody waits."""
-    flight, legs = trip.flights[index], problem.travel[drones.travel].duration
-    service = drones.service_at(problem.customer_at(flight.customer))
-    here = trip.nodes[flight.launch_stop]
-    setup = problem.setup_between(here, flight.customer)
-    return legs.item(here, flight.customer) + setup + service + legs.item(flight.customer, to)
-
-
-def _lasts(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, to: int) -> bool:
-    """Tell whether endurance and energy suffice for a flight that ends at `to`, if nobody waits."""
-    flight = trip.flights[index]
-    if _flight(problem, drones, trip, index, to) > drones.endurance:
-        return False
-    if drones.energy is None:
-        return True
-    legs, customer = problem.travel[drones.travel].duration, problem.customer_at(flight.customer)
-    weight = customer.demand[drones.energy.dimension]
-    here = trip.nodes[flight.launch_stop]
-    out = legs.item(here, flight.customer) + problem.setup_between(here, flight.customer)
-    taken = leg_energy(drones.energy, out, weight) + leg_energy(
-        drones.energy, legs.item(flight.customer, to),
-        customer.taken_in[drones.energy.dimension])
-    if not drones.energy.lands:
-        taken += hover_energy(drones.energy, drones.service_at(customer), weight)
-    return taken <= drones.energy.available
-
-
-def _drained(problem: Problem, drones: DroneType, trip: Trip, index: int) -> bool:
+def _drained(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool:
     """Tell whether a sortie takes more than its battery has."""
-    energy = drones.energy
-    return energy is not None and sortie_energy(
-        problem, drones, energy, trip, trip.sorties[index]) > charges(
-        problem, drones, energy, trip)[index]
+    drones = kind.drone_type(trip.sorties[index].drone)
+    return drones.energy is not None and sortie_energy(
+        problem, drones, drones.energy, trip, trip.sorties[index]) > charges(
+        problem, kind, trip)[index]
 
 
-def _rest(problem: Problem, drones: DroneType, trip: Trip, drone: int, stop: int) -> Rest | None:
+def _rest(problem: Problem, kind: VehicleType, trip: Trip, drone: int, stop: int) -> Rest | None:
     """Return how a drone has last come aboard that was launched before a stop."""
+    drones = kind.drone_type(drone)
     flown = [index for index, sortie in enumerate(trip.sorties)
              if sortie.drone == drone and sortie.launch_stop < stop]
     if drones.energy is None or not flown:
         return None
     last = trip.sorties[flown[-1]]
-    left = charges(problem, drones, drones.energy, trip)[flown[-1]]
+    left = charges(problem, kind, trip)[flown[-1]]
     return Rest(left - sortie_energy(problem, drones, drones.energy, trip, last),
                 last.recovery_time)
 
 
-def _at_this_stop(problem: Problem, drones: DroneType, recovered: OpenTrip,
+def _at_this_stop(problem: Problem, kind: VehicleType, recovered: OpenTrip,
                   arrived: list[Operation], crew: int, rests: dict[int, Rest | None],
                   loops: list[int]) -> list[Operation]:
     """Return what is done at the last stop, the crew being free from `crew` on.
@@ -178,74 +121,69 @@ def _at_this_stop(problem: Problem, drones: DroneType, recovered: OpenTrip,
     """
     launches = list(rests)
     decision, order, back = recovered.decision(), list(arrived), dict[int, int]()
-    paths = {index: decision.path_of(decision.sorties[index]) for index in launches}
     launched = len(launches) < len(recovered.flights)
-    while launches or back:
+
+    def take_off(index: int) -> tuple[int, int]:
+        """Return when a sortie would take off, and how long its launch lasts."""
+        drones, path = drones_of(kind, recovered, index), decision.path_of(
+            decision.sorties[index])
         lasting = launch_duration(drones, is_first=not launched)
-        take_off = {index: held_takeoff(
-            problem, drones, paths[index],
-            max(crew, charged_launch(problem, drones, paths[index], rests[index])) + lasting)
-            for index in launches}
-        launch = min(launches, key=lambda index: (take_off[index], index), default=None)
-        loop = min(back, key=lambda index: (back[index], index), default=None)
-        begin = 0 if launch is None else take_off[launch] - lasting
+        begin = max(crew, charged_launch(problem, drones, path, rests[index]))
+        return held_takeoff(problem, drones, path, begin + lasting), lasting
+
+    while launches or back:
+        taken = {index: take_off(index) for index in launches}
+        launch = min(launches, key=lambda index: (taken[index][0], recovered.flights[index].drone),
+                     default=None)
+        loop = min(back, key=lambda index: (back[index], recovered.flights[index].drone),
+                   default=None)
+        begin = 0 if launch is None else taken[launch][0] - taken[launch][1]
         if loop is not None and (launch is None or (
                 begin > crew and max(crew, back[loop]) <= begin)):
-            crew = max(crew, back.pop(loop)) + drones.recovery_duration
+            crew = max(crew, back.pop(loop)) + drones_of(kind, recovered, loop).recovery_duration
             order.append(Operation(loop, False))
         elif launch is not None:
-            crew, launched = take_off[launch], True
+            crew, launched = taken[launch][0], True
             order.append(Operation(launch, True))
             launches = [index for index in launches if index != launch]
             if launch in loops:
-                back[launch] = _back(problem, drones, recovered, launch, crew)
+                back[launch] = back_at(problem, kind, recovered, launch, crew)
     return order
-
-
-def _back(problem: Problem, drones: DroneType, trip: OpenTrip, index: int, take_off: int) -> int:
-    """Return when a loop is back that takes off then."""
-    flight, legs = trip.flights[index], problem.travel[drones.travel].duration
-    place, customer = trip.nodes[flight.launch_stop], problem.customer_at(flight.customer)
-    begun = (take_off + legs.item(place, flight.customer)
-             + problem.setup_between(place, flight.customer))
-    waiting = max(0, opening(customer, begun) - begun)
-    return take_off + waiting + _flight(problem, drones, trip, index, place)
 
 
 def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
     """Drive the vehicle to a node; None if a sortie can be recovered neither here nor there."""
     trip = vehicle.trips[-1]
-    drones, flying = problem.vehicle_types[vehicle.kind].drones, trip.flying
-    loops = [index for index in flying
-             if drones is not None and not _lasts(problem, drones, trip, index, to)]
+    vehicle_type, flying = problem.vehicle_types[vehicle.kind], trip.flying
+    loops = [index for index in flying if not lasts(problem, vehicle_type, trip, index, to)]
     while True:
         here = len(trip.nodes) - 1
         operations = list(trip.operations[-1])
-        if drones is not None and flying:
+        if flying:
             arrived = [operation for operation in operations if not operation.is_launch]
             rough = _recovered(trip, to, loops, flying, [
                 *operations, *(Operation(index, False) for index in loops)])
             timed = _timed(problem, vehicle, rough)
             crew = max([timed.stops[here].ready,
                         *(timed.sorties[index].recovery_time for index, _ in arrived)])
-            rests = {index: _rest(problem, drones, timed, trip.flights[index].drone, here)
+            rests = {index: _rest(problem, vehicle_type, timed, trip.flights[index].drone, here)
                      for index in flying}
-            operations = _at_this_stop(problem, drones, rough, arrived, crew, rests, loops)
+            operations = _at_this_stop(problem, vehicle_type, rough, arrived, crew, rests, loops)
         drafted = _timed(problem, vehicle, _recovered(trip, to, loops, flying, operations))
         arrivals = {}
         for index in flying:
-            assert drones is not None
             visit = drafted.sorties[index].visits[0]
             place = drafted.stops[drafted.sorties[index].recovery_stop].node
+            drones = drones_of(vehicle_type, trip, index)
             arrivals[index] = visit.departure + int(
                 problem.travel[drones.travel].duration[visit.node, place])
-        order = sorted(flying, key=lambda index: (arrivals[index], index))
+        order = sorted(flying, key=lambda index: (arrivals[index], trip.flights[index].drone))
         settled = _recovered(trip, to, loops, order, operations)
         timed = _timed(problem, vehicle, settled)
-        late = [index for index in order if drones is not None and (
-            arrivals[index] >= UNREACHABLE or drones.endurance
-            < airborne_duration(problem, drones, timed, timed.sorties[index])
-            or _drained(problem, drones, timed, index))]
+        late = [index for index in order if arrivals[index] >= UNREACHABLE
+                or drones_of(vehicle_type, trip, index).endurance < airborne_duration(
+                    problem, drones_of(vehicle_type, trip, index), timed, timed.sorties[index])
+                or _drained(problem, vehicle_type, timed, index)]
         if not late:
             return _held(problem, replace(vehicle, trips=(*vehicle.trips[:-1], settled)))
         if set(late) & set(loops):
@@ -270,9 +208,11 @@ def after(problem: Problem, vehicle: Vehicle, kind: int, node: int) -> Vehicle |
 
 
 def _launched(problem: Problem, vehicle: Vehicle, node: int) -> Vehicle | None:
-    trip, drones = vehicle.trips[-1], problem.vehicle_types[vehicle.kind].drones
+    trip, vehicle_type = vehicle.trips[-1], problem.vehicle_types[vehicle.kind]
     busy = {trip.flights[index].drone for index in trip.flying}
-    free = [drone for drone in range(drones.count if drones else 0) if drone not in busy]
+    free = [drone for drone in range(vehicle_type.num_drones) if drone not in busy]
+    if len(vehicle_type.drone_types) > 1:
+        free = preferred(problem, vehicle_type, trip, node, free)
     if not free:
         return None
     flight = Flight(node, free[0], len(trip.nodes) - 1)
@@ -296,7 +236,7 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
 
     With drones, nobody may be served in another window either, nor any battery be drained.
     """
-    drones = problem.vehicle_types[soon.vehicle_type].drones
+    kind = problem.vehicle_types[soon.vehicle_type]
     has_drones = any(trip.sorties for trip in soon.trips)
 
     def may_be(halt: Stop | Visit, later: Stop | Visit) -> bool:
@@ -308,8 +248,7 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):
             return False
-        if drones is not None and any(_drained(problem, drones, other, index)
-                                      for index in range(len(other.sorties))):
+        if any(_drained(problem, kind, other, index) for index in range(len(other.sorties))):
             return False
         for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
             longer = (flown.recovery_start - flown.launch_time

@@ -1,5 +1,6 @@
 """Tiny problems that mix all rules; every time is a whole number of minutes."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -120,6 +121,14 @@ def with_gaps(rng: np.random.Generator, problem: Problem, share: float = 0.7) ->
         several(customer) if rng.random() < share else customer for customer in problem.customers))
 
 
+def with_drones(kind: VehicleType, change: Callable[[DroneType], DroneType]) -> VehicleType:
+    """Return a vehicle type with all types of its drones changed."""
+    if kind.drones is None:
+        return kind
+    first, *others = map(change, kind.drone_types)
+    return replace(kind, drones=first, more_drones=tuple(others))
+
+
 def with_energy(rng: np.random.Generator, problem: Problem, share: float = 1.0) -> Problem:
     """Return a problem in which a share of the types has drones that a battery limits."""
     def powers(points: int) -> tuple[int, ...]:
@@ -137,10 +146,36 @@ def with_energy(rng: np.random.Generator, problem: Problem, share: float = 1.0) 
             descent_duration=_draw(rng, 0, 1, MINUTE // 2),
             dimension=int(rng.integers(dimensions)), lands=bool(rng.random() < 0.5))
 
+    def powered(drones: DroneType) -> DroneType:
+        if rng.random() >= share:
+            return drones
+        return replace(drones, energy=battery(problem.num_dimensions))
+
     return replace(problem, vehicle_types=tuple(
-        replace(kind, drones=replace(kind.drones, energy=battery(problem.num_dimensions)))
-        if kind.drones is not None and rng.random() < share else kind
-        for kind in problem.vehicle_types))
+        with_drones(kind, powered) for kind in problem.vehicle_types))
+
+
+def with_drone_types(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which most trucks that have drones carry one or two other types, too.
+
+    Some of these fly by legs of their own.
+    """
+    slow = problem.travel[1]
+    slow = Travel(np.where(slow.duration < UNREACHABLE, 2 * slow.duration, UNREACHABLE),
+                  slow.distance)
+
+    def equipped(kind: VehicleType) -> VehicleType:
+        if kind.drones is None or rng.random() < 0.2:
+            return kind
+        number = int(rng.integers(1, 3))
+        more = tuple(replace(
+            _drones(rng, problem.num_dimensions), id=str(index), count=1,
+            travel=int(rng.integers(1, 3)), cost_per_km=float(rng.integers(0, 3)))
+            for index in range(number))
+        return replace(kind, drones=replace(kind.drones, count=1), more_drones=more)
+
+    return replace(problem, travel=(*problem.travel, slow),
+                   vehicle_types=tuple(map(equipped, problem.vehicle_types)))
 
 
 def with_turnaround(rng: np.random.Generator, problem: Problem) -> Problem:
@@ -152,8 +187,8 @@ def with_turnaround(rng: np.random.Generator, problem: Problem) -> Problem:
         if kind.drones is None:
             return kind
         has_launched = kind.max_trips == 1 and bool(rng.random() < 0.3)
-        return replace(kind, drones=replace(
-            kind.drones, swap_duration=_draw(rng, 0, 4), batteries=_maybe(rng, 0.6, 0, 3, 1),
+        return with_drones(kind, lambda drones: replace(
+            drones, swap_duration=_draw(rng, 0, 4), batteries=_maybe(rng, 0.6, 0, 3, 1),
             has_launched=has_launched))
 
     return replace(problem, vehicle_types=tuple(map(swapping, problem.vehicle_types)))
@@ -199,8 +234,9 @@ def with_dimensions(rng: np.random.Generator, problem: Problem) -> Problem:
         return (*amounts, *(_draw(rng, least, most, 1) for _ in range(number - len(amounts))))
 
     def kind_of(kind: VehicleType) -> VehicleType:
-        drones = kind.drones and replace(kind.drones, capacity=more(kind.drones.capacity, 1, 3))
-        return replace(kind, capacity=more(kind.capacity, 3, 8), drones=drones,
+        kind = with_drones(kind, lambda drones: replace(
+            drones, capacity=more(drones.capacity, 1, 3)))
+        return replace(kind, capacity=more(kind.capacity, 3, 8),
                        initial_load=kind.initial_load and more(kind.initial_load, 0, 2))
 
     customers = tuple(
@@ -218,10 +254,8 @@ def with_own_durations(rng: np.random.Generator, problem: Problem) -> Problem:
                 if rng.random() < 0.6}
 
     def changed(kind: VehicleType) -> VehicleType:
-        drones = kind.drones
-        if drones is not None:
-            drones = replace(drones, service_durations=durations())
-        return replace(kind, service_durations=durations(), drones=drones)
+        kind = with_drones(kind, lambda drones: replace(drones, service_durations=durations()))
+        return replace(kind, service_durations=durations())
 
     return replace(problem, vehicle_types=tuple(map(changed, problem.vehicle_types)))
 
@@ -296,12 +330,13 @@ def with_open_reloads(rng: np.random.Generator, problem: Problem) -> Problem:
 def with_open_ends(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem many of whose vehicles end at their last stop."""
     nowhere = problem.num_depots
-    drive, fly = problem.travel
+    drive, *flights = problem.travel
     return replace(
         problem, depots=(*problem.depots, Depot("nowhere", "nowhere")),
         vehicle_types=tuple(replace(kind, end=nowhere) if rng.random() < 0.7 else kind
                             for kind in problem.vehicle_types),
-        travel=(with_nowhere(drive, nowhere, False), with_nowhere(fly, nowhere, True)),
+        travel=(with_nowhere(drive, nowhere, False),
+                *(with_nowhere(fly, nowhere, True) for fly in flights)),
         coordinates=np.insert(problem.coordinates, nowhere, 0.5, axis=0))
 
 

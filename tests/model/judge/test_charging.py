@@ -69,7 +69,7 @@ def test_what_charging_brings_is_no_more_than_the_battery_holds(three, drones):
     problem = replace(three, customers=(three.customers[0], late, three.customers[2]))
     problem, trip = flown(problem, replace(drones, endurance=60 * MINUTE), energy)
     assert trip.sorties[1].launch_time > 200 * MINUTE
-    assert charges(problem, problem.vehicle_types[0].drones, energy, trip) == [
+    assert charges(problem, problem.vehicle_types[0], trip) == [
         2000 * WATT_MINUTES] * 2
 
 

@@ -252,7 +252,7 @@ def test_battery_is_swapped_before_each_launch_of_a_trip_but_the_first(
     # the first is swapped for the second drone; at the depot from minute 15, which is back at 19
     assert [sortie.launch_time for sortie in trip.sorties] == list(minutes(3, 7, 24))
     assert [sortie.recovery_start for sortie in trip.sorties] == list(minutes(12, 19, 33))
-    decision = read_decision(trip, swapping)
+    decision = read_decision(trip, problem.vehicle_types[0])
     assert schedule(problem, RouteDecision(0, 0, (decision,))).trips == (trip,)
 
 
@@ -280,7 +280,7 @@ def test_order_of_operations_is_a_choice(tiny_problem, customers, truck, drones)
     trip = one_trip(problem, launch_first)
     assert trip.sorties[1].launch_time == 4 * MINUTE
     assert trip.sorties[0].recovery_start == 11 * MINUTE
-    assert read_decision(trip, drones).operations == launch_first.operations
+    assert read_decision(trip, problem.vehicle_types[0]).operations == launch_first.operations
 
 
 def test_operation_without_duration_is_read_before_one_that_begins_with_it(
@@ -293,7 +293,7 @@ def test_operation_without_duration_is_read_before_one_that_begins_with_it(
                   (Operation(1, False),))
     trip = one_trip(problem, TripDecision((0, 1, 2, 0), sorties, operations))
     assert trip.sorties[1].launch_time == trip.sorties[0].recovery_start == 9 * MINUTE
-    assert read_decision(trip, instant).operations == operations
+    assert read_decision(trip, problem.vehicle_types[0]).operations == operations
 
 
 @pytest.mark.parametrize("decision", [

@@ -59,11 +59,11 @@ def instants(plan: Solution) -> list[int]:
 
 def begun(problem: Problem, route: Route, now: int) -> list[tuple[int, list[int], list[int]]]:
     """Return the trips that have begun: number, stops left, sorties launched."""
-    drones = problem.vehicle_types[route.vehicle_type].drones
+    kind = problem.vehicle_types[route.vehicle_type]
     found = []
     for number, trip in enumerate(route.trips):
         left = [index for index, stop in enumerate(trip.stops) if stop.departure <= now]
-        launched = [index for index, begin in enumerate(launch_begins(trip.sorties, drones))
+        launched = [index for index, begin in enumerate(launch_begins(trip.sorties, kind))
                     if begin <= now]
         if left or launched:
             found.append((number, left, launched))

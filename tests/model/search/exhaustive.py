@@ -12,7 +12,7 @@ from itertools import combinations, pairwise, permutations
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, IntArray, Problem, VehicleType
+from model.problem import MM_PER_KM, MS_PER_HOUR, IntArray, Problem, VehicleType
 from model.solution import Route, Solution
 from tests.model.mask_oracle import costs_nothing
 
@@ -72,7 +72,7 @@ def _cheapest_route(problem: Problem, kind: int, nodes: Nodes) -> float:
 
 def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, ...]) -> float:
     """Return a cost that the trips can't undercut; infinite if a flight exceeds endurance."""
-    truck, drones = problem.travel[kind.travel], kind.drones
+    truck = problem.travel[kind.travel]
     kilometres = sum(_sum(truck.distance, trip.nodes) for trip in trips) / MM_PER_KM
     cost = kind.fixed_cost + kilometres * kind.cost_per_km
     busy = Counter({"truck": sum(_sum(truck.duration, trip.nodes) for trip in trips)})
@@ -80,16 +80,14 @@ def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, 
                          for trip in trips for node in trip.nodes[1:-1])
     flights = [(trip, sortie) for trip in trips for sortie in trip.sorties]
     for trip, sortie in flights:
-        if drones is not None:
-            path = (trip.nodes[sortie.launch_stop], *sortie.nodes,
-                    trip.nodes[sortie.recovery_stop])
-            flight = _sum(problem.travel[drones.travel].duration, path)
-            flight += sum(drones.service_at(problem.customer_at(node)) for node in sortie.nodes)
-            if flight > drones.endurance:
-                return math.inf
-            busy[f"drone {sortie.drone}"] += flight
-            cost += _sum(problem.travel[drones.travel].distance, path) / MM_PER_KM * (
-                drones.cost_per_km)
+        drones = kind.drone_type(sortie.drone)
+        path = (trip.nodes[sortie.launch_stop], *sortie.nodes, trip.nodes[sortie.recovery_stop])
+        flight = _sum(problem.travel[drones.travel].duration, path)
+        flight += sum(drones.service_at(problem.customer_at(node)) for node in sortie.nodes)
+        if flight > drones.endurance:
+            return math.inf
+        busy[f"drone {sortie.drone}"] += flight
+        cost += _sum(problem.travel[drones.travel].distance, path) / MM_PER_KM * drones.cost_per_km
     return cost + max(busy.values()) / MS_PER_HOUR * kind.cost_per_hour
 
 
@@ -140,19 +138,20 @@ def _trips(problem: Problem, kind: VehicleType, nodes: Nodes,
             for order in permutations(driven):
                 stops = (ends[0], *order, ends[1])
                 for queue in permutations(flown):
-                    for sorties in _sorties(kind.drones, queue, len(stops), 0):
+                    for sorties in _sorties(kind, queue, len(stops), 0):
                         yield TripDecision(stops, sorties)
 
 
-def _sorties(drones: DroneType | None, queue: Nodes, num_stops: int,
+def _sorties(kind: VehicleType, queue: Nodes, num_stops: int,
              earliest: int) -> Iterator[tuple[SortieDecision, ...]]:
     """Yield all ways to fly to customers in turn, launched from stop `earliest` on."""
     if not queue:
         yield ()
-    elif drones is not None:
-        for size in range(1, min(len(queue), drones.max_customers_per_sortie) + 1):
-            for launch in range(earliest, num_stops):
-                for others in _sorties(drones, queue[size:], num_stops, launch):
-                    for recovery in range(launch, num_stops):
-                        for drone in range(drones.count):
-                            yield (SortieDecision(queue[:size], launch, recovery, drone), *others)
+        return
+    most = max([drones.max_customers_per_sortie for drones in kind.drone_types], default=0)
+    for size in range(1, min(len(queue), most) + 1):
+        for launch in range(earliest, num_stops):
+            for others in _sorties(kind, queue[size:], num_stops, launch):
+                for recovery in range(launch, num_stops):
+                    for drone in range(kind.num_drones):
+                        yield (SortieDecision(queue[:size], launch, recovery, drone), *others)

@@ -52,8 +52,8 @@ def begun_soon(problem: Problem, solution: Solution) -> Solution:
     """Return a plan whose trips begin as soon as possible."""
     routes = []
     for route in solution.routes:
-        drones = problem.vehicle_types[route.vehicle_type].drones
-        trips = tuple(replace(read_decision(trip, drones), start=None)
+        kind = problem.vehicle_types[route.vehicle_type]
+        trips = tuple(replace(read_decision(trip, kind), start=None)
                       for trip in route.trips)
         routes.append(schedule(problem, RouteDecision(route.vehicle_type, route.vehicle, trips)))
     return replace(solution, routes=tuple(routes))

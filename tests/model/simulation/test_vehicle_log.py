@@ -22,8 +22,8 @@ def planned(problem: Problem, seed: int) -> Iterator[tuple[Route, RouteDecision]
     """Yield the routes of a random rollout and the decisions they state."""
     rollout = roll([problem], seed).rollouts[0]
     for route in extract(problem, pack([problem]), rollout.actions).routes:
-        drones = problem.vehicle_types[route.vehicle_type].drones
-        trips = tuple(read_decision(trip, drones) for trip in route.trips)
+        kind = problem.vehicle_types[route.vehicle_type]
+        trips = tuple(read_decision(trip, kind) for trip in route.trips)
         yield route, RouteDecision(route.vehicle_type, route.vehicle, trips)
 
 

@@ -1,0 +1,108 @@
+"""A trip so far, as the oracle of the mask sees it, and what its drones could do."""
+
+from dataclasses import dataclass, replace
+
+from model.judge.clock import opening
+from model.judge.energy import hover_energy, leg_energy
+from model.judge.timing import Operation, SortieDecision, TripDecision
+from model.problem import DroneType, Problem, VehicleType
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A sortie; `recovery_stop` is None while it is in the air."""
+
+    customer: int
+    drone: int
+    launch_stop: int
+    recovery_stop: int | None = None
+
+
+@dataclass(frozen=True)
+class OpenTrip:
+    """A trip so far, with the launches and recoveries of each stop in order."""
+
+    nodes: tuple[int, ...]
+    flights: tuple[Flight, ...] = ()
+    operations: tuple[tuple[Operation, ...], ...] = ((),)
+    begins: int = 0  # no sooner, so that no parcel of those served so far is aboard too long
+
+    @property
+    def flying(self) -> list[int]:
+        """Sorties in the air."""
+        return [index for index, flight in enumerate(self.flights) if flight.recovery_stop is None]
+
+    def decision(self) -> TripDecision:
+        """Return the decisions of a trip that is over."""
+        sorties = tuple(SortieDecision((f.customer,), f.launch_stop, f.recovery_stop or 0, f.drone)
+                        for f in self.flights)
+        return TripDecision(self.nodes, sorties, self.operations)
+
+
+def flight_duration(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: int) -> int:
+    """Return how long a flight takes that ends at `to`, if nobody waits."""
+    drones = kind.drone_type(trip.flights[index].drone)
+    flight, legs = trip.flights[index], problem.travel[drones.travel].duration
+    service = drones.service_at(problem.customer_at(flight.customer))
+    here = trip.nodes[flight.launch_stop]
+    setup = problem.setup_between(here, flight.customer)
+    return legs.item(here, flight.customer) + setup + service + legs.item(flight.customer, to)
+
+
+def lasts(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: int) -> bool:
+    """Tell whether endurance and energy suffice for a flight that ends at `to`, if nobody waits."""
+    flight = trip.flights[index]
+    drones = kind.drone_type(flight.drone)
+    if flight_duration(problem, kind, trip, index, to) > drones.endurance:
+        return False
+    if drones.energy is None:
+        return True
+    legs, customer = problem.travel[drones.travel].duration, problem.customer_at(flight.customer)
+    weight = customer.demand[drones.energy.dimension]
+    here = trip.nodes[flight.launch_stop]
+    out = legs.item(here, flight.customer) + problem.setup_between(here, flight.customer)
+    taken = leg_energy(drones.energy, out, weight) + leg_energy(
+        drones.energy, legs.item(flight.customer, to),
+        customer.taken_in[drones.energy.dimension])
+    if not drones.energy.lands:
+        taken += hover_energy(drones.energy, drones.service_at(customer), weight)
+    return taken <= drones.energy.available
+
+
+def drones_of(kind: VehicleType, trip: OpenTrip, index: int) -> DroneType:
+    """Return the type of drones one of which flies a sortie."""
+    return kind.drone_type(trip.flights[index].drone)
+
+
+def back_at(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, take_off: int) -> int:
+    """Return when a loop is back that takes off then."""
+    flight, legs = trip.flights[index], problem.travel[
+        drones_of(kind, trip, index).travel].duration
+    place, customer = trip.nodes[flight.launch_stop], problem.customer_at(flight.customer)
+    begun = (take_off + legs.item(place, flight.customer)
+             + problem.setup_between(place, flight.customer))
+    waiting = max(0, opening(customer, begun) - begun)
+    return take_off + waiting + flight_duration(problem, kind, trip, index, place)
+
+
+def preferred(problem: Problem, kind: VehicleType, trip: OpenTrip, node: int,
+              free: list[int]) -> list[int]:
+    """Return the drones that lift a parcel and have a battery, those before that could come back.
+    """
+    customer = problem.customer_at(node)
+
+    def lifts(drone: int) -> bool:
+        drones = kind.drone_type(drone)
+        flown = [flight for flight in trip.flights
+                 if kind.drone_index(flight.drone) == kind.drone_index(drone)]
+        return (all(amount <= most for amounts in (customer.demand, customer.taken_in)
+                    for amount, most in zip(amounts, drones.capacity, strict=True))
+                and (drones.batteries is None or len(flown) < drones.batteries))
+
+    def comes_back(drone: int) -> bool:
+        here = trip.nodes[-1]
+        tried = replace(trip, flights=(Flight(node, drone, len(trip.nodes) - 1),))
+        return lasts(problem, kind, tried, 0, here)
+
+    able = [drone for drone in free if lifts(drone)]
+    return sorted(able, key=lambda drone: not comes_back(drone))
