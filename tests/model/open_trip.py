@@ -39,7 +39,8 @@ class OpenTrip:
         return TripDecision(self.nodes, sorties, self.operations)
 
 
-def flight_duration(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: int) -> int:
+def flight_duration(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int,
+                    to: int) -> int:
     """Return how long a flight takes that ends at `to`, if nobody waits."""
     drones = kind.drone_type(trip.flights[index].drone)
     flight, legs = trip.flights[index], problem.travel[drones.travel].duration
