@@ -1,13 +1,14 @@
 """VROOM's jobs and vehicles -> the planner's `Problem`, and its plans back to routes of jobs."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import isqrt
 
 import numpy as np
 
+from model.dialects.vroom.actions import Actions
 from model.dialects.vroom.drives import Drive, Drives
 from model.dialects.vroom.errors import RefusedError, TooLargeError
-from model.dialects.vroom.kinds import Loads, find_kinds, find_loads
+from model.dialects.vroom.kinds import find_kinds, find_loads
 from model.dialects.vroom.models import Model
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes
 from model.dialects.vroom.places import NOWHERE, Places
@@ -48,6 +49,7 @@ class Converter:
         self._origin = self._find_origin()
         self._shifts = {kind.stated.time_window for kind in self.kinds}
         self._windows = [self._reachable(job.time_windows or ()) for job in request.jobs]
+        self._loads = find_loads(request, self.kinds)
 
     def model(self, jobs: Sequence[int], preparing: Preparing = UNHURRIED) -> Model:
         """Return the problem of serving jobs, at least one.
@@ -69,57 +71,63 @@ class Converter:
                                 f"({self._max_legs.setting})")
         drives = self._drives(nodes, relaxed=False, pause=preparing.pause)
         ways = drives.count(self.kinds)
-        surplus = find_loads(self._request, self.kinds, relaxed=True).surplus
-        is_compromise = drives.is_compromise or surplus is not None
-        self._require_room(ways, number)
-        once = model_seconds(number, ways)
-        preparing.expect(once + attempt_seconds(number, ways))
-        relaxes = is_compromise and preparing.allows(2 * (once + attempt_seconds(number, ways)))
+        self._require_room(drives, ways, number)
+        once = model_seconds(number, ways) + attempt_seconds(number, ways)
+        preparing.expect(once)
+        relaxes = drives.is_compromise and preparing.allows(2 * once)
         if relaxes:
-            self._require_room(2 * ways, number)
+            self._require_room(drives, 2 * ways, number)
         problem = self._problem(nodes, drives)
         relaxed: tuple[Problem, ...] = ()
         if relaxes:
             looser = self._drives(nodes, relaxed=True, pause=preparing.pause)
             relaxed = (self._problem(nodes, looser),)
-        return Model(problem, nodes, relaxed,
-                     None if surplus is None or not relaxes
-                     else tuple(surplus[list(nodes.jobs)].tolist()),
-                     has_longest=self._has_longest())
+        return Model(problem, nodes, relaxed, has_longest=self._has_longest())
 
     def _drives(self, nodes: Nodes, relaxed: bool, pause: Pause) -> Drives:
         return Drives(self._request, self._places, self.kinds, nodes, self._is_timed, relaxed,
                       pause)
 
-    def _require_room(self, ways: int, nodes: int) -> None:
-        """Refuse more matrices than are held at a time."""
-        if ways * nodes**2 > self._max_legs.legs:
-            raise TooLargeError("Too many vehicles that drive unlike each other for so many jobs: "
-                                f"{ways} ways to travel between {nodes} places, "
-                                f"maximum is {self._max_legs.legs} legs "
+    def _require_room(self, drives: Drives, ways: int, nodes: int) -> None:
+        """Refuse more matrices, and more tables of how jobs are served, than are held at a time."""
+        services = drives.actions.num_services()
+        rows = (services - 1) * max(map(len, self._windows), default=0) * nodes
+        if ways * nodes**2 + rows > self._max_legs.legs:
+            raise TooLargeError("Too many vehicles that drive or serve unlike each other for so "
+                                f"many jobs: {ways} ways to travel between {nodes} places, "
+                                f"{services} to serve there, maximum is {self._max_legs.legs} legs "
                                 f"({self._max_legs.setting}).")
 
     def _problem(self, nodes: Nodes, drives: Drives) -> Problem:
         """Return the problem by given drives."""
-        loads = find_loads(self._request, self.kinds, drives.relaxed)
-        driven = [drives.drive(kind) for kind in self.kinds]
         depots = {site: node for node, site in enumerate(nodes.depots)}
+        actions = drives.actions
+        unlike = {kind.type: self._unlike(nodes.jobs, actions, kind.type) for kind in self.kinds}
         vehicle_types = tuple(
-            self._vehicle_type(number, depots[kind.start], depots[kind.end], drive, loads)
-            for number, (kind, drive) in enumerate(zip(self.kinds, driven, strict=True)))
-        services = drives.actions.common if self._is_timed else np.zeros(len(nodes.jobs), np.int64)
+            self._vehicle_type(number, depots[kind.start], depots[kind.end], drives.drive(kind),
+                               unlike[kind.type])
+            for number, kind in enumerate(self.kinds))
         customers = tuple(
-            self._customer(job, int(service), loads)
-            for job, service in zip(nodes.jobs, services, strict=True))
+            self._customer(job, int(site), service, setup)
+            for job, site, service, setup in zip(
+                nodes.jobs, nodes.sites[len(depots):], actions.service(self.kinds[0].type).tolist(),
+                actions.setup.tolist(), strict=True))
         travels = tuple(drives.travels)
         return Problem(
-            depots=tuple(Depot(str(node), "nowhere" if site == NOWHERE else "depot")
+            depots=tuple(Depot(str(node), "nowhere") if site == NOWHERE
+                         else Depot(str(node), site=site)
                          for node, site in enumerate(nodes.depots)),
             customers=customers,
             vehicle_types=vehicle_types, travel=travels,
             coordinates=self._coordinates(nodes, travels),
             unassigned_cost=dearest_plan(vehicle_types, travels, len(depots), drives.pause),
             may_serve=self._startable(nodes.jobs))
+
+    def _unlike(self, jobs: Sequence[int], actions: Actions, name: str) -> dict[str, int]:
+        """Return how long vehicles of a type serve jobs, by id, where the first ones don't."""
+        service = actions.service(name)
+        return {str(self._request.jobs[jobs[index]].id): int(service[index]) * PARTS
+                for index in np.flatnonzero(service != actions.service(self.kinds[0].type))}
 
     def _has_longest(self) -> bool:
         """Tell whether some legs are longer than the planner can count."""
@@ -150,12 +158,12 @@ class Converter:
         return min(UNLIMITED, (seconds - self._origin) * PARTS)
 
     def _vehicle_type(self, number: int, start: int, end: int, drive: Drive,
-                      loads: Loads) -> VehicleType:
+                      service_durations: Mapping[str, int]) -> VehicleType:
         kind = self.kinds[number]
         window, most = kind.stated.time_window, kind.stated.max_tasks
         return VehicleType(
             id=str(kind.stated.id), count=len(kind.vehicles),
-            capacity=tuple(loads.capacity[number].tolist()), travel=drive.travel, depot=start,
+            capacity=tuple(self._loads.capacity[number].tolist()), travel=drive.travel, depot=start,
             end=end,
             fixed_cost=float(kind.stated.costs.fixed), cost_per_km=drive.cost_per_km,
             cost_per_hour=drive.cost_per_hour,
@@ -163,20 +171,19 @@ class Converter:
             latest=UNLIMITED if window is None else self._last_instant(window[1]),
             max_working_duration=drive.max_working, max_trip_distance=drive.max_distance,
             max_stops=None if most is None else min(most, len(self._request.jobs)),
-            skills=frozenset(map(str, kind.stated.skills)))
+            skills=frozenset(map(str, kind.stated.skills)), service_durations=service_durations)
 
-    def _customer(self, job: int, service: int, loads: Loads) -> Customer:
-        stated = self._request.jobs[job]
-        demand = tuple(loads.demand[job].tolist())
-        skills = frozenset(map(str, stated.skills))
-        name = str(stated.id)
-        windows = self._windows[job]
-        if not windows:
-            return Customer(name, demand, service * PARTS, skills=skills)
-        begins = [self._instant(begin) for begin, _ in windows]
-        ends = [self._last_instant(end) for _, end in windows]
-        return Customer(name, demand, service * PARTS, begins[0], ends[-1], skills=skills,
-                        gaps=tuple(zip(ends[:-1], begins[1:], strict=True)))
+    def _customer(self, job: int, site: int, service: int, setup: int) -> Customer:
+        """Return a job as the planner sees it; `service` and `setup` in seconds."""
+        stated, windows = self._request.jobs[job], self._windows[job]
+        begins = [self._instant(begin) for begin, _ in windows] or [0]
+        ends = [self._last_instant(end) for _, end in windows] or [UNLIMITED]
+        pickup = tuple(self._loads.pickup[job].tolist())
+        return Customer(
+            str(stated.id), tuple(self._loads.delivery[job].tolist()), service * PARTS, begins[0],
+            ends[-1], skills=frozenset(map(str, stated.skills)), setup_duration=setup * PARTS,
+            site=site, gaps=tuple(zip(ends[:-1], begins[1:], strict=True)),
+            pickup=pickup if any(pickup) else ())
 
     def _startable(self, jobs: Sequence[int]) -> BoolArray:
         """Return (kind, node) that nobody serves a job in whose windows nobody works."""

@@ -12,12 +12,13 @@ from fractions import Fraction
 
 import numpy as np
 
+from model.dialects.vroom.actions import Actions
 from model.dialects.vroom.errors import RefusedError
 from model.dialects.vroom.kinds import Kind
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes, at_most_longest
 from model.dialects.vroom.places import Legs, Places
 from model.dialects.vroom.request import Request
-from model.dialects.vroom.timing import COST_SCALE, TIME_SCALE, service_of, setup_of
+from model.dialects.vroom.timing import COST_SCALE, TIME_SCALE
 from model.dialects.vroom.work import UNHURRIED, Pause
 from model.problem import MAX_QUANTITY, IntArray, Travel
 
@@ -66,7 +67,7 @@ class Drives:
         self._limits_kept: dict[Key, Drive] = {}
         self._longest: dict[int, int] = {}  # by the matrix, which the places hold
         self._ratios: dict[str, Fraction | None] = {}  # by profile
-        self.actions = Actions(request, places, kinds, nodes, relaxed)
+        self.actions = Actions(request, places, kinds, nodes, is_timed, relaxed)
         self.is_compromise = self.actions.is_compromise  # whether there was such a case
 
     def count(self, kinds: Iterable[Kind]) -> int:
@@ -193,7 +194,7 @@ class Drives:
         if basis == "costs":
             key = (*key, kind.type, rates.time_cost, rates.distance_cost, rates.task_cost)
         if self._is_timed:
-            key = (*key, kind.type, rates.time)
+            key = (*key, rates.time, kind.type if self.actions.delays(kind) else "")
         return key
 
     def _travel(self, kind: Kind, basis: str, clock: str) -> int:
@@ -212,8 +213,9 @@ class Drives:
             measured = legs.durations if clock == "durations" else legs.distances
             return self._nodes.spread(measured) * PARTS
         travel = self._nodes.spread(legs.durations) * (kind.rates.time * PARTS // TIME_SCALE)
-        travel = np.minimum(travel, MAX_QUANTITY - self.actions.longest(kind) * PARTS)
-        return travel + self.actions.beside_travel(kind) * PARTS
+        if self.actions.delays(kind):
+            travel += self.actions.beside_travel(kind) * PARTS
+        return np.minimum(travel, MAX_QUANTITY)
 
     def _measure(self, kind: Kind, basis: str) -> IntArray:
         legs, rates = self._places.legs[kind.stated.profile], kind.rates
@@ -271,57 +273,3 @@ def _ratio(legs: Legs) -> Fraction | None:
     if not time or not way or not (metres * time == seconds * way).all():
         return None
     return Fraction(way, time)
-
-
-class Actions:
-    """Setup and service of jobs as the planner times them, in seconds.
-
-    Setup is left out where the task before is at the same place. For jobs that may start at any
-    time that is exact: their setup is part of the way to them from elsewhere. For others that share
-    their place it is too when relaxed, though they may wait before it; else they are planned as if
-    their setup were always needed, so that the plan can only be early.
-    """
-
-    def __init__(self, request: Request, places: Places, kinds: tuple[Kind, ...],
-                 nodes: Nodes, relaxed: bool) -> None:
-        self._nodes = nodes
-        types = dict.fromkeys(kind.type for kind in kinds)
-        jobs = [request.jobs[job] for job in nodes.jobs]
-        self._setup = {name: np.array([setup_of(job, name) for job in jobs], np.int64)
-                       for name in types}
-        self._service = {name: np.array([service_of(job, name) for job in jobs], np.int64)
-                         for name in types}
-        used = [*places.jobs.tolist(), *dict.fromkeys(places.starts.tolist())]
-        counts = np.bincount(np.array(used, np.int64) + 1, minlength=2)
-        is_shared = counts[places.jobs[list(nodes.jobs)] + 1] > 1
-        is_open = np.array([job.time_windows is None for job in jobs], np.bool_)
-        has_setup = np.any([setup > 0 for setup in self._setup.values()], axis=0)
-        self.is_compromise = bool((is_shared & ~is_open & has_setup).any())
-        self._on_the_way = is_shared & (is_open | relaxed)
-        always = [self._always(name) for name in types]
-        self.common: IntArray = np.min(always, axis=0)  # (job,) by whatever vehicle
-
-    def _always(self, name: str) -> IntArray:
-        spent: IntArray = self._service[name] + np.where(self._on_the_way, 0, self._setup[name])
-        return spent
-
-    def longest(self, kind: Kind) -> int:
-        """Return what `beside_travel` adds to a leg at most."""
-        return int(2 * (self._setup[kind.type] + self._service[kind.type]).max(initial=0))
-
-    def beside_travel(self, kind: Kind) -> IntArray:
-        """Return (node, node) what a leg takes in addition: setup before, what is left after."""
-        depots, number = len(self._nodes.depots), len(self._nodes.sites)
-        beside = np.zeros((number, number), np.int64)
-        beside[depots:] += (self._always(kind.type) - self.common)[:, None]
-        on_the_way = np.where(self._on_the_way, self._setup[kind.type], 0)
-        beside[:, depots:] += on_the_way * self._nodes.changes_place()
-        return beside
-
-    def spent(self, kind: Kind) -> IntArray:
-        """Return (node, node) the time for setup and service that a leg leads to."""
-        depots, number = len(self._nodes.depots), len(self._nodes.sites)
-        spent = np.zeros((number, number), np.int64)
-        spent[:, depots:] = (self._service[kind.type]
-                             + self._setup[kind.type] * self._nodes.changes_place())
-        return spent

@@ -8,7 +8,7 @@ from model.dialects.vroom.errors import RefusedError
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.request import Request, Vehicle
 from model.dialects.vroom.timing import Rates
-from model.problem import MAX_DIMENSIONS, FloatArray, IntArray
+from model.problem import MAX_DIMENSIONS, IntArray
 
 
 @dataclass(frozen=True)
@@ -27,10 +27,9 @@ class Kind:
 class Loads:
     """What counts against capacity, one column for each dimension."""
 
-    demand: IntArray  # (job, dimension)
+    delivery: IntArray  # (job, dimension)
+    pickup: IntArray
     capacity: IntArray  # (kind, dimension)
-    surplus: FloatArray | None
-    """(job,) what is taken minus what is brought, if an amount is both; in shares of capacity."""
 
 
 def find_kinds(request: Request, places: Places) -> tuple[Kind, ...]:
@@ -57,50 +56,23 @@ def _kind(request: Request, places: Places, members: list[int], named: set[str])
                 Rates.of(stated, has_costs))
 
 
-def find_loads(request: Request, kinds: tuple[Kind, ...], relaxed: bool) -> Loads:
+def find_loads(request: Request, kinds: tuple[Kind, ...]) -> Loads:
     """Return the amounts that may fill a vehicle.
-
-    Parameters
-    ----------
-    relaxed
-        What is both brought and taken counts twice, against a capacity each (or only what is more,
-        if that is too much to count), and may be too much on the way; else once, the larger for
-        each job, which is never too much.
 
     Raises
     ------
     RefusedError
         If there are too many.
     """
-    size = len(kinds[0].stated.capacity)
-    nothing = (0,) * size
+    capacities = np.array([kind.stated.capacity for kind in kinds], np.int64)
+    nothing = (0,) * capacities.shape[1]
     brought = np.array([job.delivery or nothing for job in request.jobs], np.int64)
     taken = np.array([job.pickup or nothing for job in request.jobs], np.int64)
-    capacities = np.array([kind.stated.capacity for kind in kinds], np.int64)
-    strict: list[tuple[IntArray, IntArray]] = []
-    loose, looser = strict.copy(), strict.copy()
-    surplus = np.zeros(len(request.jobs))
-    is_mixed = False
-    for more, less, capacity in zip(brought.T, taken.T, capacities.T, strict=True):
-        if (more + less).sum() <= capacity.min():
-            continue
-        strict.append((np.maximum(more, less), capacity))
-        if more.any() and less.any():
-            is_mixed = True
-            surplus += (less - more) / max(1, capacity.max())
-            loose += [(more, capacity), (less, capacity)]
-            looser.append((more if more.sum() > less.sum() else less, capacity))
-        else:
-            loose.append(strict[-1])
-            looser.append(strict[-1])
-    if len(strict) > MAX_DIMENSIONS:
-        raise RefusedError(f"capacity: {len(strict)} amounts may fill a vehicle, and "
+    fills = np.flatnonzero((brought + taken).sum(axis=0) > capacities.min(axis=0))
+    if len(fills) > MAX_DIMENSIONS:
+        raise RefusedError(f"capacity: {len(fills)} amounts may fill a vehicle, and "
                            f"{MAX_DIMENSIONS} can be planned here.")
-    columns = strict
-    if relaxed:
-        columns = loose if len(loose) <= MAX_DIMENSIONS else looser
-    if not columns:
-        columns = [(np.zeros(len(request.jobs), np.int64), np.zeros(len(kinds), np.int64))]
-    return Loads(np.stack([demand for demand, _ in columns], axis=1),
-                 np.stack([capacity for _, capacity in columns], axis=1),
-                 surplus if is_mixed else None)
+    if not len(fills):
+        none = np.zeros((len(request.jobs), 1), np.int64)
+        return Loads(none, none, np.zeros((len(kinds), 1), np.int64))
+    return Loads(brought[:, fills], taken[:, fills], capacities[:, fills])

@@ -23,8 +23,6 @@ class Model:
     relaxed: tuple[Problem, ...] = ()
     """Where `problem` is stricter or costs otherwise than it should: the same by true costs, whose
     plans may break rules. At most one."""
-    surplus: tuple[float, ...] | None = None
-    """(customer,) what is taken minus what is brought, if that keeps plans from being true."""
     has_longest: bool = False  # whether legs are longer than `problem` can tell
 
     @property
@@ -59,8 +57,7 @@ class Model:
         problem = self.relaxed[0] if self.relaxed else self.problem
         customers, first = problem.customers, problem.num_depots
         latest = np.array([customer.latest for customer in customers], np.int64)
-        service = np.array([customer.service_duration for customer in customers], np.int64)
-        demand = np.array([customer.demand for customer in customers], np.int64)
+        most = np.array([np.maximum(customer.demand, customer.taken_in) for customer in customers])
         servable: BoolArray = np.zeros(len(customers), np.bool_)
         shortest = {travel: _shortest_legs(problem.travel[travel].duration, first)
                     for travel in {kind.travel for kind in problem.vehicle_types}}
@@ -68,8 +65,9 @@ class Model:
         for number, kind in enumerate(problem.vehicle_types):
             to, back = shortest[kind.travel]
             arrival = kind.earliest + to
+            service = np.array([kind.service_at(customer) for customer in customers], np.int64)
             end = np.maximum(arrival, openings.at(arrival)) + service + back
-            servable |= ((demand <= np.array(kind.capacity)).all(axis=1) & (arrival <= latest)
+            servable |= ((most <= np.array(kind.capacity)).all(axis=1) & (arrival <= latest)
                          & (end <= kind.latest)
                          & [customer.skills <= kind.skills for customer in customers]
                          & (True if problem.may_serve is None else problem.may_serve[number]))

@@ -15,7 +15,7 @@ from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.errors import RefusedError
 from model.dialects.vroom.models import Model, Routes
 from model.dialects.vroom.places import Places
-from model.dialects.vroom.prices import bring_first, leave_out_by_priority
+from model.dialects.vroom.prices import leave_out_by_priority
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.work import UNHURRIED, LegLimit, Preparing, attempt_seconds, model_seconds
 from model.judge.check import check
@@ -37,12 +37,6 @@ RELAXED = 0.85
 
 SPARE = 3.0
 """Stages pay while there is time for so many problems to be built and planned."""
-
-PRICES = 6
-"""How many prices are tried for what makes relaxed plans break rules."""
-
-LEAST_PRICE, DEARER, CHEAPER = 0.05, 2.5, 0.6
-"""The first price above none, and what it is multiplied by where a plan breaks or keeps rules."""
 
 Tell = Callable[[Progress], None]
 Plan = Callable[[Problem, PlanOptions, Solution, Tell], PlanResult]
@@ -133,29 +127,16 @@ class Planning:
         """Plan a problem, after relaxed ones if there are any; return no worse than `start`."""
         deadline = time.perf_counter() + seconds
         best = self._judged(start)
-        if model.relaxed:
-            best = self._relax(model, RELAXED * seconds, best)
-        return self._attempt(model, model.problem, self._left(deadline), best)[0]
+        for relaxed in model.relaxed:
+            best = self._attempt(model, relaxed, RELAXED * seconds, best)
+        return self._attempt(model, model.problem, self._left(deadline), best)
 
-    def _relax(self, model: Model, seconds: float, best: Found) -> Found:
-        """Plan a relaxed problem, where both ways count at a price that makes plans keep rules."""
-        (relaxed,) = model.relaxed
-        if model.surplus is None:
-            return self._attempt(model, relaxed, seconds, best)[0]
-        price, prices = 0.0, max(1, min(PRICES, int(seconds / (2 * _price_of(relaxed)))))
-        for _ in range(prices):
-            problem = bring_first(model, price)
-            best, keeps_rules = self._attempt(model, problem, seconds / prices, best)
-            price = price * CHEAPER if keeps_rules else max(LEAST_PRICE, price * DEARER)
-        return best
-
-    def _attempt(self, model: Model, problem: Problem, seconds: float,
-                 best: Found) -> tuple[Found, bool]:
+    def _attempt(self, model: Model, problem: Problem, seconds: float, best: Found) -> Found:
         """Plan a problem of a model once, if there is time or no plan yet.
 
         Returns
         -------
-        The best plan met that keeps all rules, `best` among them; and whether the last one did.
+        The best plan met that keeps all rules, `best` among them.
         """
         def meet(progress: Progress) -> None:
             # Of a relaxed plan's forerunners one may keep the rules that it breaks itself.
@@ -166,14 +147,14 @@ class Planning:
 
         price = _price_of(problem)
         if self._has_tried and seconds < price:
-            return best, False
+            return best
         self._has_tried |= bool(best.served) or problem is model.problem
         until = time.perf_counter() + seconds
         given = self._given(replace(model, problem=problem), best.routes)
         options = replace(self._options, time_limit=max(LEAST_SECONDS, self._left(until)))
         routes = model.routes(self._plan(problem, options, given, meet).solution)
         found = self._sound(routes) if model.is_loose else self._judged(routes)
-        return max(best, found, key=attrgetter("value")), found.routes == routes
+        return max(best, found, key=attrgetter("value"))
 
     def _given(self, model: Model, start: Routes) -> Solution:
         """Return routes as a plan for a model; nothing, if they break its rules.

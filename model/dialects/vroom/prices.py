@@ -1,4 +1,4 @@
-"""What relaxed plans are priced by, and what leaving jobs out costs."""
+"""What leaving jobs out costs."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -7,35 +7,10 @@ from math import gcd
 import numpy as np
 
 from model.dialects.vroom.models import Model
-from model.problem import (
-    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, FloatArray, IntArray, Problem, Travel,
-)
+from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray, IntArray, Problem
 
 WEIGHT = 20
 """A step of priority weighs as much as so many jobs at most."""
-
-
-def bring_first(model: Model, price: float) -> Problem:
-    """Return the relaxed problem of a model in which bringing after taking costs more.
-
-    If all that is brought comes first, no vehicle is too full on the way.
-
-    Parameters
-    ----------
-    price
-        By what, as a share of the longest leg.
-    """
-    problem, surplus = model.relaxed[0], np.array(model.surplus)
-    first, number = problem.num_depots, problem.num_nodes
-    is_backwards = np.zeros((number, number), np.bool_)
-    is_backwards[first:, first:] = (surplus[:, None] > 0) & (surplus < 0)
-
-    def dearer(distance: IntArray) -> IntArray:
-        extra = round(price * int(distance.max()))
-        return np.where(is_backwards, np.minimum(distance + extra, MAX_QUANTITY), distance)
-
-    return replace(problem, travel=tuple(
-        Travel(travel.duration, dearer(travel.distance)) for travel in problem.travel))
 
 
 def leave_out_by_priority(model: Model, priorities: Sequence[int]) -> Model:

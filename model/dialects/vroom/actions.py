@@ -1,0 +1,79 @@
+"""Setup and service of jobs, as the planner times them."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.nodes import Nodes
+from model.dialects.vroom.places import Places
+from model.dialects.vroom.request import Request
+from model.dialects.vroom.timing import service_of, setup_of
+from model.problem import IntArray
+
+
+class Actions:
+    """How long setup and service of jobs take, in seconds.
+
+    The planner's windows bound the start of service, VROOM's that of setup. Whose setup can't be
+    left out, since nothing else is at the same place, has one that is a part of its service. Others
+    who may be served at any time have the planner's setup. What takes both a setup that may be left
+    out and a window is planned as if it were always needed, so that the plan can only be early; or,
+    relaxed, as the planner's setup, though its window is another one then.
+
+    The planner's setup is the same for all types of vehicles: what one needs more than the least is
+    a part of its way there.
+    """
+
+    def __init__(self, request: Request, places: Places, kinds: tuple[Kind, ...],
+                 nodes: Nodes, is_timed: bool, relaxed: bool) -> None:
+        self._nodes = nodes
+        types = dict.fromkeys(kind.type for kind in kinds)
+        jobs = [request.jobs[job] for job in nodes.jobs]
+        self._setup = {name: np.array([setup_of(job, name) for job in jobs], np.int64)
+                       for name in types}
+        self._service = {name: np.array([service_of(job, name) for job in jobs], np.int64)
+                         for name in types}
+        used = [*places.jobs.tolist(), *dict.fromkeys(places.starts.tolist())]
+        counts = np.bincount(np.array(used, np.int64) + 1, minlength=2)
+        is_shared = counts[places.jobs[list(nodes.jobs)] + 1] > 1
+        is_open = np.array([job.time_windows is None for job in jobs], np.bool_)
+        has_setup = np.any([setup > 0 for setup in self._setup.values()], axis=0)
+        self.is_compromise = bool((is_shared & ~is_open & has_setup).any())
+        self._once = is_shared & (is_open | relaxed)
+        # Without windows nothing hangs on times.
+        self._counts = int(is_timed)
+        self._before: Mapping[str, IntArray] = {
+            name: np.where(self._once, setup, 0) * self._counts
+            for name, setup in self._setup.items()}
+        self.setup: IntArray = np.min(list(self._before.values()), axis=0)
+        """(job,) unless the task before, or the start, is at the same place."""
+
+    def service(self, name: str) -> IntArray:
+        """Return (job,) what is spent by vehicles of a type, whoever was there before."""
+        spent: IntArray = self._service[name] + np.where(self._once, 0, self._setup[name])
+        return spent * self._counts
+
+    def num_services(self) -> int:
+        """Return in how many ways vehicles serve the jobs."""
+        return len({self.service(name).tobytes() for name in self._service})
+
+    def delays(self, kind: Kind) -> bool:
+        """Tell whether a kind's setup somewhere is more than others'."""
+        return bool((self._before[kind.type] > self.setup).any())
+
+    def beside_travel(self, kind: Kind) -> IntArray:
+        """Return (node, node) what legs take more, since a kind's setup is more than others'."""
+        more = self._before[kind.type] - self.setup
+        depots, number = len(self._nodes.depots), len(self._nodes.sites)
+        beside = np.zeros((number, number), np.int64)
+        beside[:, depots:] = more * self._nodes.changes_place()
+        return beside
+
+    def spent(self, kind: Kind) -> IntArray:
+        """Return (node, node) the time for setup and service that a leg leads to."""
+        depots, number = len(self._nodes.depots), len(self._nodes.sites)
+        spent = np.zeros((number, number), np.int64)
+        spent[:, depots:] = (self._service[kind.type]
+                             + self._setup[kind.type] * self._nodes.changes_place())
+        return spent
