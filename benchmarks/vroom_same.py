@@ -23,7 +23,7 @@ from app.vroom.places import find_places
 from app.vroom.reading import read_request
 from app.vroom.translate import translate
 from benchmarks.vroom_requests import (
-    CLASSES, both_ways, limits, mixed_fleet, priorities, several_windows,
+    CLASSES, both_ways, limits, mixed_fleet, priorities, setups, several_windows,
 )
 from model.dialects.vroom.planning import Planning
 from model.dialects.vroom.work import LegLimit
@@ -88,7 +88,22 @@ def two_way_priorities(rng: np.random.Generator, size: int) -> Data:
     return request
 
 
-MORE = (several_windows, several_priorities, limited_priorities, two_way_priorities, elsewhere)
+def served_by_type(rng: np.random.Generator, size: int) -> Data:
+    """Return `setups` by two types of vehicles, with windows for a fifth of the jobs."""
+    request = setups(rng, size)
+    for number, vehicle in enumerate(request["vehicles"]):
+        vehicle["type"] = "ab"[number % 2]
+    for job in request["jobs"]:
+        job |= {"setup_per_type": {"b": int(rng.integers(300, 900))},
+                "service_per_type": {"a": int(rng.integers(60, 300))}}
+        if rng.random() < 0.2:
+            begin = int(rng.integers(0, 20_000))
+            job["time_windows"] = [[begin, begin + 7_200]]
+    return request
+
+
+MORE = (several_windows, several_priorities, limited_priorities, two_way_priorities, elsewhere,
+        served_by_type)
 
 
 def requests(seeds: int) -> Iterator[tuple[str, str, Data]]:

@@ -137,6 +137,35 @@ def test_amounts_that_cant_fill_a_vehicle_are_no_dimension(street: Data) -> None
     assert [kind.capacity for kind in problem.vehicle_types] == [(3,)]
 
 
+def test_amounts_are_brought_or_taken(street: Data) -> None:
+    for vehicle in street["vehicles"]:
+        vehicle["capacity"] = [2, 3]
+    street["jobs"][0] |= {"delivery": [2, 1], "pickup": [1, 2]}
+    street["jobs"][1]["pickup"] = [1, 3]
+    model = Case(street).model
+    assert not model.is_loose
+    assert [(each.demand, each.pickup) for each in model.problem.customers[:3]] == [
+        ((2, 1), (1, 2)), ((0, 0), (1, 3)), ((0, 0), ())]
+
+
+def test_setup_and_service_are_as_long_as_the_type_of_vehicle_says(street: Data) -> None:
+    for vehicle, name in zip(street["vehicles"], "ab", strict=True):
+        vehicle |= {"type": name, "time_window": [0, 10_000]}
+    street["jobs"][1]["location_index"] = 1
+    for job in street["jobs"]:
+        job |= {"setup": 40, "service": 5, "setup_per_type": {"b": 60}}
+    street["jobs"][3]["service_per_type"] = {"a": 7}
+    problem = Case(street).model.problem
+    first, second = problem.vehicle_types
+    # Two jobs share a place, so that one of them needs no setup; the others' is service.
+    assert [each.setup_duration for each in problem.customers] == [40_000, 40_000, 0, 0]
+    assert [first.service_at(each) for each in problem.customers] == [5000, 5000, 45_000, 47_000]
+    assert [second.service_at(each) for each in problem.customers] == [5000, 5000, 65_000, 65_000]
+    legs = [problem.travel[kind.travel].duration for kind in (first, second)]
+    assert legs[1][0, 1] == legs[0][0, 1] + 20_000 == 120_000
+    assert legs[1][2, 1] == legs[0][2, 1] == 0
+
+
 def test_more_binding_amounts_than_dimensions_are_refused(street: Data) -> None:
     for vehicle in street["vehicles"]:
         vehicle["capacity"] = [3] * 9

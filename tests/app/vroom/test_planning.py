@@ -62,8 +62,6 @@ def test_small_requests_are_solved_about_as_well_as_by_vroom(ours: Solve) -> Non
     ratios, worse = [], 0
     for seed in range(40):
         request = sample_request(random.Random(seed), most_jobs=7)
-        for job in request["jobs"]:
-            job.pop("pickup", None)
         theirs, reply = solve(request, exploration=5), ours(request, 0.15)
         judge(request, reply)
         if value(reply) == value(theirs) and theirs["summary"]["cost"]:
