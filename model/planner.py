@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -128,8 +129,8 @@ class Planner:
         """Plan small problems by each policy and by none, so that all is compiled. In place.
 
         Where nothing is yet, one of several processes compiles and the others wait; where there are
-        two cores, it has a helper that compiles the search. What is loaded by then is taken out of
-        the garbage collector's sight.
+        two cores, it has a helper that compiles the search for problems without rarer rules. What
+        is loaded by then is taken out of the garbage collector's sight.
         """
         with telling(tell) as warming, first_to_compile() as is_first:
             self._warm(warming, is_first and (os.cpu_count() or 1) > 1)
@@ -145,10 +146,11 @@ class Planner:
                 self.plan(small_problem(), PlanOptions(name, "sample", num_samples=4,
                                                        time_limit=0.0))
             warming.enter("compiling the search", decodes=True)
+            compile_search(max_stops=2)
         compile_search()
-        for name in self._policies:
-            self.plan(small_problem(), PlanOptions(name, time_limit=WARM_LIMIT,
-                                                   search_iterations=4, threads=2))
+        for name, most in product(self._policies, (None, 2)):
+            self.plan(small_problem(max_stops=most), PlanOptions(
+                name, time_limit=WARM_LIMIT, search_iterations=4, threads=2))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -369,9 +371,12 @@ def keep_loaded() -> None:
     gc.freeze()
 
 
-def compile_search() -> None:
-    """Search for a better plan of a small problem, so that most of the search is compiled."""
-    by_truck = small_problem(drones=False)
+def compile_search(max_stops: int | None = None) -> None:
+    """Search for a better plan of a small problem, so that most of the search is compiled.
+
+    With a limit of stops, for problems that state rarer rules.
+    """
+    by_truck = small_problem(False, max_stops)
     improve(by_truck, pack([by_truck]), Solution((), ()), SearchConfig(turns=4))
 
 
@@ -383,12 +388,13 @@ def beside(statement: str) -> Iterator[None]:
         yield
 
 
-def small_problem(drones: bool = True) -> Problem:
-    """Return three customers for a truck, with a drone or alone."""
+def small_problem(drones: bool = True, max_stops: int | None = None) -> Problem:
+    """Return three customers for a truck, with a drone or alone, which stops so often at most."""
     places = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
     distance = np.rint(np.linalg.norm(places[:, None] - places, axis=2) * 1e6).astype(np.int64)
     customers = tuple(Customer(str(number), (1000,)) for number in range(3))
     drone = DroneType(count=1, capacity=(1000,), travel=0) if drones else None
-    truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone)
+    truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone,
+                        max_stops=max_stops)
     return Problem((Depot("depot"),), customers, (truck,), (Travel(distance, distance),), places,
                    1000.0)

@@ -45,3 +45,13 @@ def weight_rows(problem: Problem, dimension: int, length: int) -> IntArray:
     rows[:, :2] = [(customer.demand[dimension], customer.taken_in[dimension])
                    for customer in problem.customers]
     return rows
+
+
+def most_asked_for(problem: Problem) -> IntArray:
+    """Return the most that each customer alone asks to be aboard, (customer, dimension)."""
+    asked = [[customer.demand for customer in problem.customers]]
+    if any(customer.pickup for customer in problem.customers):
+        asked.append([customer.taken_in for customer in problem.customers])
+    amounts = np.array(asked, np.int64).reshape(-1, problem.num_customers, problem.num_dimensions)
+    most: IntArray = amounts.max(axis=0)
+    return most

@@ -6,6 +6,7 @@ count as the row says.
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import NO_PROFILE
+from model.kernel.plain import is_plain
 from model.kernel.records import Record, Records
 from model.problem import FULL_SPEED, IntArray
 
@@ -32,7 +33,8 @@ def changes_until(times: IntArray, changes: int, time: int) -> int:
 @inlined
 def setup_beside(kind: Record, setups: Records, origin: int, to: int) -> int:
     """Return how long a truck sets up after a leg that the leg's duration doesn't hold."""
-    if len(setups) == 0 or is_steady(kind) or setups[origin].site == setups[to].site:
+    if (is_plain(kind) or len(setups) == 0 or is_steady(kind)
+            or setups[origin].site == setups[to].site):
         return 0
     return setups[to].setup_duration
 

@@ -23,16 +23,16 @@ SOURCES = (
     *(f"problem/{part}" for part in (
         "customer", "energy", "fleet", "overtime", "problem", "quantities")),
     *(f"kernel/{part}" for part in (
-        "compiled", "records", "alarm", "copying", "instance", "start", "shift", "stop", "energy",
-        "flight", "load", "clock", "leg")),
+        "compiled", "records", "plain", "alarm", "copying", "instance", "start", "shift", "stop",
+        "energy", "flight", "load", "clock", "leg")),
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (
         "vehicle_log", "cost", "meeting", "aboard", "transition", "trial", "simulator")),
     *(f"policy/{part}" for part in (
         "tokens", "observation", "lookahead", "features", "resampling", "rollouts")),
     *(f"search/route/{part}" for part in (
-        "layout", "ends", "randomness", "goods", "block", "routes", "freshness", "vehicles",
-        "halts", "lean", "refresh", "edit", "state")),
+        "layout", "rarer", "ends", "randomness", "goods", "block", "routes", "freshness",
+        "vehicles", "halts", "lean", "refresh", "edit", "state")),
     *(f"search/insertion/{part}" for part in (
         "evaluate", "cheapest_stop", "new_trips", "offers", "places")),
     *(f"search/moves/{part}" for part in (
@@ -129,7 +129,21 @@ def _kept(function: Function, **options: Any) -> Function:
     folder = compiled_folder()
     # Numba looks the folder up while it decorates, and nowhere but in its settings.
     config.CACHE_DIR = str(folder or "")  # type: ignore[attr-defined]
-    return cast(Function, njit(cache=folder is not None, nogil=True, **options)(function))
+    dispatcher = njit(cache=folder is not None, nogil=True, **options)(function)
+    if folder is not None and not config.DISABLE_JIT:  # type: ignore[attr-defined]
+        # Compiled for other types by another process at the same time, it might get the same name.
+        index = dispatcher._cache._cache_file
+        index.save = _one_at_a_time(folder / "saving.lock", index.save)
+    return cast(Function, dispatcher)
+
+
+def _one_at_a_time(lock: Path, save: Callable[..., None]) -> Callable[..., None]:
+    """Return what keeps compiled code while no other process does so."""
+    def save_alone(*given: Any) -> None:
+        with lock.open("w") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            save(*given)
+    return save_alone
 
 
 @cache

@@ -6,6 +6,7 @@ it than it held.
 
 from model.kernel.compiled import inlined
 from model.kernel.instance import FAR
+from model.kernel.plain import is_plain
 from model.kernel.records import Record
 from model.problem import IntArray
 
@@ -15,13 +16,13 @@ EMPTY = -1
 @inlined
 def is_limited(kind: Record) -> bool:
     """Tell whether a type's drones have a battery that limits them."""
-    return kind.points > 0
+    return not is_plain(kind) and kind.points > 0
 
 
 @inlined
 def hovers_at_customers(kind: Record) -> bool:
     """Tell whether waiting and serving at a customer take of the battery."""
-    return kind.points > 0 and kind.lands == 0
+    return is_limited(kind) and kind.lands == 0
 
 
 @inlined

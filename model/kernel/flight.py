@@ -11,6 +11,7 @@ from model.kernel.energy import (
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.load import weight_brought, weight_taken
+from model.kernel.plain import is_plain
 from model.kernel.records import Record, Records
 from model.kernel.stop import opening, service_duration
 from model.problem import UNREACHABLE
@@ -25,13 +26,14 @@ def unreachable(duration: int) -> bool:
 @inlined
 def launch_duration(kind: Record, launched: int) -> int:
     """Return how long a launch takes: before all but a trip's first, a battery is swapped."""
-    return kind.relaunch_duration if launched > 0 else kind.launch_duration
+    swaps = launches_differ(kind) and launched > 0
+    return kind.relaunch_duration if swaps else kind.launch_duration
 
 
 @inlined
 def launches_differ(kind: Record) -> bool:
     """Tell whether it matters which launch is the first of a trip."""
-    return kind.relaunch_duration != kind.launch_duration
+    return not is_plain(kind) and kind.relaunch_duration != kind.launch_duration
 
 
 @inlined

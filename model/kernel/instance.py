@@ -9,9 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.kernel.asked import goods_rows, has_setups, setup_rows, weight_rows
+from model.kernel.asked import (
+    goods_rows, has_setups, most_asked_for, setup_rows, weight_rows,
+)
 from model.kernel.nearest import write_nearest
 from model.kernel.pausing import Pause, go_on
+from model.kernel.plain import ANY_RULE, MARKED
 from model.kernel.records import Records, record
 from model.kernel.variants import (
     Variant, Way, durations_of, index_of, variant_of, ways_of, write_legs,
@@ -37,7 +40,7 @@ SIZE = record("depots", "customers", "types", "dimensions")
 """How many of each a problem has."""
 
 NODE = record("window_earliest", "arrival_limit", "service_duration", "release", "window_latest",
-              demand=TIER)
+              demand=TIER, rare=ANY_RULE)
 """A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
 that is allowed, `FAR` where lateness only costs; service duration; release; the last arrival that
 is not late; demand in the first dimensions.
@@ -70,8 +73,8 @@ TYPE = record(
     "speed_changes", "drones", "drone_travel", "home_travel", "endurance", "waiting_counts",
     "launch_duration", "relaunch_duration", "recovery_duration", "variant", "drone_variant",
     "points", "battery", "lands", "climb_duration", "descent_duration", "pickup_order", "carried",
-    capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER,
-    weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS)
+    capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER, weights=MAX_POINTS, cruise=MAX_POINTS,
+    hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS, rare=ANY_RULE)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
 its working duration, and costs as if it were fixed. The end of the shift and the longest working
@@ -270,7 +273,7 @@ def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
 def _customer_row(customer: Customer) -> tuple[Any, ...]:
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
-            customer.latest, _padded(customer.demand, TIER))
+            customer.latest, _padded(customer.demand, TIER), MARKED)
 
 
 def _padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
@@ -294,7 +297,8 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], variant: int,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
         *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
         *_battery(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
-        _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *_powers(energy))
+        _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *_powers(energy),
+        MARKED)
 
 
 def _pickup_order(kind: VehicleType) -> int:
@@ -362,7 +366,7 @@ def _worked(kind: VehicleType) -> int:
 def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
     """Write which types may serve which customers, by truck and by drone. In place."""
     customers = slice(problem.num_depots, problem.num_nodes)
-    most = _most_asked_for(problem, instance.node[row, 0, customers, 0])
+    most = most_asked_for(problem)
     by_truck = np.array([c.served_by != "drone" for c in problem.customers], np.bool_)
     by_drone = np.array([c.served_by != "truck" for c in problem.customers], np.bool_)
     asking: dict[frozenset[str], list[int]] = {}
@@ -385,15 +389,3 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
             payload = instance.type[row, index].payload[dimensions]
             liftable = (most <= payload).all(axis=1)
             instance.can_fly[row, index, customers] = fits & by_drone & liftable
-
-
-def _most_asked_for(problem: Problem, rows: Records) -> IntArray:
-    """Return the most that each customer alone asks to be aboard, (customer, dimension)."""
-    most: IntArray = rows["demand"]
-    if problem.num_dimensions > TIER:
-        most = np.array([customer.demand for customer in problem.customers], np.int64)
-        most = most.reshape(problem.num_customers, problem.num_dimensions)
-    if any(customer.pickup for customer in problem.customers):
-        picked = [_padded(customer.pickup, most.shape[1]) for customer in problem.customers]
-        most = np.maximum(most, np.array(picked, np.int64))
-    return most

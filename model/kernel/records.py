@@ -12,7 +12,7 @@ Record = Any
 Records = NDArray[np.record]
 
 
-def record(*names: str, **others: int | type) -> np.dtype[np.record]:
+def record(*names: str, **others: int | type | tuple[int, ...]) -> np.dtype[np.record]:
     """Return the type of a row, whose fields lie in memory as they are listed.
 
     Parameters
@@ -20,11 +20,14 @@ def record(*names: str, **others: int | type) -> np.dtype[np.record]:
     names
         Integers.
     others
-        By name, how many integers, or another type than that.
+        By name, how many integers, or another type than that, or the shape of an array of bytes.
     """
     fields: list[Any] = [(name, np.int64) for name in names]
-    fields += [(name, np.int64, (other,)) if isinstance(other, int) else (name, other)
-               for name, other in others.items()]
+    for name, other in others.items():
+        if isinstance(other, tuple):
+            fields.append((name, np.int8, other))
+        else:
+            fields.append((name, np.int64, (other,)) if isinstance(other, int) else (name, other))
     return cast("np.dtype[np.record]", np.dtype((np.record, np.dtype(fields, align=True))))
 
 

@@ -5,6 +5,7 @@ with all the overtime allowed.
 """
 
 from model.kernel.compiled import inlined
+from model.kernel.plain import is_plain
 from model.kernel.records import Record
 
 
@@ -14,16 +15,18 @@ def overtime(kind: Record, end: int, working: int) -> int:
 
     Past the shift or its working duration, the longer.
     """
+    if is_plain(kind):
+        return 0
     return max(0, max(end - kind.usual_end, working - kind.usual_working))
 
 
 @inlined
 def allows_stops(kind: Record, count: int) -> bool:
     """Tell whether the truck may serve so many customers itself on a trip."""
-    return count <= kind.max_stops
+    return is_plain(kind) or count <= kind.max_stops
 
 
 @inlined
 def allows_sorties(kind: Record, count: int) -> bool:
     """Tell whether so many sorties may be flown on a trip."""
-    return count <= kind.max_sorties
+    return is_plain(kind) or count <= kind.max_sorties

@@ -9,13 +9,14 @@ for `max(time + d, c)`, and holds for arrivals in an interval (see `docs/search.
 
 from model.kernel.compiled import inlined, pasted
 from model.kernel.instance import FAR, NONE
+from model.kernel.plain import is_plain
 from model.kernel.records import Record, Records
 
 
 @pasted
 def places_of(places: Records, kind: Record) -> Records:
     """Return the rows of all nodes, (node, row), as trucks of a type meet them."""
-    return places[kind.variant]
+    return places[0 if is_plain(kind) else kind.variant]
 
 
 @pasted
@@ -24,17 +25,23 @@ def places_by_air(places: Records, kind: Record) -> Records:
     return places[kind.drone_variant]
 
 
+@pasted
+def num_rows(place: Records) -> int:
+    """Return how many rows each node has."""
+    return 1 if is_plain(place[0]) else len(place)
+
+
 @inlined
-def are_single(places: Records) -> bool:
-    """Tell whether nobody has several windows, by the rows of all."""
-    return places.shape[-1] == 1
+def are_single(place: Records) -> bool:
+    """Tell whether nobody has several windows, by anyone's rows."""
+    return num_rows(place) == 1
 
 
 @inlined
 def opening(place: Records, arrival: int) -> int:
     """Return the beginning of the window in which whoever comes at `arrival` is served."""
     opens = place[0].window_earliest
-    for gap in range(1, len(place)):
+    for gap in range(1, num_rows(place)):
         if arrival <= place[gap].window_latest:
             break
         opens = place[gap].window_earliest
@@ -51,7 +58,7 @@ def closing(place: Records) -> int:
 def width(place: Records) -> int:
     """Return in how much time whoever arrives needn't wait and isn't late."""
     wide = closing(place) - place[0].window_earliest
-    for gap in range(1, len(place)):
+    for gap in range(1, num_rows(place)):
         if place[gap].window_latest == FAR:
             break
         wide -= place[gap].window_earliest - place[gap].window_latest
@@ -109,7 +116,7 @@ def as_late(place: Records, arrival: int) -> int:
 @inlined
 def in_same_window(place: Records, arrival: int) -> int:
     """Return the last arrival that is served in the same window as `arrival`, and no later."""
-    for gap in range(1, len(place)):
+    for gap in range(1, num_rows(place)):
         if arrival <= place[gap].window_latest:
             return min(place[gap].window_latest, as_late(place, arrival))
     return as_late(place, arrival)
@@ -121,7 +128,7 @@ def _no_later_than(place: Records, start: int) -> int:
 
     Who would come between two windows has to come while the one before is open.
     """
-    for gap in range(1, len(place)):
+    for gap in range(1, num_rows(place)):
         if place[gap].window_latest < start < place[gap].window_earliest:
             return place[gap].window_latest
     return start
@@ -153,7 +160,7 @@ def allowed_within(place: Records, time: int, d: int, c: int) -> tuple[int, int]
     `too_late`.
     """
     first, arrival = NONE, max(time + d, c)
-    for gap in range(1, len(place)):
+    for gap in range(1, num_rows(place)):
         if arrival <= place[gap].window_latest:
             return first, min(place[gap].window_latest, latest_allowed(place)) - d
         if c <= place[gap].window_latest:

@@ -9,6 +9,7 @@ import numpy as np
 from model.kernel.alarm import silent
 from model.kernel.instance import FAR, NO_PROFILE, Instance
 from model.kernel.nearest import least_columns
+from model.kernel.plain import as_plain
 from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Record, Records
 from model.problem import (
@@ -94,16 +95,16 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     if not (moves.loops or moves.crossings):
         types, can_fly = types.copy(), np.zeros_like(can_fly)
         types["drones"] = 0
-    place = instance.node[0]
     visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
                        for kind in problem.vehicle_types], np.int64)
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
     most_visits = max(1, int(visits.max()))
-    mode = _modes(instance, types, place)
+    mode = _modes(instance, types, instance.node[0])
     swap = _swaps(problem, types, mode)
     general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
     blink = _blink(problem.num_customers, most_visits)
     must_serve = _must_serve(problem, instance)
+    types, place = _as_stated(instance, types)
     return World(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
@@ -205,6 +206,25 @@ def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     swapped = types["relaunch_duration"] != types["launch_duration"]
     split = ((mode & MODE_LOADED > 0) | swapped) & (types["max_trips"] > 1)
     return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
+
+
+def _as_stated(instance: Instance, types: Records) -> tuple[Records, Records]:
+    """Return the rows of types and nodes, plain if no rarer rule is stated."""
+    node = instance.node[0]
+    return (as_plain(types), as_plain(node)) if _is_plain(instance, types) else (types, node)
+
+
+def _is_plain(instance: Instance, types: Records) -> bool:
+    """Tell whether no rarer rule is stated, so that code does that was compiled without them."""
+    rate, number = instance.rate[0], instance.size[0].customers
+    tables = (instance.node[0, 0, :, 1:], instance.amount[0, :, :, 0], instance.goods[0],
+              instance.setup[0], instance.fresh_for[0])
+    rarer = (types["variant"] > 0) | (types["changes_ends"] > 0) | (types["points"] > 0)
+    rarer |= (types["max_stops"] < number) | (types["max_sorties"] < number)
+    rarer |= types["relaunch_duration"] != types["launch_duration"]
+    rarer |= (rate["overtime"] > 0) | (rate["load"] > 0)
+    return not (any(table.size for table in tables) or instance.unassigned_more[0].any()
+                or rarer.any())
 
 
 def _must_serve(problem: Problem, instance: Instance) -> BoolArray:

@@ -12,8 +12,8 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.instance import TIER
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import (
-    NOTHING, Cargo, amount_of, cargo_for, demand_of, followed, holds_in, may_follow, num_tiers,
-    release_of, total, write_amount,
+    NOTHING, Cargo, amount_of, cargo_for, demand_of, followed, holds_in, may_follow, release_of,
+    total, write_amount,
 )
 from model.kernel.records import Record, Records, record
 from model.kernel.shift import allows_stops
@@ -21,6 +21,7 @@ from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival, places_of
 from model.problem import IntArray
 from model.search.route.layout import NOWHERE, World
+from model.search.route.rarer import tiers_of
 
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
@@ -87,10 +88,10 @@ def set_chain_cargo(link: Record, cargo: Cargo) -> None:
 @inlined
 def set_up_cargo(world: World, node: int, cargo: Records) -> None:
     """Let a chain be one customer. In place: `cargo` (tier,)."""
-    if num_tiers(world.amount) == 0:
+    if tiers_of(world) == 0:
         demand = demand_of(world.place[0, node])
         set_chain_cargo(cargo[0], (demand, NOTHING, demand, total(demand), 0))
-    for tier in range(num_tiers(world.amount)):
+    for tier in range(tiers_of(world)):
         set_chain_cargo(cargo[tier], cargo_for(world.amount, node, tier))
 
 

@@ -8,7 +8,6 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.flight import recovery_end
 from model.kernel.instance import NONE, TIER
-from model.kernel.load import some_limited
 from model.kernel.records import Record, one, read_rows, Records
 from model.kernel.stop import end_of_service, places_by_air, start_of_service
 from model.problem import FloatArray, IntArray, Problem
@@ -22,6 +21,7 @@ from model.search.route.freshness import hold_trips
 from model.search.route.layout import (
     CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, World, empty_fleet, BOUND, KEPT,
 )
+from model.search.route.rarer import time_aboard_counts
 from model.search.route.refresh import clear_holds, locate, refresh, settle
 from model.search.route.routes import drive_forward, load_trips
 from model.search.route.state import COUNTS, Searcher, keep_best, left_out_cost, list_active, VALUES
@@ -232,7 +232,7 @@ def finish_route(world: World, fleet: Fleet, slot: int, acc: Record) -> None:
     load_trips(world, route, stops, trips, sorties)
     clear_holds(route, stops, trips)
     drive_forward(world, route, stops, sorties, acc)
-    if some_limited(world.fresh_for):
+    if time_aboard_counts(world):
         hold_trips(world, route, stops, trips, sorties, acc)
     settle(world, route, stops, trips, sorties, acc)
 

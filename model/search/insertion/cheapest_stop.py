@@ -3,7 +3,7 @@
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import FAR
 from model.kernel.leg import leg_at, legs_from, legs_to
-from model.kernel.load import num_tiers, release_of
+from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, places_of, too_late
 from model.problem import IntArray, UIntArray
@@ -13,6 +13,7 @@ from model.search.route.goods import goods_may_join
 from model.search.route.halts import Room, room_behind, room_on
 from model.search.route.layout import CHANGING, MODE_SIMPLE, MODE_TIMED, NOWHERE, Fleet, World
 from model.search.route.randomness import uniform
+from model.search.route.rarer import tiers_of
 from model.search.route.vehicles import larger_type, route_cost, takes
 
 
@@ -227,7 +228,7 @@ def scan_lean(world: World, fleet: Fleet, active: IntArray, num_active: int, nod
         rate = world.rate[by].distance
         skipped, changing = -1, not world.scan_all or fleet.route[slot].stamp == CHANGING
         # What is kept is where there is room on the vehicle as it is.
-        changing = changing or (by != k and num_tiers(world.amount) > 0)
+        changing = changing or (by != k and tiers_of(world) > 0)
         cost, p = best, -1
         if not changing:
             cost, p = scan_kept(world, fleet, slot, node, rate, best - base, kept[node, slot])

@@ -15,9 +15,9 @@ from model.search.route.edit import (
 from model.search.route.ends import is_apart
 from model.search.route.halts import load_more_behind
 from model.search.route.layout import (
-    CUSTOMER, END, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, START, Fleet, World,
-    copy_sequence,
+    CUSTOMER, END, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, START, Fleet, World, copy_sequence,
 )
+from model.search.route.rarer import loads_cost
 from model.search.route.refresh import refresh
 from model.search.route.routes import longer_cost, sortie_cost, window_cost
 from model.search.route.vehicles import launch_changed, launches_before
@@ -284,7 +284,7 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     if too_late(place, time):
         return INFEASIBLE
     cost = (out.distance + on.distance - here.leg) * world.rate[k].distance
-    if world.mode[k] & MODE_LOADED:
+    if loads_cost(world, k):
         cost += load_more_behind(world, fleet, slot, p, node, out.distance, on.distance)
     depart = min(here.depart, as_late(place, time) - cum)
     late = window_cost(world, node, time)

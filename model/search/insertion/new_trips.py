@@ -5,19 +5,20 @@ from model.kernel.instance import FAR
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import (
     EMPTY, barred_on_trip, cargo_at, cargo_for, demand_of, followed, go_together, holds, may_be_all,
-    may_follow, num_tiers, plus, release_of, some_apart,
+    may_follow, plus, release_of,
 )
 from model.kernel.records import Records
 from model.kernel.shift import allows_stops
 from model.kernel.stop import end_of_service, places_of, too_late
 from model.search.route.edit import NEW_TRIP, TRIP_UNTIL
 from model.search.route.layout import CUSTOMER, Fleet, World
+from model.search.route.rarer import goods_count, tiers_aboard, tiers_of
 
 
 @inlined
 def part_joins(world: World, fleet: Fleet, slot: int, first: int, last: int, node: int) -> bool:
     """Tell whether a customer's goods may go with those from stop `first` to `last` of a trip."""
-    if not some_apart(world.goods):
+    if not goods_count(world):
         return True
     stops, sorties, barred = fleet.stop[slot], fleet.sortie[slot], 0
     for q in range(first, last + 1):
@@ -46,8 +47,8 @@ def part_fits(world: World, fleet: Fleet, slot: int, p: int, node: int, front: b
     kind = world.type[fleet.route[slot].type]
     if not allows_stops(kind, count):
         return False
-    if fleet.halt.shape[1] > 0:
-        for tier in range(fleet.halt.shape[1]):
+    if tiers_aboard(fleet) > 0:
+        for tier in range(tiers_aboard(fleet)):
             if not halves_fit(world, fleet, slot, p, node, front, tier):
                 return False
         return True
@@ -82,7 +83,7 @@ def halves_fit(world: World, fleet: Fleet, slot: int, p: int, node: int, front: 
 @spliced
 def may_begin(world: World, k: int, node: int) -> bool:
     """Tell whether a vehicle of type `k` may serve a customer on a trip of its own, by loads."""
-    for tier in range(num_tiers(world.amount)):
+    for tier in range(tiers_of(world)):
         if not may_be_all(world.type[k], cargo_for(world.amount, node, tier), tier):
             return False
     return True

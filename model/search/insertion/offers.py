@@ -6,11 +6,8 @@ from model.kernel.flight import (
     can_serve, earliest_back, gone_by, recovery_end, take_off, unreachable, within_endurance,
 )
 from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
-from model.kernel.load import num_tiers
 from model.kernel.records import Record, Records
-from model.kernel.stop import (
-    end_of_service, places_by_air, places_of, service_duration, too_late,
-)
+from model.kernel.stop import end_of_service, places_by_air, places_of, service_duration, too_late
 from model.problem import FloatArray, IntArray
 from model.search.insertion.cheapest_stop import is_simple
 from model.search.insertion.evaluate import INFEASIBLE, price_move, price_stop, stands_alone
@@ -23,10 +20,9 @@ from model.search.route.goods import goods_may_join
 from model.search.route.halts import (
     can_carry, load_cost, load_more, load_more_behind, room_behind, room_between, room_on,
 )
-from model.search.route.layout import (
-    END, MODE_LOADED, MODE_PRICED, MODE_TIMED, NOWHERE, START, Fleet, World,
-)
+from model.search.route.layout import END, MODE_PRICED, MODE_TIMED, NOWHERE, START, Fleet, World
 from model.search.route.randomness import uniform
+from model.search.route.rarer import loads_cost, tiers_of
 from model.search.route.refresh import idle_time
 from model.search.route.routes import lateness_cost
 from model.search.route.state import Searcher
@@ -97,7 +93,7 @@ def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: i
     for p in range(first, last + 1):
         cost = stop_costs(world, k, inward, onward, stops, p, node, spare, early, best)
         out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
-        if cost < best and world.mode[k] & MODE_LOADED:
+        if cost < best and loads_cost(world, k):
             cost += load_more_behind(world, now, slot, p, node, out.distance, on.distance)
         if (cost < best and out.distance + on.distance - stops[p].leg <= most
                 and room_behind(room, p)):
@@ -168,7 +164,7 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
         longer = max(0, begun + flight - stops[recovery].leave)
         cost = ((out.distance + home.distance) * world.rate[k].drone_distance
                 + longer * world.rate[k].time + late - now.early[slot])
-        if world.mode[k] & MODE_LOADED:
+        if loads_cost(world, k):
             cost += load_more(world, now, slot, launch, recovery, node)
         if (cost < best and can_serve(kind, place, out.duration, home.duration)
                 and room_between(room, launch, recovery)):
@@ -192,7 +188,7 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
                                     sortie.recovery)):
             continue
         may_carry = can_carry(world, k, sortie, 0, node)
-        if not (may_carry or num_tiers(world.amount) > 0):
+        if not (may_carry or tiers_of(world) > 0):
             continue
         here = stops[sortie.launch].node
         for place in range(sortie.count + 1):
@@ -204,7 +200,7 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
             cost = ((out.distance + on.distance - direct.distance) * world.rate[k].drone_distance
                     - now.early[slot])
             here = there
-            if cost < searcher.bound.best and place > 0 and num_tiers(world.amount) > 0:
+            if cost < searcher.bound.best and place > 0 and tiers_of(world) > 0:
                 may_carry = can_carry(world, k, sortie, place, node)
             if cost < searcher.bound.best and may_carry:
                 index = add_offer(searcher.offer, searcher.least, searcher.count, cost,
@@ -256,7 +252,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
             if cost < best and not part_fits(world, now, slot, p, node, kind == TRIP_UNTIL):
                 continue
         cost += world.rate[k].stop - now.early[slot]
-        if kind != NEW_TRIP and world.mode[k] & MODE_LOADED:
+        if kind != NEW_TRIP and loads_cost(world, k):
             # Each of two trips carries less, at best next to nothing.
             cost -= load_cost(world, now, slot)
         if kind == NEW_TRIP and not may_begin(world, k, node):
@@ -290,7 +286,7 @@ def offer_trips_apart(world: World, searcher: Searcher, slot: int, node: int) ->
             if behind < cost:
                 kind, cost = TRIP_FROM, behind
         cost += world.rate[k].stop - now.early[slot]
-        if world.mode[k] & MODE_LOADED:
+        if loads_cost(world, k):
             # Whoever was served may be carried less far, at best next to nowhere.
             cost -= load_cost(world, now, slot)
         if kind == NEW_TRIP and not may_begin(world, k, node):

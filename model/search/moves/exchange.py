@@ -6,12 +6,13 @@ from model.kernel.compiled import inlined, spliced
 from model.kernel.leg import leg, legs_of
 from model.kernel.load import (
     EMPTY, NOTHING, barred_on_trip, cargo_at, demand_of, followed, go_together, holds, may_be_all,
-    may_follow, plus, some_apart,
+    may_follow, plus,
 )
 from model.kernel.shift import allows_stops
 from model.problem import IntArray
 from model.search.route.edit import put
 from model.search.route.layout import CUSTOMER, END, NOWHERE, START, Fleet, World
+from model.search.route.rarer import goods_count, tiers_aboard
 from model.search.route.refresh import any_customer, locate, refresh
 from model.search.route.state import Searcher, free_slot, keep_aside, touch
 
@@ -104,7 +105,7 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
                                     and may_serve_tail(world, now, by, a, p))):
             continue
         # Where it matters who comes when, few tails fit: look for one that does.
-        if now.halt.shape[1] == 0 or may_swap(world, now, a, p, b, q):
+        if tiers_aboard(now) == 0 or may_swap(world, now, a, p, b, q):
             chosen, place, best = b, q, cost
     if now.stop[a, p + 1].kind == CUSTOMER:
         legs = legs_of(world.leg, world.type[k].travel)
@@ -204,7 +205,7 @@ def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> boo
         index += 1
     kind = world.type[fleet.route[a].type]
     allowed = holds(kind, load) and allows_stops(kind, count + index - q - 1)
-    for tier in range(fleet.halt.shape[1]):
+    for tier in range(tiers_aboard(fleet)):
         allowed = allowed and is_cargo(world, fleet, a, p, b, q, tier)
     return not allowed
 
@@ -212,7 +213,7 @@ def overloads(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> boo
 @inlined
 def clashes(world: World, fleet: Fleet, a: int, p: int, b: int, q: int) -> bool:
     """Tell whether goods clash on the trip that `overloads` is asked of."""
-    if not some_apart(world.goods):
+    if not goods_count(world):
         return False
     barred, index = 0, p
     while fleet.stop[a, index].kind == CUSTOMER:

@@ -3,7 +3,7 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import demand_of, num_tiers, total, total_delivered, total_picked
+from model.kernel.load import demand_of, total, total_delivered, total_picked
 from model.kernel.stop import closing, width
 from model.problem import UIntArray
 from model.search.insertion.evaluate import INFEASIBLE, serve_alone
@@ -12,6 +12,7 @@ from model.search.route.edit import NEW_FLIGHT, NEW_ROUTE, apply
 from model.search.route.layout import MODE_LEAN, World
 from model.search.route.lean import insert_lean
 from model.search.route.randomness import below, uniform
+from model.search.route.rarer import is_dearer_to_some, tiers_of
 from model.search.route.refresh import locate, refresh
 from model.search.route.state import Searcher, free_slot, keep_aside, list_active, touch
 from model.search.route.vehicles import change_type
@@ -33,7 +34,7 @@ DEAREST_FIRST = 0.5
 @spliced
 def draw_order(world: World, rng: UIntArray) -> int:
     """Draw in what order customers are inserted."""
-    if world.unequal and uniform(rng) < DEAREST_FIRST:
+    if is_dearer_to_some(world) and uniform(rng) < DEAREST_FIRST:
         return BY_COST
     return ORDERS[below(rng, len(ORDERS))]
 
@@ -45,7 +46,7 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
     if order == BY_COST:
         return -world.unassigned_more[node]
     if order == BY_DEMAND:
-        if num_tiers(world.amount) > 0:
+        if tiers_of(world) > 0:
             return -float(total_delivered(world.amount, node) + total_picked(world.amount, node))
         return -float(total(demand_of(place)))
     if order in (BY_FAR, BY_CLOSE):

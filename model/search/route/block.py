@@ -9,8 +9,8 @@ from model.kernel.energy import (
     after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_hover,
 )
 from model.kernel.flight import (
-    counted_until, earliest_back, endurance_of, held_until, lasting_within,
-    launch_begin, longest_hold, recovery_end, take_off, unreachable,
+    counted_until, earliest_back, endurance_of, held_until, lasting_within, launch_begin,
+    longest_hold, recovery_end, take_off, unreachable,
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
@@ -84,7 +84,7 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
     And write how long each is held back: until windows let it be back within its limit. Where some
     have several, that hangs on when it could begin, and is for `soonest_takeoff`.
     """
-    kind, single = world.type[k], are_single(world.place)
+    kind, single = world.type[k], are_single(world.place[0, 0])
     legs, places = legs_of(world.leg, kind.drone_travel), places_by_air(world.place, kind)
     homeward = legs_of(world.leg, kind.home_travel)
     for s in range(count):
@@ -171,7 +171,7 @@ def soonest_takeoff(places: Records, legs: IntArray, homeward: IntArray, kind: R
                     sortie: Record, node: int, takeoff: int) -> int:
     """Return when a sortie takes off at `node` that can at `takeoff`: then, or held back."""
     takeoff = max(takeoff, sortie.held)
-    if are_single(places):
+    if are_single(places[0]):
         return takeoff
     held = held_by_windows(places, legs, homeward, kind, sortie, node, takeoff)
     while held > takeoff:

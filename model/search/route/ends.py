@@ -2,6 +2,7 @@
 
 from model.kernel.compiled import inlined
 from model.kernel.leg import leg, legs_of
+from model.kernel.plain import is_plain
 from model.kernel.records import Record, Records
 from model.problem import IntArray
 from model.search.route.layout import END, MODE_APART, World
@@ -10,7 +11,7 @@ from model.search.route.layout import END, MODE_APART, World
 @inlined
 def is_apart(world: World, k: int) -> bool:
     """Tell whether trips of a type don't all begin and end at one place."""
-    return world.mode[k] & MODE_APART > 0
+    return not is_plain(world.type[k]) and world.mode[k] & MODE_APART > 0
 
 
 @inlined

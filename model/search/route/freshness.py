@@ -2,11 +2,12 @@
 
 from model.kernel.compiled import inlined
 from model.kernel.instance import FAR
-from model.kernel.load import excess_aboard, some_limited
+from model.kernel.load import excess_aboard
 from model.kernel.records import Record, Records
 from model.kernel.start import leaves_first
 from model.kernel.stop import start_of_service
 from model.search.route.layout import CUSTOMER, World
+from model.search.route.rarer import time_aboard_counts
 from model.search.route.routes import drive_forward
 
 
@@ -48,7 +49,7 @@ def most_excess(world: World, route: Record, stops: Records, trip: Record,
 def any_too_long(world: World, route: Record, stops: Records, trips: Records,
                  sorties: Records) -> bool:
     """Tell whether somebody's parcel is too long aboard on a timed route."""
-    if some_limited(world.fresh_for):
+    if time_aboard_counts(world):
         for index in range(route.trips):
             if most_excess(world, route, stops, trips[index], sorties) > 0:
                 return True

@@ -1,9 +1,10 @@
 """Goods that must not be carried together: what each trip and each route bars."""
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.load import barred_on_trip, barred_on_vehicle, go_together, some_apart
+from model.kernel.load import barred_on_trip, barred_on_vehicle, go_together
 from model.kernel.records import Record, Records
 from model.search.route.layout import CUSTOMER, Fleet, World
+from model.search.route.rarer import goods_count
 
 
 @inlined
@@ -38,12 +39,12 @@ def take_goods(goods: Records, route: Record, stops: Records, trips: Records,
 @spliced
 def goods_may_join(world: World, fleet: Fleet, slot: int, trip: int, node: int) -> bool:
     """Tell whether a customer's goods may go on a trip."""
-    return not some_apart(world.goods) or go_together(
+    return not goods_count(world) or go_together(
         world.goods[node], fleet.trip[slot, trip].barred, fleet.route[slot].barred)
 
 
 @spliced
 def goods_may_follow(world: World, fleet: Fleet, slot: int, node: int) -> bool:
     """Tell whether a customer's goods may go on another trip of a route."""
-    return not some_apart(world.goods) or go_together(world.goods[node], 0,
+    return not goods_count(world) or go_together(world.goods[node], 0,
                                                       fleet.route[slot].barred)

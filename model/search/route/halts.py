@@ -3,12 +3,14 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.load import (
     EMPTY, NOTHING, Cargo, add_come, add_left, cargo_for, delivered_of, demand_of, followed,
-    has_room, holds_in, lifts, may_follow, most_of, num_tiers, picked_of, plus,
-    total_delivered, total_picked, weigh_trip, write_amount,
+    has_room, holds_in, lifts, may_follow, most_of, picked_of, plus, total_delivered, total_picked,
+    weigh_trip, write_amount,
 )
+from model.kernel.plain import is_plain
 from model.kernel.records import Record, Records
 from model.problem import IntArray
 from model.search.route.layout import CUSTOMER, NOWHERE, START, Fleet, World
+from model.search.route.rarer import tiers_aboard, tiers_of
 from model.search.route.vehicles import may_make
 
 
@@ -35,12 +37,12 @@ def flown(world: World, k: int, sortie: Record, place: int, node: int,
 @inlined
 def can_carry(world: World, k: int, sortie: Record, place: int, node: int) -> bool:
     """Tell whether a drone of type `k` may carry what a sortie does, as in `flown`."""
-    if num_tiers(world.amount) == 0:
+    if tiers_of(world) == 0:
         load = demand_of(world.place[0, node]) if place >= 0 else NOTHING
         for visit in range(sortie.count):
             load = plus(load, demand_of(world.place[0, sortie.nodes[visit]]))
         return lifts(world.type[k], load, 0)
-    for tier in range(num_tiers(world.amount)):
+    for tier in range(tiers_of(world)):
         _, may = flown(world, k, sortie, place, node, tier)
         if not may:
             return False
@@ -76,7 +78,7 @@ def weigh(world: World, fleet: Fleet, slot: int) -> bool:
     """Write what is aboard at each stop of a route. In place; False if that breaks a rule."""
     route, stops = fleet.route[slot], fleet.stop[slot]
     allowed = True
-    for tier in range(fleet.halt.shape[1]):
+    for tier in range(tiers_aboard(fleet)):
         allowed = note_amounts(world, fleet, slot, tier) and allowed
         halts, first, driven = fleet.halt[slot, tier], 0, 0
         for p in range(route.length):
@@ -137,14 +139,16 @@ def room_on(world: World, fleet: Fleet, slot: int, k: int, node: int) -> Room:
 def room_behind(room: Room, p: int) -> bool:
     """Tell whether a truck may serve the customer behind stop `p`."""
     types, k, halts, amounts, node = room
-    return len(halts) == 0 or has_room(types[k], halts, p + 1, p, amounts, node)
+    return (is_plain(types[k]) or len(halts) == 0
+            or has_room(types[k], halts, p + 1, p, amounts, node))
 
 
 @spliced
 def room_between(room: Room, launch: int, recovery: int) -> bool:
     """Tell whether a drone may serve the customer from stop `launch` to `recovery`."""
     types, k, halts, amounts, node = room
-    return len(halts) == 0 or has_room(types[k], halts, launch, recovery, amounts, node)
+    return (is_plain(types[k]) or len(halts) == 0
+            or has_room(types[k], halts, launch, recovery, amounts, node))
 
 
 @inlined
@@ -153,7 +157,7 @@ def can_take(world: World, fleet: Fleet, slot: int, k: int) -> bool:
     kind = world.type[k]
     if not may_make(kind, fleet.trip[slot, 0]):
         return False
-    for tier in range(fleet.halt.shape[1]):
+    for tier in range(tiers_aboard(fleet)):
         if not holds_in(kind, most_of(fleet.halt[slot, tier, 0]), tier):
             return False
     return True

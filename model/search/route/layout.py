@@ -19,6 +19,7 @@ import numpy as np
 from model.kernel.compiled import inlined
 from model.kernel.instance import TIER
 from model.kernel.load import HALT
+from model.kernel.plain import ANY_RULE, as_plain, is_plain
 from model.kernel.records import Record, Records, record
 from model.problem import BoolArray, FloatArray, IntArray
 
@@ -46,7 +47,7 @@ WAITING, FLYING, DONE = range(3)
 TRIP = record("first", "last", "release", "distance", "barred", load=TIER)
 
 ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "offset", "stamp",
-               "barred")
+               "barred", rare=ANY_RULE)
 
 CHANGING = 0
 """Stamp of a route that this turn changes; any other stands for what the route in the slot is."""
@@ -155,8 +156,9 @@ def clear_trip(trip: Record) -> None:
 
 def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int) -> Fleet:
     """Allocate a fleet without routes. Pages are touched only where routes are."""
+    routes = np.zeros(slots + 2, ROUTE)
     return Fleet(
-        route=np.zeros(slots + 2, ROUTE),
+        route=as_plain(routes) if is_plain(world.type[0]) else routes,
         cost=np.zeros(slots + 2),
         early=np.zeros(slots + 2),
         stop=np.zeros((slots + 2, stops), STOP),

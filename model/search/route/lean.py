@@ -8,6 +8,7 @@ from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival, places_of, too_late
 from model.search.route.halts import weigh
 from model.search.route.layout import CUSTOMER, NOWHERE, Fleet, World, clear_trip, copy_lean
+from model.search.route.rarer import tiers_aboard
 from model.search.route.vehicles import add_load, may_make, route_cost
 
 
@@ -46,7 +47,7 @@ def refresh_lean(world: World, fleet: Fleet, slot: int) -> bool:
         stops[p].latest = latest
     stops[0].latest = latest - stops[0].gap
     fleet.cost[slot] = route_cost(world, k, trip)
-    if fleet.halt.shape[1] > 0 and not weigh(world, fleet, slot):
+    if tiers_aboard(fleet) > 0 and not weigh(world, fleet, slot):
         return False
     return time <= kind.shift_latest
 
@@ -82,7 +83,7 @@ def insert_lean(world: World, fleet: Fleet, slot: int, p: int, node: int) -> Non
     fleet.cost[slot] += detour * world.rate[k].distance + world.rate[k].stop
     add_load(trip, demand_of(world.place[0, node]))
     spread(places_of(world.place, world.type[k]), stops, trip.last, p + 1)
-    if fleet.halt.shape[1] > 0:
+    if tiers_aboard(fleet) > 0:
         weigh(world, fleet, slot)
 
 

@@ -3,7 +3,6 @@
 from model.kernel.clock import is_steady, leg_start, setup_beside
 from model.kernel.compiled import inlined, spliced
 from model.kernel.instance import FAR, NONE
-from model.kernel.load import some_apart, some_limited
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from
 from model.kernel.stop import latest_free_arrival, places_of
@@ -13,11 +12,11 @@ from model.search.route.freshness import any_too_long, departure_of, hold_trips
 from model.search.route.goods import take_goods
 from model.search.route.halts import load_cost, weigh
 from model.search.route.layout import (
-    CUSTOMER, ELSEWHERE, END, MODE_LEAN, MODE_LOADED, MODE_RETIMED, MODE_SETTLED, NOWHERE, START,
-    Fleet, World,
+    CUSTOMER, ELSEWHERE, END, MODE_LEAN, MODE_RETIMED, MODE_SETTLED, NOWHERE, START, Fleet, World,
 )
 from model.search.route.lean import refresh_lean
 from model.search.route.randomness import below
+from model.search.route.rarer import goods_count, loads_cost, tiers_aboard, time_aboard_counts
 from model.search.route.routes import (
     drive_forward, first_departure, load_trips, look_back, open_up, price_route,
 )
@@ -162,14 +161,14 @@ def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     mode = world.mode[route.type]
     if not load_trips(world, route, stops, trips, sorties):
         return False
-    if some_apart(world.goods) and not take_goods(world.goods, route, stops, trips, sorties):
+    if goods_count(world) and not take_goods(world.goods, route, stops, trips, sorties):
         return False
-    if fleet.halt.shape[1] > 0 and not weigh(world, fleet, slot):
+    if tiers_aboard(fleet) > 0 and not weigh(world, fleet, slot):
         return False
     clear_holds(route, stops, trips)
     if not drive_forward(world, route, stops, sorties, acc):
         return False
-    if some_limited(world.fresh_for) and not hold_trips(world, route, stops, trips, sorties, acc):
+    if time_aboard_counts(world) and not hold_trips(world, route, stops, trips, sorties, acc):
         return False
     depart = first_departure(world, route, stops, sorties)
     if mode & MODE_SETTLED:
@@ -180,7 +179,7 @@ def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     if route.working > world.type[route.type].max_working_duration:
         return False
     fleet.cost[slot], early = price_route(world, route, stops, trips, sorties)
-    if mode & MODE_LOADED:
+    if loads_cost(world, route.type):
         fleet.cost[slot] += load_cost(world, fleet, slot)
     fleet.early[slot] = early if mode & MODE_SETTLED else 0.0
     if mode & MODE_SETTLED:

@@ -117,7 +117,7 @@ def look_back(world: World, route: Record, stops: Records) -> None:
     """
     latest, earliest, rest, end = FAR, NONE, 0, NONE
     places = places_of(world.place, world.type[route.type])
-    single = are_single(places)
+    single = are_single(places[0])
     q = route.length - 1
     gap = 0
     while q >= 0:

@@ -7,6 +7,7 @@ from model.kernel.copying import copy_row, copy_some, copy_records
 from model.kernel.records import Record, Records, record
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
 from model.search.route.layout import CHANGING, NOWHERE, Fleet, World, copy_lean
+from model.search.route.rarer import tiers_aboard
 from model.search.route.refresh import locate
 
 COUNTS = record("active", "missing", "absent", "touched", "turn", "stamp", "best_missing",
@@ -56,7 +57,7 @@ def copy_route(source: Fleet, slot: int, target: Fleet, to: int, lean: int) -> N
     route = source.route[slot]
     target.route[to] = source.route[slot]
     target.cost[to] = source.cost[slot]
-    for tier in range(source.halt.shape[1]):
+    for tier in range(tiers_aboard(source)):
         copy_records(source.halt[slot, tier], target.halt[to, tier], route.length)
     if lean:
         stops, copies = source.stop[slot], target.stop[to]

@@ -10,6 +10,7 @@ from model.kernel.load import (
 from model.kernel.records import Record, Records
 from model.kernel.shift import allows_sorties, allows_stops
 from model.search.route.layout import NOWHERE, Fleet, World
+from model.search.route.rarer import tiers_aboard
 
 
 @inlined
@@ -92,7 +93,7 @@ def may_fit(world: World, fleet: Fleet, slot: int, index: int, k: int, node: int
     kind, trip = world.type[k], fleet.trip[slot, index]
     if not fits(kind, load_of(trip), world.place[0, node]):
         return False
-    for tier in range(fleet.halt.shape[1]):
+    for tier in range(tiers_aboard(fleet)):
         halts = fleet.halt[slot, tier]
         taken = plus(amount_of(halts[trip.last].behind), picked_of(world.amount, node, tier))
         if not (holds_in(kind, taken, tier) and holds_in(kind, most_of(halts[trip.first]), tier)):
