@@ -6,17 +6,13 @@
 import gc
 import math
 import os
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Literal, NamedTuple
-
-import numpy as np
 
 from model.judge.check import Evaluation, check
 from model.kernel.alarm import Alarm
@@ -26,7 +22,10 @@ from model.kernel.pausing import EndedError, Pause, pausing
 from model.kernel.warming import Tell, Warming, telling
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.policy.rollouts import NOTHING
-from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
+from model.problem import Problem
+from model.search.compiling import (
+    COMPILE_SEARCH, beside, compile_search, parts_for, small_problem,
+)
 from model.search.improve import GRACE, Improved, SearchConfig, improve
 from model.search.improve import Progress as Progress
 from model.simulation.extract import extract
@@ -52,14 +51,6 @@ why a type of vehicle doesn't serve one."""
 
 WARM_LIMIT = 3600.0
 """Time limit of the plan that everything is compiled for, which no compiler should need."""
-
-COMPILE_SEARCH = """
-from model.kernel.compiled import counting
-from model.planner import compile_search
-with counting():
-    compile_search()
-"""
-"""What a second process does while everything is compiled."""
 
 
 class Listener(NamedTuple):
@@ -125,19 +116,22 @@ class Planner:
         """Names of the loaded policies."""
         return tuple(self._policies)
 
-    def warm(self, tell: Tell = lambda _: None) -> None:
+    def warm(self, tell: Tell = lambda _: None, problem: Problem | None = None) -> None:
         """Plan small problems by each policy and by none, so that all is compiled. In place.
 
+        Given a problem, all that it needs.
         Where nothing is yet, one of several processes compiles and the others wait; where there are
         two cores, it has a helper that compiles the search for problems without rarer rules. What
         is loaded by then is taken out of the garbage collector's sight.
         """
-        with telling(tell) as warming, first_to_compile() as is_first:
-            self._warm(warming, is_first and (os.cpu_count() or 1) > 1)
+        parts = parts_for(problem)
+        with telling(tell) as warming, first_to_compile(parts) as is_first:
+            self._warm(warming, parts, is_first and (os.cpu_count() or 1) > 1)
         keep_loaded()
 
-    def _warm(self, warming: Warming, with_helper: bool) -> None:
-        with beside(COMPILE_SEARCH) if with_helper else nullcontext():
+    def _warm(self, warming: Warming, parts: Sequence[str], with_helper: bool) -> None:
+        first, *others = parts
+        with beside(COMPILE_SEARCH.format(first)) if with_helper else nullcontext():
             warming.enter("compiling flights around no-fly areas")
             compile_ways()
             for name in self._policies:
@@ -146,10 +140,11 @@ class Planner:
                 self.plan(small_problem(), PlanOptions(name, "sample", num_samples=4,
                                                        time_limit=0.0))
             warming.enter("compiling the search", decodes=True)
-            compile_search(max_stops=2)
-        compile_search()
-        for name, most in product(self._policies, (None, 2)):
-            self.plan(small_problem(max_stops=most), PlanOptions(
+            for part in others:
+                compile_search(part)
+        compile_search(first)
+        for name, part in product(self._policies, parts):
+            self.plan(small_problem(part), PlanOptions(
                 name, time_limit=WARM_LIMIT, search_iterations=4, threads=2))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
@@ -369,32 +364,3 @@ def keep_loaded() -> None:
     """
     gc.collect()
     gc.freeze()
-
-
-def compile_search(max_stops: int | None = None) -> None:
-    """Search for a better plan of a small problem, so that most of the search is compiled.
-
-    With a limit of stops, for problems that state rarer rules.
-    """
-    by_truck = small_problem(False, max_stops)
-    improve(by_truck, pack([by_truck]), Solution((), ()), SearchConfig(turns=4))
-
-
-@contextmanager
-def beside(statement: str) -> Iterator[None]:
-    """Let another Python do something meanwhile, and wait for its end, whatever it comes to."""
-    with subprocess.Popen([sys.executable, "-c", statement], stdin=subprocess.DEVNULL,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL):
-        yield
-
-
-def small_problem(drones: bool = True, max_stops: int | None = None) -> Problem:
-    """Return three customers for a truck, with a drone or alone, which stops so often at most."""
-    places = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
-    distance = np.rint(np.linalg.norm(places[:, None] - places, axis=2) * 1e6).astype(np.int64)
-    customers = tuple(Customer(str(number), (1000,)) for number in range(3))
-    drone = DroneType(count=1, capacity=(1000,), travel=0) if drones else None
-    truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone,
-                        max_stops=max_stops)
-    return Problem((Depot("depot"),), customers, (truck,), (Travel(distance, distance),), places,
-                   1000.0)

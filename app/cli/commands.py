@@ -25,6 +25,7 @@ from app.schemas.fields import Rounding
 from app.settings import Settings
 from model.judge.check import Evaluation
 from model.planner import Planner, load_planner
+from model.problem import Problem
 from model.solution import COST_TERMS
 
 EXIT_INFEASIBLE = 1
@@ -82,9 +83,11 @@ def warm() -> None:
 def plan(problem_file: ProblemFile, output: Output = None) -> None:
     """Plan one problem."""
     settings = Settings()
-    planner = _warm_planner(settings)
-    body = ReceivedBody(problem_file.read_bytes(), time.perf_counter())
+    content = problem_file.read_bytes()
     try:
+        problem = task_of(read_request(content, policies=None)).problem
+        planner = _warm_planner(settings, problem)
+        body = ReceivedBody(content, time.perf_counter())
         reply = answer(planner, body, settings.search_threads)
     except RequestError as error:
         refuse(problem_file, error)
@@ -137,10 +140,10 @@ def main() -> None:
     cli()
 
 
-def _warm_planner(settings: Settings) -> Planner:
+def _warm_planner(settings: Settings, problem: Problem | None = None) -> Planner:
     planner = load_planner(settings.weights_dir, settings.policies)
     with showing(lambda line: typer.echo(line, err=True)) as show:
-        planner.warm(show)
+        planner.warm(show, problem)
     return planner
 
 

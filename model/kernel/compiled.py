@@ -8,7 +8,7 @@ fingerprint over all files that take part names the folder, so no stale code is 
 import fcntl
 import hashlib
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
@@ -160,28 +160,30 @@ def compiled_folder() -> Path | None:
     return next((parent / name for parent in parents if _can_write(parent / name)), None)
 
 
-def is_cold() -> bool:
-    """Tell whether compiled code can be kept and none is yet."""
+def is_cold(parts: Sequence[str]) -> bool:
+    """Tell whether compiled code can be kept, and one of these parts is not yet."""
     folder = compiled_folder()
-    return folder is not None and not any(folder.rglob("*.nbi"))
+    return folder is not None and not all((folder / part).exists() for part in parts)
 
 
 @contextmanager
-def first_to_compile() -> Iterator[bool]:
-    """Let one process at a time compile where nothing is yet; tell whether this one has to.
+def first_to_compile(parts: Sequence[str]) -> Iterator[bool]:
+    """Let one process at a time compile parts that are not there yet; tell if this one has to.
 
-    The others wait until it is done, or has died, and find everything compiled.
+    The others wait until it is done, or has died, and find them compiled.
     """
     folder = compiled_folder()
-    if folder is None or not is_cold():
+    if folder is None or not is_cold(parts):
         yield False
         return
     with (folder / "compiling.lock").open("w") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
-        has_to = is_cold()
+        has_to = is_cold(parts)
         if not has_to:
             fcntl.flock(file, fcntl.LOCK_UN)
         yield has_to
+        for part in parts:
+            (folder / part).touch()
 
 
 class Count(event.Listener):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.alarm import silent
-from model.kernel.instance import FAR, NO_PROFILE, Instance
+from model.kernel.instance import FAR, NO_PROFILE, Instance, pack
 from model.kernel.nearest import least_columns
 from model.kernel.plain import as_plain
 from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
@@ -206,6 +206,12 @@ def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     swapped = types["relaunch_duration"] != types["launch_duration"]
     split = ((mode & MODE_LOADED > 0) | swapped) & (types["max_trips"] > 1)
     return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
+
+
+def states_rarer_rules(problem: Problem) -> bool:
+    """Tell whether the search for a problem is that which is compiled with all rules."""
+    instance = pack([problem], neighbours=False)
+    return not _is_plain(instance, instance.type[0])
 
 
 def _as_stated(instance: Instance, types: Records) -> tuple[Records, Records]:

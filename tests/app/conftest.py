@@ -20,8 +20,9 @@ from app.settings import DEFAULT_POLICY, Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.kernel.warming import Tell, Warmth
-from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult, compile_search
+from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
+from model.search.compiling import compile_search, parts_for
 from model.solution import Route, Solution
 from model.travel.airspace import compile_ways
 
@@ -178,9 +179,10 @@ class SearchingPlanner(Planner):
     def __init__(self) -> None:
         super().__init__({DEFAULT_POLICY: None})  # type: ignore[dict-item]
 
-    def warm(self, tell: Tell = lambda _: None) -> None:
+    def warm(self, tell: Tell = lambda _: None, problem: Problem | None = None) -> None:
         """Compile the search, so that no plan's time goes into that."""
-        compile_search()
+        for part in parts_for(problem):
+            compile_search(part)
 
 
 @pytest.fixture(scope="session")

@@ -16,10 +16,12 @@ from model.judge.check import check
 from model.judge.rules import Violation
 from model.kernel.warming import Warmth
 from model.planner import (
-    COMPILE_SEARCH, Listener, Planner, PlanCheckError, PlanOptions, PlanResult, beside,
-    load_planner, small_problem,
+    Listener, Planner, PlanCheckError, PlanOptions, PlanResult, load_planner,
 )
 from model.problem import Problem
+from model.search.compiling import (
+    COMPILE_SEARCH, PLAIN, RARER, beside, parts_for, small_problem,
+)
 from model.search.improve import Progress
 from model.solution import Solution
 from training.instances import VARIANTS, generate
@@ -230,12 +232,24 @@ def test_second_process_compiles_the_search_where_nothing_is_yet(
         helpers.append(statement)
         return beside(statement)
 
-    monkeypatch.setattr(planner_module, "first_to_compile", lambda: nullcontext(True))
+    monkeypatch.setattr(planner_module, "first_to_compile", lambda _: nullcontext(True))
     monkeypatch.setattr(planner_module, "beside", watch)
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     planner.warm()
-    assert helpers == [COMPILE_SEARCH]
-    subprocess.run([sys.executable, "-c", COMPILE_SEARCH], check=True)
+    assert helpers == [COMPILE_SEARCH.format(PLAIN)]
+    subprocess.run([sys.executable, "-c", *helpers], check=True)
+
+
+@pytest.mark.parametrize("part", [PLAIN, RARER])
+def test_what_one_problem_needs_is_compiled_alone(
+    planner: Planner, part: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem, compiled = small_problem(part), list[str]()
+    monkeypatch.setattr(planner_module, "compile_search", compiled.append)
+    planner.warm(problem=problem)
+    assert compiled == [part]
+    assert parts_for(problem) == (part,)
+    assert set(parts_for(None)) == {PLAIN, RARER}
 
 
 def test_work_beside_is_over_at_the_end(tmp_path: Path) -> None:

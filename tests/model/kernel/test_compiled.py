@@ -51,14 +51,15 @@ def test_chosen_folder_holds_the_compiled_code(tmp_path: Path) -> None:
     assert Path(seen).is_dir()
 
 
-def test_folder_is_cold_until_it_holds_compiled_code(
+def test_folder_is_cold_until_it_holds_all_that_is_asked_for(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("model.kernel.compiled.compiled_folder", lambda: tmp_path)
-    assert is_cold()
-    (tmp_path / "search").mkdir()
-    (tmp_path / "search" / "anneal.nbi").touch()
-    assert not is_cold()
+    assert is_cold(["one", "other"])
+    with first_to_compile(["one"]) as is_first:
+        assert is_first
+    assert not is_cold(["one"])
+    assert is_cold(["one", "other"])
 
 
 def test_one_of_several_compiles_and_the_others_find_it_done(
@@ -67,10 +68,9 @@ def test_one_of_several_compiles_and_the_others_find_it_done(
     monkeypatch.setattr("model.kernel.compiled.compiled_folder", lambda: tmp_path)
 
     def come() -> bool:
-        with first_to_compile() as is_first:
+        with first_to_compile(["all"]) as is_first:
             if is_first:
                 time.sleep(0.2)
-                (tmp_path / "anneal.nbi").touch()
             return is_first
 
     with ThreadPoolExecutor(3) as pool:
@@ -83,9 +83,9 @@ def test_where_one_has_died_the_next_compiles(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("model.kernel.compiled.compiled_folder", lambda: tmp_path)
-    with pytest.raises(RuntimeError), first_to_compile():
+    with pytest.raises(RuntimeError), first_to_compile(["all"]):
         raise RuntimeError
-    with first_to_compile() as is_first:
+    with first_to_compile(["all"]) as is_first:
         assert is_first
 
 

@@ -83,7 +83,7 @@ def test_stage_under_way_is_told_again() -> None:
 def test_planner_tells_that_it_decodes_before_the_search_is_compiled(
         monkeypatch: pytest.MonkeyPatch) -> None:
     done: list[str] = []
-    monkeypatch.setattr(planner, "compile_search", lambda **_: done.append("search compiled"))
+    monkeypatch.setattr(planner, "compile_search", lambda _: done.append("search compiled"))
     monkeypatch.setattr(planner, "keep_loaded", lambda: None)
     monkeypatch.setattr(Planner, "plan", lambda *_: done.append("planned"))
     Planner(NO_POLICY).warm(lambda warmth: done.append("decodes" if warmth.decodes else "not yet"))

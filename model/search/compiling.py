@@ -1,0 +1,61 @@
+"""What is compiled of the search before it is needed."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from model.kernel.instance import pack
+from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
+from model.search.improve import SearchConfig, improve
+from model.search.world import states_rarer_rules
+from model.solution import Solution
+
+PLAIN, RARER = "plain", "rarer"
+"""Parts of all that is compiled: for problems that state no rarer rules, and for those that do."""
+
+MOST_STOPS = {PLAIN: None, RARER: 2}
+"""What the small problem for each part states."""
+
+COMPILE_SEARCH = """
+from model.kernel.compiled import counting
+from model.search.compiling import compile_search
+with counting():
+    compile_search({!r})
+"""
+"""What a second process does while everything else is compiled."""
+
+
+def parts_for(problem: Problem | None) -> tuple[str, ...]:
+    """Return the parts that the search for a problem needs; all if there is none yet."""
+    if problem is None:
+        return PLAIN, RARER
+    return (RARER if states_rarer_rules(problem) else PLAIN,)
+
+
+def compile_search(part: str) -> None:
+    """Search for a better plan of a small problem, so that most of the search is compiled."""
+    by_truck = small_problem(part, drones=False)
+    improve(by_truck, pack([by_truck]), Solution((), ()), SearchConfig(turns=4))
+
+
+def small_problem(part: str = PLAIN, drones: bool = True) -> Problem:
+    """Return three customers for a truck, with a drone or alone, that needs a part."""
+    places = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
+    distance = np.rint(np.linalg.norm(places[:, None] - places, axis=2) * 1e6).astype(np.int64)
+    customers = tuple(Customer(str(number), (1000,)) for number in range(3))
+    drone = DroneType(count=1, capacity=(1000,), travel=0) if drones else None
+    truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone,
+                        max_stops=MOST_STOPS[part])
+    return Problem((Depot("depot"),), customers, (truck,), (Travel(distance, distance),), places,
+                   1000.0)
+
+
+@contextmanager
+def beside(statement: str) -> Iterator[None]:
+    """Let another Python do something meanwhile, and wait for its end, whatever it comes to."""
+    with subprocess.Popen([sys.executable, "-c", statement], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL):
+        yield
