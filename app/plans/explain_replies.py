@@ -10,6 +10,7 @@ from model.judge.binding import Binding
 from model.judge.clock import window_of
 from model.judge.explain import Reason
 from model.judge.places import Found, find_place
+from model.judge.rules import Violation
 from model.judge.worth import Worth
 from model.planner import PlanResult
 from model.problem import Problem
@@ -61,8 +62,17 @@ def _alternative(bench: Bench, each: Alternative) -> Data:
         "cost": _difference(trial.evaluation.cost, bench.plan.evaluation.cost),
         "feasible": trial.evaluation.is_feasible,
         "reasons": [{"code": code, "message": message} for code, message in dict.fromkeys(
-            (item.code, item.message) for item in trial.evaluation.violations)],
+            (item.code, item.message) for item in _telling(trial.evaluation.violations))],
     }
+
+
+def _telling(violations: Sequence[Violation]) -> Iterable[Violation]:
+    """Return broken rules without those that follow from others.
+
+    What differs from what has happened has times that nobody has computed.
+    """
+    frozen = any(item.code == "FROZEN" for item in violations)
+    return [item for item in violations if not (frozen and item.code == "TIME_MISMATCH")]
 
 
 def _placed(bench: Bench, trial: Trial, found: Found | None) -> Data:

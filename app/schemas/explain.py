@@ -97,12 +97,13 @@ class BindingReply(_Reply):
     at: str = Field(description="Id of the customer or vehicle type whose field it is.")
     slack: float | None = Field(
         description="How much is left until it, in units. 0: none. Null: the customer isn't "
-        "served where it counts.")
-    unit: Literal["minute", "unit", "km", "vehicle", "trip", "Wh"] = Field(
-        description="What `slack` is counted in.")
+        "served where it counts, or it is no number.")
+    unit: Literal["minute", "unit", "km", "vehicle", "trip", "Wh", "rule"] = Field(
+        description="What `slack` is counted in. `rule`: it has no number, as `vehicles`.")
     saves_per_unit: float = Field(
-        description="What the plan would cost less with one unit more, the customer being served "
-        f"where that is cheapest of the places tried. {OTHERS_STAY} 0: nothing.")
+        description="What the plan would cost less with one unit more, or without the `rule`, the "
+        f"customer being served where that is cheapest of the places tried. {OTHERS_STAY} "
+        "0: nothing.")
 
 
 class SearchedReply(_Reply):

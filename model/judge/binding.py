@@ -15,6 +15,7 @@ from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.energy import charges, sortie_energy
 from model.judge.freshness import excess_aboard
+from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.places import Place
@@ -26,7 +27,9 @@ from model.problem import (
 )
 from model.solution import Trip
 
-Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh"]
+Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh", "rule"]
+"""Of a rule without a number a unit more is the rule itself, lifted."""
+
 Whose = Literal["customer", "vehicle_type"]
 
 NOT_WORTH = 1e-6
@@ -34,6 +37,9 @@ NOT_WORTH = 1e-6
 
 MAX_RETRIES = 6
 """Places tried that would be cheaper, if only they were legal."""
+
+MAX_LIFTED = 24
+"""Places tried of all vehicles where a rule of the customer is lifted."""
 
 
 class Limit(NamedTuple):
@@ -102,10 +108,19 @@ def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None]) -> fl
     wanted = [None if bench.found is None else bench.found.place, *places]
     if limit.gives_trips:
         wanted = [*_further_trips(bench, limit)]
+    elif limit.unit == "rule":
+        wanted += _likeliest(bench, limit.problem)
     tried = [bench.finish(bench.draft(place, limit.problem), limit.problem, judged)
              for place in dict.fromkeys(wanted) if place is not None]
     return min([trial.evaluation.cost.total for trial in tried if trial.evaluation.is_feasible],
                default=math.inf)
+
+
+def _likeliest(bench: Bench, problem: Problem) -> list[Place]:
+    """Return the places of all vehicles that look cheapest."""
+    screen = Screen(problem, bench.left_out.solution, bench.node, bench.setting.past)
+    guesses = [guess for some in screen.guesses().values() for guess in some]
+    return [guess.place for guess in sorted(guesses, key=lambda guess: guess.rank)[:MAX_LIFTED]]
 
 
 def _further_trips(bench: Bench, limit: Limit) -> Iterator[Place]:
@@ -120,10 +135,13 @@ def _further_trips(bench: Bench, limit: Limit) -> Iterator[Place]:
 def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
     """Yield the limits of the customer, and of the types of vehicles that might serve him."""
     yield from _customer_limits(bench)
-    kinds = [place.vehicle.type for place in (
-        None if bench.found is None else bench.found.place, *places) if place is not None]
-    for kind in dict.fromkeys(kinds):
-        yield from _type_limits(bench, kind)
+    kinds = dict.fromkeys([place.vehicle.type for place in (
+        None if bench.found is None else bench.found.place, *places) if place is not None])
+    one_each = {bench.problem.vehicle_types[kind].type_id: kind for kind in reversed(kinds)}
+    for kind in kinds:
+        if kind in one_each.values():
+            yield from _type_limits(bench, kind)
+        yield from _fleet_limits(bench, kind)
 
 
 def _customer_limits(bench: Bench) -> Iterator[Limit]:
@@ -156,6 +174,8 @@ def _customer_limits(bench: Bench) -> Iterator[Limit]:
         changed = replace(customer, release_time=max(0, customer.release_time - MS_PER_MINUTE))
         yield Limit("release_time", "customer", None, "minute", _in_minutes(slack),
                     with_customer(problem, node, changed))
+    for field, freed in lifted(problem, node):
+        yield Limit(field, "customer", None, "rule", None, freed)
 
 
 def _in_minutes(duration: int | None) -> float | None:
@@ -175,11 +195,40 @@ def _type_limits(bench: Bench, kind: int) -> Iterator[Limit]:
     vehicle_type = problem.vehicle_types[kind]
     is_here = found is not None and found.place.vehicle.type == kind
     for field, unit, slack, changed in (*_truck_limits(bench, vehicle_type, is_here),
-                                        *_drone_limits(bench, vehicle_type, is_here),
-                                        *_trip_limits(bench, kind)):
-        kinds = (*problem.vehicle_types[:kind], changed, *problem.vehicle_types[kind + 1:])
-        yield Limit(field, "vehicle_type", kind, unit, slack,
-                    replace(problem, vehicle_types=kinds), unit in ("vehicle", "trip"))
+                                        *_drone_limits(bench, vehicle_type, is_here)):
+        yield Limit(field, "vehicle_type", kind, unit, slack, _all_parts(problem, changed))
+
+
+def _fleet_limits(bench: Bench, kind: int) -> Iterator[Limit]:
+    """Yield how many vehicles there are of a type, and how many trips each makes, if reached."""
+    problem = bench.problem
+    vehicle_type = problem.vehicle_types[kind]
+    trips = [len(route.trips) for route in bench.left_out.solution.routes
+             if route.vehicle_type == kind]
+    # One more is none of those that customers name.
+    if len(trips) == vehicle_type.count and vehicle_type.part_of in (None, vehicle_type.id):
+        kinds = [*problem.vehicle_types]
+        kinds[kind] = _one_vehicle_more(problem, vehicle_type)
+        yield Limit("count", "vehicle_type", kind, "vehicle", 0.0,
+                    replace(problem, vehicle_types=tuple(kinds)), gives_trips=True)
+    if max(trips, default=0) == vehicle_type.max_trips and not vehicle_type.has_begun:
+        changed = replace(vehicle_type, max_trips=vehicle_type.max_trips + 1)
+        yield Limit("max_trips", "vehicle_type", kind, "trip", 0.0, _all_parts(problem, changed),
+                    gives_trips=True)
+
+
+def _one_vehicle_more(problem: Problem, kind: VehicleType) -> VehicleType:
+    last = max([number for each in problem.vehicle_types if each.type_id == kind.type_id
+                for number in each.numbers], default=0)
+    numbers = (*kind.numbers, last + 1) if kind.numbers else ()
+    return replace(kind, count=kind.count + 1, numbers=numbers)
+
+
+def _all_parts(problem: Problem, changed: VehicleType) -> Problem:
+    """Return a problem in which all vehicles of a type are changed, whoever may serve whom."""
+    return replace(problem, vehicle_types=tuple([
+        replace(changed, id=kind.id, count=kind.count, numbers=kind.numbers, part_of=kind.part_of)
+        if kind.type_id == changed.type_id else kind for kind in problem.vehicle_types]))
 
 
 _Changed = tuple[str, Unit, float | None, VehicleType]
@@ -213,17 +262,6 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
                replace(kind, max_trip_distance=kind.max_trip_distance + MM_PER_KM))
 
 
-def _trip_limits(bench: Bench, kind: int) -> Iterator[_Changed]:
-    """Yield how many vehicles there are of a type, and how many trips each makes, if reached."""
-    vehicle_type = bench.problem.vehicle_types[kind]
-    trips = [len(route.trips) for route in bench.left_out.solution.routes
-             if route.vehicle_type == kind]
-    if len(trips) == vehicle_type.count:
-        yield "count", "vehicle", 0.0, replace(vehicle_type, count=vehicle_type.count + 1)
-    if max(trips, default=0) == vehicle_type.max_trips and not vehicle_type.has_begun:
-        yield "max_trips", "trip", 0.0, replace(vehicle_type, max_trips=vehicle_type.max_trips + 1)
-
-
 def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
                  trip: TripMetrics | None) -> Iterator[_Changed]:
     """Yield what a type of vehicle may work overtime, and have on a trip."""
@@ -235,6 +273,8 @@ def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
     if kind.max_stops is not None:
         slack = None if trip is None else float(kind.max_stops - len(trip.stop_loads) + 2)
         yield "max_stops", "unit", slack, replace(kind, max_stops=kind.max_stops + 1)
+    if kind.pickups == "last":
+        yield "pickups", "rule", None, replace(kind, pickups="any")
     if kind.max_sorties is not None:
         slack = None if trip is None else float(kind.max_sorties - len(trip.sorties))
         yield "max_sorties", "unit", slack, replace(kind, max_sorties=kind.max_sorties + 1)
@@ -270,8 +310,8 @@ def _limits_of(bench: Bench, kind: VehicleType, index: int,
     if drones.batteries is not None:
         slack = None
         if trip is not None:
-            flown = [each for each in trip.sorties if kind.drone_index(each.drone) == index]
-            slack = float(drones.batteries - len(flown))
+            used = [each for each in trip.sorties if kind.drone_index(each.drone) == index]
+            slack = float(drones.batteries - len(used))
         richer = replace(drones, batteries=drones.batteries + 1)
         yield "turnaround.batteries", "unit", slack, richer
     if drones.energy is not None:

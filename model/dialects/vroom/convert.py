@@ -126,8 +126,10 @@ class Converter:
     def _unlike(self, jobs: Sequence[int], actions: Actions, name: str) -> dict[str, int]:
         """Return how long vehicles of a type serve jobs, by id, where the first ones don't."""
         service = actions.service(name)
-        return {str(self._request.jobs[jobs[index]].id): int(service[index]) * PARTS
-                for index in np.flatnonzero(service != actions.service(self.kinds[0].type))}
+        differs = service != actions.service(self.kinds[0].type)
+        return {str(self._request.jobs[job].id): seconds * PARTS
+                for job, seconds, is_own in zip(jobs, service.tolist(), differs.tolist(),
+                                                strict=True) if is_own}
 
     def _has_longest(self) -> bool:
         """Tell whether some legs are longer than the planner can count."""

@@ -64,6 +64,23 @@ def test_customer_flown_to_is_priced_by_truck(client: httpx.Client, asked: Reque
     assert found["by"]["cost"]["total"] == pytest.approx(2 + 40 ** 0.5 - 6 - 1)
 
 
+@pytest.mark.parametrize("vehicles", [{"allowed": ["truck-2"]}, {"forbidden": ["truck-1"]}])
+def test_customer_of_a_single_vehicle_is_told_what_that_costs(
+        client: httpx.Client, asked: Request, vehicles: dict[str, list[str]]) -> None:
+    asked["problem"]["fleet"][0]["capacity"] = [20]
+    free = explained(client, asked | {"customer": "D", "drones": False})
+    (there,) = [item for item in free["alternatives"] if item["kind"] == "vehicle"]
+    assert (there["vehicle"], there["feasible"]) == ("truck-1", True)
+    assert there["cost"]["total"] < 0
+    asked["problem"]["customers"][3]["vehicles"] = vehicles
+    told = explained(client, asked | {"customer": "D", "drones": False})
+    (there,) = [item for item in told["alternatives"] if item["kind"] == "vehicle"]
+    assert {reason["code"] for reason in there["reasons"]} == {"VEHICLE"}
+    (bound,) = [item for item in told["binding"] if item["rule"] == "vehicles"]
+    assert (bound["at"], bound["unit"], bound["slack"]) == ("D", "rule", None)
+    assert bound["saves_per_unit"] == pytest.approx(-there["cost"]["total"])
+
+
 def test_sorties_and_drones_in_sum_are_told_on_demand(client: httpx.Client,
                                                       asked: Request) -> None:
     told = explained(client, asked | {"customer": None})
@@ -106,6 +123,8 @@ def test_what_has_happened_stays(client: httpx.Client, with_drones: Request) -> 
     told = explained(client, {"problem": problem, "plan": plan, "customer": first["id"]})
     assert told["alternatives"]
     assert not any(item["feasible"] for item in told["alternatives"])
+    reasons = [{reason["code"] for reason in item["reasons"]} for item in told["alternatives"]]
+    assert all("FROZEN" in codes and "TIME_MISMATCH" not in codes for codes in reasons)
 
 
 def test_plan_that_breaks_a_rule_is_refused_with_what_it_breaks(client: httpx.Client,

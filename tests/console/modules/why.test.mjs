@@ -55,6 +55,14 @@ test('what binds is told with what a unit more would save', () => {
     'The longest trip of van: one km more would save 1.25.');
 });
 
+test('a rule without a number that binds is told with what it costs', () => {
+  const limit = { at: 'A', slack: null, unit: 'rule', saves_per_unit: 1.25 };
+  assert.equal(bindingInWords({ ...limit, rule: 'vehicles' }),
+    'Which vehicles may serve it: without this rule 1.25 would be saved.');
+  assert.equal(bindingInWords({ ...limit, rule: 'pickups', at: 'van' }),
+    'The order of pickups of van: without this rule 1.25 would be saved.');
+});
+
 test('what drones save in sum is told with how that is known', () => {
   const told = { saves: 10, saves_at_most: 12, seconds: 1.25 };
   assert.deepEqual(drones(told, 100), [

@@ -7,7 +7,8 @@ from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench
 from model.judge.binding import find_binding
 from model.judge.check import check
-from model.problem import MICROJOULES_PER_WH, Energy, Overtime
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision
+from model.problem import MICROJOULES_PER_WH, Energy, IncompatibleGoods, Overtime
 from model.solution import Solution, Trip
 from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
 from tests.model.tiny import draw_tiny, with_duty
@@ -127,3 +128,46 @@ def test_what_is_saved_is_saved_by_a_plan_that_the_judge_accepts(seed):
             # More of anything leaves a legal plan legal, and as cheap at most.
             relaxed = check(each.limit.problem, solution)
             assert {item.code for item in relaxed.violations} <= {"TIME_MISMATCH"}
+
+
+def test_rules_that_send_another_vehicle_are_told_with_what_they_cost(tiny_problem, customers,
+                                                                       truck):
+    a, b, c, d = customers
+
+    def two_types(*served, **skills):
+        kinds = [replace(truck, id=name, count=1, cost_per_km=1.0,
+                         skills=skills.get(name, frozenset())) for name in ("first", "other")]
+        return replace(tiny_problem(*served, truck=truck), vehicle_types=tuple(kinds))
+
+    free, crane = two_types(a, b, c, d), frozenset({"crane"})
+    held = two_types(a, replace(b, goods=frozenset({"food"})),
+                     replace(c, goods=frozenset({"paint"})), d)
+    bound = {
+        "vehicles": replace(free, may_serve=np.array([[True, True, False, True], [True] * 4])),
+        "skills": two_types(a, b, replace(c, skills=crane), d, other=crane),
+        "goods": replace(held, incompatible_goods=(IncompatibleGoods(frozenset({"food", "paint"})),
+                                                   ))}
+    solution = plan(free, route(A, B, D), RouteDecision(1, 0, (TripDecision((0, C, 0)),)))
+    # The first passes c on its way to d; the other makes 6 km for it.
+    for field, problem in bound.items():
+        assert binding(problem, solution, C) == {field: (None, pytest.approx(6.0))}
+    assert binding(free, solution, C) == {}
+
+
+def test_order_of_pickups_is_told_with_what_it_costs(tiny_problem, customers, truck):
+    a, *others = customers
+    a = replace(a, demand=(0,), pickup=(1000,), latest=10 * MINUTE)
+    problem = tiny_problem(a, *others, truck=replace(truck, cost_per_km=1.0, pickups="last"))
+    # a has to be reached before all others are served.
+    solution = plan(problem, route(B, C, D), unassigned=(A,))
+    found = binding(replace(problem, unassigned_cost=50.0), solution, A)
+    assert found["pickups"] == (None, pytest.approx(50.0))
+
+
+def test_who_must_be_flown_to_is_told_what_that_costs(tiny_problem, customers, truck, drones):
+    a, b, c, d = customers
+    carrier = replace(truck, count=1, drones=replace(drones, cost_per_km=3.0))
+    problem = tiny_problem(a, b, replace(c, served_by="drone"), d, truck=carrier)
+    solution = plan(problem, route(A, B, D, sorties=(SortieDecision((C,), 2, 3),)))
+    # From b to c and on to d: 2 km by air.
+    assert binding(problem, solution, C)["served_by"] == (None, pytest.approx(6.0))

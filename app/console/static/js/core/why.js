@@ -23,6 +23,14 @@ const RULES = {
   'drones.capacity': ['the drone capacity', 'more'],
   count: ['the number', 'more'],
   max_trips: ['the most trips', 'more'],
+  'overtime.max_duration': ['the overtime', 'more'],
+  max_stops: ['the most stops on a trip', 'more'],
+  max_sorties: ['the most sorties on a trip', 'more'],
+  vehicles: ['which vehicles may serve it'],
+  served_by: ['whether a truck or a drone must serve it'],
+  skills: ['the skills that it needs'],
+  goods: ['its goods, kept apart from others'],
+  pickups: ['the order of pickups'],
 };
 
 /** Return the rows of a table: `{key, what, where, cost, terms, feasible, reasons}`. */
@@ -56,13 +64,14 @@ function whereInWords({ position, by, service_start: start }) {
   return position.own_trip ? `on a trip of its own, ${at}` : `after ${position.after}, ${at}`;
 }
 
-/** Return a sentence for a limit that binds. */
+/** Return a sentence for a limit that binds, or a rule without a number. */
 export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves }) {
   const field = rule.replace(/^time_windows\[-?\d+\]/, 'time_window').replace(/\[\d+\]$/, '');
   const [name, more] = RULES[field] ?? [rule, 'more'];
-  const whose = name.startsWith('its ') || name.includes('its window') ? '' : ` of ${at}`;
-  const one = unit === 'unit' ? `one ${more}` : `one ${unit} ${more}`;
+  const whose = /^its |its window| it( |$)/.test(name) ? '' : ` of ${at}`;
   const subject = name.charAt(0).toUpperCase() + name.slice(1) + whose;
+  if (unit === 'rule') return `${subject}: without this rule ${money(saves)} would be saved.`;
+  const one = unit === 'unit' ? `one ${more}` : `one ${unit} ${more}`;
   const left = slack > 0 ? ` (${number(slack)} ${plural(unit, slack)} left)` : '';
   if (saves > 0) return `${subject}${left}: ${one} would save ${money(saves)}.`;
   return `${subject} is reached: ${one} would save nothing.`;
