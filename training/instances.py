@@ -6,6 +6,7 @@ import numpy as np
 
 from model.problem import Problem
 from training.mixture import mixed
+from training.particulars import particular
 from training.pickups import pickups
 from training.variants import (
     InstanceConfig,
@@ -34,6 +35,7 @@ VARIANTS: dict[str, Callable[[np.random.Generator, int, InstanceConfig], Problem
     "appointed": appointed,
     "pickups": pickups,
     "various": various,
+    "particular": particular,
 }
 
 VALIDATED = ("cvrp", "vrptw", "soft", "hetero", "multitrip", "drone", "table1", "mixed")
@@ -42,9 +44,9 @@ VALIDATED = ("cvrp", "vrptw", "soft", "hetero", "multitrip", "drone", "table1", 
 COMPARED = (*VALIDATED, "appointed")
 """Variants on which versions of this planner are compared, which stay as they are, too."""
 
-SHARES = {"cvrp": 0.05, "vrptw": 0.26, "soft": 0.04, "hetero": 0.06, "multitrip": 0.07,
-          "drone": 0.1, "table1": 0.12, "mixed": 0.08, "appointed": 0.08, "pickups": 0.07,
-          "various": 0.07}
+SHARES = {"cvrp": 0.05, "vrptw": 0.22, "soft": 0.04, "hetero": 0.06, "multitrip": 0.07,
+          "drone": 0.1, "table1": 0.09, "mixed": 0.08, "appointed": 0.08, "pickups": 0.07,
+          "various": 0.07, "particular": 0.07}
 """How often training draws each variant."""
 
 CUMULATIVE_SHARES = np.cumsum([SHARES[name] for name in VARIANTS])

@@ -1,6 +1,6 @@
 """Random masked rollouts of packed problems, recorded step by step."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -149,11 +149,13 @@ class Units:
     def customer(self, customer: Customer) -> Customer:
         """Convert a customer."""
         late, early = customer.late_cost_per_hour, customer.early_cost_per_hour
-        left_out = customer.unassigned_cost
+        left_out, longest = customer.unassigned_cost, customer.max_time_aboard
         return replace(
             customer, demand=self.amounts(customer.demand), pickup=self.amounts(customer.pickup),
             unassigned_cost=None if left_out is None else left_out * self.money,
             service_duration=self.time * customer.service_duration,
+            setup_duration=self.time * customer.setup_duration,
+            max_time_aboard=None if longest is None else self.time * longest,
             earliest=self.time * customer.earliest, latest=self.limit(customer.latest),
             gaps=tuple((self.time * closes, self.time * opens) for closes, opens in customer.gaps),
             release_time=self.time * customer.release_time,
@@ -166,6 +168,10 @@ class Units:
                        weights=self.amounts(energy.weights),
                        climb_duration=self.time * energy.climb_duration,
                        descent_duration=self.time * energy.descent_duration)
+
+    def durations(self, durations: Mapping[str, int]) -> dict[str, int]:
+        """Convert durations by name."""
+        return {name: self.time * duration for name, duration in durations.items()}
 
     def overtime(self, overtime: Overtime) -> Overtime:
         """Convert overtime."""
@@ -180,6 +186,8 @@ class Units:
             launch_duration=self.time * drones.launch_duration,
             recovery_duration=self.time * drones.recovery_duration,
             service_duration=None if service is None else self.time * service,
+            service_durations=self.durations(drones.service_durations),
+            swap_duration=self.time * drones.swap_duration,
             cost_per_km=self.money / self.length * drones.cost_per_km,
             cost_per_hour=self.money / self.time * drones.cost_per_hour,
             energy=None if drones.energy is None else self.energy(drones.energy))
@@ -199,6 +207,7 @@ class Units:
             max_working_duration=None if working is None else self.time * working,
             max_trip_distance=None if distance is None else self.length * distance,
             reload_duration=self.time * kind.reload_duration,
+            service_durations=self.durations(kind.service_durations),
             speed_profile=None if profile is None else SpeedProfile(
                 tuple(self.time * change for change in profile.times), profile.factors),
             drones=None if kind.drones is None else self.drones(kind.drones))

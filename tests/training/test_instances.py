@@ -35,17 +35,19 @@ def draw(variant: str, num_customers: int = 30, draws: int = 40,
             for index in range(draws)]
 
 
-def is_trip_legal(customer: Customer, kind: VehicleType, out: int, back: int,
-                  length: int, handling: tuple[int, int] = (0, 0)) -> bool:
+def is_trip_legal(customer: Customer, kind: VehicleType, out: int, back: int, length: int,
+                  service: int, handling: tuple[int, int] = (0, 0)) -> bool:
     """Judge a trip to one customer, at the slowest hours of the type."""
     slowest = min(kind.speed_profile.factors) if kind.speed_profile else FULL_SPEED
-    out = -(-out * FULL_SPEED // slowest) + handling[0]
+    out = -(-out * FULL_SPEED // slowest) + customer.setup_duration
+    if customer.max_time_aboard is not None and out > customer.max_time_aboard:
+        return False
+    out += handling[0]
     back = -(-back * FULL_SPEED // slowest) + handling[1]
     arrival = max(kind.earliest, customer.release_time) + out
     start = max(arrival, customer.earliest)
     start = max([start, *(opens for closes, opens in customer.gaps if closes < start)])
-    home = start + customer.service_duration + back
-    working = out + customer.service_duration + back
+    home, working = start + service + back, out + service + back
     return ((customer.late_cost_per_hour is not None or arrival <= customer.latest)
             and home <= kind.latest
             and (kind.max_working_duration is None or working <= kind.max_working_duration)
@@ -65,14 +67,14 @@ def is_served_by_type(problem: Problem, node: int, kind: VehicleType) -> bool:
     if customer.served_by != "drone":
         return is_trip_legal(customer, kind, int(road.duration[first, node]),
                              int(road.duration[node, last]),
-                             int(road.distance[first, node] + road.distance[node, last]))
+                             int(road.distance[first, node] + road.distance[node, last]),
+                             kind.service_at(customer))
     drones = kind.drones
     if drones is None or any(amount > room for amount, room
                              in zip(customer.demand, drones.capacity, strict=True)):
         return False
     flight = problem.travel[drones.travel].duration
-    service = customer.service_duration if drones.service_duration is None \
-        else drones.service_duration
+    service = drones.service_at(customer)
     hubs = [first] + [hub for hub in range(problem.num_depots, problem.num_nodes)
                      if hub != node and problem.customer_at(hub).served_by != "drone"
                      and customer.latest == UNLIMITED]
@@ -80,7 +82,7 @@ def is_served_by_type(problem: Problem, node: int, kind: VehicleType) -> bool:
     last = first if problem.is_nowhere(last) else last
     return min(loops) <= drones.endurance and is_trip_legal(
         customer, dataclasses.replace(kind, speed_profile=None), int(flight[first, node]),
-        int(flight[node, last]), 0, (drones.launch_duration, drones.recovery_duration))
+        int(flight[node, last]), 0, service, (drones.launch_duration, drones.recovery_duration))
 
 
 def comes_behind(problem: Problem, node: int) -> bool:
@@ -271,6 +273,22 @@ def test_various_draws_every_rule() -> None:
     assert {len(c.gaps) for c in customers} == {0, 1, 2, 3}
     assert any(c.unassigned_cost is not None and any(c.pickup) for c in customers)
     assert any(p.may_serve is not None and not p.may_serve.all() for p in problems)
+
+
+def test_particular_draws_every_rule() -> None:
+    problems = draw("particular", draws=120)
+    kinds = [kind for p in problems for kind in p.vehicle_types]
+    drones = [kind.drones for kind in kinds if kind.drones is not None]
+    customers = [c for p in problems for c in p.customers]
+    shared = [p for p in problems if any(c.site is not None for c in p.customers)]
+    assert any(p.setup_between(p.num_depots + 1, p.num_depots) == 0 for p in shared
+               if p.customers[0].setup_duration and p.customers[0].site == p.customers[1].site)
+    assert any(c.gaps and c.setup_duration for c in customers)
+    assert any(c.max_time_aboard is not None and c.setup_duration for c in customers)
+    assert {each.scope for p in problems for each in p.incompatible_goods} == {"trip", "vehicle"}
+    assert any(kind.service_durations for kind in kinds)
+    assert any(each.service_durations and each.swap_duration for each in drones)
+    assert {each.batteries is None for each in drones} == {False, True}
 
 
 def test_sides_span_orders_of_magnitude() -> None:
