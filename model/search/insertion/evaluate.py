@@ -75,7 +75,7 @@ def part_of(vehicle_type: Record, fleet: Fleet, slot: int, move: Record,
     return stops[p].block, stops[stops[q].block].last
 
 
-@inlined
+@spliced
 def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: Record) -> bool:
     """Time the changed stops in slot `to`, which take the place of those from `first` on.
 
@@ -123,7 +123,7 @@ def time_part(world: World, fleet: Fleet, slot: int, first: int, to: int, acc: R
     return True
 
 
-@inlined
+@spliced
 def price_part(world: World, fleet: Fleet, slot: int, first: int, last: int, to: int,
                acc: Record) -> float:
     """Return what it costs to put the stops in slot `to` in the place of `first` to `last`."""
@@ -195,7 +195,7 @@ def give_releases(fleet: Fleet, to: int, alone: bool, trip: Record, release: int
                 stop.release = max(stop.release, release)
 
 
-@inlined
+@spliced
 def price_move(world: World, fleet: Fleet, move: Record, node: int, acc: Record) -> float:
     """Return what it costs to insert a customer as `move` says; INFEASIBLE if it can't be."""
     slot, to = move.slot, len(fleet.route) - 1

@@ -4,7 +4,7 @@ By pairs `(d, c)`, which docs/search.md derives under "Times on a route".
 """
 
 from model.kernel.clock import is_steady, leg_end, setup_beside
-from model.kernel.compiled import inlined
+from model.kernel.compiled import inlined, spliced
 from model.kernel.energy import (
     after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_hover,
 )
@@ -347,7 +347,7 @@ def note_idle(places: Records, stops: Records, first: int, last: int) -> None:
     stops[last].idle = 0
 
 
-@inlined
+@spliced
 def time_block(world: World, k: int, stops: Records, length: int, sorties: Records, count: int,
                first: int, oldest: int, time: int, acc: Record) -> int:
     """Write the block from stop `first`, which the truck reaches at `time`. In place.

@@ -1,7 +1,7 @@
 """Bringing a route up to date after its sequence has changed."""
 
 from model.kernel.clock import is_steady, leg_start, setup_beside
-from model.kernel.compiled import inlined, spliced
+from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import FAR, NONE
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from
@@ -94,7 +94,7 @@ def clear_holds(route: Record, stops: Records, trips: Records) -> None:
         stops[trips[index].first].hold = NONE
 
 
-@inlined
+@spliced
 def settle(world: World, route: Record, stops: Records, trips: Records, sorties: Records,
            acc: Record) -> bool:
     """Let each trip of a timed route begin as late as costs nothing. In place."""
@@ -222,15 +222,21 @@ def stop_beside(fleet: Fleet, node: int) -> int:
     return p
 
 
-@inlined
+@pasted
 def locate(fleet: Fleet, slot: int) -> None:
     """Write where the customers of a route are. In place."""
-    route, stops, sorties = fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]
+    note_places(fleet.where, fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], slot)
+
+
+@inlined
+def note_places(places: Records, route: Record, stops: Records, sorties: Records,
+                slot: int) -> None:
+    """Write where the customers of the route in a slot are. In place: `places` (node,) PLACE."""
     for p in range(route.length):
         if stops[p].kind == CUSTOMER:
-            where = fleet.where[stops[p].node]
+            where = places[stops[p].node]
             where.slot, where.position, where.sortie = slot, p, NOWHERE
     for s in range(route.sorties):
         for visit in range(sorties[s].count):
-            where = fleet.where[sorties[s].nodes[visit]]
+            where = places[sorties[s].nodes[visit]]
             where.slot, where.position, where.sortie = slot, NOWHERE, s

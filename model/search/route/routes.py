@@ -221,7 +221,7 @@ def longer_cost(kind: Record, rate: Record, route: Record, end: int, working: in
     return cost
 
 
-@inlined
+@spliced
 def price_route(world: World, route: Record, stops: Records, trips: Records,
                 sorties: Records) -> tuple[float, float]:
     """Return the cost of a timed route, and what waiting for windows costs of it."""

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from model.kernel.compiled import compiled, inlined, spliced
+from model.kernel.compiled import compiled, inlined, pasted, spliced
 from model.kernel.copying import copy_row, copy_some, copy_records
 from model.kernel.records import Record, Records, record
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
@@ -48,27 +48,32 @@ class Searcher(NamedTuple):
     kept_cost: FloatArray  # (node, slot) where not all routes are lean, what these cost
 
 
-@inlined
+@pasted
 def copy_route(source: Fleet, slot: int, target: Fleet, to: int, lean: int) -> None:
     """Copy a route between fleets, from a slot to a slot; `lean`, only what lean ones need.
 
-    In place.
+    In place. What is called is given rows, since a call copies what describes each array.
     """
-    route = source.route[slot]
+    length = source.route[slot].length
     target.route[to] = source.route[slot]
     target.cost[to] = source.cost[slot]
     for tier in range(tiers_aboard(source)):
-        copy_records(source.halt[slot, tier], target.halt[to, tier], route.length)
+        copy_records(source.halt[slot, tier], target.halt[to, tier], length)
     if lean:
-        stops, copies = source.stop[slot], target.stop[to]
-        for p in range(route.length):
-            copy_lean(stops[p], copies[p])
+        copy_lean_stops(source.stop[slot], target.stop[to], length)
         target.trip[to, 0] = source.trip[slot, 0]
-        return
-    target.early[to] = source.early[slot]
-    copy_records(source.stop[slot], target.stop[to], route.length)
-    copy_records(source.trip[slot], target.trip[to], route.trips)
-    copy_records(source.sortie[slot], target.sortie[to], route.sorties)
+    else:
+        target.early[to] = source.early[slot]
+        copy_records(source.stop[slot], target.stop[to], length)
+        copy_records(source.trip[slot], target.trip[to], source.route[slot].trips)
+        copy_records(source.sortie[slot], target.sortie[to], source.route[slot].sorties)
+
+
+@inlined
+def copy_lean_stops(stops: Records, copies: Records, count: int) -> None:
+    """Copy what a lean route needs of its stops. In place."""
+    for p in range(count):
+        copy_lean(stops[p], copies[p])
 
 
 @inlined
