@@ -65,7 +65,7 @@ def has_crowded_skies(problem: Problem) -> bool:
                for kind in problem.vehicle_types)
 
 
-@pytest.mark.parametrize(("crowded", "most_dearer"), [(False, 0), (True, 6)])
+@pytest.mark.parametrize(("crowded", "most_dearer"), [(False, 0), (True, 7)])
 def test_any_plan_comes_back_no_dearer_without_a_turn(crowded: bool, most_dearer: int) -> None:
     # The search launches in an order of its own, so a few plans with several drones cost more;
     # the planner keeps the plan it began with then.
