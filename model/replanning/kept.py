@@ -147,7 +147,7 @@ def with_drones_then(kind: VehicleType, has_launched: bool) -> VehicleType:
     if kind.drones is None:
         return kind
     first, *others = [replace(drones, has_launched=has_launched) for drones in kind.drone_types]
-    return replace(kind, drones=first, more_drones=tuple(others))
+    return replace(kind, drones=first, more_drones=tuple(others), max_trips=1)
 
 
 def _planned_end(problem: Problem, kept: Kept, ready: int, service_left: int,
