@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, SecretStr
 from pydantic_settings import BaseSettings, SettingsConfigDict
+from model.kernel.cores import num_cores
 
 DEFAULT_POLICY = "attention"
 """Policy that plans when a request names none."""
@@ -73,7 +74,7 @@ class Settings(BaseSettings):
         32 * 2**20, ge=1, description="Largest accepted request body in bytes."
     )
     max_concurrent_plans: int = Field(
-        default_factory=lambda: os.cpu_count() or 1,
+        default_factory=num_cores,
         ge=1,
         description="Plans computed at the same time; further requests wait for their turn. "
         "Usually as many as there are cores.",

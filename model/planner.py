@@ -5,7 +5,6 @@
 
 import gc
 import math
-import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
@@ -17,6 +16,7 @@ from typing import Literal, NamedTuple
 from model.judge.check import Evaluation, check
 from model.kernel.alarm import Alarm
 from model.kernel.compiled import first_to_compile
+from model.kernel.cores import num_cores
 from model.kernel.instance import Instance, pack
 from model.kernel.pausing import EndedError, Pause, pausing
 from model.kernel.warming import Tell, Warming, telling
@@ -126,7 +126,7 @@ class Planner:
         """
         parts = parts_for(problem)
         with telling(tell) as warming, first_to_compile(parts) as is_first:
-            self._warm(warming, parts, is_first and (os.cpu_count() or 1) > 1)
+            self._warm(warming, parts, is_first and num_cores() > 1)
         keep_loaded()
 
     def _warm(self, warming: Warming, parts: Sequence[str], with_helper: bool) -> None:

@@ -9,10 +9,10 @@ from copy import deepcopy
 from inspect import signature
 from typing import Any, TypeVar
 
-import loky
 import numpy as np
 import pytest
 
+from model.kernel.cores import num_cores
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 
 MINUTE = 60_000
@@ -42,7 +42,7 @@ MOST_WORKERS = 8
 
 def pytest_xdist_auto_num_workers() -> int:
     """Return how many processes run tests: as many as there are cores, within the quota on them."""
-    return min(loky.cpu_count(), MOST_WORKERS)
+    return min(num_cores(), MOST_WORKERS)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -1,7 +1,6 @@
 """One loaded planner: is it ready, and what does it answer."""
 
 import logging
-import os
 import time
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -19,6 +18,7 @@ from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.reading import read_request
 from app.requests.refusal import compile_scan
 from app.schemas.request import OptionsInput, PlanRequest
+from model.kernel.cores import num_cores
 from model.kernel.warming import Warmth
 from model.planner import ALONE, Listener, Planner, PlanOptions
 
@@ -174,5 +174,5 @@ def plan_options(stated: OptionsInput, search_threads: int = 1) -> PlanOptions:
         seed=stated.seed,
         time_limit=stated.time_limit,
         search_iterations=stated.search_iterations,
-        threads=min(threads, os.cpu_count() or 1),
+        threads=min(threads, num_cores()),
     )

@@ -1,6 +1,5 @@
 """From the body of a request to the body of its reply."""
 
-import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
@@ -26,6 +25,7 @@ from model.dialects.vroom.planning import Planning
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.timing import TimedRoute
 from model.dialects.vroom.work import LegLimit
+from model.kernel.cores import num_cores
 from model.planner import Listener, Planner, PlanOptions, PlanResult, Progress
 from model.problem import Problem
 from model.solution import Solution
@@ -85,7 +85,7 @@ def _answer(planner: Planner, stated: VroomRequest, body: ReceivedBody, settings
     request = translate(stated)
     options = PlanOptions(
         planner.policies[0],
-        threads=min(stated.options.t or settings.search_threads, os.cpu_count() or 1))
+        threads=min(stated.options.t or settings.search_threads, num_cores()))
 
     def plan(problem: Problem, options: PlanOptions, start: Solution,
              tell: Callable[[Progress], None]) -> PlanResult:

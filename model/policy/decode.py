@@ -1,7 +1,6 @@
 """Plans from an exported policy: greedy or sampled, one network call a decision for all samples."""
 
 import json
-import os
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -13,6 +12,7 @@ import onnxruntime as ort
 from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
 from model.kernel.alarm import silent
+from model.kernel.cores import num_cores
 from model.kernel.instance import Instance
 from model.policy.features import step
 from model.policy.observation import Observation, empty_observation
@@ -158,7 +158,7 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
             temperatures[0] = 0.0
         return _decode_block(policy, seen, temperatures, np.random.default_rng(seed), found, flag)
 
-    with ThreadPoolExecutor(min(lanes, len(firsts), os.cpu_count() or 1)) as pool:
+    with ThreadPoolExecutor(min(lanes, len(firsts), num_cores())) as pool:
         for begin in range(0, len(firsts), lanes):
             now = slice(begin, begin + lanes)
             found = min(pool.map(plan_block, firsts[now], seeds[now]),

@@ -234,7 +234,7 @@ def test_second_process_compiles_the_search_where_nothing_is_yet(
 
     monkeypatch.setattr(planner_module, "first_to_compile", lambda _: nullcontext(True))
     monkeypatch.setattr(planner_module, "beside", watch)
-    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    monkeypatch.setattr(planner_module, "num_cores", lambda: 2)
     planner.warm()
     assert helpers == [COMPILE_SEARCH.format(PLAIN)]
     subprocess.run([sys.executable, "-c", *helpers], check=True)

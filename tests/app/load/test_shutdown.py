@@ -118,7 +118,7 @@ def test_processes_share_the_cores(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr("os.environ", dict(os.environ))
     monkeypatch.setattr("uvicorn.run", run)
-    monkeypatch.setattr("os.cpu_count", lambda: 8)
+    monkeypatch.setattr("loky.cpu_count", lambda: 8)
     run_server(Settings(), "127.0.0.1", 0, 3)
     assert seen[0][0] == "2"
     assert not Path(seen[0][1] or "").exists()

@@ -200,18 +200,17 @@ def test_settings_come_from_the_environment(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 @pytest.mark.parametrize(("stated", "cores", "used"), [
-    (None, 8, 3), (None, 2, 2), (5, 8, 5), (64, 8, 8), (1, 8, 1), (4, None, 1)])
+    (None, 8, 3), (None, 2, 2), (5, 8, 5), (64, 8, 8), (1, 8, 1), (4, 1, 1)])
 def test_threads_are_the_requests_then_the_settings_and_no_more_than_cores(
-        monkeypatch: pytest.MonkeyPatch, stated: int | None, cores: int | None,
-        used: int) -> None:
-    monkeypatch.setattr("os.cpu_count", lambda: cores)
+        monkeypatch: pytest.MonkeyPatch, stated: int | None, cores: int, used: int) -> None:
+    monkeypatch.setattr("app.plans.service.num_cores", lambda: cores)
     options = plan_options(OptionsInput(threads=stated), search_threads=3)
     assert options.threads == used
 
 
 def test_service_searches_with_the_threads_of_its_settings(
         monkeypatch: pytest.MonkeyPatch, smallest: dict[str, Any], planner: Planner) -> None:
-    monkeypatch.setattr("os.cpu_count", lambda: 8)
+    monkeypatch.setattr("app.plans.service.num_cores", lambda: 8)
     service = PlanService(planner, search_threads=3)
     service.start()
     while not service.readiness().is_ready:
