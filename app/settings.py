@@ -77,7 +77,7 @@ class Settings(BaseSettings):
         default_factory=num_cores,
         ge=1,
         description="Plans computed at the same time; further requests wait for their turn. "
-        "Usually as many as there are cores.",
+        "As many as there are cores, or a container may use.",
     )
     search_threads: int = Field(
         1,
