@@ -21,6 +21,24 @@ def overtime(kind: Record, end: int, working: int) -> int:
 
 
 @inlined
+def usual_end(kind: Record) -> int:
+    """Return when the shift ends without overtime."""
+    return kind.usual_end
+
+
+@inlined
+def usual_working(kind: Record) -> int:
+    """Return the longest working duration without overtime."""
+    return kind.usual_working
+
+
+@inlined
+def most_stops(kind: Record) -> int:
+    """Return how many customers the truck may serve itself on a trip, UNLIMITED if any number."""
+    return kind.max_stops
+
+
+@inlined
 def allows_stops(kind: Record, count: int) -> bool:
     """Tell whether the truck may serve so many customers itself on a trip."""
     return is_plain(kind) or count <= kind.max_stops

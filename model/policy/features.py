@@ -7,19 +7,24 @@ from model.kernel.compiled import compiled, inlined
 from model.kernel.flight import longest_flight
 from model.kernel.instance import TIER, Instance
 from model.kernel.leg import lookup, matrix_of
-from model.kernel.load import demand_of, release_of
+from model.kernel.load import (
+    capacity_in, delivered_of, demand_of, excess_aboard, num_tiers, picked_of, release_of,
+    some_limited,
+)
 from model.kernel.records import Record, Records
+from model.kernel.shift import most_stops, usual_end, usual_working
 from model.kernel.stop import closing, lateness
 from model.policy.lookahead import Unit, describe_neighbours, ratio, slack
 from model.policy.observation import Observation
 from model.policy.tokens import NUM_TYPE_FEATURES, Float32Array, Scales
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, IntArray
+from model.simulation.aboard import part_of
 from model.simulation.meeting import NO_VEHICLE
 from model.simulation.simulator import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, finish, legal_actions,
 )
 from model.simulation.transition import State
-from model.simulation.vehicle_log import Setting, setting_of
+from model.simulation.vehicle_log import Setting, VehicleLog, log_of, setting_of
 
 
 @inlined
@@ -29,15 +34,64 @@ def _share(used: int, limit: int) -> float:
 
 
 @inlined
+def _describe_amounts(setting: Setting, vehicle: Record, node: int, tier: int,
+                      feature: Record) -> None:
+    """Describe which share of the room a customer takes, both ways. In place."""
+    delivered, picked = (delivered_of(setting.amount, node, tier),
+                         picked_of(setting.amount, node, tier))
+    room = capacity_in(setting.type, tier)
+    left, aboard = part_of(vehicle.load, tier), part_of(vehicle.aboard, tier)
+    for dimension in range(TIER):
+        most = max(1, room[dimension])
+        feature.load_share = max(
+            feature.load_share, delivered[dimension] / max(1, left[dimension]),
+            picked[dimension] / max(1, room[dimension] - aboard[dimension]))
+        feature.capacity_share = max(feature.capacity_share, delivered[dimension] / most,
+                                     picked[dimension] / most)
+
+
+@inlined
+def _room(kind: Record, vehicle: Record) -> int:
+    """Return what the vehicle could still carry in the first dimension, from here on."""
+    return min(vehicle.load[0], kind.capacity[0] - vehicle.aboard[0])
+
+
+@inlined
+def _stops_left(kind: Record, log: VehicleLog, idle: bool) -> int:
+    """Return how many customers the truck may still serve on its trip.
+
+    Without drones, that is, which may serve others whatever it has served.
+    """
+    most = UNLIMITED if kind.drones > 0 else most_stops(kind)
+    if most >= UNLIMITED or idle:
+        return most
+    return most - (log.count.stops - log.trip[log.count.trips - 1].first_stop - 1)
+
+
+@inlined
+def _share_of_stops(kind: Record, log: VehicleLog, idle: bool) -> float:
+    """Return how many of the customers that a trip may have are left, 1 if any number may be."""
+    stops = _stops_left(kind, log, idle)
+    return 1.0 if stops >= UNLIMITED else stops / max(1, most_stops(kind))
+
+
+@inlined
 def _describe_customer(setting: Setting, unit: Unit, prices: Records, vehicle: Record,
-                       begun: bool, node: int, outlook: Record, feature: Record) -> None:
-    """Describe what serving a customer next means, by truck or drone alike. In place."""
+                       begun: bool, since: int, node: int, outlook: Record,
+                       feature: Record) -> None:
+    """Describe what serving a customer next means, by truck or drone alike. In place.
+
+    `since` is when the trip begins.
+    """
     place = setting.node[node]
     arrival, end = outlook.arrival, outlook.end
     waiting = outlook.start - arrival
     late = lateness(place, arrival)
     feature.waiting = ratio(waiting, unit.time)
     feature.window_slack = slack(closing(place), arrival, unit.time)
+    if some_limited(setting.fresh_for):
+        excess = excess_aboard(setting.fresh_for, node, since, outlook.start)
+        feature.window_slack = min(feature.window_slack, slack(0, excess, unit.time))
     window_cost = late * prices[node].lateness + waiting * prices[node].waiting
     feature.lateness = ratio(window_cost / MS_PER_HOUR, unit.cost)
     for dimension in range(TIER):
@@ -46,9 +100,11 @@ def _describe_customer(setting: Setting, unit: Unit, prices: Records, vehicle: R
             capacity = setting.type.capacity[dimension]
             feature.load_share = max(feature.load_share, demand / vehicle.load[dimension])
             feature.capacity_share = max(feature.capacity_share, demand / capacity)
-    feature.shift_slack = slack(setting.type.shift_latest, end, unit.time)
+    for tier in range(num_tiers(setting.amount)):
+        _describe_amounts(setting, vehicle, node, tier, feature)
+    feature.shift_slack = slack(usual_end(setting.type), end, unit.time)
     departure = vehicle.departure_best if begun else vehicle.next_start
-    feature.working_slack = slack(setting.type.max_working_duration, end - departure, unit.time)
+    feature.working_slack = slack(usual_working(setting.type), end - departure, unit.time)
     feature.release_delay = ratio(release_of(place) - vehicle.next_start, unit.time)
 
 
@@ -60,6 +116,24 @@ def _describe_leg(unit: Unit, duration: int, distance: int, km: float, hour: flo
     feature.nearness = ratio(duration, unit.near)
     cost = distance / MM_PER_KM * km + duration / MS_PER_HOUR * hour
     feature.cost = min(cost / unit.cost, 5.0)
+
+
+@inlined
+def _describe_drive(setting: Setting, unit: Unit, vehicle: Record, log: VehicleLog,
+                    distance: IntArray, node: int, nearest: int, feature: Record) -> None:
+    """Describe what a drive to a customer leaves of the trip, and its detour. In place."""
+    here, home = vehicle.node, setting.type.ends_at
+    way, way_home = lookup(setting.drive, here, node), lookup(setting.drive, node, home)
+    used = vehicle.distance + lookup(distance, here, node) + lookup(distance, node, home)
+    feature.distance_slack = slack(setting.type.max_trip_distance, used,
+                                   lookup(distance, home, node))
+    detour = (way + way_home - lookup(setting.drive, here, home)) / unit.time
+    feature.detour = max(min(detour, 5.0), -5.0)
+    feature.excess = ratio(way - nearest, unit.near)
+    stops = _stops_left(setting.type, log, vehicle.idle)
+    if stops < UNLIMITED:
+        feature.load_share = 1.0 / max(1, stops)
+        feature.capacity_share = 1.0 / max(1, most_stops(setting.type))
 
 
 @inlined
@@ -87,7 +161,7 @@ def _nearest_drive(drive: IntArray, here: int, actions: IntArray) -> int:
 def _describe_return(setting: Setting, vehicle: Record, trips: int,
                      feature: Record) -> None:
     """Describe returning to the depot. In place."""
-    feature.load_share = vehicle.load[0] / max(1, setting.type.capacity[0])
+    feature.load_share = _room(setting.type, vehicle) / max(1, setting.type.capacity[0])
     feature.capacity_share = min(setting.type.max_trips - trips, 4) / 4
 
 
@@ -104,15 +178,18 @@ def _describe_open(kind: Record, fixed: float, used: int, unserved: float, unit:
 
 @inlined
 def _unserved_demand(instance: Instance, state: State, r: int) -> float:
-    """Return the demand left in the first dimension."""
+    """Return the demand left in the first dimension: what is delivered or, if more, picked up."""
     b = state.problem[r]
     nodes, served = instance.node[b, 0], state.served[r]
-    total = 0.0
+    amounts = instance.amount[b]
+    total = picked = 0.0
     size = instance.size[b]
     for node in range(size.depots, size.depots + size.customers):
         if not served[node]:
             total += demand_of(nodes[node])[0]
-    return total
+            if num_tiers(amounts) > 0:
+                picked += picked_of(amounts, node, 0)[0]
+    return max(total, picked)
 
 
 @inlined
@@ -142,19 +219,20 @@ def _describe_state(instance: Instance, scale: Scales, state: State, type_token:
         home = lookup(matrix_of(instance.duration, b, kind.travel), vehicle.node,
                       kind.ends_at)
         seen.way_home = min(home / scale.time[b], 5.0)
-        reserve += vehicle.load[0]
+        reserve += _room(kind, vehicle)
     seen.demand_by_reserve = min(unserved / max(1.0, reserve), 2.0)
     seen.idle = vehicle.idle
     seen.clock = min(clock / scale.horizon[b], 2.0)
-    seen.load_left = vehicle.load[0] / capacity
+    seen.load_left = min(_room(kind, vehicle) / capacity,
+                         _share_of_stops(kind, log_of(state.log, r), vehicle.idle))
     seen.spare_reserve = max(min((reserve - unserved) / capacity, 2.0), -2.0)
     seen.trips_left = min(trips_left, 4) / 4
-    seen.shift_slack = slack(kind.shift_latest, clock, scale.time[b])
+    seen.shift_slack = slack(usual_end(kind), clock, scale.time[b])
     working = clock - vehicle.departure_best if state.log.count[r].trips else 0
-    seen.working_slack = slack(kind.max_working_duration, working, scale.time[b])
+    seen.working_slack = slack(usual_working(kind), working, scale.time[b])
     seen.flying = vehicle.flying / max(1, kind.drones)
     seen.drone_aboard = kind.drones > vehicle.flying
-    seen.load_by_demand = min(vehicle.load[0] / max(1.0, unserved), 2.0)
+    seen.load_by_demand = min(_room(kind, vehicle) / max(1.0, unserved), 2.0)
     for column in range(NUM_TYPE_FEATURES):
         seen.type[column] = type_token[b, k, column]
 
@@ -185,10 +263,12 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
     vehicle = state.vehicle[r]
     rate, prices = instance.rate[b, k], instance.price[b]
     unit = Unit(scale.time[b], scale.near[b], scale.cost[b])
-    home, here = setting.type.ends_at, vehicle.node
+    here = vehicle.node
     distance = matrix_of(instance.distance, b, setting.type.travel)
     flown = matrix_of(instance.distance, b, setting.type.drone_travel)
-    trips = state.log.count[r].trips
+    log = log_of(state.log, r)
+    trips = log.count.trips
+    since = vehicle.next_start if vehicle.idle else log.trip[trips - 1].start
     actions = seen.action[r, : seen.count[r]]
     nearest = _nearest_drive(setting.drive, here, actions)
     for index in range(len(actions)):
@@ -207,19 +287,14 @@ def _describe_moves(instance: Instance, scale: Scales, state: State, r: int,
         if kind == RETURN:
             _describe_return(setting, vehicle, trips, feature)
             continue
-        way, way_home = lookup(setting.drive, here, node), lookup(setting.drive, node, home)
-        feature.way_home = min(way_home / unit.time, 5.0)
+        feature.way_home = min(lookup(setting.drive, node, setting.type.ends_at) / unit.time, 5.0)
         if kind == DRIVE:
-            used = vehicle.distance + lookup(distance, here, node) + lookup(distance, node, home)
-            feature.distance_slack = slack(
-                setting.type.max_trip_distance, used, lookup(distance, home, node))
-            detour = (way + way_home - lookup(setting.drive, here, home)) / unit.time
-            feature.detour = max(min(detour, 5.0), -5.0)
-            feature.excess = ratio(way - nearest, unit.near)
-        _describe_customer(setting, unit, prices, vehicle, trips > 0, node,
+            _describe_drive(setting, unit, vehicle, log, distance, node, nearest, feature)
+        _describe_customer(setting, unit, prices, vehicle, trips > 0, since, node,
                            seen.outlook[r, index], feature)
-        describe_neighbours(setting, instance.neighbour[b], state.served[r], vehicle.load[0], here,
-                            node, seen.outlook[r, index], unit, kind == LAUNCH, feature)
+        describe_neighbours(setting, instance.neighbour[b], state.served[r],
+                            _room(setting.type, vehicle), here, node, seen.outlook[r, index], unit,
+                            kind == LAUNCH, feature)
 
 
 @compiled

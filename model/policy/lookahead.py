@@ -10,7 +10,7 @@ from model.kernel.compiled import inlined
 from model.kernel.flight import unreachable
 from model.kernel.instance import NONE
 from model.kernel.leg import lookup
-from model.kernel.load import demand_of
+from model.kernel.load import demand_of, num_tiers, picked_of
 from model.kernel.records import Record
 from model.kernel.stop import (
     closing, end_of_service, lateness, service_duration, start_of_service, waiting,
@@ -71,6 +71,15 @@ def _describe_company(drive: IntArray, neighbours: IntArray, served: BoolArray, 
 
 
 @inlined
+def _asked(setting: Setting, node: int) -> int:
+    """Return what a customer asks to be carried in the first dimension, whichever way is more."""
+    delivered = demand_of(setting.node[node])[0]
+    if num_tiers(setting.amount) == 0:
+        return delivered
+    return max(delivered, picked_of(setting.amount, node, 0)[0])
+
+
+@inlined
 def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, load: int,
                     here: int, node: int, outlook: Record, unit: Unit,
                     feature: Record) -> None:
@@ -81,7 +90,7 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
     nodes, drive, place = setting.node, setting.drive, setting.node[node]
     arrival, way = outlook.arrival, lookup(setting.drive, here, node)
     leave = outlook.start + service_duration(place)
-    left = load - demand_of(place)[0]
+    left = load - _asked(setting, node)
     soonest = tightest = detour = later = UNLIMITED
     seen = lost = 0
     for rank in range(neighbours.shape[1]):
@@ -96,7 +105,7 @@ def _describe_drive(setting: Setting, neighbours: IntArray, served: BoolArray, l
         then, directly = leave + lookup(drive, node, other), arrival - way + past
         if lateness(place, end_of_service(there, NONE) + back) == 0:
             later = min(later, back + waiting(place, latest + service_duration(there) + back))
-        if then <= latest and demand_of(there)[0] <= left:
+        if then <= latest and _asked(setting, other) <= left:
             soonest = min(soonest, start_of_service(there, then) - leave)
             if latest < UNLIMITED:
                 tightest = min(tightest, latest - then)

@@ -20,13 +20,16 @@ ACTION = row_of_floats(
     "next_way", "third_way", "next_excess",
     "next_duration", "next_slack", "lost", "detour_before", "later_duration")
 """A legal action: its kind; duration by scale and by nearness, cost, waiting, slack to the end of
-the window, lateness cost, share of the load left and of the capacity, slack to the end of the
-shift, way home from there, slack of distance, of working duration, detour against going home now,
-excess over the nearest candidate, share of the endurance, delay for release; way to the nearest
-unserved customer, to the third nearest, the former's excess over the way from here. Of the nearest
-unserved ones in time: how soon one is served next (a drone recovered), its slack (the truck's
-waiting), the share lost by this action, the detour by one before (by air: that the truck would make
-instead), how soon this one could be served after another.
+the window (or, if less, of the longest time aboard), lateness cost, share of the load left and of
+the capacity, slack to the end of the shift, way home from there, slack of distance, of working
+duration, detour against going home now, excess over the nearest candidate, share of the endurance,
+delay for release; way to the nearest unserved customer, to the third nearest, the former's excess
+over the way from here. Of the nearest unserved ones in time: how soon one is served next (a drone
+recovered), its slack (the truck's waiting), the share lost by this action, the detour by one before
+(by air: that the truck would make instead), how soon this one could be served after another.
+
+What is picked up is a load too, and so is a customer where trips of a truck without drones may have
+so many. Shift and working duration end where overtime begins.
 
 Of a return, the shares are the load left of the capacity, and the trips left. Of a vehicle to open,
 they are the vehicles left and the capacity by what is unserved; the slack of distance tells whether

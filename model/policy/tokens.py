@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.kernel.instance import FAR, Instance
+from model.kernel.instance import FAR, TIER, Instance
 from model.kernel.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 
@@ -27,7 +27,7 @@ class Scales(NamedTuple):
     near: FloatArray  # (problem,) ms from a customer to its nearest neighbour, mean
     horizon: FloatArray  # (problem,) ms, the last limit stated, or a guess
     cost: FloatArray  # (problem,) cost of driving from a depot to a customer, mean
-    amount: FloatArray  # (problem,) total demand in the first dimension
+    amount: FloatArray  # (problem,) total demand in the first dimension, or of pickups if more
 
 
 class Tokens(NamedTuple):
@@ -43,6 +43,7 @@ def scales(instance: Instance) -> Scales:
     """Measure the units of each problem."""
     rows = len(instance.size)
     result = Scales(*(np.ones(rows) for _ in Scales._fields))
+    picked = picked_up(instance)
     for b in range(rows):
         depots, customers, types, _ = instance.size[b].tolist()
         if customers == 0:
@@ -52,12 +53,9 @@ def scales(instance: Instance) -> Scales:
         legs = [instance.duration[b, kind.travel, kind.begins_at, nodes] for kind in kinds]
         result.time[b] = max(1.0, float(np.mean(legs)))
         between = instance.duration[b, kinds[0].travel, nodes, nodes].astype(np.float64)
-        np.fill_diagonal(between, np.inf)
-        nearest = between.min(axis=1)
-        near = float(nearest.mean()) if customers > 1 else result.time[b]
-        result.near[b] = max(1.0, near)
+        result.near[b] = max(1.0, _nearest(between) if customers > 1 else result.time[b])
         closing = instance.node[b, 0, nodes, 0]["window_latest"]
-        limits = np.concatenate([closing, kinds["shift_latest"]])
+        limits = np.concatenate([closing, kinds["usual_end"]])
         limits = limits[limits < UNLIMITED]
         result.horizon[b] = max(1, limits.max()) if len(limits) else 20 * result.time[b]
         driven = [instance.distance[b, kind.travel, kind.begins_at, nodes].mean()
@@ -66,8 +64,19 @@ def scales(instance: Instance) -> Scales:
         cost = float(np.mean(rate["distance"] * driven) / MM_PER_KM
                      + rate["time"].mean() * result.time[b] / MS_PER_HOUR)
         result.cost[b] = cost if cost > 0 else max(1e-9, float(rate["fixed"].mean()) or 1.0)
-        result.amount[b] = max(1, instance.node[b, 0, nodes, 0]["demand"][:, 0].sum())
+        delivered = instance.node[b, 0, nodes, 0]["demand"]
+        result.amount[b] = max(1, picked[b, nodes, 0].sum(), delivered[:, 0].sum())
     return result
+
+
+def _nearest(between: FloatArray) -> float:
+    """Return the mean way from a customer to the nearest; elsewhere, if nobody is alone."""
+    np.fill_diagonal(between, np.inf)
+    nearest = between.min(axis=1)
+    if not nearest.any():
+        nearest = np.where(between > 0, between, np.inf).min(axis=1)
+        nearest = nearest[np.isfinite(nearest)]
+    return float(nearest.mean()) if len(nearest) else 0.0
 
 
 def squash(value: FloatArray) -> FloatArray:
@@ -111,6 +120,14 @@ def own_rows(instance: Instance) -> Records:
     return instance.node[:, 0, :, 0]
 
 
+def picked_up(instance: Instance) -> IntArray:
+    """Return what is picked up, (problem, node, dimension), in the first dimensions."""
+    if instance.amount.shape[2] == 0:
+        return np.zeros((*instance.amount.shape[:2], TIER), np.int64)
+    picked: IntArray = instance.amount[:, :, 0, TIER:2 * TIER]
+    return picked
+
+
 def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
                   is_node: NDArray[np.bool_]) -> FloatArray:
     """Describe depots and customers, (problem, node, NUM_NODE_FEATURES)."""
@@ -122,7 +139,7 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     place = (coordinates - (low + high) / 2) / extent * 2
     nodes = own_rows(instance)
     is_depot = np.arange(nodes.shape[1]) < instance.size["depots"][:, None]
-    demand = nodes["demand"]
+    demand = np.maximum(nodes["demand"], picked_up(instance))
     seen = demand.shape[-1]
     capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :seen]
     payload = instance.type["payload"].max(axis=1)[:, None, :seen]
@@ -191,8 +208,8 @@ def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_])
         squash(rate["distance"] * driven / MM_PER_KM / cost),
         squash(rate["time"] * hours / cost), squash(leg / time),
         np.minimum(kind["shift_earliest"] / horizon, 2),
-        np.minimum(kind["shift_latest"] / horizon, 2),
-        squash(unbounded(kind["max_working_duration"]) / time / 8),
+        np.minimum(kind["usual_end"] / horizon, 2),
+        squash(unbounded(kind["usual_working"]) / time / 8),
         squash(unbounded(kind["max_trip_distance"]) / np.maximum(driven, 1) / 8),
         squash((kind["max_trips"] - 1.0) / 2), squash(kind["reload_duration"] / time),
         kind["speed_changes"] > 0, squash(drones / 2.0),

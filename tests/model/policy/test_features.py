@@ -9,11 +9,12 @@ from model.kernel.instance import pack
 from model.policy import features
 from model.policy.observation import NUM_ACTION_FEATURES, empty_observation
 from model.policy.tokens import scales, tokens
-from model.problem import Problem
+from model.problem import Overtime, Problem
 from model.simulation.simulator import DRIVE, OPEN, apply, encode_action, reset
 from tests.conftest import MINUTE
 from tests.model.rollouts import Batch, Units, in_other_units, random_problems, roll
 from tests.model.tiny import draw_tiny, with_energy
+from training.instances import generate
 
 TOLERANCE = 1e-5
 SIGNED = {
@@ -142,3 +143,58 @@ def test_a_battery_is_seen_as_how_long_it_lasts() -> None:
     seen = [tokens(instance, scales(instance), problem.coordinates[None]).type
             for instance in (pack([problem]), pack([other]))]
     assert (seen[0][0, 0] == seen[1][0, 0]).all()
+
+
+def mirrored(problem: Problem) -> Problem:
+    """Return the problem in which everything that was to be delivered is picked up."""
+    return replace(problem, customers=tuple([
+        replace(customer, demand=(0,) * len(customer.demand), pickup=customer.demand)
+        for customer in problem.customers]))
+
+
+def test_what_is_picked_up_is_seen_as_what_is_delivered() -> None:
+    rng = np.random.default_rng(3)
+    for variant in ("cvrp", "hetero", "multitrip"):
+        problem = generate(rng, 12, variant)
+        one, other = (roll([each], seed=5) for each in (problem, mirrored(problem)))
+        np.testing.assert_array_equal(one.tokens.node, other.tokens.node)
+        np.testing.assert_array_equal(one.tokens.type, other.tokens.type)
+        steps, mirror = one.rollouts[0].steps, other.rollouts[0].steps
+        assert [step.codes for step in steps] == [step.codes for step in mirror]
+        for step, same in zip(steps, mirror, strict=True):
+            np.testing.assert_array_equal(step.feature, same.feature)
+            np.testing.assert_array_equal(step.glob, same.glob)
+
+
+def test_overtime_is_seen_as_no_longer_shift() -> None:
+    problem = generate(np.random.default_rng(8), 12, "multitrip")
+    longer = replace(problem, vehicle_types=tuple([
+        replace(kind, overtime=Overtime(1.0)) for kind in problem.vehicle_types]))
+    seen = [tokens(instance, scales(instance), problem.coordinates[None]).type
+            for instance in (pack([problem]), pack([longer]))]
+    np.testing.assert_array_equal(*seen)
+
+
+def first_drives(problem: Problem, name: str) -> list[float]:
+    """Return a feature of the drives of the first vehicle, which has just been opened."""
+    instance = pack([problem])
+    scale = scales(instance)
+    state = reset(instance, np.zeros(1, np.int64))
+    seen = empty_observation(1, problem.num_nodes, 1)
+    types = tokens(instance, scale, problem.coordinates[None]).type
+    apply(instance, state, 0, encode_action(OPEN, 0))
+    features.observe(instance, scale, state, types, 0, 1, 1, seen)
+    return [float(seen.described[name][0, index]) for index, code
+            in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == DRIVE]
+
+
+def test_time_aboard_and_stops_are_seen_as_slack_and_load(tiny_problem, customers, truck) -> None:
+    a, *others = customers
+    fresh = replace(a, max_time_aboard=3 * MINUTE)
+    # Places are 5 minutes away in the mean; a is served after 2.
+    scale, first = 5 * MINUTE, first_drives(tiny_problem(fresh, *others, truck=truck),
+                                            "window_slack")[0]
+    assert first == pytest.approx(MINUTE / (MINUTE + scale), rel=1e-6)
+    few = tiny_problem(*customers, truck=replace(truck, max_stops=3))
+    assert first_drives(few, "load_share") == pytest.approx([1 / 3] * 4)
+    assert first_drives(few, "capacity_share") == pytest.approx([1 / 3] * 4)

@@ -145,8 +145,7 @@ def test_a_drone_that_can_start_at_once_goes_before_one_held_back(late, counts):
 def test_a_drone_held_at_the_depot_is_no_work_before_it_takes_off(late):
     truck, = late.vehicle_types
     late = replace(late, vehicle_types=(replace(truck, max_working_duration=16 * MINUTE),))
-    late = replace(late, customers=(late.customers[3],),
-                   travel=small_problem(late, 0, [4]).travel, coordinates=np.zeros((2, 2)))
+    late = small_problem(late, 0, [4], truck.drones)
     # 4 minutes out, 5 of service, 4 back, a minute to recover.
     solution = decoded(late, (OPEN, 0), (LAUNCH, 1), (RETURN, 0))
     assert check(late, solution).routes[0].working_duration == 14 * MINUTE
