@@ -29,7 +29,6 @@ ErrorCode = Literal[
     "TOO_MANY_PARTS",
     "DUPLICATE_ID",
     "MISSING_DRONE_ID",
-    "NOT_PLANNED",
     "NO_DEPOT",
     "EMPTY_FLEET",
     "UNKNOWN_DEPOT",

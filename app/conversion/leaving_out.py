@@ -28,8 +28,9 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     horizon = max([time for time in stated if time < UNLIMITED], default=0) / MS_PER_HOUR
     served = [customer.service_duration for customer in customers]
     for kind in vehicle_types:
-        for server in (kind, *kind.drone_types):
-            served += server.service_durations.values()
+        served += kind.service_durations.values()
+        for drones in kind.drone_types:
+            served += drones.service_durations.values()
     setup = max([customer.setup_duration for customer in customers], default=0)
     service = (max(served, default=0) + setup) / MS_PER_HOUR
     longest = [_longest_leg(travel) for travel in travels]
