@@ -183,9 +183,10 @@ def _drones(rng: random.Random, dimensions: int) -> Data:
         **_maybe(rng, 0.4, max_customers_per_sortie=rng.choice((1, 2, 3, 100))),
         **_maybe(rng, 0.5, costs={"per_km": rng.choice((0, 0.25, RICHEST)),
                                   "per_hour": rng.choice((0, 5, RICHEST))}),
-        **_maybe(rng, 0.4, energy=_energy(rng, dimensions)),
         **_maybe(rng, 0.3, turnaround={"swap_duration": rng.choice((0, 45, LONGEST)),
-                                       "batteries": rng.choice((None, 0, 1, 3, 1_000_000))})}
+                                       "batteries": rng.choice((None, 0, 1, 3, 1_000_000))}),
+        **_maybe(rng, 0.4, energy=_energy(rng, dimensions),
+                 **_maybe(rng, 0.4, turnaround={"charge_w": rng.choice((0, 1e-9, 40, 1e5))}))}
 
 
 def _energy(rng: random.Random, dimensions: int) -> Data:

@@ -60,8 +60,8 @@ HOMES = {
     "kernel/flight": {".endurance", ".launch_duration", ".recovery_duration",
                       ".relaunch_duration", ".waiting_counts",
                       "UNREACHABLE"},
-    "kernel/energy": {".battery", ".lands", ".climb_duration", ".descent_duration", ".cruise",
-                      ".hover"},
+    "kernel/energy": {".battery", ".charge", ".first_charge", ".lands",
+                      ".climb_duration", ".descent_duration", ".cruise", ".hover"},
     "kernel/load": {".capacity", ".demand", ".payload", ".pickup_order"},
     "kernel/clock": {".setup_duration", ".site", ".speed_changes", "FULL_SPEED",
                      "arrival_by_profile", "leave_by_profile"},
@@ -73,6 +73,7 @@ With a dot: a field, which may be read as an attribute or by its name in quotes.
 """
 DESCRIBING = {
     "kernel/instance": set.union(*HOMES.values()),
+    "kernel/battery_rows": HOMES["kernel/energy"],
     "kernel/asked": {".demand", ".setup_duration", ".site"},
     "kernel/variants": {".service_duration", ".setup_duration", ".site"},
     "policy/tokens": set.union(*HOMES.values()),

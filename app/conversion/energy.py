@@ -1,6 +1,7 @@
 """`EnergyInput` -> `Energy`; powers are rounded here, once, at some weights."""
 
 from collections.abc import Collection, Sequence
+from math import ceil
 
 from app.conversion.amounts import counted
 from app.conversion.powers import Curve, climb_of, powers_of
@@ -35,13 +36,14 @@ def to_energy(drones: DronesInput, stated: EnergyInput, decimals: Sequence[int],
     def rounded(curve: Curve) -> tuple[int, ...]:
         return tuple([round(max(0.0, curve(weight)) * MILLIWATTS) for weight in kg])
 
+    charge_w = drones.turnaround.charge_w if drones.turnaround else 0.0
     return Energy(
         available=round(stated.battery_wh * (1.0 - stated.reserve) * MICROJOULES_PER_WH),
         usable_share=1.0 - stated.reserve, weights=weights, cruise=rounded(powers.cruise),
         hover=rounded(powers.hover), climb=rounded(powers.climb),
         descent=rounded(powers.descent), climb_duration=thousandths(climb.up_seconds),
         descent_duration=thousandths(climb.down_seconds), dimension=dimension,
-        lands=stated.lands, preset=stated.preset)
+        lands=stated.lands, preset=stated.preset, charge=ceil(charge_w * MILLIWATTS))
 
 
 def _points(most: int, weights: set[int]) -> tuple[int, ...]:

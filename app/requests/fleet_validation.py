@@ -71,6 +71,23 @@ def energy_errors(draft: Draft) -> Errors:
                            "be counted: check kg_per_unit, capacity and the powers per kg.")
 
 
+def turnaround_errors(draft: Draft) -> Errors:
+    """Say what is wrong with how drones get ready again."""
+    for path, drones in draft.drone_types():
+        turnaround = drones.turnaround
+        if turnaround is None or not turnaround.charge_w:
+            continue
+        here = (*path, "turnaround", "charge_w")
+        if drones.energy is None:
+            yield error_at("CHARGE_WITHOUT_ENERGY", here,
+                           "Nothing says what flights take of the battery that is charged: state "
+                           "energy, or leave charge_w out.")
+        if turnaround.swap_duration or turnaround.batteries is not None:
+            yield error_at("SWAP_OR_CHARGE", here,
+                           "Batteries are either swapped or charged aboard: leave out charge_w, or "
+                           "swap_duration and batteries.")
+
+
 def _is_countable(draft: Draft, drones: DronesInput, energy: EnergyInput) -> bool:
     """Tell whether powers can be counted, or can't be looked at for other errors."""
     customers = [customer for _, customer in draft.known_customers()]

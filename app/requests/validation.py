@@ -10,7 +10,7 @@ from app.requests.customer_validation import (
 )
 from app.requests.draft import Draft, Errors, Path, error_at, point_errors
 from app.requests.fleet_validation import (
-    depot_errors, drone_errors, energy_errors, shift_errors, speed_errors,
+    depot_errors, drone_errors, energy_errors, shift_errors, speed_errors, turnaround_errors,
 )
 from app.requests.plan_validation import Names, replan_errors
 from app.schemas.customer import CustomerInput
@@ -45,6 +45,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *speed_errors(draft),
         *drone_errors(draft),
         *energy_errors(draft),
+        *turnaround_errors(draft),
         *airspace_errors(draft),
         *_policy_errors(draft, policies),
         *_unplanned_errors(draft, policies),

@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Discriminator, Field, Tag
 
 from app.errors import ALONE, LISTED
-from app.schemas.energy import EnergyInput
+from app.schemas.energy import EnergyInput, Watts
 from app.schemas.fields import Count, Demand, Input, Money, Name, Seconds, Speed
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
@@ -33,6 +33,12 @@ class TurnaroundInput(Input):
         None,
         description="Charged batteries that a truck has for each trip, those in its drones among "
         "them: every sortie takes one. Null: enough.",
+    )
+    charge_w: Watts = Field(
+        0.0,
+        description="Power in watts at which a drone's only battery is charged while it rests "
+        "aboard, full as each trip begins; it needs `energy`, and excludes the other two. 0: every "
+        "launch begins with a full battery.",
     )
 
 

@@ -98,7 +98,7 @@ class BindingReply(_Reply):
     slack: float | None = Field(
         description="How much is left until it, in units. 0: none. Null: the customer isn't "
         "served where it counts, or it is no number.")
-    unit: Literal["minute", "unit", "km", "vehicle", "trip", "Wh", "rule"] = Field(
+    unit: Literal["minute", "unit", "km", "vehicle", "trip", "Wh", "W", "rule"] = Field(
         description="What `slack` is counted in. `rule`: it has no number, as `vehicles`.")
     saves_per_unit: float = Field(
         description="What the plan would cost less with one unit more, or without the `rule`, the "

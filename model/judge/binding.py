@@ -22,18 +22,21 @@ from model.judge.places import Place
 from model.judge.rules import airborne_duration
 from model.judge.screening import Screen
 from model.problem import (
-    MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
+    MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
     VehicleType,
 )
-from model.solution import Trip
+from model.solution import Sortie, Trip
 
-Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh", "rule"]
+Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh", "W", "rule"]
 """Of a rule without a number a unit more is the rule itself, lifted."""
 
 Whose = Literal["customer", "vehicle_type"]
 
 NOT_WORTH = 1e-6
 """Less than this share of a plan's cost is rounding."""
+
+WATT = 1000
+"""In mW."""
 
 MAX_RETRIES = 6
 """Places tried that would be cheaper, if only they were legal."""
@@ -314,14 +317,7 @@ def _limits_of(bench: Bench, kind: VehicleType, index: int,
             slack = float(drones.batteries - len(used))
         richer = replace(drones, batteries=drones.batteries + 1)
         yield "turnaround.batteries", "unit", slack, richer
-    if drones.energy is not None:
-        slack = None
-        if sortie is not None and trip is not None:
-            there = charges(bench.problem, kind, trip)[trip.sorties.index(sortie)]
-            taken = sortie_energy(bench.problem, drones, drones.energy, trip, sortie)
-            slack = (there - taken) / (drones.energy.usable_share * MICROJOULES_PER_WH)
-        yield "energy.battery_wh", "Wh", slack, replace(
-            drones, energy=_one_wh_more(drones.energy))
+    yield from _energy_limits(bench, kind, drones, trip, sortie)
     for dimension, (most, places) in enumerate(zip(drones.capacity, bench.problem.amount_decimals,
                                                    strict=True)):
         slack = None
@@ -331,6 +327,23 @@ def _limits_of(bench: Bench, kind: VehicleType, index: int,
         more = _one_more(drones.capacity, dimension, 10**places)
         yield (_capacity_field("capacity", kind, dimension), "unit", slack,
                replace(drones, capacity=more))
+
+
+def _energy_limits(bench: Bench, kind: VehicleType, drones: DroneType, trip: Trip | None,
+                   sortie: Sortie | None) -> Iterator[tuple[str, Unit, float | None, DroneType]]:
+    """Yield what limits drones by their batteries, one of whom flies a sortie of a trip, if any."""
+    energy, slack = drones.energy, None
+    if energy is None:
+        return
+    if sortie is not None and trip is not None:
+        there = charges(bench.problem, kind, trip)[trip.sorties.index(sortie)]
+        taken = sortie_energy(bench.problem, drones, energy, trip, sortie)
+        slack = (there - taken) / (energy.usable_share * MICROJOULES_PER_WH)
+    yield "energy.battery_wh", "Wh", slack, replace(drones, energy=_one_wh_more(energy))
+    if energy.charge:
+        stronger = min(energy.charge + WATT, MAX_POWER)
+        yield "turnaround.charge_w", "W", None, replace(
+            drones, energy=replace(energy, charge=stronger))
 
 
 def _one_wh_more(energy: Energy) -> Energy:

@@ -8,7 +8,7 @@ from operator import gt
 from typing import NamedTuple
 
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.energy import charges, sortie_energy
+from model.judge.energy import sortie_energy
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
@@ -153,8 +153,7 @@ def _energy(attempt: Attempt) -> Diagnosis:
     if energy is None:
         raise ValueError("drone energy: None is not allowed")
     taken = sortie_energy(attempt.problem, drones, energy, trip, trip.sorties[0])
-    there, = charges(attempt.problem, attempt.vehicle_type, trip)
-    missing = ceil((taken - there) / energy.usable_share)
+    missing = ceil((taken - energy.available) / energy.usable_share)
     tenths = -(-missing * 10 // MICROJOULES_PER_WH)
     enough = energy.available + round(tenths / 10 * energy.usable_share * MICROJOULES_PER_WH)
     largest = MAX_BATTERY * energy.usable_share * MICROJOULES_PER_WH
@@ -162,10 +161,9 @@ def _energy(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "RANGE",
         f"A flight from the depot and back takes {watt_hours(taken)}, and "
-        f"{watt_hours(there)} may be taken.",
-        # One that isn't full when its truck goes on is none the fuller for holding more.
+        f"{watt_hours(energy.available)} may be taken.",
         f"fits with a battery{_of(drones)} of {decimal(tenths, 1)} Wh more"
-        if enough <= largest and there == energy.available else None,
+        if enough <= largest else None,
         _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
     )
 

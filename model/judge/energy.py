@@ -16,9 +16,10 @@ class Rest(NamedTuple):
     since: int
 
 
-def first_rest(energy: Energy) -> Rest:
-    """Return what a drone has before the first sortie of its truck's trip."""
-    return Rest(energy.available if energy.left is None else energy.left, energy.left_at)
+def first_rest(kind: VehicleType, energy: Energy, drone: int) -> Rest:
+    """Return what a truck's drone has before the first sortie of a trip."""
+    left = kind.charge_left[drone] if drone < len(kind.charge_left) else energy.available
+    return Rest(left, kind.earliest)
 
 
 def charge_after(energy: Energy, rest: Rest, time: int) -> int:
@@ -129,18 +130,31 @@ def charges(problem: Problem, kind: VehicleType, trip: Trip) -> list[int]:
     """
     batteries = [kind.drone_type(sortie.drone).energy for sortie in trip.sorties]
     found = [0 if energy is None else energy.available for energy in batteries]
-    if not any(energy is not None and energy.charge for energy in batteries):
-        return found
+    if any(energy is not None and energy.charge for energy in batteries):
+        _charge(problem, kind, trip, found)
+    return found
+
+
+def charges_at(problem: Problem, kind: VehicleType, trip: Trip, time: int) -> tuple[int, ...]:
+    """Return what each drone has at an instant after all sorties of a trip; 0 without a battery."""
+    rests = _charge(problem, kind, trip, [0 for _ in trip.sorties])
+    energies = [kind.drone_type(drone).energy for drone in range(kind.num_drones)]
+    return tuple([0 if energy is None else max(0, charge_after(
+        energy, rests.get(drone, first_rest(kind, energy, drone)), time))
+        for drone, energy in enumerate(energies)])
+
+
+def _charge(problem: Problem, kind: VehicleType, trip: Trip, found: list[int]) -> dict[int, Rest]:
+    """Write what sorties may take; return how drones came aboard after their last ones."""
     rests: dict[int, Rest] = {}
     begins = launch_begins(trip.sorties, kind)
     for index in sorted(range(len(found)), key=lambda i: (trip.sorties[i].launch_stop, begins[i])):
-        sortie, energy = trip.sorties[index], batteries[index]
-        if energy is None:
+        sortie = trip.sorties[index]
+        drones = kind.drone_type(sortie.drone)
+        if drones.energy is None:
             continue
-        rest = rests.get(sortie.drone, first_rest(energy))
-        found[index] = charge_after(energy, rest, begins[index])
-        rests[sortie.drone] = Rest(
-            found[index] - sortie_energy(problem, kind.drone_type(sortie.drone), energy, trip,
-                                         sortie),
-            sortie.recovery_time)
-    return found
+        rest = rests.get(sortie.drone, first_rest(kind, drones.energy, sortie.drone))
+        found[index] = charge_after(drones.energy, rest, begins[index])
+        taken = sortie_energy(problem, drones, drones.energy, trip, sortie)
+        rests[sortie.drone] = Rest(found[index] - taken, sortie.recovery_time)
+    return rests

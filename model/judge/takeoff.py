@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from model.judge.clock import opening
 from model.judge.energy import (
-    Rest, charge_after, charged_by, first_rest, flight_energy, least_energy, longest_hold,
+    Rest, charge_after, charged_by, flight_energy, least_energy, longest_hold,
 )
 from model.problem import DroneType, Problem
 from model.solution import Visit
@@ -56,13 +56,13 @@ def _held_until(problem: Problem, drones: DroneType, path: Path, takeoff: int) -
 def charged_launch(problem: Problem, drones: DroneType, path: Path, rest: Rest | None) -> int:
     """Return when the launch may begin of a drone that came aboard so: at once, or once charged.
 
-    With what the flight takes if nobody waits. `rest` is None if it hasn't flown on the trip.
+    With what the flight takes if nobody waits. `rest` is None if nothing is charged aboard.
     """
     energy = drones.energy
-    if energy is None or not energy.charge:
+    if energy is None or rest is None:
         return 0
     needed = least_energy(problem, energy, path[1:-1], *_legs(problem, drones, path))
-    return charged_by(energy, rest or first_rest(energy), needed)
+    return charged_by(energy, rest, needed)
 
 
 def rest_after(problem: Problem, drones: DroneType, rest: Rest | None, path: Path,
@@ -72,9 +72,9 @@ def rest_after(problem: Problem, drones: DroneType, rest: Rest | None, path: Pat
     None if nothing is charged aboard.
     """
     energy = drones.energy
-    if energy is None or not energy.charge:
+    if energy is None or rest is None:
         return None
     begun = launch_time - drones.launch_duration
-    return Rest(charge_after(energy, rest or first_rest(energy), begun)
+    return Rest(charge_after(energy, rest, begun)
                 - flight_energy(problem, drones, energy, path, visits, launch_time, recovery_start),
                 recovery_start + drones.recovery_duration)

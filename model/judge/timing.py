@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from model.judge.clock import leg_end, service_start, with_setups
-from model.judge.energy import Rest
+from model.judge.energy import Rest, first_rest
 from model.judge.freshness import most_excess
 from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownStop, KnownTrip
@@ -209,7 +209,7 @@ def _operate(problem: Problem, kind: VehicleType, decision: TripDecision, stop: 
         fact = facts[index] if index < len(facts) else None
         sortie = decision.sorties[index]
         drones = kind.drone_type(sortie.drone)
-        path, rest = decision.path_of(sortie), _rest_before(decision, flights, index)
+        path, rest = decision.path_of(sortie), _rest_before(kind, decision, flights, index)
         if is_launch and fact is not None:
             time = fact.launch_time
             visits = with_setups(problem, decision.nodes[sortie.launch_stop], fact.visits)
@@ -230,12 +230,16 @@ def _operate(problem: Problem, kind: VehicleType, decision: TripDecision, stop: 
     return time
 
 
-def _rest_before(decision: TripDecision, flights: dict[int, _Flight], index: int) -> Rest | None:
-    """Return how the drone of a sortie came aboard before; None if that is not known."""
+def _rest_before(kind: VehicleType, decision: TripDecision, flights: dict[int, _Flight],
+                 index: int) -> Rest | None:
+    """Return how the drone of a sortie came aboard before; None if nothing is charged there."""
     drone = decision.sorties[index].drone
+    energy = kind.drone_type(drone).energy
+    if energy is None or not energy.charge:
+        return None
     rests = [flight.rest for other, flight in flights.items()
              if other != index and decision.sorties[other].drone == drone]
-    return rests[-1] if rests else None
+    return rests[-1] if rests else first_rest(kind, energy, drone)
 
 
 def _timed_sorties(

@@ -31,8 +31,8 @@ SOURCES = (
     *(f"policy/{part}" for part in (
         "tokens", "observation", "lookahead", "features", "resampling", "rollouts")),
     *(f"search/route/{part}" for part in (
-        "layout", "rarer", "ends", "randomness", "goods", "block", "routes", "freshness",
-        "vehicles", "halts", "lean", "refresh", "edit", "state")),
+        "layout", "rarer", "ends", "randomness", "goods", "batteries", "block", "routes",
+        "freshness", "vehicles", "halts", "lean", "refresh", "edit", "state")),
     *(f"search/insertion/{part}" for part in (
         "evaluate", "cheapest_stop", "new_trips", "offers", "places")),
     *(f"search/moves/{part}" for part in (

@@ -32,6 +32,39 @@ def battery_of(kind: Record) -> int:
 
 
 @inlined
+def charges_aboard(kind: Record) -> bool:
+    """Tell whether drones are charged aboard; else each launch has a full battery."""
+    return not is_plain(kind) and kind.charge > 0
+
+
+@inlined
+def first_charge(kind: Record, drone: int) -> tuple[int, int]:
+    """Return what a drone has before the first sortie of its truck's trip, and since when."""
+    return kind.first_charge[drone], kind.shift_earliest
+
+
+@inlined
+def charged(kind: Record, kept: int, since: int, time: int) -> int:
+    """Return what a drone has at an instant that came aboard at `since` with what it has `kept`."""
+    rest = max(0, time - since)
+    # The product might not fit 64 bits.
+    full = rest > (kind.battery - kept) // kind.charge
+    return kind.battery if full else kept + rest * kind.charge
+
+
+@inlined
+def charged_by(kind: Record, kept: int, since: int, left: int) -> int:
+    """Return when a drone has what a flight takes that leaves so much `left` of a full battery.
+
+    At once if that is more than it holds. It came aboard as for `charged`.
+    """
+    missing = kind.battery - left - kept
+    if left < 0 or missing <= 0:
+        return since
+    return since + (missing + kind.charge - 1) // kind.charge
+
+
+@inlined
 def power_at(kind: Record, powers: IntArray, weight: int) -> int:
     """Return a power with so much aboard, rounded down."""
     weights, upper = kind.weights, 1

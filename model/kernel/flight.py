@@ -6,8 +6,8 @@
 
 from model.kernel.compiled import inlined
 from model.kernel.energy import (
-    after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_cruise,
-    longest_hover,
+    after_hovering, after_leg, battery_of, charged_by, charges_aboard, hovers_at_customers,
+    is_limited, longest_cruise, longest_hover,
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.load import weight_brought, weight_taken
@@ -58,8 +58,11 @@ def recovery_end(kind: Record, begin: int) -> int:
 def gone_by(kind: Record, leave: int) -> int:
     """Return when a drone takes off at the latest whose truck would leave at `leave` without it.
 
-    If nothing holds it back. A usual launch is taken to be over by then, a swap to begin.
+    If no window holds it back. A usual launch is taken to be over by then, a swap to begin, and
+    where it has to be charged, nothing is known.
     """
+    if charges_aboard(kind):
+        return FAR
     return take_off(kind, leave, 1) if launches_differ(kind) else leave
 
 
@@ -160,16 +163,29 @@ def can_wait(kind: Record, place: Records, out: int, home: int, waiting: int) ->
 
 
 @inlined
-def within_energy(kind: Record, place: Records, out: int, home: int, takeoff: int, served: int,
-                  recovery_start: int) -> bool:
-    """Tell whether energy lasts for a sortie to one customer, its waiting included."""
+def charged_launch(kind: Record, place: Records, kept: int, since: int, out: int,
+                   home: int) -> int:
+    """Return from when on the launch may begin of a flight to one customer, at once if it can't be.
+
+    The drone is charged aboard since then, with what it has kept.
+    """
+    return charged_by(kind, kept, since, after_flight(kind, place, out, home))
+
+
+@inlined
+def left_after(kind: Record, place: Records, out: int, home: int, takeoff: int, served: int,
+               recovery_start: int) -> int:
+    """Return what a sortie to one customer, waiting included, leaves of a full battery.
+
+    Nothing where none limits it.
+    """
     if not is_limited(kind):
-        return True
+        return 0
     left = after_flight(kind, place, out, home)
     if hovers_at_customers(kind):
         waited = served - service_duration(place) - takeoff - out
         left = after_hovering(kind, left, weight_brought(place), waited)
-    return after_hovering(kind, left, weight_taken(place), recovery_start - served - home) >= 0
+    return after_hovering(kind, left, weight_taken(place), recovery_start - served - home)
 
 
 @inlined

@@ -12,6 +12,7 @@ import numpy as np
 from model.kernel.asked import (
     goods_rows, has_setups, most_asked_for, setup_rows, weight_rows,
 )
+from model.kernel.battery_rows import battery_row, full_row, powers_row
 from model.kernel.nearest import write_nearest
 from model.kernel.pausing import Pause, go_on
 from model.kernel.plain import ANY_RULE, MARKED
@@ -20,14 +21,17 @@ from model.kernel.variants import (
     Variant, Way, durations_of, index_of, variant_of, ways_of, write_legs,
 )
 from model.problem import (
-    MAX_DIMENSIONS, MAX_POINTS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, Energy,
-    FloatArray, IntArray, Problem, VehicleType,
+    MAX_DIMENSIONS, MAX_POINTS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray,
+    IntArray, Problem, VehicleType,
 )
 
 TIER = 3
 """How many dimensions of load are looked at together."""
 
 MAX_TIERS = -(-MAX_DIMENSIONS // TIER)
+
+MOST_DRONES = 256
+"""How many drones of a truck may be charged aboard."""
 
 MAX_NEIGHBOURS = 24
 """How many nearest customers of each node are kept."""
@@ -72,22 +76,22 @@ TYPE = record(
     "max_trip_distance", "max_trips", "max_stops", "max_sorties", "reload_duration",
     "speed_changes", "drones", "drone_travel", "home_travel", "endurance", "waiting_counts",
     "launch_duration", "relaunch_duration", "recovery_duration", "variant", "drone_variant",
-    "points", "battery", "lands", "climb_duration", "descent_duration", "pickup_order", "carried",
-    capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER, weights=MAX_POINTS, cruise=MAX_POINTS,
-    hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS, rare=ANY_RULE)
+    "points", "battery", "lands", "climb_duration", "descent_duration", "charge", "pickup_order",
+    "carried", capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER, weights=MAX_POINTS,
+    cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS,
+    first_charge=MOST_DRONES, rare=ANY_RULE)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
 its working duration, and costs as if it were fixed. The end of the shift and the longest working
 duration are with overtime; what is `usual` is without. Each launch of a trip but the first takes
 the `relaunch_duration`; no more sorties are flown than there are batteries. Its drones' powers are
-known at so many `points`, by weight; none if no battery limits them. It picks up in any order, or
-after all that a trip delivers, which is something, or was before the trip begins here; what else it
-carries in the first dimension."""
+known at so many `points`, by weight; none if no battery limits them; aboard they gain a `charge`,
+from what each has at first. It picks up in any order, or after all that a trip delivers, which is
+something, or was before the trip begins here; what else it carries in the first dimension."""
 ANY, LAST, BEGUN = range(3)
 
 NO_PROFILE = -1
 NO_DRONES = (0,) * 8
-NO_ENERGY = (0,) * 5
 
 RATE = record(fixed=float, distance=float, stop=float, time=float, overtime=float,
               drone_distance=float, drone_time=float, load=float)
@@ -296,9 +300,9 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], variant: int,
         _most_sorties(kind), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
         *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
-        *_battery(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
-        _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *_powers(energy),
-        MARKED)
+        *battery_row(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
+        _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *powers_row(energy),
+        _padded(kind.charge_left or full_row(energy, MOST_DRONES), MOST_DRONES), MARKED)
 
 
 def _pickup_order(kind: VehicleType) -> int:
@@ -341,21 +345,6 @@ def _drones(drones: DroneType, ways: Sequence[Way]) -> tuple[int, ...]:
     return (drones.count, out, home, drones.endurance, int(drones.endurance_includes_waiting),
             relaunch if drones.has_launched else drones.launch_duration, relaunch,
             drones.recovery_duration)
-
-
-def _battery(energy: Energy | None) -> tuple[int, ...]:
-    if energy is None:
-        return NO_ENERGY
-    return (len(energy.weights), energy.available, int(energy.lands), energy.climb_duration,
-            energy.descent_duration)
-
-
-def _powers(energy: Energy | None) -> tuple[tuple[int, ...], ...]:
-    """Return weights, and the powers at each."""
-    if energy is None:
-        return ((0,) * MAX_POINTS,) * 5
-    return tuple([(*row, *(0,) * (MAX_POINTS - len(row))) for row in (
-        energy.weights, energy.cruise, energy.hover, energy.climb, energy.descent)])
 
 
 def _worked(kind: VehicleType) -> int:

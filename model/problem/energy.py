@@ -37,24 +37,20 @@ class Energy:
     dimension: int = 0  # of demands, which weighs
     lands: bool = True  # at customers; else it hovers there
     preset: str | None = None  # name of the published model that the powers are from; for people
-    charge: int = 0  # mW that a drone aboard gains; 0: each launch has a full battery
-    left: int | None = None  # what each drone has as its truck goes on with a trip; None: all
-    left_at: int = 0  # and when
+    charge: int = 0  # mW that a drone gains aboard; 0: each launch has a full battery
 
     def __post_init__(self) -> None:
         if not 2 <= len(self.weights) <= MAX_POINTS or self.weights[0] != 0:
             raise ValueError(f"energy weights: {self.weights!r} is not allowed")
         if any(upper <= lower for lower, upper in pairwise(self.weights)):
             raise ValueError(f"energy weights: {self.weights!r} is not allowed")
-        for name in ("available", "climb_duration", "descent_duration", "dimension", "left_at"):
+        for name in ("available", "climb_duration", "descent_duration", "dimension"):
             if getattr(self, name) < 0:
                 raise ValueError(f"energy {name}: {getattr(self, name)!r} is not allowed")
         if not 0 < self.usable_share <= 1:
             raise ValueError(f"energy usable_share: {self.usable_share!r} is not allowed")
         if not 0 <= self.charge <= MAX_POWER:
             raise ValueError(f"energy charge: {self.charge!r} is not allowed")
-        if self.left is not None and not 0 <= self.left <= self.available:
-            raise ValueError(f"energy left: {self.left!r} is not allowed")
         for name in ("cruise", "hover", "climb", "descent"):
             self._require_powers(name, getattr(self, name))
 

@@ -107,6 +107,7 @@ class VehicleType:
     end: int | None = None  # where its last trip ends
     reload_depots: tuple[int, ...] = ()  # other nodes where a trip may end and the next begin
     initial_load: tuple[int, ...] = ()  # what its trip carries beside its customers'; (): nothing
+    charge_left: tuple[int, ...] = ()  # of each drone, by number, at the beginning; (): full
     busy_until: int = 0  # its trip may begin sooner, and drones take off, but no truck leave
     works_since: int | None = None  # its work counts from then; None: from its departure
     part_of: str | None = None  # id of the type of which these are some vehicles; None: all
@@ -141,6 +142,8 @@ class VehicleType:
             require_quantity(f"vehicle type {self.id} initial_load", load, most)
         since = self.works_since or 0
         require_quantity(f"vehicle type {self.id} works_since", since, self.earliest)
+        require(len(self.charge_left) in (0, self.num_drones),
+                f"vehicle type {self.id} charge_left", self.charge_left)
         require(self.max_trips == 1 or not self.has_begun, f"vehicle type {self.id} max_trips",
                 self.max_trips)
 
@@ -148,6 +151,7 @@ class VehicleType:
     def has_begun(self) -> bool:
         """Tell whether its only trip was begun already."""
         return (any(self.initial_load) or self.busy_until > 0 or self.has_delivered
+                or bool(self.charge_left)
                 or (self.drones is not None and self.drones.has_launched))
 
     def service_at(self, customer: Customer) -> int:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from model.judge.energy import charges_at
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
 from model.problem import UNREACHABLE, Problem, VehicleType
@@ -150,11 +151,20 @@ def with_drones_then(kind: VehicleType, has_launched: bool) -> VehicleType:
     return replace(kind, drones=first, more_drones=tuple(others), max_trips=1)
 
 
+def charged_then(problem: Problem, kind: VehicleType, trip: Trip, time: int) -> VehicleType:
+    """Return a truck that goes on with a trip at an instant, with what its drones then have."""
+    if not any(drones.energy is not None and drones.energy.charge for drones in kind.drone_types):
+        return kind
+    return replace(kind, charge_left=charges_at(problem, kind, trip, time), max_trips=1)
+
+
 def _planned_end(problem: Problem, kept: Kept, ready: int, service_left: int,
                  rest: TripDecision) -> int:
     """Return when a trip is over that goes on as planned."""
     kind = problem.vehicle_types[kept.vehicle.type]
-    kind = replace(with_drones_then(kind, bool(kept.decision.trips[-1].sorties)), max_trips=1)
+    kind = replace(with_drones_then(kind, bool(kept.decision.trips[-1].sorties)), max_trips=1,
+                   earliest=min(ready, kind.latest))
+    kind = charged_then(problem, kind, kept.route.trips[-1], ready)
     node, begun = rest.nodes[0], ready + service_left
     if node >= problem.num_depots:
         begun -= kind.service_at(problem.customer_at(node))

@@ -16,7 +16,7 @@ from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType
 from model.replanning.amend import customers_of
-from model.replanning.kept import Kept, WayOn, with_drones_then
+from model.replanning.kept import Kept, WayOn, charged_then, with_drones_then
 
 MAX_OWN_TYPES = 500
 """Types that vehicles may become; memory grows by them."""
@@ -192,6 +192,7 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
         initial_load=_load(problem, route, way_on.aboard),
         has_delivered=_has(problem, customers_of(trip), "demand"),
         busy_until=way_on.ready + way_on.service_left, works_since=way_on.ready)
+    own = charged_then(problem, own, route.route.trips[-1], way_on.ready)
     place = trip.nodes[way_on.position]
     return Worker(route.vehicle, own, way_on.aboard, place)
 

@@ -175,6 +175,7 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     costly = (rates["time"] > 0) | ((rates["overtime"] > 0) & over)
     timed = costly | (types["max_working_duration"] < UNLIMITED)
     retimed = types["speed_changes"] != NO_PROFILE
+    retimed = retimed | ((types["charge"] > 0) & (types["drones"] > 0))
     if place.shape[2] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)

@@ -7,9 +7,10 @@ launches are timed anew once it is known where the truck drives to.
 """
 
 from model.kernel.compiled import inlined
+from model.kernel.energy import battery_of, charged, charges_aboard
 from model.kernel.flight import (
-    can_serve, held_takeoff, launch_begin, recovery_end, take_off, unreachable,
-    within_endurance, within_energy,
+    can_serve, charged_launch, held_takeoff, launch_begin, left_after, recovery_end, take_off,
+    unreachable, within_endurance,
 )
 from model.kernel.instance import MAX_TIERS, TIER
 from model.kernel.leg import lookup
@@ -29,10 +30,13 @@ trip, launches on the trip before this stop, drones in flight; of the trip, sums
 what is delivered and of what is picked up before the stop here and by now; goods that may not be
 added to the trip and to the vehicle; the load left by dimension and what of pickups is aboard."""
 
-DRONE = record("sortie", "place", "node", "takeoff", "ready", "back", "recovery")
+DRONE = record("sortie", "place", "node", "takeoff", "ready", "back", "recovery", "kept", "since",
+               "lacking", "left")
 """A drone: sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,
 take-off, end of service, arrival at the recovery stop, beginning of recovery. Those in flight were
-launched at the truck's stop; when and where they are recovered is for `leave_for` to say."""
+launched at the truck's stop; when and where they are recovered is for `leave_for` to say. If it is
+charged aboard: with what it last came aboard on the trip, and when; what it lacks of a full battery
+as it is launched; what it has left on recovery."""
 ABOARD, MEET, LOOP = range(3)
 """Places to be recovered at: none, the next stop, this stop."""
 
@@ -62,11 +66,14 @@ def next_launch(setting: Setting, drones: Records, here: int, to: int, free: int
     for d in range(len(drones)):
         if drones[d].place != ABOARD and drones[d].takeoff == NOT_YET:
             end = to if drones[d].place == MEET else here
-            node = drones[d].node
-            soonest = held_takeoff(setting.type, setting.node_by_air[node],
-                                   take_off(setting.type, free, launched),
-                                   lookup(setting.fly, here, node),
-                                   lookup(setting.fly_home, node, end))
+            node, begin = drones[d].node, free
+            out, home = lookup(setting.fly, here, node), lookup(setting.fly_home, node, end)
+            place = setting.node_by_air[node]
+            if charges_aboard(setting.type):
+                begin = max(free, charged_launch(setting.type, place, drones[d].kept,
+                                                 drones[d].since, out, home))
+            soonest = held_takeoff(setting.type, place, take_off(setting.type, begin, launched),
+                                   out, home)
             if chosen < 0 or soonest < takeoff:
                 chosen, takeoff = d, soonest
     return chosen, takeoff
@@ -81,6 +88,10 @@ def fly(setting: Setting, drone: Record, here: int, to: int, takeoff: int) -> No
     drone.takeoff = takeoff
     drone.ready = end_of_service(setting.node_by_air[node], arrival)
     drone.back = drone.ready + lookup(setting.fly_home, node, end)
+    drone.lacking = 0
+    if charges_aboard(setting.type):
+        drone.lacking = battery_of(setting.type) - charged(
+            setting.type, drone.kept, drone.since, launch_begin(setting.type, takeoff, 1))
 
 
 @inlined
@@ -105,9 +116,11 @@ def bring_aboard(setting: Setting, drone: Record, here: int, free: int) -> int:
     if unreachable(drone.back) or not within_endurance(
             setting.type, drone.takeoff, drone.back, begin):
         return -1
-    if not within_energy(setting.type, setting.node_by_air[node], lookup(setting.fly, here, node),
-                         drone.back - drone.ready, drone.takeoff, drone.ready, begin):
+    left = left_after(setting.type, setting.node_by_air[node], lookup(setting.fly, here, node),
+                      drone.back - drone.ready, drone.takeoff, drone.ready, begin)
+    if left < drone.lacking:
         return -1
+    drone.left = left - drone.lacking
     drone.recovery = begin
     return recovery_end(setting.type, begin)
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import clear
+from model.kernel.energy import charges_aboard, first_charge
 from model.kernel.flight import launch_begin, recovery_end, take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup
@@ -97,7 +98,7 @@ def log_recoveries(setting: Setting, log: VehicleLog, drones: Records, place: in
         sortie = log.sortie[drone.sortie]
         sortie.recovery_stop = stop
         sortie.recovery_start = drone.recovery
-        sortie.recovery_end = recovery_end(setting.type, drone.recovery)
+        sortie.recovery_end, sortie.left = recovery_end(setting.type, drone.recovery), drone.left
         log_op(log, stop, drone.sortie, True)
         drone.place = ABOARD
         drone.sortie = IN_FLIGHT
@@ -164,6 +165,20 @@ def begin_trip(setting: Setting, log: VehicleLog, vehicle: Record, release: int)
 
 
 @inlined
+def note_charges(setting: Setting, log: VehicleLog, drones: Records) -> None:
+    """Write with what drones have last come aboard on this trip, if they are charged. In place."""
+    if not charges_aboard(setting.type):
+        return
+    first = log.trip[log.count.trips - 1].first_stop
+    for d in range(len(drones)):
+        drones[d].kept, drones[d].since = first_charge(setting.type, d)
+    for index in range(log.count.sorties):
+        sortie = log.sortie[index]
+        if sortie.launch_stop >= first and sortie.recovery_stop != IN_FLIGHT:
+            drones[sortie.drone].kept, drones[sortie.drone].since = sortie.left, sortie.recovery_end
+
+
+@inlined
 def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
               drones: Records, release: int) -> bool:
     """Let the trip begin no earlier than `release`. In place; False if it can't be held so long."""
@@ -173,6 +188,7 @@ def hold_trip(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Recor
         return True
     if not replay(setting, num_depots, log, log.count.trips - 1, release, True):
         return False
+    note_charges(setting, log, drones)
     here = log.count.stops - 1
     stop = log.stop[here]
     vehicle.service_end = stop.start
@@ -252,6 +268,7 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
     release = release_of(setting.node[node])
     if vehicle.idle:
         begin_trip(setting, log, vehicle, release)
+        note_charges(setting, log, drones)
     elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
     takeoff = take_off(setting.type, vehicle.free, vehicle.launched + vehicle.flying)
@@ -313,6 +330,7 @@ def drive(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
     vehicle.service_end, vehicle.free, vehicle.crew = service_end, free, free
     if not keep_fresh(setting, num_depots, log, vehicle, drones):
         return False
+    note_charges(setting, log, drones)
     if not is_customer:
         vehicle.idle = 1
         vehicle.distance = vehicle.launched = 0

@@ -11,9 +11,10 @@ import numpy as np
 
 from model.kernel.clock import leg_end, setup_beside
 from model.kernel.compiled import compiled, inlined, pasted
+from model.kernel.energy import battery_of, charged, charges_aboard, first_charge
 from model.kernel.flight import (
-    held_takeoff, launch_begin, recoveries_take_time, recovery_end, take_off,
-    within_endurance, within_energy,
+    charged_launch, held_takeoff, launch_begin, left_after, recoveries_take_time, recovery_end,
+    take_off, within_endurance,
 )
 from model.kernel.instance import FAR, Instance
 from model.kernel.leg import lookup, matrix_of
@@ -30,8 +31,10 @@ LOGGED_TRIP = record("first_stop", "first_op", "release", "start")
 OPERATION = record("stop", "sortie", "is_recovery")
 LOGGED_SORTIE = record(
     "drone", "node", "launch_stop", "recovery_stop", "takeoff", "arrival", "start", "ready",
-    "recovery_start", "recovery_end", "trial_takeoff", "trial_ready")
-"""Its recovery stop is IN_FLIGHT until it is recovered."""
+    "recovery_start", "recovery_end", "left", "trial_takeoff", "trial_ready", "trial_end",
+    "trial_left")
+"""Its recovery stop is IN_FLIGHT until it is recovered. Where drones are charged aboard: what is
+left of its battery, of a trial as it is launched and then recovered."""
 LENGTHS = record("trips", "stops", "ops", "sorties")
 """How many of each there are."""
 
@@ -148,15 +151,41 @@ def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int,
 
 
 @inlined
-def _replay_launch(setting: Setting, log: VehicleLog, sortie: Record, node: int, free: int,
-                   launched: int, departure: int, write: bool) -> int:
+def charged_takeoff(setting: Setting, log: VehicleLog, index: int, first: int, free: int,
+                    launched: int) -> int:
+    """As `sortie_takeoff`, of a sortie by its index, where drones are charged aboard.
+
+    In place: what it has then. The trip begins at stop `first`.
+    """
+    kind, sortie = setting.type, log.sortie[index]
+    kept, since = first_charge(kind, sortie.drone)
+    for other in range(index):
+        if log.sortie[other].drone == sortie.drone and log.sortie[other].launch_stop >= first:
+            kept, since = log.sortie[other].trial_left, log.sortie[other].trial_end
+    if sortie.recovery_stop != IN_FLIGHT:
+        here, to = log.stop[sortie.launch_stop].node, log.stop[sortie.recovery_stop].node
+        free = max(free, charged_launch(kind, setting.node_by_air[sortie.node], kept, since,
+                                        lookup(setting.fly, here, sortie.node),
+                                        lookup(setting.fly_home, sortie.node, to)))
+    takeoff = sortie_takeoff(setting, log, sortie, free, launched)
+    sortie.trial_left = charged(kind, kept, since, launch_begin(kind, takeoff, launched))
+    return takeoff
+
+
+@inlined
+def _replay_launch(setting: Setting, log: VehicleLog, index: int, first: int, node: int,
+                   free: int, launched: int, departure: int, write: bool) -> int:
     """Time one launch begun at `free`; return the take-off, -1 if it is not allowed.
 
-    `departure` is that of the trip, if any came before.
+    `departure` is that of the trip, which begins at stop `first`, if any came before.
     """
+    sortie = log.sortie[index]
     customer = sortie.node
     place = setting.node_by_air[customer]
-    takeoff = sortie_takeoff(setting, log, sortie, free, launched)
+    if charges_aboard(setting.type):
+        takeoff = charged_takeoff(setting, log, index, first, free, launched)
+    else:
+        takeoff = sortie_takeoff(setting, log, sortie, free, launched)
     arrival = takeoff + lookup(setting.fly, node, customer)
     if not _arrival_allowed(log, place, arrival, sortie.arrival, write):
         return -1
@@ -180,12 +209,17 @@ def _replay_recovery(setting: Setting, log: VehicleLog, sortie: Record, node: in
     back = sortie.trial_ready + home
     begin = max(free, back)
     # A sortie as long as before may wait where that takes more.
-    if not within_energy(setting.type, setting.node_by_air[customer],
-                         lookup(setting.fly, log.stop[sortie.launch_stop].node, customer), home,
-                         takeoff, sortie.trial_ready, begin):
-        return -1
+    left = left_after(setting.type, setting.node_by_air[customer],
+                      lookup(setting.fly, log.stop[sortie.launch_stop].node, customer), home,
+                      takeoff, sortie.trial_ready, begin)
     end = recovery_end(setting.type, begin)
+    if charges_aboard(setting.type):
+        left -= battery_of(setting.type) - sortie.trial_left
+        sortie.trial_left, sortie.trial_end = left, end
+    if left < 0:
+        return -1
     if write:
+        sortie.left = left
         if not within_endurance(setting.type, takeoff, back, begin):
             return -1
         sortie.recovery_start, sortie.recovery_end = begin, end
@@ -237,14 +271,14 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                 if leave < 0:
                     return False
             while op < log.count.ops and log.op[op].stop == index:
-                sortie = log.sortie[log.op[op].sortie]
+                sortie = log.op[op].sortie
                 if log.op[op].is_recovery:
                     # Recoveries that take no time never hold up one another.
                     begin = free if recoveries_take_time(setting.type) else aloft
-                    end = _replay_recovery(setting, log, sortie, node, begin, write)
+                    end = _replay_recovery(setting, log, log.sortie[sortie], node, begin, write)
                 else:
-                    end = aloft = _replay_launch(setting, log, sortie, node, free, launched,
-                                                 departure, write)
+                    end = aloft = _replay_launch(setting, log, sortie, first, node, free,
+                                                 launched, departure, write)
                     launched += 1
                 if end < 0:
                     return False

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
-from model.judge.energy import Rest, charges, sortie_energy
+from model.judge.energy import Rest, charges, first_rest, sortie_energy
 from model.judge.freshness import most_excess
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
@@ -99,12 +99,14 @@ def _drained(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> boo
 
 
 def _rest(problem: Problem, kind: VehicleType, trip: Trip, drone: int, stop: int) -> Rest | None:
-    """Return how a drone has last come aboard that was launched before a stop."""
+    """Return how a drone has last come aboard before a stop; None if nothing is charged there."""
     drones = kind.drone_type(drone)
+    if drones.energy is None or not drones.energy.charge:
+        return None
     flown = [index for index, sortie in enumerate(trip.sorties)
              if sortie.drone == drone and sortie.launch_stop < stop]
-    if drones.energy is None or not flown:
-        return None
+    if not flown:
+        return first_rest(kind, drones.energy, drone)
     last = trip.sorties[flown[-1]]
     left = charges(problem, kind, trip)[flown[-1]]
     return Rest(left - sortie_energy(problem, drones, drones.energy, trip, last),

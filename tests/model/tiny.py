@@ -178,6 +178,32 @@ def with_drone_types(rng: np.random.Generator, problem: Problem) -> Problem:
                    vehicle_types=tuple(map(equipped, problem.vehicle_types)))
 
 
+def with_charging(rng: np.random.Generator, problem: Problem,
+                  begun_share: float = 0.3) -> Problem:
+    """Return a problem in which the batteries of most types' drones are charged aboard.
+
+    A share of the vehicles that make one trip have drones that aren't full at first. All takes
+    whole minutes.
+    """
+    def charged(drones: DroneType) -> DroneType:
+        if drones.energy is None or rng.random() < 0.2:
+            return drones
+        return replace(drones, energy=replace(drones.energy, charge=1, climb_duration=0,
+                                              descent_duration=0))
+
+    def begun(kind: VehicleType) -> VehicleType:
+        energies = [kind.drone_type(drone).energy for drone in range(kind.num_drones)]
+        if kind.max_trips > 1 or rng.random() >= begun_share:
+            return kind
+        return replace(kind, charge_left=tuple(
+            0 if energy is None else _draw(rng, 0, energy.available // MINUTE)
+            for energy in energies))
+
+    problem = with_energy(rng, problem)
+    return replace(problem, vehicle_types=tuple(
+        begun(with_drones(kind, charged)) for kind in problem.vehicle_types))
+
+
 def with_turnaround(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem in which drones' batteries are swapped, and most stocks are small.
 

@@ -2,6 +2,7 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
+from model.kernel.energy import charges_aboard
 from model.kernel.flight import (
     can_serve, earliest_back, gone_by, recovery_end, take_off, unreachable, within_endurance,
 )
@@ -104,16 +105,19 @@ def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: i
 def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int) -> int:
     """Return a drone that is aboard from stop `launch` to `recovery`; -1 if there is none.
 
-    That which flies least from and to these stops, so that drones fly side by side.
+    That which flies least from and to these stops, so that drones fly side by side; on the trip, if
+    drones are charged aboard.
     """
-    sorties = fleet.sortie[slot]
+    sorties, stops = fleet.sortie[slot], fleet.stop[slot]
+    charging = charges_aboard(world.type[fleet.route[slot].type])
     chosen, fewest = NOWHERE, 0
     for drone in range(world.type[fleet.route[slot].type].drones):
         free, beside = True, 0
         for s in range(fleet.route[slot].sorties):
             if sorties[s].drone == drone:
                 first, last = sorties[s].launch, sorties[s].recovery
-                if first <= recovery and launch <= last:
+                same_trip = charging and stops[first].trip == stops[launch].trip
+                if same_trip or (first <= recovery and launch <= last):
                     beside += 1
                 if first < recovery and launch < last:
                     free = False

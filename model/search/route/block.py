@@ -6,27 +6,29 @@ By pairs `(d, c)`, which docs/search.md derives under "Times on a route".
 from model.kernel.clock import is_steady, leg_end, setup_beside
 from model.kernel.compiled import inlined, spliced
 from model.kernel.energy import (
-    after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_hover,
+    after_hovering, charges_aboard, hovers_at_customers, is_limited, longest_hover,
 )
 from model.kernel.flight import (
     counted_until, earliest_back, endurance_of, held_until, lasting_within, launch_begin,
-    longest_hold, recovery_end, take_off, unreachable,
+    recovery_end, take_off, unreachable,
 )
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
-from model.kernel.load import weight_brought, weight_taken
 from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import (
     allowed_within, are_single, end_of_service, in_same_window, latest_allowed, places_by_air,
-    places_of, service_duration, start_within, too_late, waiting,
+    places_of, service_duration, start_within, too_late,
 )
 from model.problem import IntArray
+from model.search.route.batteries import await_charge, charge, hover, note_charge
 from model.search.route.layout import CUSTOMER, DONE, END, FLYING, START, WAITING, World
 
 SUMS = record("time", "free_d", "free_c", "hi", "lo", "dep", "oldest", "flying",
-              # Of the trip so far.
-              "launched",
+              # Of the trip so far: launches, and its first sortie.
+              "launched", "first_sortie",
+              # Of the route so far: how long launches wait for batteries to be charged.
+              "awaited",
               # What `evaluate` makes of a part.
               "end", "cum", "depart", "driven")
 
@@ -107,51 +109,6 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
 
 
 @inlined
-def charge(places: Records, legs: IntArray, homeward: IntArray, kind: Record, sortie: Record,
-           node: int) -> None:
-    """Write what a sortie launched at `node` may hover for, without and before windows. In place.
-
-    That is what its flight leaves of its battery.
-    """
-    sortie.taken = 0
-    for index in range(sortie.count):
-        sortie.taken += weight_taken(places[sortie.nodes[index]])
-    left, aboard, flown, here = battery_of(kind), sortie.taken, 0, sortie.home
-    most = aboard
-    for index in range(sortie.count - 1, -1, -1):
-        customer = sortie.nodes[index]
-        place, way = places[customer], homeward if index == sortie.count - 1 else legs
-        flight = leg(way, customer, here).duration
-        left = after_leg(kind, left, aboard, flight)
-        aboard += weight_brought(place) - weight_taken(place)
-        most = max(most, aboard)
-        service = service_duration(place)
-        if hovers_at_customers(kind):
-            left = after_hovering(kind, left, aboard, service)
-        flown += flight + service
-        here = customer
-    flight = leg(legs, node, here).duration
-    sortie.left = after_leg(kind, left, aboard, flight)
-    sortie.limit = longest_hold(kind, flown + flight, sortie.left, most)
-
-
-@inlined
-def hover(places: Records, kind: Record, sortie: Record, acc: Record) -> None:
-    """Take what a sortie whose arrivals are known needs to wait for windows in the air. In place.
-
-    Later it waits no longer, as long as windows are the same; sooner, nothing is said of.
-    """
-    aboard = sortie.taken
-    for index in range(sortie.count - 1, -1, -1):
-        place = places[sortie.nodes[index]]
-        aboard += weight_brought(place) - weight_taken(place)
-        waited = waiting(place, sortie.arrivals[index])
-        if waited > 0:
-            sortie.left = after_hovering(kind, sortie.left, aboard, waited)
-            acc.lo = max(acc.lo, acc.time)
-
-
-@inlined
 def held_by_windows(places: Records, legs: IntArray, homeward: IntArray, kind: Record,
                     sortie: Record, node: int, takeoff: int) -> int:
     """Return until when the windows hold a sortie back that it meets if it leaves at `takeoff`."""
@@ -171,6 +128,8 @@ def soonest_takeoff(places: Records, legs: IntArray, homeward: IntArray, kind: R
                     sortie: Record, node: int, takeoff: int) -> int:
     """Return when a sortie takes off at `node` that can at `takeoff`: then, or held back."""
     takeoff = max(takeoff, sortie.held)
+    if charges_aboard(kind):
+        takeoff = max(takeoff, sortie.charged)
     if are_single(places[0]):
         return takeoff
     held = held_by_windows(places, legs, homeward, kind, sortie, node, takeoff)
@@ -210,6 +169,10 @@ def fly_out(places: Records, legs: IntArray, homeward: IntArray, kind: Record, s
     held = soonest_takeoff(places, legs, homeward, kind, sortie, node, takeoff)
     if held > takeoff:
         c = held
+    if charges_aboard(kind):
+        free = d
+        d = max(d, await_charge(kind, sortie, max(acc.time + d, c), acc.time))
+        acc.awaited += d - free
     acc.free_d, acc.free_c = d, c
     sortie.takeoff_d, sortie.takeoff_c = d, c
     sortie.takeoff = max(acc.time + d, c)
@@ -257,6 +220,9 @@ def bring_home(homeward: IntArray, kind: Record, sortie: Record, node: int,
         acc.dep = min(acc.dep, last)
     begin = max(acc.time + begin_d, begin_c)
     sortie.begin = begin
+    if charges_aboard(kind):
+        sortie.left = after_hovering(kind, sortie.left, sortie.taken,
+                                     begin - max(acc.time + back_d, back_c))
     slack = begin - begin_d
     if sortie.takeoff - sortie.takeoff_d > slack:
         acc.dep = min(acc.dep, slack)
@@ -297,6 +263,8 @@ def next_operation(places: Records, legs: IntArray, homeward: IntArray, kind: Re
                                                sorties[index].ready_c) + flight))
         elif (sorties[index].state == WAITING and sorties[index].launch == p
               and is_aboard(sorties, index, acc.oldest)):
+            if charges_aboard(kind):
+                note_charge(kind, sorties, index, acc.first_sortie)
             takeoff = soonest_takeoff(places, legs, homeward, kind, sorties[index], node,
                                       take_off(kind, free, acc.launched))
             begin = 2 * launch_begin(kind, takeoff, acc.launched) + 1

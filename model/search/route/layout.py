@@ -39,15 +39,15 @@ CUSTOMER, START, END = range(3)
 
 SORTIE = record(
     "launch", "recovery", "drone", "count", "state", "takeoff_d", "takeoff_c", "ready_d", "ready_c",
-    "takeoff", "begin", "held", "home", "limit", "left", "taken",
-    nodes=MOST_VISITS, arrivals=MOST_VISITS)
+    "takeoff", "begin", "held", "home", "limit", "left", "taken", "charged", "kept", "since",
+    "follows", nodes=MOST_VISITS, arrivals=MOST_VISITS)
 """Where it begins and ends; its customers, and when it reaches them; what `block` knows of it."""
 WAITING, FLYING, DONE = range(3)
 
 TRIP = record("first", "last", "release", "distance", "barred", load=TIER)
 
-ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "offset", "stamp",
-               "barred", rare=ANY_RULE)
+ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "offset", "awaited",
+               "stamp", "barred", rare=ANY_RULE)
 
 CHANGING = 0
 """Stamp of a route that this turn changes; any other stands for what the route in the slot is."""
@@ -67,7 +67,8 @@ NOWHERE, ELSEWHERE = -1, -2
  MODE_APART, MODE_LOADED) = 1, 2, 4, 8, 16, 32, 64, 128
 """Flags of a type: working time costs or is limited; lateness, waiting or what is aboard cost, or
 all is retimed; trips must be held back to know the cost; all behind a change is timed again, since
-speed changes, or who comes later may have to wait for another window; an insertion's cost is that
+speed changes, who comes later may have to wait for another window, or drones are charged aboard; an
+insertion's cost is that
 of its distance alone; as that, with one trip of any distance, no releases and no drones; several
 trips don't all begin and end at one place; what is aboard costs by the way that it is driven."""
 

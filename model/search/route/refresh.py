@@ -194,8 +194,11 @@ def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
 
 @spliced
 def idle_time(route: Record) -> int:
-    """Return how much of the time that a route works is waiting, which a change may use up."""
-    return route.working + route.offset - route.cum
+    """Return how much of the time that a route works is waiting, which a change may use up.
+
+    For windows, or batteries.
+    """
+    return route.working + route.offset - route.cum + route.awaited
 
 
 @spliced

@@ -73,14 +73,14 @@ def drive_forward(world: World, route: Record, stops: Records, sorties: Records,
     """Write times as soon as possible, stop after stop. In place; False if a rule is broken."""
     k, length, count = route.type, route.length, route.sorties
     time = world.type[k].shift_earliest
-    cum, depart = 0, FAR
+    cum, depart, acc.awaited = 0, FAR, 0
     make_ready(world, k, stops, sorties, count)
     p = s = 0
     while p < length:
         stop = stops[p]
         last = p
         if stop.kind == START:
-            acc.launched = 0
+            acc.launched, acc.first_sortie = 0, s
         if s < count and sorties[s].launch == p:
             last = time_block(world, k, stops, length, sorties, count, p, s, time, acc)
             if last < 0:
@@ -106,6 +106,7 @@ def drive_forward(world: World, route: Record, stops: Records, sorties: Records,
         cum += behind.gap
         p = last + 1
     route.end, route.cum = stops[length - 1].leave, stops[length - 1].cum
+    route.awaited = acc.awaited
     return True
 
 

@@ -69,7 +69,8 @@ def test_a_day_under_way_has_the_batteries_that_are_left(client: httpx.Client,
 
 @pytest.mark.parametrize(("turnaround", "path"), [
     ({"swap_duration": -1}, "swap_duration"), ({"batteries": 1.5}, "batteries"),
-    ({"batteries": -1}, "batteries"), ({"charge_w": 100}, "charge_w")])
+    ({"batteries": -1}, "batteries"), ({"charge_w": -1}, "charge_w"),
+    ({"charge_w": 100}, "charge_w")])
 def test_wrong_turnarounds_are_refused(client: httpx.Client, smallest: Request,
                                        turnaround: Request, path: str) -> None:
     reply = client.post("/plan", json=flying(smallest, **turnaround))

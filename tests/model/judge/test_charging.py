@@ -99,10 +99,11 @@ def test_who_hovers_for_longer_than_was_charged_breaks_a_rule(charge, codes, thr
 
 
 def test_on_a_trip_under_way_drones_have_what_is_left(three, drones):
-    energy = replace(BATTERY, available=3000 * WATT_MINUTES, charge=10 * WATT, left=0,
-                     left_at=5 * MINUTE)
+    energy = replace(BATTERY, available=3000 * WATT_MINUTES, charge=10 * WATT)
     _, free = flown(three, drones, None, LOOPS[0])
     flight, = in_the_air(free, drones)
-    problem, trip = flown(three, drones, energy, LOOPS[0])
+    kind, = three.vehicle_types
+    kind = replace(kind, earliest=5 * MINUTE, drones=drones, charge_left=(0,))
+    problem, trip = flown(replace(three, vehicle_types=(kind,)), drones, energy, LOOPS[0])
     assert trip.sorties[0].launch_time - drones.launch_duration == (5 + 10 * flight) * MINUTE
     assert broken(problem, trip) == set()

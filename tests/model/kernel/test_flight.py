@@ -11,7 +11,7 @@ from model.kernel.compiled import compiled
 from model.kernel.flight import (
     can_serve, counted_until, endurance_of, handling_duration, held_takeoff, lasting_within,
     launch_begin, launches_differ, recovery_end, take_off, unreachable, within_endurance,
-    within_energy,
+    left_after,
 )
 from model.kernel.instance import pack
 from model.kernel.records import Record, Records
@@ -51,7 +51,8 @@ def enduring(kind: Record, takeoff_d: int, takeoff_c: int, d: int,
 @compiled
 def is_charged(kind: Record, places: Records, node: int, out: int, home: int, takeoff: int,
                served: int, begin: int) -> bool:
-    return within_energy(kind, places_by_air(places, kind)[node], out, home, takeoff, served, begin)
+    return left_after(kind, places_by_air(places, kind)[node], out, home, takeoff, served,
+                      begin) >= 0
 
 
 @compiled

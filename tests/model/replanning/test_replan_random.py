@@ -15,9 +15,9 @@ from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
 from tests.model.tiny import (
-    draw_late, draw_tiny, with_duty, with_energy, with_goods, with_limits_aboard, with_open_ends,
-    with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups, with_table,
-    with_turnaround,
+    draw_late, draw_tiny, with_charging, with_duty, with_energy, with_goods, with_limits_aboard,
+    with_open_ends, with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups,
+    with_table, with_turnaround,
 )
 from training.instances import VARIANTS, generate
 
@@ -221,6 +221,14 @@ def test_tiny_plans_with_few_batteries_go_on(planner: Planner, seed: int) -> Non
     rng = np.random.default_rng((seed, 13))
     problem = with_turnaround(rng, draw_tiny(rng, drone_share=1.0))
     replan_and_check(planner, with_energy(rng, problem) if seed % 2 else problem, rng)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_tiny_plans_on_charged_batteries_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 14))
+    problem = with_charging(rng, draw_tiny(rng, drone_share=1.0), begun_share=0.0)
+    anyone = tuple(replace(customer, served_by="either") for customer in problem.customers)
+    replan_and_check(planner, replace(problem, customers=anyone), rng)
 
 
 @pytest.mark.parametrize("change", [with_open_ends, with_reloads, with_open_reloads])

@@ -301,11 +301,6 @@ def all_rules_on_batteries(rng: np.random.Generator) -> Problem:
             return problem
 
 
-def all_rules_flown_both_ways(rng: np.random.Generator) -> Problem:
-    problem = with_pickups(rng, all_rules_on_batteries(rng))
-    return with_energy(rng, with_dimensions(rng, problem) if rng.random() < 0.3 else problem)
-
-
 def all_rules_swapping(rng: np.random.Generator) -> Problem:
     """Return problems half of which have batteries, windows or vehicles under way as well."""
     while True:
@@ -384,8 +379,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 @pytest.mark.parametrize("draw", [
     all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
     all_rules_of_duty, all_rules_both_ways, all_rules_own_durations, all_rules_goods_apart,
-    all_rules_setups, all_rules_limits_aboard, all_rules_at_once, all_rules_swapping,
-    all_rules_flown_both_ways],
+    all_rules_setups, all_rules_limits_aboard, all_rules_at_once, all_rules_swapping],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:

@@ -13,7 +13,9 @@ import pytest
 
 from model.judge.check import check
 from model.kernel.instance import pack
-from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
+from model.problem import (
+    UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType,
+)
 from model.simulation.extract import extract
 from model.simulation.simulator import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
@@ -21,9 +23,10 @@ from model.simulation.simulator import (
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_dimensions, with_duty, with_energy, with_gaps, with_goods,
-    with_limits_aboard, with_open_ends, with_open_reloads, with_own_costs, with_own_durations,
-    with_pickups, with_places, with_reloads, with_setups, with_table, with_turnaround,
+    draw_tiny, with_beginnings, with_charging, with_dimensions, with_duty, with_energy, with_gaps,
+    with_goods, with_limits_aboard, with_open_ends, with_open_reloads, with_own_costs,
+    with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_table,
+    with_turnaround,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -98,10 +101,23 @@ def swapping_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_turnaround(rng, with_energy(rng, with_gaps(rng, with_places(rng, problem))))
 
 
+def charging_often(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem of one trip a vehicle, on which drones could serve all at any time."""
+    customers = tuple(replace(customer, served_by="drone" if rng.random() < 0.5 else "either",
+                              latest=UNLIMITED, demand=(0,) * len(customer.demand))
+                      for customer in problem.customers)
+    kinds = tuple(replace(kind, max_trips=1) for kind in problem.vehicle_types)
+    return with_charging(rng, replace(problem, customers=customers, vehicle_types=kinds))
+
+
+def charging_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_charging(rng, with_pickups(rng, with_gaps(rng, with_places(rng, problem))))
+
+
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
     with_open_reloads, with_duty, with_own_durations, with_goods, with_setups, with_limits_aboard,
-    with_turnaround, swapping_among_all])
+    with_turnaround, swapping_among_all, charging_often, charging_among_all])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(80):

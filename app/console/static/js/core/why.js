@@ -19,6 +19,7 @@ const RULES = {
   max_trip_distance: ['the longest trip', 'more'],
   'drones.endurance': ['the endurance', 'more'],
   'drones.turnaround.batteries': ['the number of batteries', 'more'],
+  'drones.turnaround.charge_w': ['the power to charge drones', 'more'],
   'drones.energy.battery_wh': ['the battery of drones', 'more'],
   'drones.capacity': ['the drone capacity', 'more'],
   count: ['the number', 'more'],
@@ -78,7 +79,7 @@ export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves })
 }
 
 function plural(unit, value) {
-  return unit === 'km' || unit === 'Wh' || value === 1 ? unit : `${unit}s`;
+  return unit === 'km' || unit === 'Wh' || unit === 'W' || value === 1 ? unit : `${unit}s`;
 }
 
 /** Return sentences on what drones save in sum. */
