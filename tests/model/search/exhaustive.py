@@ -54,10 +54,12 @@ def cheapest_cost(problem: Problem) -> float:
 def _cheapest_route(problem: Problem, kind: int, nodes: Nodes) -> float:
     """Return the cost of the cheapest route that serves exactly these; infinite without one."""
     best, vehicle_type = math.inf, problem.vehicle_types[kind]
-    for trips in _trip_lists(problem, vehicle_type, nodes, vehicle_type.max_trips,
-                             vehicle_type.begins_at):
-        if _least_cost(problem, vehicle_type, trips) >= best:
-            continue
+    bounded = [(_least_cost(problem, vehicle_type, trips), trips) for trips in _trip_lists(
+        problem, vehicle_type, nodes, vehicle_type.max_trips, vehicle_type.begins_at)]
+    # The most promising first, so that the others need not be timed.
+    for least, trips in sorted(bounded, key=lambda entry: entry[0]):
+        if least >= best:
+            break
         decision = RouteDecision(kind, 0, trips)
         soon = schedule(problem, decision)
         evaluation = check(problem, Solution((soon,)))
