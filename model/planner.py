@@ -45,9 +45,10 @@ begins with there is dearer than the policy's plan."""
 GIVE_UP_SHARE = 0.5
 """Share of the time limit after which the policy is given up where a search follows."""
 
-SECONDS_BEHIND, SECONDS_PER_CUSTOMER, SECONDS_PER_REASON = 0.0025, 2e-5, 1e-6
-"""Kept back for checking a plan and writing it down: in all, for each customer, and for each reason
-why a type of vehicle doesn't serve one."""
+SECONDS_BEHIND, SECONDS_PER_CUSTOMER, SECONDS_WITH_DRONES, SECONDS_PER_REASON = (
+    0.0025, 2e-5, 4e-5, 2e-6)
+"""Kept back for checking a plan and writing it down: in all, for each customer, where drones fly
+so much more, and for each reason why a type of vehicle doesn't serve one."""
 
 WARM_LIMIT = 3600.0
 """Time limit of the plan that everything is compiled for, which no compiler should need."""
@@ -309,6 +310,8 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
     config = SearchConfig(options.seed, options.threads, options.search_iterations)
     if deadline is not None:
         each = SECONDS_PER_CUSTOMER + SECONDS_PER_REASON * len(problem.vehicle_types)
+        if any(kind.drones is not None for kind in problem.vehicle_types):
+            each += SECONDS_WITH_DRONES
         deadline -= SECONDS_BEHIND + each * problem.num_customers
     return improve(problem, instance, _nobody(problem) if first is None else first.solution,
                    config, deadline, listener.should_stop, listener.on_progress)
