@@ -122,8 +122,8 @@ class Planner:
 
         Given a problem, all that it needs.
         Where nothing is yet, one of several processes compiles and the others wait; where there are
-        two cores, it has a helper that compiles the search for problems without rarer rules. What
-        is loaded by then is taken out of the garbage collector's sight.
+        two cores, it has a helper that compiles the search with all rules, or what one problem
+        needs of it. What is loaded by then is taken out of the garbage collector's sight.
         """
         parts = parts_for(problem)
         with telling(tell) as warming, first_to_compile(parts) as is_first:
@@ -131,8 +131,8 @@ class Planner:
         keep_loaded()
 
     def _warm(self, warming: Warming, parts: Sequence[str], with_helper: bool) -> None:
-        first, *others = parts
-        with beside(COMPILE_SEARCH.format(first)) if with_helper else nullcontext():
+        *others, longest = parts
+        with beside(COMPILE_SEARCH.format(longest)) if with_helper else nullcontext():
             warming.enter("compiling flights around no-fly areas")
             compile_ways()
             for name in self._policies:
@@ -143,7 +143,7 @@ class Planner:
             warming.enter("compiling the search", decodes=True)
             for part in others:
                 compile_search(part)
-        compile_search(first)
+        compile_search(longest)
         for name, part in product(self._policies, parts):
             self.plan(small_problem(part), PlanOptions(
                 name, time_limit=WARM_LIMIT, search_iterations=4, threads=2))

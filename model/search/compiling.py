@@ -29,7 +29,10 @@ with counting():
 
 
 def parts_for(problem: Problem | None) -> tuple[str, ...]:
-    """Return the parts that the search for a problem needs; all if there is none yet."""
+    """Return the parts that the search for a problem needs; all if there is none yet.
+
+    What takes longest comes last.
+    """
     if problem is None:
         return PLAIN, RARER
     return (RARER if states_rarer_rules(problem) else PLAIN,)

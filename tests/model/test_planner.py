@@ -236,7 +236,7 @@ def test_second_process_compiles_the_search_where_nothing_is_yet(
     monkeypatch.setattr(planner_module, "beside", watch)
     monkeypatch.setattr(planner_module, "num_cores", lambda: 2)
     planner.warm()
-    assert helpers == [COMPILE_SEARCH.format(PLAIN)]
+    assert helpers == [COMPILE_SEARCH.format(RARER)]
     subprocess.run([sys.executable, "-c", *helpers], check=True)
 
 
