@@ -22,7 +22,7 @@ help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 serve: .venv/serving ## Run the service (PORT=8000, HOST=127.0.0.1)
-	@echo "Starting; the first time, plans wait a minute or two until the search is compiled. Open $(URL) for the console, $(URL)/docs for the API or, in another terminal and in this folder, run"
+	@echo "Starting; the first time, plans wait some minutes until the search is compiled. Open $(URL) for the console, $(URL)/docs for the API or, in another terminal and in this folder, run"
 	@echo
 	@echo "  curl -H 'Content-Type: application/json' --data-binary @examples/table1.json $(URL)/plan"
 	@echo
