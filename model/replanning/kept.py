@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from model.judge.energy import charges_at
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
-from model.problem import UNREACHABLE, Problem, VehicleType
+from model.problem import MAX_QUANTITY, UNREACHABLE, Problem, VehicleType
 from model.replanning.amend import customers_of, repaired, without
 from model.solution import Route, Solution, Sortie, Stop, Trip
 
@@ -163,7 +163,7 @@ def _planned_end(problem: Problem, kept: Kept, ready: int, service_left: int,
     """Return when a trip is over that goes on as planned."""
     kind = problem.vehicle_types[kept.vehicle.type]
     kind = replace(with_drones_then(kind, bool(kept.decision.trips[-1].sorties)), max_trips=1,
-                   earliest=min(ready, kind.latest))
+                   earliest=min(ready, kind.latest, MAX_QUANTITY))
     kind = charged_then(problem, kind, kept.route.trips[-1], ready)
     node, begun = rest.nodes[0], ready + service_left
     if node >= problem.num_depots:

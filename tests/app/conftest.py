@@ -43,7 +43,7 @@ class FirstFitPlanner:
 
     policies = (DEFAULT_POLICY,)
 
-    def warm(self, tell: Tell) -> None:
+    def warm(self, tell: Tell, problem: Problem | None = None) -> None:
         tell(Warmth("compiling nothing", 1.0))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,

@@ -17,7 +17,7 @@ from benchmarks.wild_problems import wild_request
 Data = dict[str, Any]
 Answer = Callable[[Data], Data]
 
-PROBLEMS = 40
+PROBLEMS = 60
 
 ONCE_BROKEN = (21_086,)
 """Seeds of problems whose plans were no plans: a ruin took the depot for a customer, beside a drone
