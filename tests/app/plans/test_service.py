@@ -95,7 +95,7 @@ class HalfWarmPlanner(FirstFitPlanner):
         self.decodes = threading.Event()
         self.finish = threading.Event()
 
-    def warm(self, tell: Tell) -> None:
+    def warm(self, tell: Tell, problem: Problem | None = None) -> None:
         tell(Warmth("compiling the search", 0.5, decodes=True))
         self.decodes.set()
         self.finish.wait()
