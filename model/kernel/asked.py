@@ -52,6 +52,7 @@ def most_asked_for(problem: Problem) -> IntArray:
     asked = [[customer.demand for customer in problem.customers]]
     if any(customer.pickup for customer in problem.customers):
         asked.append([customer.taken_in for customer in problem.customers])
-    amounts = np.array(asked, np.int64).reshape(-1, problem.num_customers, problem.num_dimensions)
+    shape = len(asked), problem.num_customers, problem.num_dimensions
+    amounts = np.array(asked, np.int64).reshape(shape)
     most: IntArray = amounts.max(axis=0)
     return most

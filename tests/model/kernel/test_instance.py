@@ -90,3 +90,13 @@ def test_neighbours_are_the_nearest_other_customers_in_order(tiny_problem, custo
 
 def test_a_single_customer_has_no_neighbour(tiny_problem, customers, truck) -> None:
     assert (pack([tiny_problem(customers[0], truck=truck)]).neighbour == -1).all()
+
+
+def test_a_problem_without_customers_is_packed() -> None:
+    problem, = random_problems(seed=3, count=1)
+    nodes = slice(problem.num_depots)
+    travel = tuple(replace(each, duration=each.duration[nodes, nodes],
+                           distance=each.distance[nodes, nodes]) for each in problem.travel)
+    empty = replace(problem, customers=(), travel=travel, may_serve=None,
+                    coordinates=problem.coordinates[nodes])
+    assert pack([empty]).can_drive.shape == (1, len(empty.vehicle_types), empty.num_nodes)
