@@ -33,10 +33,15 @@ def sorties_of(plan: Request) -> list[Request]:
     return sorted(trip["sorties"], key=lambda sortie: sortie["launch_time"])
 
 
+def enough_for_each(client: httpx.Client, request: Request) -> float:
+    """Return the Wh that suffice for any flight of a plan, and hardly for two."""
+    plenty = sorties_of(planned(client, flying(request, 0.0, 100.0)))
+    return float(max(sortie["energy_wh"] for sortie in plenty) + 0.01)
+
+
 def test_a_drone_rests_until_it_has_what_its_next_flight_takes(client: httpx.Client,
                                                                smallest: Request) -> None:
-    plenty = sorties_of(planned(client, flying(smallest, 0.0, 100.0)))
-    battery = max(sortie["energy_wh"] for sortie in plenty) + 0.01
+    battery = enough_for_each(client, smallest)
     request = flying(smallest, 50.0, battery)
     plan = planned(client, request)
     first, second = sorties_of(plan)
@@ -53,8 +58,7 @@ def test_a_drone_rests_until_it_has_what_its_next_flight_takes(client: httpx.Cli
 
 def test_a_day_under_way_goes_on_with_what_is_charged(client: httpx.Client,
                                                       smallest: Request) -> None:
-    plenty = sorties_of(planned(client, flying(smallest, 0.0, 100.0)))
-    battery = max(sortie["energy_wh"] for sortie in plenty) + 0.01
+    battery = enough_for_each(client, smallest)
     request = flying(smallest, 50.0, battery)
     plan = planned(client, request)
     first, second = sorties_of(plan)
