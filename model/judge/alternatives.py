@@ -66,20 +66,20 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
 
     `until` is on `time.perf_counter`.
     """
-    by_group, is_complete = _try_groups(bench, until)
+    by_group, is_complete = try_places(bench, until)
     windows, all_windows = _windows(bench, until)
     found = bench.found
     alternatives: list[Alternative] = []
     if found is not None:
         here = found.place
-        alternatives += _best(bench, "place", by_group.get((here.vehicle, here.by), ()))
-        alternatives += _best(bench, "by", [draft for (_, by), drafts in by_group.items()
+        alternatives += best_of(bench, "place", by_group.get((here.vehicle, here.by), ()))
+        alternatives += best_of(bench, "by", [draft for (_, by), drafts in by_group.items()
                                             if by != here.by for draft in drafts])
     vehicles: dict[Vehicle, list[Draft]] = {}
     for (vehicle, _), drafts in by_group.items():
         if found is None or vehicle != found.place.vehicle:
             vehicles.setdefault(vehicle, []).extend(drafts)
-    others = [each for drafts in vehicles.values() for each in _best(bench, "vehicle", drafts)]
+    others = [each for drafts in vehicles.values() for each in best_of(bench, "vehicle", drafts)]
     alternatives += [*windows, *sorted(others, key=lambda each: each.trial.rank)]
     if found is not None:
         alternatives.append(Alternative("unassigned", bench.left_out))
@@ -88,7 +88,7 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
                     is_complete and all_windows)
 
 
-def _best(bench: Bench, kind: Kind, drafts: Sequence[Draft],
+def best_of(bench: Bench, kind: Kind, drafts: Sequence[Draft],
           problem: Problem | None = None) -> Iterator[Alternative]:
     """Yield the best of some drafts, if there are any.
 
@@ -103,7 +103,7 @@ def _best(bench: Bench, kind: Kind, drafts: Sequence[Draft],
         yield Alternative(kind, min(trials, key=lambda trial: trial.rank))
 
 
-def _try_groups(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bool]:
+def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bool]:
     """Try the best places of each vehicle and means, and tell whether there was time for all.
 
     All of them have their first turn before any has its second.
@@ -166,7 +166,7 @@ def _windows(bench: Bench, until: float) -> tuple[list[Alternative], bool]:
             if not _is_settled(drafts, turn, MORE_TRIES):
                 drafts.append(bench.draft(guess.place, problem))
         found += [replace(each, window=window)
-                  for each in _best(bench, "window", drafts, problem)]
+                  for each in best_of(bench, "window", drafts, problem)]
     return found, True
 
 

@@ -2,7 +2,8 @@
 
 Numba keeps compiled functions beside a hash of the one file that defines them, and so misses a
 change in a function or constant that was imported from another file and compiled in. Here one
-fingerprint over all files that take part names the folder, so no stale code is ever run.
+fingerprint over all files that take part names the folder, so no stale code is ever run; and what
+is there is found wherever the source lies.
 """
 
 import fcntl
@@ -17,6 +18,7 @@ from typing import Any, TypeVar, cast
 
 from numba import config, njit
 from numba.core import event
+from numba.core.caching import UserProvidedCacheLocator
 from numba.core.compiler import Compiler
 
 SOURCES = (
@@ -24,14 +26,14 @@ SOURCES = (
         "customer", "energy", "fleet", "overtime", "problem", "quantities")),
     *(f"kernel/{part}" for part in (
         "compiled", "records", "plain", "alarm", "copying", "instance", "start", "shift", "stop",
-        "energy", "flight", "load", "clock", "leg")),
+        "energy", "flight", "load", "clock", "leg", "drone_types")),
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (
         "vehicle_log", "cost", "meeting", "aboard", "transition", "trial", "simulator")),
     *(f"policy/{part}" for part in (
         "tokens", "observation", "lookahead", "features", "resampling", "rollouts")),
     *(f"search/route/{part}" for part in (
-        "layout", "rarer", "ends", "randomness", "goods", "batteries", "block", "routes",
+        "layout", "rarer", "craft", "ends", "randomness", "goods", "batteries", "block", "routes",
         "freshness", "vehicles", "halts", "lean", "refresh", "edit", "state")),
     *(f"search/insertion/{part}" for part in (
         "evaluate", "cheapest_stop", "new_trips", "offers", "places")),
@@ -41,6 +43,11 @@ SOURCES = (
     "search/sharing",
 )
 """Files with compiled functions, and those whose constants are compiled into them."""
+
+SOURCE = Path(__file__).parents[1]
+"""Folder of `SOURCES`."""
+
+_PATHS = frozenset(SOURCE / f"{name}.py" for name in SOURCES)
 
 LITTLE = type(config.OPT)(1)  # type: ignore[attr-defined]
 """Level of optimisation for what is optimised again."""
@@ -81,6 +88,29 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 _TO_COMPILE: set[str] = set()
 """Names of all functions that are compiled for themselves."""
+
+
+class LocatorByContent(UserProvidedCacheLocator):
+    """Finds the machine code of `SOURCES`, whose folder is named by what it was made of."""
+
+    @classmethod
+    def from_function(cls, py_func: Callable[..., Any], py_file: str) -> Any:
+        """Return a locator; None for functions of other files, of which it says nothing."""
+        if Path(py_file) not in _PATHS:
+            return None
+        return super().from_function(py_func, py_file)  # type: ignore[no-untyped-call]
+
+    @classmethod
+    def get_suitable_cache_subpath(cls, py_file: str) -> str:
+        """Return the source file's folder, below the one of all."""
+        return str(Path(py_file).parent.relative_to(SOURCE))
+
+    def get_source_stamp(self) -> object:
+        """Return nothing: the folder's name tells of every change."""
+        return None
+
+
+_LOCATORS = f"{__name__}.{LocatorByContent.__name__},{UserProvidedCacheLocator.__name__}"
 
 
 def compiled(function: Function) -> Function:
@@ -139,6 +169,7 @@ def _kept(function: Function, **options: Any) -> Function:
     folder = compiled_folder()
     # Numba looks the folder up while it decorates, and nowhere but in its settings.
     config.CACHE_DIR = str(folder or "")  # type: ignore[attr-defined]
+    config.CACHE_LOCATOR_CLASSES = _LOCATORS  # type: ignore[attr-defined]
     dispatcher = njit(cache=folder is not None, nogil=True, **options)(function)
     if folder is not None and not config.DISABLE_JIT:  # type: ignore[attr-defined]
         # Compiled for other types by another process at the same time, it might get the same name.
@@ -162,11 +193,10 @@ def compiled_folder() -> Path | None:
 
     It lies in NUMBA_CACHE_DIR if that is set, else beside the source or in the user's cache.
     """
-    source = Path(__file__).parents[1]
     chosen = os.environ.get("NUMBA_CACHE_DIR")
     user = os.path.expanduser(os.environ.get("XDG_CACHE_HOME") or "~/.cache")
-    parents = [Path(chosen)] if chosen else [source / "__pycache__", Path(user, "tandem-planner")]
-    name = f"compiled-{fingerprint(source)}"
+    parents = [Path(chosen)] if chosen else [SOURCE / "__pycache__", Path(user, "tandem-planner")]
+    name = f"compiled-{fingerprint(SOURCE)}"
     return next((parent / name for parent in parents if _can_write(parent / name)), None)
 
 

@@ -13,6 +13,7 @@ from model.kernel.asked import (
     goods_rows, has_setups, most_asked_for, setup_rows, weight_rows,
 )
 from model.kernel.battery_rows import battery_row, full_row, powers_row
+from model.kernel.drone_types import NO_ROW, all_kinds
 from model.kernel.nearest import write_nearest
 from model.kernel.pausing import Pause, go_on
 from model.kernel.plain import ANY_RULE, MARKED
@@ -36,8 +37,7 @@ MOST_DRONES = 256
 MAX_NEIGHBOURS = 24
 """How many nearest customers of each node are kept."""
 
-FAR = 2**58
-NONE = -FAR
+FAR, NONE = 2**58, -2**58
 """Instants later, and earlier, than any that occurs."""
 
 SIZE = record("depots", "customers", "types", "dimensions")
@@ -60,8 +60,7 @@ next."""
 
 SETUP = record("site", "setup_duration")
 """Where a node is, equal at one place, and how long whoever comes from elsewhere sets up there.
-Nobody has a row where nobody has to. Durations of legs hold it, unless speeds change by time of day
-or the leg brings a drone back."""
+Nobody has a row where nobody has to. Legs hold it, unless speeds change or it leads back."""
 
 PRICE = record(lateness=float, waiting=float)
 """What lateness and waiting at a node cost per hour."""
@@ -74,12 +73,12 @@ TYPE = record(
     "count", "travel", "depot", "begins_at", "ends_at", "changes_ends", "shift_earliest",
     "busy_until", "begun", "shift_latest", "max_working_duration", "usual_end", "usual_working",
     "max_trip_distance", "max_trips", "max_stops", "max_sorties", "reload_duration",
-    "speed_changes", "drones", "drone_travel", "home_travel", "endurance", "waiting_counts",
-    "launch_duration", "relaunch_duration", "recovery_duration", "variant", "drone_variant",
-    "points", "battery", "lands", "climb_duration", "descent_duration", "charge", "pickup_order",
-    "carried", capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER, weights=MAX_POINTS,
-    cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS, descent=MAX_POINTS,
-    first_charge=MOST_DRONES, rare=ANY_RULE)
+    "speed_changes", "drone_row", "drones", "drone_travel", "home_travel", "endurance",
+    "waiting_counts", "launch_duration", "relaunch_duration", "recovery_duration", "variant",
+    "drone_variant", "points", "battery", "lands", "climb_duration", "descent_duration", "charge",
+    "pickup_order", "carried", capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER,
+    weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS,
+    descent=MAX_POINTS, first_charge=MOST_DRONES, rare=ANY_RULE)
 """A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
 customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
 its working duration, and costs as if it were fixed. The end of the shift and the longest working
@@ -87,7 +86,8 @@ duration are with overtime; what is `usual` is without. Each launch of a trip bu
 the `relaunch_duration`; no more sorties are flown than there are batteries. Its drones' powers are
 known at so many `points`, by weight; none if no battery limits them; aboard they gain a `charge`,
 from what each has at first. It picks up in any order, or after all that a trip delivers, which is
-something, or was before the trip begins here; what else it carries in the first dimension."""
+something, or was before the trip begins here; what else it carries in the first dimension.
+`kernel/drone_types` says which rows tell of which drones."""
 ANY, LAST, BEGUN = range(3)
 
 NO_PROFILE = -1
@@ -112,8 +112,8 @@ class Instance(NamedTuple):
     goods: Records  # (problem, node) GOODS, or (problem, 0)
     setup: Records  # (problem, node) SETUP, or (problem, 0)
     fresh_for: IntArray  # (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
-    type: Records  # (problem, type) TYPE
-    rate: Records  # (problem, type) RATE
+    type: Records  # (problem, row) TYPE; trucks first, as many as SIZE says
+    rate: Records  # (problem, row) RATE
     reload: BoolArray  # (problem, type, node) where a trip may end and the next begin
     can_drive: BoolArray  # (problem, type, node) table, kind, skills and capacity allow a truck
     can_fly: BoolArray  # (problem, type, node) likewise for its drones
@@ -155,8 +155,7 @@ def _empty(problems: Sequence[Problem], variants: int, travels: int) -> Instance
     """Allocate arrays for problems with so many tables of nodes and of legs."""
     rows = len(problems)
     nodes = max(problem.num_nodes for problem in problems)
-    types = max(len(problem.vehicle_types) for problem in problems)
-    set_up = any(has_setups(problem) for problem in problems)
+    types = max(len(all_kinds(problem)) for problem in problems)
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
     limited = any(problem.limits_time_aboard for problem in problems)
@@ -167,7 +166,7 @@ def _empty(problems: Sequence[Problem], variants: int, travels: int) -> Instance
         amount=np.zeros((rows, nodes, _num_tiers(problems), AMOUNTS), np.int64),
         price=np.zeros((rows, nodes), PRICE),
         goods=np.zeros((rows, nodes if apart else 0), GOODS),
-        setup=np.zeros((rows, nodes if set_up else 0), SETUP),
+        setup=np.zeros((rows, nodes if any(map(has_setups, problems)) else 0), SETUP),
         fresh_for=np.full((rows, nodes if limited else 0), FAR, np.int64),
         type=np.zeros((rows, types), TYPE),
         rate=np.zeros((rows, types), RATE),
@@ -207,9 +206,12 @@ def _pack_row(instance: Instance, row: int, problem: Problem,
                           problem.num_dimensions)
     if problem.customers:
         _pack_customers(instance, row, problem, durations)
-    for index, kind in enumerate(problem.vehicle_types):
-        instance.type[row, index] = _type_row(kind, ways, variant_of(kind, problem, durations),
-                                              variant_of(kind.drones, problem, durations))
+    for index, (kind, part_of, drone_row) in enumerate(all_kinds(problem)):
+        variants = [variant_of(each, problem, durations) for each in (kind, kind.drones)]
+        instance.type[row, index] = _type_row(kind, ways, drone_row, *variants)
+        charge_left = problem.vehicle_types[part_of].charge_left
+        if charge_left:
+            instance.type[row, index].first_charge[: len(charge_left)] = charge_left
         instance.reload[row, index, list(kind.reload_places)] = True
         drones = kind.drones
         worked = _worked(kind) / MS_PER_HOUR * kind.cost_per_hour
@@ -285,7 +287,7 @@ def _padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
     return (*amount[:length], *(0,) * (length - len(amount)))
 
 
-def _type_row(kind: VehicleType, ways: Sequence[Way], variant: int,
+def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: int,
               drone_variant: int) -> tuple[Any, ...]:
     drones = kind.drones
     load = kind.initial_load or (0,) * len(kind.capacity)
@@ -298,11 +300,11 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], variant: int,
         int(kind.works_since is not None), *_limits_of_work(kind),
         _limit(kind.max_trip_distance), kind.max_trips, _limit(kind.max_stops),
         _most_sorties(kind), kind.reload_duration,
-        NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times),
+        NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
         *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
         *battery_row(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
         _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *powers_row(energy),
-        _padded(kind.charge_left or full_row(energy, MOST_DRONES), MOST_DRONES), MARKED)
+        full_row(energy, MOST_DRONES), MARKED)
 
 
 def _pickup_order(kind: VehicleType) -> int:
@@ -362,19 +364,22 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
     for customer, skills in enumerate(c.skills for c in problem.customers):
         if skills:
             asking.setdefault(skills, []).append(customer)
-    for index, kind in enumerate(problem.vehicle_types):
+    for index, (kind, part_of, drone_row) in enumerate(all_kinds(problem)):
         dimensions = slice(most.shape[1])
         fits = np.all(most <= instance.type[row, index].capacity[dimensions], axis=1)
         for skills, customers_asking in asking.items():
             if not skills <= kind.skills:
                 fits[customers_asking] = False
         if problem.may_serve is not None:
-            fits &= problem.may_serve[index]
+            fits &= problem.may_serve[part_of]
         if problem.incompatible_goods:
             goods = instance.goods[row, customers]
             fits &= goods["held"] & (goods["barred_on_trip"] | goods["barred_on_vehicle"]) == 0
-        instance.can_drive[row, index, customers] = fits & by_truck & (kind.max_stops != 0)
-        if kind.drones is not None and _most_sorties(kind) > 0:
+        if index == part_of:
+            instance.can_drive[row, index, customers] = fits & by_truck & (kind.max_stops != 0)
+        can_launch = _most_sorties(kind) > 0 and problem.vehicle_types[part_of].max_sorties != 0
+        if kind.drones is not None and can_launch and (index != part_of or drone_row == NO_ROW):
             payload = instance.type[row, index].payload[dimensions]
-            liftable = (most <= payload).all(axis=1)
-            instance.can_fly[row, index, customers] = fits & by_drone & liftable
+            fits &= by_drone & (most <= payload).all(axis=1)
+            instance.can_fly[row, index, customers] = fits
+            instance.can_fly[row, part_of, customers] |= fits

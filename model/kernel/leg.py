@@ -55,6 +55,18 @@ def matrix_of(matrices: IntArray, b: int, m: int) -> IntArray:
     return matrices[b, m]
 
 
+@pasted
+def matrices_of(matrices: IntArray, b: int) -> IntArray:
+    """Return the durations of all travels in problem `b`, (travel, origin, to)."""
+    return matrices[b]
+
+
+@pasted
+def matrix_among(matrices: IntArray, m: int) -> IntArray:
+    """Return the durations of travel `m`, (origin, to), from those of one problem."""
+    return matrices[m]
+
+
 @inlined
 def lookup(matrix: IntArray, origin: int, to: int) -> int:
     """Return the duration of a leg, or the distance, from a matrix of either."""

@@ -30,8 +30,9 @@ def durations_of(problem: Problem) -> dict[Variant, IntArray]:
     own = np.array([customer.service_duration for customer in problem.customers], np.int64)
     found: dict[Variant, IntArray] = {(own.tobytes(), None): own}
     for kind in problem.vehicle_types:
-        for served in (kind, kind.drones):
-            if served is not None and _has_own_table(served):
+        servers: tuple[VehicleType | DroneType, ...] = (kind, *kind.drone_types)
+        for served in servers:
+            if _has_own_table(served):
                 each = _served_by(served, problem)
                 found.setdefault((each.tobytes(), _weighs(served)), each)
     return found
@@ -69,8 +70,8 @@ def ways_of(problem: Problem) -> list[Way]:
     ways: dict[Way, None] = {}
     for kind in problem.vehicle_types:
         ways[Way(kind.travel, kind.speed_profile is None)] = None
-        if kind.drones is not None:
-            ways |= {Way(kind.drones.travel, True): None, Way(kind.drones.travel, False): None}
+        for drones in kind.drone_types:
+            ways |= {Way(drones.travel, True): None, Way(drones.travel, False): None}
     return list(ways)
 
 

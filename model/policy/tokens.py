@@ -144,6 +144,8 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :seen]
     payload = instance.type["payload"].max(axis=1)[:, None, :seen]
     types = np.maximum(instance.size["types"], 1)[:, None]
+    is_type = np.arange(instance.type.shape[1]) < instance.size["types"][:, None]
+    can_fly = instance.can_fly & is_type[..., None]
     earliest, latest = nodes["window_earliest"], nodes["window_latest"]
     home = instance.duration[:, 0, 0, :]
     return np.stack([
@@ -157,7 +159,7 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
         squash(nodes["service_duration"] / time),
         np.minimum(nodes["release"] / horizon, 2),
         squash(instance.price["lateness"] * hours), squash(instance.price["waiting"] * hours),
-        instance.can_drive.sum(axis=1) / types, instance.can_fly.sum(axis=1) / types,
+        instance.can_drive.sum(axis=1) / types, can_fly.sum(axis=1) / types,
         squash(home / time), squash(home / scale.near[:, None] / 4),
     ], axis=2)
 

@@ -5,7 +5,6 @@ import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import first_plan, make_searcher, read_plan
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.moves.anneal import ANY, anneal
+from model.search.numbering import plan_in
 from model.search.route.layout import World
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
@@ -40,6 +40,9 @@ BEGINNING_SHARE = 0.3
 
 GRACE = 0.03
 """Seconds that the search may take for a beginning, even where no time is left."""
+
+Reading = Callable[[int, int], float]
+"""Seconds that a plan of so many routes and sorties takes to read."""
 
 FIRST_SLICE = 8
 """Turns before the first look at the clock."""
@@ -152,7 +155,7 @@ class _Team:
     workers: list[_Worker]
     limits: Limits
     pool: ThreadPoolExecutor
-    tell: Callable[[int], None]  # after how many turns of all a round ends
+    after_round: Callable[[int], None]  # told of the turns of all
 
     def over(self, span: Span = WHOLE) -> bool:
         """Tell whether the search, or a span of it, ends."""
@@ -165,7 +168,7 @@ class _Team:
                 worker.searcher, worker.span = part, span
             list(self.pool.map(_Worker.run, self.workers))
             crew.gather()
-            self.tell(sum(worker.turns for worker in self.workers))
+            self.after_round(sum(worker.turns for worker in self.workers))
             rounds -= 1
             if rounds <= 0 or self.over(span):
                 return
@@ -180,7 +183,8 @@ class _Team:
 
 def improve(problem: Problem, instance: Instance, solution: Solution, config: SearchConfig,
             deadline: float | None = None, should_stop: Callable[[], bool] = lambda: False,
-            on_progress: Callable[[Progress], None] = lambda _: None) -> Improved:
+            on_progress: Callable[[Progress], None] = lambda _: None,
+            reading: Reading = lambda routes, sorties: 0.0) -> Improved:
     """Search for a better plan than the one given.
 
     Parameters
@@ -200,6 +204,9 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
         Asked every few milliseconds, from several threads.
     on_progress
         Told of the best routes so far, `ROUNDS` times or each `LONGEST_ROUND`.
+    reading
+        How long before the deadline the search ends, by the numbers of routes and sorties of its
+        best plan: what reading that takes and what the caller does with it.
 
     Returns
     -------
@@ -217,14 +224,14 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     # Where no routes are given, a late plan is better than none.
     latest = end if solution.routes else math.inf
     try:
-        ground = lay_ground(problem, instance, pausing(should_stop, latest, GRACE))
+        ground = lay_ground(problem, instance, pausing(should_stop, latest, GRACE), along=True)
     except EndedError:
         return Improved(solution, math.inf, 0.0, 0, False)
     with Alarm(max(end, time.perf_counter() + GRACE), should_stop) as alarm:
         limits = Limits(began, end,
                          None if config.turns is None else config.turns // config.threads,
                          lambda: alarm.has_rung or should_stop())
-        task = _Task(problem, instance, ground, config, limits, alarm)
+        task = _Task(problem, instance, ground, config, limits, alarm, reading)
         if not solution.routes and _trucks_come_first(problem, config.moves):
             by_truck = _plan_by_truck(task)
             if alarm.has_rung:
@@ -243,6 +250,7 @@ class _Task:
     config: SearchConfig
     limits: Limits
     alarm: Alarm
+    reading: Reading
 
 
 def _improved(task: _Task, solution: Solution, from_trucks: bool,
@@ -250,23 +258,35 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     """Search for a better plan than the one given, which trucks alone made if `from_trucks`."""
     problem, config, limits = task.problem, task.config, task.limits
     world = make_world(problem, task.instance, config.moves, task.ground, task.alarm.flag)
-    fresh = not solution.routes
-    if fresh:
-        solution = first_plan(problem, world)
+    numbering, fresh = task.ground.numbering, not solution.routes
+    plan = first_plan(problem, world) if fresh else plan_in(numbering.number, solution)
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
-    whole = make_searcher(problem, world, solution, seeds[0])
+    whole = make_searcher(problem, world, plan, seeds[0])
     _begin(world, whole, fresh, limits)
+    limits.reading = task.reading(*_size(whole))
     heat = Heat.of(world, whole, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
     workers = [_Worker(world, whole, limits, heat) for _ in range(config.threads)]
 
-    def tell(turns: int) -> None:
-        on_progress(Progress(float(whole.value.best), turns, partial(read_plan, world, whole)))
+    def best() -> Solution:
+        return plan_in(numbering.node, read_plan(world, whole))
 
+    def after_round(turns: int) -> None:
+        limits.reading = task.reading(*_size(whole))
+        on_progress(Progress(float(whole.value.best), turns, best))
+
+    crew = Crew(world, problem.coordinates[numbering.node], whole, seeds[1:])
     with ThreadPoolExecutor(config.threads) as pool:
-        _search(_Team(whole, workers, limits, pool, tell), world, problem, seeds[1:])
-    return Improved(read_plan(world, whole), float(whole.value.best), first_cost,
+        _search(_Team(whole, workers, limits, pool, after_round), world, crew, seeds[1:])
+    return Improved(best(), float(whole.value.best), first_cost,
                     sum(worker.turns for worker in workers), not task.alarm.has_rung)
+
+
+def _size(whole: Searcher) -> tuple[int, int]:
+    """Return the numbers of routes and sorties of the best plan."""
+    routes = whole.best.route[:len(whole.active)]
+    used = routes["length"] > 0
+    return int(np.count_nonzero(used)), int(routes["sorties"][used].sum())
 
 
 def _begin(world: World, whole: Searcher, fresh: bool, limits: Limits) -> None:
@@ -283,7 +303,7 @@ def _begin(world: World, whole: Searcher, fresh: bool, limits: Limits) -> None:
         _begin_by_types(world, whole, limits)
 
 
-def _search(team: _Team, world: World, problem: Problem,
+def _search(team: _Team, world: World, crew: Crew,
             seeds: list[np.random.SeedSequence]) -> None:
     """Search until the end. In place.
 
@@ -295,7 +315,6 @@ def _search(team: _Team, world: World, problem: Problem,
     starts = None
     if world.scan_all and not team.workers[0].heat.drones:
         starts = Starts(world, whole, seeds)
-    crew = Crew(world, problem.coordinates, whole, seeds)
     team.search(crew, WHOLE, rounds=1)
     count, rest = team.num_starts(), WHOLE
     if starts is not None and count > 1:
@@ -343,7 +362,7 @@ def _plan_by_truck(task: _Task) -> Improved:
     deadline = limits.began + (limits.deadline - limits.began) * BY_TRUCK_SHARE
     config = replace(config, turns=turns,
                      moves=replace(config.moves, loops=False, crossings=False))
-    limits = replace(limits, began=time.perf_counter(), deadline=deadline,
+    limits = replace(limits, began=time.perf_counter(), end=deadline,
                      turns=None if turns is None else turns // config.threads)
     return _improved(replace(task, config=config, limits=limits), Solution((), ()), False,
                      lambda _: None)

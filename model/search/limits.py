@@ -31,14 +31,20 @@ class Span:
 WHOLE = Span(0.0, 1.0, 1.0)
 
 
-@dataclass(frozen=True)
+@dataclass
 class Limits:
-    """When a search ends, for each thread."""
+    """When a search ends, for each thread; earlier, the more its plan takes to read."""
 
     began: float
-    deadline: float  # infinite if only turns count
+    end: float  # when the plan must be read; infinite if only turns count
     turns: int | None
     should_stop: Callable[[], bool]
+    reading: float = 0.0  # seconds before the end, by the best plan of the last round
+
+    @property
+    def deadline(self) -> float:
+        """When the search ends; infinite if only turns count."""
+        return self.end - self.reading
 
     def share(self, turns: int) -> float:
         """Return the share of the search that is over after `turns`, 0 to 1."""

@@ -64,7 +64,7 @@ class Crew:
         beside = whole.now.where["slot"][self._world.near[missing]]
         nearest = np.take_along_axis(beside, (beside >= 0).argmax(axis=1)[:, None], axis=1)[:, 0]
         heir = np.where(nearest >= 0, owner[nearest], 0)
-        spare = self._world.type["count"] - whole.now.used
+        spare = self._world.type["count"][:self._world.num_types] - whole.now.used
         routes = np.bincount(owner[whole.active[: whole.count.active]], minlength=threads)
         free = (len(whole.active) - routes.sum()) // threads
         self._parts = [room._replace(active=room.active[: routes[number] + free])
@@ -103,7 +103,8 @@ def make_rooms(world: World, whole: Searcher,
 def take_all(world: World, whole: Searcher, part: Searcher) -> None:
     """Go on from all routes as they are. In place."""
     take_part(world, whole, part, np.zeros(len(whole.active), np.int64), 0,
-              whole.missing[: whole.count.missing], world.type["count"] - whole.now.used)
+              whole.missing[: whole.count.missing],
+              world.type["count"][:world.num_types] - whole.now.used)
 
 
 def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:

@@ -46,9 +46,9 @@ class Heat:
         missing = int(searcher.count.missing)
         served = max(1, int(searcher.count.customers) - missing)
         cost = float(searcher.value.cost) - missing_cost(world, searcher)
+        drones = world.type["drones"][:world.num_types]
         return cls(cost / served, leg_cost(world, searcher), world.num_types,
-                   bool((world.type["drones"] > 0).any()),
-                   bool((world.type["drones"] == 1).any()), from_trucks, hot, cold)
+                   bool((drones > 0).any()), bool((drones == 1).any()), from_trucks, hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:
         """Return the first and the last temperature.

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.alarm import silent
+from model.kernel.drone_types import all_kinds, any_aboard
 from model.kernel.instance import FAR, NO_PROFILE, Instance, pack
 from model.kernel.nearest import least_columns
 from model.kernel.plain import as_plain
@@ -15,6 +16,7 @@ from model.kernel.records import Record, Records
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
 )
+from model.search.numbering import Numbering, along_neighbours, as_stated, renumbered
 from model.search.route.layout import (
     MODE_APART, MODE_LEAN, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE,
     MODE_TIMED, MOST_VISITS, World,
@@ -64,24 +66,42 @@ class Ground(NamedTuple):
     back: IntArray
     near: IntArray
     fit: IntArray
+    numbering: Numbering
 
 
-def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on) -> Ground:
-    """Lay out the legs of a problem, and rank each customer's neighbours; `pause` may end it."""
+def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on,
+               along: bool = False) -> Ground:
+    """Lay out the legs of a problem, and rank each customer's neighbours; `pause` may end it.
+
+    `along` numbers customers along their neighbours.
+    """
     duration, distance = instance.duration[0], instance.distance[0]
+    near = _near(problem, pause)
+    fit = _fit(problem, instance.node[0, 0, :, 0], near, pause)
+    numbering = as_stated(problem.num_nodes)
+    if along:
+        numbering = along_neighbours(near, problem.num_depots)
+        near, fit = (_numbers_of(ranked, numbering) for ranked in (near, fit))
+    node = numbering.node
     leg = np.empty((*duration.shape, 2), np.int64)
     for travel in range(len(leg)):
         for rows in matrix_blocks(leg.shape[1], pause):
-            leg[travel, rows, :, 0] = duration[travel, rows]
-            leg[travel, rows, :, 1] = distance[travel, rows]
+            leg[travel, rows, :, 0] = duration[travel, node[rows]][:, node]
+            leg[travel, rows, :, 1] = distance[travel, node[rows]][:, node]
     back = leg
     if not _symmetric(duration, pause) or not _symmetric(distance, pause):
         back = np.empty_like(leg)
         for travel in range(len(leg)):
             for rows in matrix_blocks(leg.shape[1], pause):
                 back[travel, rows] = leg[travel, :, rows].transpose(1, 0, 2)
-    near = _near(problem, pause)
-    return Ground(leg, back, near, _fit(problem, instance.node[0, 0, :, 0], near, pause))
+    return Ground(leg, back, near, fit, numbering)
+
+
+def _numbers_of(ranked: IntArray, numbering: Numbering) -> IntArray:
+    """Return neighbours (node, rank), -1 for none, in the search's numbers."""
+    ranked = ranked[numbering.node]
+    numbers: IntArray = np.where(ranked >= 0, numbering.number[ranked], ranked)
+    return numbers
 
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
@@ -91,12 +111,13 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     `ground` is that of the same problem, if it is there already; `stop` an alarm's flag.
     """
     ground = lay_ground(problem, instance) if ground is None else ground
+    instance = renumbered(instance, ground.numbering)
     types, rates, can_fly = instance.type[0], instance.rate[0], instance.can_fly[0]
     if not (moves.loops or moves.crossings):
         types, can_fly = types.copy(), np.zeros_like(can_fly)
         types["drones"] = 0
     visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
-                       for kind in problem.vehicle_types], np.int64)
+                       for kind, _, _ in all_kinds(problem)], np.int64)
     visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
     most_visits = max(1, int(visits.max()))
     mode = _modes(instance, types, instance.node[0])
@@ -134,7 +155,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
 def has_single_drones(problem: Problem, moves: Moves) -> bool:
     """Tell whether trips with one drone may be split anew."""
     return moves.splits and (moves.loops or moves.crossings) and any(
-        kind.drones is not None and kind.drones.count == 1 for kind in problem.vehicle_types)
+        kind.num_drones == 1 for kind in problem.vehicle_types)
 
 
 def _blink(num_customers: int, most_visits: int) -> float:
@@ -175,7 +196,7 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     costly = (rates["time"] > 0) | ((rates["overtime"] > 0) & over)
     timed = costly | (types["max_working_duration"] < UNLIMITED)
     retimed = types["speed_changes"] != NO_PROFILE
-    retimed = retimed | ((types["charge"] > 0) & (types["drones"] > 0))
+    retimed = retimed | any_aboard(types, (types["charge"] > 0) & (types["drones"] > 0))
     if place.shape[2] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)
@@ -228,7 +249,7 @@ def _is_plain(instance: Instance, types: Records) -> bool:
               instance.setup[0], instance.fresh_for[0])
     rarer = (types["variant"] > 0) | (types["changes_ends"] > 0) | (types["points"] > 0)
     rarer |= (types["max_stops"] < number) | (types["max_sorties"] < number)
-    rarer |= types["relaunch_duration"] != types["launch_duration"]
+    rarer |= (types["relaunch_duration"] != types["launch_duration"]) | (types["drone_row"] >= 0)
     rarer |= (rate["overtime"] > 0) | (rate["load"] > 0)
     return not (any(table.size for table in tables) or instance.unassigned_more[0].any()
                 or rarer.any())
@@ -257,7 +278,7 @@ def _swaps(problem: Problem, types: Records, mode: IntArray) -> BoolArray:
                         int(types["variant"][index]),
                         None if table is None else table[index].tobytes())
                        for index, kind in enumerate(problem.vehicle_types)])
-    lean = mode & MODE_LEAN > 0
+    lean = mode[:len(group)] & MODE_LEAN > 0
     swaps: BoolArray = (group == group[:, None]) & lean & lean[:, None]
     np.fill_diagonal(swaps, False)
     return swaps

@@ -3,6 +3,7 @@
 import numpy as np
 
 from model.kernel.compiled import compiled, inlined
+from model.kernel.drone_types import first_drone_row, next_drone_row
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup, matrix_of
 from model.kernel.load import delivered_of, picked_of
@@ -63,27 +64,37 @@ def aboard_at(setting: Setting, node: int, left: int, came: int, stop: int) -> i
     return aboard
 
 
+@inlined
+def add_flights(instance: Instance, log: VehicleLog, b: int, row: int, cost: Record) -> None:
+    """Add the cost of the flights by drones whose TYPE is at a row. In place."""
+    flown, airborne, rate = 0, 0, instance.rate[b, row]
+    flights = matrix_of(instance.distance, b, instance.type[b, row].drone_travel)
+    for index in range(log.count.sorties):
+        sortie = log.sortie[index]
+        if sortie.row != row:
+            continue
+        node = sortie.node
+        flown += lookup(flights, log.stop[sortie.launch_stop].node, node)
+        flown += lookup(flights, node, log.stop[sortie.recovery_stop].node)
+        airborne += sortie.recovery_end - sortie.takeoff
+        add_window_cost(instance, b, node, sortie.arrival, sortie.start, cost)
+    cost.distance += flown / MM_PER_KM * rate.drone_distance
+    cost.time += airborne / MS_PER_HOUR * rate.drone_time
+
+
 @compiled
 def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: int,
              cost: Record) -> None:
     """Add the cost of the vehicle in the log. In place."""
     rate = instance.rate[b, k]
-    driven, flown, airborne = 0, 0, 0
+    driven = 0
     legs = matrix_of(instance.distance, b, setting.type.travel)
-    flights = matrix_of(instance.distance, b, setting.type.drone_travel)
     for index in range(1, log.count.stops):
         node = log.stop[index].node
         driven += lookup(legs, log.stop[index - 1].node, node)
         if node >= instance.size[b].depots:
             add_window_cost(instance, b, node, log.stop[index].arrival,
                             log.stop[index].start, cost)
-    for index in range(log.count.sorties):
-        sortie = log.sortie[index]
-        node = sortie.node
-        flown += lookup(flights, log.stop[sortie.launch_stop].node, node)
-        flown += lookup(flights, node, log.stop[sortie.recovery_stop].node)
-        airborne += sortie.recovery_end - sortie.takeoff
-        add_window_cost(instance, b, node, sortie.arrival, sortie.start, cost)
     end = log.stop[log.count.stops - 1].leave
     working = end - first_departure(setting, log, log.trip[0].start)
     cost.fixed += rate.fixed
@@ -93,12 +104,14 @@ def add_cost(instance: Instance, setting: Setting, log: VehicleLog, b: int, k: i
         for trip in range(log.count.trips):
             carried += load_distance(instance, setting, log, b, trip)
         cost.distance += carried / MM_PER_KM * rate.load
-    cost.distance += flown / MM_PER_KM * rate.drone_distance
     served = log.count.stops - 2 * log.count.trips
     cost.stops += served * rate.stop
     cost.time += working / MS_PER_HOUR * rate.time
     cost.overtime += overtime(setting.type, end, working) / MS_PER_HOUR * rate.overtime
-    cost.time += airborne / MS_PER_HOUR * rate.drone_time
+    row = first_drone_row(setting.types, k)
+    while row >= 0:
+        add_flights(instance, log, b, row, cost)
+        row = next_drone_row(setting.types, row)
 
 
 def by_term(cost: Records) -> FloatArray:

@@ -7,7 +7,8 @@ launches are timed anew once it is known where the truck drives to.
 """
 
 from model.kernel.compiled import inlined
-from model.kernel.energy import battery_of, charged, charges_aboard
+from model.kernel.drone_types import are_several
+from model.kernel.energy import battery_of, charged, charges_aboard, first_charge
 from model.kernel.flight import (
     can_serve, charged_launch, held_takeoff, launch_begin, left_after, recovery_end, take_off,
     unreachable, within_endurance,
@@ -15,8 +16,10 @@ from model.kernel.flight import (
 from model.kernel.instance import MAX_TIERS, TIER
 from model.kernel.leg import lookup
 from model.kernel.records import Record, Records, record
+from model.kernel.shift import allows_sorties
 from model.kernel.stop import end_of_service, too_late
-from model.simulation.vehicle_log import IN_FLIGHT, Setting, travel_arrival
+from model.problem import UNLIMITED
+from model.simulation.vehicle_log import IN_FLIGHT, Setting, VehicleLog, craft_of, travel_arrival
 
 VEHICLE = record(
     "type", "index", "node", "idle", "service_end", "crew", "free", "distance", "start_best",
@@ -30,9 +33,9 @@ trip, launches on the trip before this stop, drones in flight; of the trip, sums
 what is delivered and of what is picked up before the stop here and by now; goods that may not be
 added to the trip and to the vehicle; the load left by dimension and what of pickups is aboard."""
 
-DRONE = record("sortie", "place", "node", "takeoff", "ready", "back", "recovery", "kept", "since",
-               "lacking", "left")
-"""A drone: sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,
+DRONE = record("row", "sortie", "place", "node", "takeoff", "ready", "back", "recovery", "kept",
+               "since", "lacking", "left")
+"""A drone: row of its TYPE, sortie (IN_FLIGHT where aboard), where it is to be recovered, customer,
 take-off, end of service, arrival at the recovery stop, beginning of recovery. Those in flight were
 launched at the truck's stop; when and where they are recovered is for `leave_for` to say. If it is
 charged aboard: with what it last came aboard on the trip, and when; what it lacks of a full battery
@@ -45,14 +48,84 @@ NOT_YET = -1
 
 
 @inlined
+def note_charges(setting: Setting, log: VehicleLog, drones: Records) -> None:
+    """Write with what drones have last come aboard on this trip, if they are charged. In place."""
+    charging = False
+    for d in range(len(drones)):
+        kind = setting.types[drones[d].row]
+        if charges_aboard(kind):
+            charging = True
+            drones[d].kept, drones[d].since = first_charge(kind, d)
+    if not charging:
+        return
+    first = log.trip[log.count.trips - 1].first_stop
+    for index in range(log.count.sorties):
+        sortie = log.sortie[index]
+        if sortie.launch_stop >= first and sortie.recovery_stop != IN_FLIGHT:
+            drones[sortie.drone].kept, drones[sortie.drone].since = sortie.left, sortie.recovery_end
+
+
+@inlined
 def mark_place(setting: Setting, drone: Record, here: int, to: int) -> None:
     """Mark where a drone is recovered: at `to` if it can fly there, else at `here`. In place."""
     drone.place = ABOARD
     if drone.sortie != IN_FLIGHT:
-        node = drone.node
-        meets = can_serve(setting.type, setting.node_by_air[node], lookup(setting.fly, here, node),
-                          lookup(setting.fly_home, node, to))
+        node, craft = drone.node, craft_of(setting, drone.row)
+        meets = can_serve(craft.type, craft.node[node], lookup(craft.out, here, node),
+                          lookup(craft.home, node, to))
         drone.place = MEET if meets else LOOP
+
+
+@inlined
+def has_battery(setting: Setting, log: VehicleLog, row: int) -> bool:
+    """Tell whether there is a battery for one more sortie by drones of a row on the last trip."""
+    first, flown = log.trip[log.count.trips - 1].first_stop, 1
+    for index in range(log.count.sorties):
+        if log.sortie[index].row == row and log.sortie[index].launch_stop >= first:
+            flown += 1
+    return allows_sorties(setting.types[row], flown)
+
+
+@inlined
+def next_drone(setting: Setting, log: VehicleLog, vehicle: Record, drones: Records,
+               node: int) -> int:
+    """Return the drone that would fly to a customer, of those aboard; -1 if there is none.
+
+    The first that could come back here, else the first that lifts the parcel.
+    """
+    chosen, several = -1, are_several(setting.type)
+    for d in range(len(drones)):
+        if drones[d].sortie != IN_FLIGHT:
+            continue
+        if not several:
+            return d
+        row = drones[d].row
+        if not (setting.can_fly[row, node] and has_battery(setting, log, row)):
+            continue
+        craft = craft_of(setting, row)
+        if can_serve(craft.type, craft.node[node], lookup(craft.out, vehicle.node, node),
+                     lookup(craft.home, node, vehicle.node)):
+            return d
+        chosen = d if chosen < 0 else chosen
+    return chosen
+
+
+@inlined
+def order_is_open(setting: Setting, vehicle: Record) -> bool:
+    """Tell whether another drone in flight may be the first, so that working may begin sooner."""
+    return (are_several(setting.type) and vehicle.flying > 0
+            and setting.type.max_working_duration < UNLIMITED)
+
+
+@inlined
+def soonest_takeoff(setting: Setting, vehicle: Record, kind: Record, takeoff: int) -> int:
+    """Return when a drone takes off at the soonest that does at `takeoff` behind all in flight.
+
+    One of another type may be launched before these.
+    """
+    if are_several(setting.type):
+        return take_off(kind, vehicle.crew, vehicle.launched)
+    return takeoff
 
 
 @inlined
@@ -66,13 +139,13 @@ def next_launch(setting: Setting, drones: Records, here: int, to: int, free: int
     for d in range(len(drones)):
         if drones[d].place != ABOARD and drones[d].takeoff == NOT_YET:
             end = to if drones[d].place == MEET else here
-            node, begin = drones[d].node, free
-            out, home = lookup(setting.fly, here, node), lookup(setting.fly_home, node, end)
-            place = setting.node_by_air[node]
-            if charges_aboard(setting.type):
-                begin = max(free, charged_launch(setting.type, place, drones[d].kept,
+            node, craft, begin = drones[d].node, craft_of(setting, drones[d].row), free
+            place, out, home = (craft.node[node], lookup(craft.out, here, node),
+                                lookup(craft.home, node, end))
+            if charges_aboard(craft.type):
+                begin = max(free, charged_launch(craft.type, place, drones[d].kept,
                                                  drones[d].since, out, home))
-            soonest = held_takeoff(setting.type, place, take_off(setting.type, begin, launched),
+            soonest = held_takeoff(craft.type, place, take_off(craft.type, begin, launched),
                                    out, home)
             if chosen < 0 or soonest < takeoff:
                 chosen, takeoff = d, soonest
@@ -82,16 +155,16 @@ def next_launch(setting: Setting, drones: Records, here: int, to: int, free: int
 @inlined
 def fly(setting: Setting, drone: Record, here: int, to: int, takeoff: int) -> None:
     """Time the flight of a drone that takes off at `here`. In place."""
-    node = drone.node
-    arrival = takeoff + lookup(setting.fly, here, node)
+    node, craft = drone.node, craft_of(setting, drone.row)
+    arrival = takeoff + lookup(craft.out, here, node)
     end = to if drone.place == MEET else here
     drone.takeoff = takeoff
-    drone.ready = end_of_service(setting.node_by_air[node], arrival)
-    drone.back = drone.ready + lookup(setting.fly_home, node, end)
+    drone.ready = end_of_service(craft.node[node], arrival)
+    drone.back = drone.ready + lookup(craft.home, node, end)
     drone.lacking = 0
-    if charges_aboard(setting.type):
-        drone.lacking = battery_of(setting.type) - charged(
-            setting.type, drone.kept, drone.since, launch_begin(setting.type, takeoff, 1))
+    if charges_aboard(craft.type):
+        drone.lacking = battery_of(craft.type) - charged(
+            craft.type, drone.kept, drone.since, launch_begin(craft.type, takeoff, 1))
 
 
 @inlined
@@ -112,17 +185,17 @@ def bring_aboard(setting: Setting, drone: Record, here: int, free: int) -> int:
 
     In place.
     """
-    begin, node = max(free, drone.back), drone.node
+    begin, node, craft = max(free, drone.back), drone.node, craft_of(setting, drone.row)
     if unreachable(drone.back) or not within_endurance(
-            setting.type, drone.takeoff, drone.back, begin):
+            craft.type, drone.takeoff, drone.back, begin):
         return -1
-    left = left_after(setting.type, setting.node_by_air[node], lookup(setting.fly, here, node),
+    left = left_after(craft.type, craft.node[node], lookup(craft.out, here, node),
                       drone.back - drone.ready, drone.takeoff, drone.ready, begin)
     if left < drone.lacking:
         return -1
     drone.left = left - drone.lacking
     drone.recovery = begin
-    return recovery_end(setting.type, begin)
+    return recovery_end(craft.type, begin)
 
 
 @inlined
@@ -138,7 +211,9 @@ def operate(setting: Setting, vehicle: Record, drones: Records, to: int) -> int:
         drones[d].takeoff = drones[d].recovery = NOT_YET
     while waiting + looping > 0:
         launched, takeoff = next_launch(setting, drones, here, to, free, before)
-        begin = launch_begin(setting.type, takeoff, before)
+        begin = takeoff
+        if launched >= 0:
+            begin = launch_begin(craft_of(setting, drones[launched].row).type, takeoff, before)
         landed = next_back(drones, LOOP) if looping > 0 else -1
         if landed >= 0 and (launched < 0 or (
                 begin > free and max(free, drones[landed].back) <= begin)):
@@ -179,9 +254,9 @@ def any_late(setting: Setting, here: int, drones: Records) -> bool:
     late = False
     for d in range(len(drones)):
         if drones[d].place != ABOARD:
-            node = drones[d].node
-            arrival = drones[d].takeoff + lookup(setting.fly, here, node)
-            late = late or too_late(setting.node_by_air[node], arrival)
+            node, craft = drones[d].node, craft_of(setting, drones[d].row)
+            arrival = drones[d].takeoff + lookup(craft.out, here, node)
+            late = late or too_late(craft.node[node], arrival)
     return late
 
 

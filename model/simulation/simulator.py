@@ -23,14 +23,16 @@ from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
 from model.problem import IntArray
 from model.simulation.aboard import given_by_flight, holds_all, may_carry, may_launch
-from model.simulation.meeting import NO_VEHICLE, leave_for
+from model.simulation.meeting import (
+    NO_VEHICLE, leave_for, next_drone, order_is_open, soonest_takeoff,
+)
 from model.simulation.transition import (
     State, board, clear_vehicle, close_vehicle, drive, empty_state, improve_departure, launch,
     open_vehicle,
 )
 from model.simulation.trial import OUTLOOK, legal_by_trial, may_reload
 from model.simulation.vehicle_log import (
-    IN_FLIGHT, Setting, VehicleLog, first_departure, log_of, setting_of, travel_arrival,
+    IN_FLIGHT, Setting, VehicleLog, craft_of, first_departure, log_of, setting_of, travel_arrival,
 )
 
 DRIVE, LAUNCH, RETURN, OPEN = range(4)
@@ -95,20 +97,23 @@ def _judge_drive(setting: Setting, vehicle: Record, drones: Records, earliest: i
 
 
 @inlined
-def _judge_launch(setting: Setting, vehicle: Record, drones: Records, departure: int,
-                  node: int, outlook: Record) -> int:
+def _judge_launch(setting: Setting, log: VehicleLog, vehicle: Record, drones: Records,
+                  departure: int, node: int, outlook: Record) -> int:
     """Judge a launch during a trip that carries the parcel already. Writes `outlook`.
 
     `departure` is the vehicle's earliest.
     """
-    place = setting.node[node]
-    flight = lookup(setting.fly, vehicle.node, node)
-    takeoff = take_off(setting.type, vehicle.free, vehicle.launched + vehicle.flying)
-    arrival = takeoff + flight
+    drone = next_drone(setting, log, vehicle, drones, node)
+    if drone < 0:
+        return NO
+    place, craft = setting.node[node], craft_of(setting, drones[drone].row)
+    flight = lookup(craft.out, vehicle.node, node)
+    takeoff = take_off(craft.type, vehicle.free, vehicle.launched + vehicle.flying)
+    arrival = soonest_takeoff(setting, vehicle, craft.type, takeoff) + flight
     if unreachable(flight) or too_late(place, arrival):
         return NO
     free = vehicle.free
-    drone = board(setting, vehicle, drones, 0, node, takeoff)
+    board(setting, vehicle, drones, drone, 0, node, takeoff)
     delivered = given_by_flight(setting, node)
     vehicle.given += delivered
     _, home, end = leave_for(setting, vehicle, drones, setting.type.ends_at)
@@ -148,7 +153,7 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
                     outlooks: Records) -> int:
     """Write the legal drives and launches of one rollout with an open vehicle; return how many."""
     b, k = state.problem[r], state.vehicle[r].type
-    vehicle = state.vehicle[r]
+    vehicle, log = state.vehicle[r], log_of(state.log, r)
     setting = setting_of(instance, b, k)
     trips = state.log.count[r].trips
     idle = vehicle.idle == 1
@@ -159,16 +164,15 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
     reach = setting.type.max_trip_distance - vehicle.distance
     began = 0 if idle else state.log.trip[r, trips - 1].start
     drones = state.drone[r, : setting.type.drones]
-    may_drive, can_launch = _may_add(setting, vehicle, log_of(state.log, r))
+    may_drive, can_launch = _may_add(setting, vehicle, log)
     can_drive, can_fly, served = instance.can_drive[b, k], instance.can_fly[b, k], state.served[r]
-    earliest = -1
-    if trips > 0:
-        earliest = first_departure(setting, log_of(state.log, r), state.log.trip[r, 0].start)
-    found, size, limited = 0, instance.size[b], some_limited(setting.fresh_for)
+    earliest = first_departure(setting, log, log.trip[0].start) if trips > 0 else -1
+    found, size = 0, instance.size[b]
+    trying = some_limited(setting.fresh_for) or order_is_open(setting, vehicle)
     for node in range(size.depots, size.depots + size.customers):
         if served[node] or not may_carry(setting, vehicle, node):
             continue
-        held = limited or (not idle and began < release_of(setting.node[node]))
+        held = trying or (not idle and began < release_of(setting.node[node]))
         if (may_drive and can_drive[node]
                 and lookup(legs, here, node) + lookup(legs, node, home) <= reach):
             verdict = UNSURE
@@ -181,7 +185,8 @@ def _legal_services(instance: Instance, state: State, r: int, scratch: int, acti
         if can_launch and can_fly[node] and may_launch(setting, vehicle, node):
             verdict = UNSURE
             if not held and not idle:
-                verdict = _judge_launch(setting, vehicle, drones, earliest, node, outlooks[found])
+                verdict = _judge_launch(setting, log, vehicle, drones, earliest, node,
+                                        outlooks[found])
             if verdict == YES or (verdict == UNSURE and legal_by_trial(
                     instance, state, r, scratch, -1, True, node, outlooks[found])):
                 actions[found] = node * NUM_KINDS + LAUNCH

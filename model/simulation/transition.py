@@ -6,7 +6,7 @@ import numpy as np
 
 from model.kernel.compiled import compiled, inlined
 from model.kernel.copying import clear
-from model.kernel.energy import charges_aboard, first_charge
+from model.kernel.drone_types import row_of_drone
 from model.kernel.flight import launch_begin, recovery_end, take_off, unreachable
 from model.kernel.instance import Instance
 from model.kernel.leg import lookup
@@ -17,10 +17,13 @@ from model.kernel.stop import end_of_service, service_duration, start_of_service
 from model.problem import UNLIMITED, BoolArray, IntArray
 from model.simulation.aboard import empty, holds_all, load_flight, load_stop
 from model.simulation.cost import COST, add_cost
-from model.simulation.meeting import ABOARD, DRONE, LOOP, MEET, NO_VEHICLE, VEHICLE, leave_for
+from model.simulation.meeting import (
+    ABOARD, DRONE, LOOP, MEET, NO_VEHICLE, VEHICLE, leave_for, next_drone, note_charges,
+    soonest_takeoff,
+)
 from model.simulation.vehicle_log import (
-    IN_FLIGHT, Setting, VehicleLog, empty_logs, first_departure, latest_start, log_of, most_excess,
-    replay, setting_of,
+    IN_FLIGHT, Setting, VehicleLog, craft_of, empty_logs, first_departure, latest_start, log_of,
+    most_excess, replay, setting_of, start_within_work,
 )
 
 
@@ -98,7 +101,8 @@ def log_recoveries(setting: Setting, log: VehicleLog, drones: Records, place: in
         sortie = log.sortie[drone.sortie]
         sortie.recovery_stop = stop
         sortie.recovery_start = drone.recovery
-        sortie.recovery_end, sortie.left = recovery_end(setting.type, drone.recovery), drone.left
+        sortie.recovery_end = recovery_end(craft_of(setting, drone.row).type, drone.recovery)
+        sortie.left = drone.left
         log_op(log, stop, drone.sortie, True)
         drone.place = ABOARD
         drone.sortie = IN_FLIGHT
@@ -114,7 +118,7 @@ def op_times(setting: Setting, log: VehicleLog, row: int) -> tuple[int, int]:
     sortie = log.sortie[log.op[row].sortie]
     if log.op[row].is_recovery:
         return sortie.recovery_start, sortie.recovery_end
-    return launch_begin(setting.type, sortie.takeoff, 0), sortie.takeoff
+    return launch_begin(craft_of(setting, sortie.row).type, sortie.takeoff, 0), sortie.takeoff
 
 
 @inlined
@@ -137,7 +141,7 @@ def log_sorties(setting: Setting, log: VehicleLog, vehicle: Record, drones: Reco
         if drones[d].place != ABOARD:
             node, takeoff = drones[d].node, drones[d].takeoff
             sortie = log.sortie[drones[d].sortie]
-            arrival = takeoff + lookup(setting.fly, vehicle.node, node)
+            arrival = takeoff + lookup(craft_of(setting, drones[d].row).out, vehicle.node, node)
             sortie.takeoff, sortie.arrival = takeoff, arrival
             sortie.start = start_of_service(setting.node[node], arrival)
             sortie.ready = drones[d].ready
@@ -162,20 +166,6 @@ def begin_trip(setting: Setting, log: VehicleLog, vehicle: Record, release: int)
     vehicle.idle = 0
     vehicle.service_end = leave
     vehicle.free = vehicle.crew = start
-
-
-@inlined
-def note_charges(setting: Setting, log: VehicleLog, drones: Records) -> None:
-    """Write with what drones have last come aboard on this trip, if they are charged. In place."""
-    if not charges_aboard(setting.type):
-        return
-    first = log.trip[log.count.trips - 1].first_stop
-    for d in range(len(drones)):
-        drones[d].kept, drones[d].since = first_charge(setting.type, d)
-    for index in range(log.count.sorties):
-        sortie = log.sortie[index]
-        if sortie.launch_stop >= first and sortie.recovery_stop != IN_FLIGHT:
-            drones[sortie.drone].kept, drones[sortie.drone].since = sortie.left, sortie.recovery_end
 
 
 @inlined
@@ -221,16 +211,16 @@ def keep_fresh(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Reco
     """Hold the trip until no parcel is too long aboard. In place; False if that can't be."""
     if not some_limited(setting.fresh_for):
         return True
-    excess = most_excess(setting, num_depots, log)
+    excess, held = most_excess(setting, num_depots, log), True
     while excess > 0:
         start = log.trip[log.count.trips - 1].start + excess
-        if not hold_trip(setting, num_depots, log, vehicle, drones, start):
-            return False
+        # Drones that don't last then may do if the trip is held even longer.
+        held = hold_trip(setting, num_depots, log, vehicle, drones, start)
         left = most_excess(setting, num_depots, log)
         if left >= excess:
             return False
         excess = left
-    return True
+    return held
 
 
 @inlined
@@ -243,19 +233,16 @@ def improve_departure(setting: Setting, num_depots: int, log: VehicleLog,
 
 
 @inlined
-def board(setting: Setting, vehicle: Record, drones: Records, sortie: int, node: int,
-          takeoff: int) -> int:
-    """Put the first drone aboard into the air, to a customer. In place; return which."""
-    drone = 0
-    while drones[drone].sortie != IN_FLIGHT:
-        drone += 1
-    arrival = takeoff + lookup(setting.fly, vehicle.node, node)
+def board(setting: Setting, vehicle: Record, drones: Records, drone: int, sortie: int, node: int,
+          takeoff: int) -> None:
+    """Put a drone into the air, to a customer. In place."""
+    craft = craft_of(setting, drones[drone].row)
+    arrival = takeoff + lookup(craft.out, vehicle.node, node)
     drones[drone].sortie, drones[drone].node = sortie, node
     drones[drone].takeoff = takeoff
-    drones[drone].ready = end_of_service(setting.node_by_air[node], arrival)
+    drones[drone].ready = end_of_service(craft.node[node], arrival)
     vehicle.flying += 1
     vehicle.free = takeoff
-    return drone
 
 
 @inlined
@@ -263,7 +250,8 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
            drones: Records, node: int) -> bool:
     """Launch a drone to a customer. In place; False if a window or a distance forbids it.
 
-    Whether the vehicle could have left later is for `improve_departure`.
+    Or no drone aboard lifts the parcel. Whether the vehicle could have left later is for
+    `improve_departure`.
     """
     release = release_of(setting.node[node])
     if vehicle.idle:
@@ -271,16 +259,22 @@ def launch(setting: Setting, num_depots: int, log: VehicleLog, vehicle: Record,
         note_charges(setting, log, drones)
     elif not hold_trip(setting, num_depots, log, vehicle, drones, release):
         return False
-    takeoff = take_off(setting.type, vehicle.free, vehicle.launched + vehicle.flying)
-    flight = lookup(setting.fly, vehicle.node, node)
+    drone = next_drone(setting, log, vehicle, drones, node)
+    if drone < 0:
+        return False
+    craft = craft_of(setting, drones[drone].row)
+    takeoff = take_off(craft.type, vehicle.free, vehicle.launched + vehicle.flying)
+    flight = lookup(craft.out, vehicle.node, node)
     arrival = takeoff + flight
-    if unreachable(flight) or too_late(setting.node[node], arrival):
+    if unreachable(flight) or too_late(
+            setting.node[node], soonest_takeoff(setting, vehicle, craft.type, takeoff) + flight):
         return False
     here = log.count.stops - 1
     index = log.count.sorties
-    drone = board(setting, vehicle, drones, index, node, takeoff)
+    board(setting, vehicle, drones, drone, index, node, takeoff)
     sortie = log.sortie[index]
-    sortie.drone, sortie.node, sortie.launch_stop = drone, node, here
+    sortie.drone, sortie.row = drone, drones[drone].row
+    sortie.node, sortie.launch_stop = node, here
     sortie.recovery_stop = IN_FLIGHT
     sortie.takeoff, sortie.arrival = takeoff, arrival
     sortie.start = start_of_service(setting.node[node], arrival)
@@ -372,6 +366,7 @@ def open_vehicle(instance: Instance, state: State, r: int, k: int) -> None:
     empty(instance.type[b, k], vehicle)
     for d in range(state.drone.shape[1]):
         state.drone[r, d].sortie = IN_FLIGHT
+        state.drone[r, d].row = row_of_drone(instance.type[b], k, d)
     clear_log(state.log.count[r])
     state.used[r, k] += 1
 
@@ -389,6 +384,8 @@ def close_vehicle(instance: Instance, state: State, r: int) -> None:
         if trip == 0:
             known = max(known, state.vehicle[r].start_best)
         start = latest_start(setting, num_depots, log, trip, known)
+        if trip == 0:
+            start = start_within_work(setting, num_depots, log, start)
         if start > log.trip[trip].start:
             replay(setting, num_depots, log, trip, start, True)
     if log.count.trips > 0:

@@ -11,38 +11,51 @@ import numpy as np
 
 from model.kernel.clock import leg_end, setup_beside
 from model.kernel.compiled import compiled, inlined, pasted
+from model.kernel.drone_types import are_several
 from model.kernel.energy import battery_of, charged, charges_aboard, first_charge
 from model.kernel.flight import (
     charged_launch, held_takeoff, launch_begin, left_after, recoveries_take_time, recovery_end,
     take_off, within_endurance,
 )
 from model.kernel.instance import FAR, Instance
-from model.kernel.leg import lookup, matrix_of
+from model.kernel.leg import lookup, matrices_of, matrix_among, matrix_of
 from model.kernel.load import excess_aboard, some_limited
 from model.kernel.records import Record, Records, record
-from model.kernel.start import counted_from, leaves_first
+from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import (
     as_late, end_of_service, in_same_window, places_by_air, places_of, start_of_service, too_late,
 )
-from model.problem import IntArray
+from model.problem import BoolArray, IntArray
 
 LOGGED_STOP = record("node", "arrival", "start", "leave")
 LOGGED_TRIP = record("first_stop", "first_op", "release", "start")
 OPERATION = record("stop", "sortie", "is_recovery")
 LOGGED_SORTIE = record(
-    "drone", "node", "launch_stop", "recovery_stop", "takeoff", "arrival", "start", "ready",
+    "drone", "row", "node", "launch_stop", "recovery_stop", "takeoff", "arrival", "start", "ready",
     "recovery_start", "recovery_end", "left", "trial_takeoff", "trial_ready", "trial_end",
     "trial_left")
-"""Its recovery stop is IN_FLIGHT until it is recovered. Where drones are charged aboard: what is
-left of its battery, of a trial as it is launched and then recovered."""
+"""The drone's TYPE is at its row. Its recovery stop is IN_FLIGHT until it is recovered. Where it is
+charged aboard: what is left of its battery, of a trial as it is launched and then recovered."""
 LENGTHS = record("trips", "stops", "ops", "sorties")
 """How many of each there are."""
 
 IN_FLIGHT = -1
 
 
+class Craft(NamedTuple):
+    """What a type of drones meets."""
+
+    type: Record  # TYPE
+    node: Records  # (node, row) NODE
+    out: IntArray  # (node, node) ms
+    home: IntArray  # (node, node) ms, to where the truck is
+
+
 class Setting(NamedTuple):
-    """What one vehicle type meets in one problem: views into an `Instance`."""
+    """What one vehicle type meets in one problem: views into an `Instance`.
+
+    What is said of drones holds where they are of one type, else `craft_of` tells.
+    """
 
     node: Records  # (node, row) NODE
     node_by_air: Records  # (node, row) NODE, as drones meet them
@@ -56,6 +69,10 @@ class Setting(NamedTuple):
     setup: Records  # (node,) SETUP, none where nobody sets up
     profile_time: IntArray  # (change,)
     profile_factor: IntArray  # (change + 1,)
+    types: Records  # (row,) TYPE
+    nodes: Records  # (variant, node, row) NODE
+    durations: IntArray  # (travel, node, node) ms
+    can_fly: BoolArray  # (row, node)
 
 
 class VehicleLog(NamedTuple):
@@ -95,7 +112,17 @@ def setting_of(instance: Instance, b: int, k: int) -> Setting:
                    matrix_of(instance.duration, b, kind.travel),
                    matrix_of(instance.duration, b, kind.drone_travel),
                    matrix_of(instance.duration, b, kind.home_travel), instance.setup[b],
-                   instance.profile_time[b, k], instance.profile_factor[b, k])
+                   instance.profile_time[b, k], instance.profile_factor[b, k], instance.type[b],
+                   nodes, matrices_of(instance.duration, b), instance.can_fly[b])
+
+
+@pasted
+def craft_of(setting: Setting, row: int) -> Craft:
+    """Return what drones meet whose TYPE is at a row."""
+    kind = setting.types[row]
+    return Craft(kind, places_by_air(setting.nodes, kind),
+                 matrix_among(setting.durations, kind.drone_travel),
+                 matrix_among(setting.durations, kind.home_travel))
 
 
 @inlined
@@ -140,13 +167,14 @@ def sortie_takeoff(setting: Setting, log: VehicleLog, sortie: Record, free: int,
     It is held back for the customer's window once it is known where it is recovered. `launched`
     counts the launches of the trip before it.
     """
-    takeoff = take_off(setting.type, free, launched)
+    craft = craft_of(setting, sortie.row)
+    takeoff = take_off(craft.type, free, launched)
     if sortie.recovery_stop != IN_FLIGHT:
         customer = sortie.node
         here, to = log.stop[sortie.launch_stop].node, log.stop[sortie.recovery_stop].node
-        takeoff = held_takeoff(setting.type, setting.node_by_air[customer], takeoff,
-                               lookup(setting.fly, here, customer),
-                               lookup(setting.fly_home, customer, to))
+        takeoff = held_takeoff(craft.type, craft.node[customer], takeoff,
+                               lookup(craft.out, here, customer),
+                               lookup(craft.home, customer, to))
     return takeoff
 
 
@@ -157,16 +185,18 @@ def charged_takeoff(setting: Setting, log: VehicleLog, index: int, first: int, f
 
     In place: what it has then. The trip begins at stop `first`.
     """
-    kind, sortie = setting.type, log.sortie[index]
+    sortie = log.sortie[index]
+    craft = craft_of(setting, sortie.row)
+    kind = craft.type
     kept, since = first_charge(kind, sortie.drone)
     for other in range(index):
         if log.sortie[other].drone == sortie.drone and log.sortie[other].launch_stop >= first:
             kept, since = log.sortie[other].trial_left, log.sortie[other].trial_end
     if sortie.recovery_stop != IN_FLIGHT:
         here, to = log.stop[sortie.launch_stop].node, log.stop[sortie.recovery_stop].node
-        free = max(free, charged_launch(kind, setting.node_by_air[sortie.node], kept, since,
-                                        lookup(setting.fly, here, sortie.node),
-                                        lookup(setting.fly_home, sortie.node, to)))
+        free = max(free, charged_launch(kind, craft.node[sortie.node], kept, since,
+                                        lookup(craft.out, here, sortie.node),
+                                        lookup(craft.home, sortie.node, to)))
     takeoff = sortie_takeoff(setting, log, sortie, free, launched)
     sortie.trial_left = charged(kind, kept, since, launch_begin(kind, takeoff, launched))
     return takeoff
@@ -180,14 +210,16 @@ def _replay_launch(setting: Setting, log: VehicleLog, index: int, first: int, no
     `departure` is that of the trip, which begins at stop `first`, if any came before.
     """
     sortie = log.sortie[index]
-    customer = sortie.node
-    place = setting.node_by_air[customer]
-    if charges_aboard(setting.type):
+    customer, craft = sortie.node, craft_of(setting, sortie.row)
+    place = craft.node[customer]
+    if charges_aboard(craft.type):
         takeoff = charged_takeoff(setting, log, index, first, free, launched)
     else:
         takeoff = sortie_takeoff(setting, log, sortie, free, launched)
-    arrival = takeoff + lookup(setting.fly, node, customer)
-    if not _arrival_allowed(log, place, arrival, sortie.arrival, write):
+    arrival = takeoff + lookup(craft.out, node, customer)
+    # Who is still in flight may be launched before those of other types.
+    if not _arrival_allowed(log, place, arrival, sortie.arrival, write) and not (
+            write and sortie.recovery_stop == IN_FLIGHT and are_several(setting.type)):
         return -1
     served = end_of_service(place, arrival)
     sortie.trial_takeoff, sortie.trial_ready = takeoff, served
@@ -201,31 +233,31 @@ def _replay_launch(setting: Setting, log: VehicleLog, index: int, first: int, no
 
 
 @inlined
-def _replay_recovery(setting: Setting, log: VehicleLog, sortie: Record, node: int, free: int,
-                     write: bool) -> int:
-    """Time one recovery begun at `free` or later; return its end, -1 if it is not allowed."""
+def _replay_recovery(setting: Setting, log: VehicleLog, index: int, node: int, free: int,
+                     write: bool) -> tuple[int, bool]:
+    """Time one recovery begun at `free` or later; return its end, and whether the drone lasts.
+
+    If nothing is written, the end is -1 where it doesn't, or is in the air longer than logged.
+    """
+    sortie = log.sortie[index]
     takeoff, customer = sortie.trial_takeoff, sortie.node
-    home = lookup(setting.fly_home, customer, node)
+    craft = craft_of(setting, sortie.row)
+    home = lookup(craft.home, customer, node)
     back = sortie.trial_ready + home
     begin = max(free, back)
     # A sortie as long as before may wait where that takes more.
-    left = left_after(setting.type, setting.node_by_air[customer],
-                      lookup(setting.fly, log.stop[sortie.launch_stop].node, customer), home,
+    left = left_after(craft.type, craft.node[customer],
+                      lookup(craft.out, log.stop[sortie.launch_stop].node, customer), home,
                       takeoff, sortie.trial_ready, begin)
-    end = recovery_end(setting.type, begin)
-    if charges_aboard(setting.type):
-        left -= battery_of(setting.type) - sortie.trial_left
+    end = recovery_end(craft.type, begin)
+    if charges_aboard(craft.type):
+        left -= battery_of(craft.type) - sortie.trial_left
         sortie.trial_left, sortie.trial_end = left, end
-    if left < 0:
-        return -1
-    if write:
-        sortie.left = left
-        if not within_endurance(setting.type, takeoff, back, begin):
-            return -1
-        sortie.recovery_start, sortie.recovery_end = begin, end
-    elif begin - takeoff > sortie.recovery_start - sortie.takeoff:
-        return -1
-    return end
+    if not write:
+        lasts = left >= 0 and begin - takeoff <= sortie.recovery_start - sortie.takeoff
+        return end if lasts else -1, lasts
+    sortie.left, sortie.recovery_start, sortie.recovery_end = left, begin, end
+    return end, left >= 0 and within_endurance(craft.type, takeoff, back, begin)
 
 
 @inlined
@@ -246,20 +278,20 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
            write: bool) -> bool:
     """Time the trips from `first_trip` on, the first begun at `start`, all else without delay.
 
-    In place where `write` is set: the log takes new times, void unless the result tells that hard
-    windows and endurance hold. Else it tells alone whether the later start costs nothing: no more
-    lateness, no longer sortie, no later end than logged, and no parcel too long aboard.
+    In place where `write` is set: the log takes new times, void if a hard window doesn't hold; the
+    result tells whether endurance holds, too. Else it tells alone whether the later start costs
+    nothing: no more lateness, no longer sortie, no later end than logged, and no parcel too long
+    aboard; `departure` is the first of all that leave on a trip.
     """
-    op, leave = log.trip[first_trip].first_op, start
+    op, leave, lasting = log.trip[first_trip].first_op, start, True
     for trip in range(first_trip, log.count.trips):
-        first, launched = log.trip[trip].first_stop, 0
+        first, launched, departure = log.trip[trip].first_stop, 0, FAR
         further = trip + 1 < log.count.trips
         behind = log.trip[trip + 1].first_stop if further else log.count.stops
         if trip > first_trip:
             start = max(log.trip[trip].release, leave + setting.type.reload_duration)
         if write:
             log.trip[trip].start = start
-        departure = FAR  # the first of all that leave
         for index in range(first, behind):
             node = log.stop[index].node
             arrival = start if index == first else travel_arrival(
@@ -275,7 +307,8 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                 if log.op[op].is_recovery:
                     # Recoveries that take no time never hold up one another.
                     begin = free if recoveries_take_time(setting.type) else aloft
-                    end = _replay_recovery(setting, log, log.sortie[sortie], node, begin, write)
+                    end, lasts = _replay_recovery(setting, log, sortie, node, begin, write)
+                    lasting = lasting and lasts
                 else:
                     end = aloft = _replay_launch(setting, log, sortie, first, node, free,
                                                  launched, departure, write)
@@ -289,7 +322,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
             if write:
                 stop = log.stop[index]
                 stop.arrival, stop.start, stop.leave = arrival, service_start, leave
-    return write or leave <= log.stop[log.count.stops - 1].leave
+    return lasting and (write or leave <= log.stop[log.count.stops - 1].leave)
 
 
 @inlined
@@ -344,5 +377,19 @@ def first_departure(setting: Setting, log: VehicleLog, start: int) -> int:
 def start_to_depart(setting: Setting, log: VehicleLog, departure: int) -> int:
     """Return the start of the first trip by which none leaves the depot before `departure`."""
     if log.count.ops > 0 and log.op[0].stop == 0:
-        return launch_begin(setting.type, departure, 0)
+        return launch_begin(setting.types[log.sortie[log.op[0].sortie].row], departure, 0)
     return departure
+
+
+@compiled
+def start_within_work(setting: Setting, num_depots: int, log: VehicleLog, known: int) -> int:
+    """Return a start of the first trip that costs nothing and keeps the working duration.
+
+    Or `known`. Only the soonest that would keep it is tried: mostly all before one that costs
+    nothing cost nothing, but where batteries are charged, not all do.
+    """
+    needed = log.stop[log.count.stops - 1].leave - setting.type.max_working_duration
+    if has_begun(setting.type) or first_departure(setting, log, known) >= needed:
+        return known
+    later = start_to_depart(setting, log, needed)
+    return later if replay(setting, num_depots, log, 0, later, False) else known

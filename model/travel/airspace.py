@@ -42,6 +42,10 @@ class Airspace:
         if not np.isfinite(self.wind_direction_deg):
             raise ValueError(f"wind_direction_deg: {self.wind_direction_deg!r} is not allowed")
 
+    def wind(self, airspeed_kmh: float) -> Wind:
+        """Return what the wind does to drones of a speed through the air."""
+        return Wind.blowing(self.wind_speed_kmh, self.wind_direction_deg, airspeed_kmh)
+
 
 def invalid_polygon_reason(ring: Sequence[tuple[float, float]]) -> str | None:
     """Say why a ring of corners can't bound a no-fly area, or None if it can.
@@ -120,8 +124,7 @@ class Flights:
         """
         if not 0 < airspeed_kmh < float("inf"):
             raise ValueError(f"airspeed_kmh: {airspeed_kmh!r} is not allowed")
-        wind = Wind.blowing(self._airspace.wind_speed_kmh, self._airspace.wind_direction_deg,
-                            airspeed_kmh)
+        wind = self._airspace.wind(airspeed_kmh)
         if wind.is_calm:
             return Legs(self._shortest_m, self._shortest_m / wind.airspeed)
         return self._quickest(wind)
@@ -132,7 +135,7 @@ class Flights:
         return obstacles_of(self._airspace.no_fly)
 
     @cached_property
-    def _ways(self) -> Ways:
+    def ways(self) -> Ways:
         """The ways around areas, whatever the speed."""
         return find_ways(self._points, self.obstacles, self._pause)
 
@@ -143,7 +146,7 @@ class Flights:
             return self._straight_m
         # At a metre a second, durations are distances.
         shortest = self._straight_m.copy()
-        self._ways.replace_blocked(Legs(shortest, shortest), Wind(1.0, 0.0, 0.0), self._pause)
+        self.ways.replace_blocked(Legs(shortest, shortest), Wind(1.0, 0.0, 0.0), self._pause)
         return shortest
 
     def _quickest(self, wind: Wind) -> Legs:
@@ -154,5 +157,5 @@ class Flights:
             legs.duration[rows] = wind.durations(x, y, legs.distance[rows])
             legs.distance[rows][np.isinf(legs.duration[rows])] = np.inf
         if self._airspace.no_fly:
-            self._ways.replace_blocked(legs, wind, self._pause)
+            self.ways.replace_blocked(legs, wind, self._pause)
         return legs

@@ -62,13 +62,20 @@ class LocalProjection:
     def project(self, lon_lat: FloatArray) -> FloatArray:
         """Map (point, 2) degrees to (point, 2) metres east and north of the centre."""
         _require_lon_lat(lon_lat)
-        projection = Proj(proj="aeqd", lon_0=self.longitude, lat_0=self.latitude,
-                          R=EARTH_RADIUS_M)
-        x, y = projection(lon_lat[:, 0], lon_lat[:, 1])
+        x, y = self._proj(lon_lat[:, 0], lon_lat[:, 1])
         points = np.stack([x, y], axis=1)
         # The antipode has every direction; it is drawn due north.
         points[~np.isfinite(points).all(axis=1)] = (0.0, np.pi * EARTH_RADIUS_M)
         return points
+
+    def unproject(self, points_m: FloatArray) -> FloatArray:
+        """Map (point, 2) metres east and north of the centre to degrees."""
+        longitude, latitude = self._proj(points_m[:, 0], points_m[:, 1], inverse=True)
+        return np.stack([longitude, latitude], axis=1)
+
+    @property
+    def _proj(self) -> Proj:
+        return Proj(proj="aeqd", lon_0=self.longitude, lat_0=self.latitude, R=EARTH_RADIUS_M)
 
 
 def local_coordinates(lon_lat: FloatArray) -> FloatArray:
@@ -119,6 +126,12 @@ def matrix_travel(durations_s: FloatArray, distances_m: FloatArray,
     _require_lengths("distances", distances_m, pause)
     return Travel(_whole(durations_s, lambda rows: _ceiled(rows * 1000.0), pause),
                   _whole(distances_m, _rounded_mm, pause))
+
+
+def matrix_legs(durations_s: FloatArray, distances_m: FloatArray) -> tuple[IntArray, IntArray]:
+    """Return some legs as `matrix_travel` has them, in any shape."""
+    return (_ceiled(durations_s * 1000.0).astype(np.int64),
+            _rounded_mm(distances_m).astype(np.int64))
 
 
 def with_nowhere(travel: Travel, node: int, flown: bool) -> Travel:

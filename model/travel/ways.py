@@ -43,6 +43,14 @@ class Pairs(NamedTuple):
         x, y = (-self.x, -self.y) if back else (self.x, self.y)
         return Sights(self.begin, self.column, lengths, wind.durations(x, y, lengths))
 
+    def seen_from(self, row: int, wind: Wind, back: bool = False) -> tuple[IntArray, FloatArray]:
+        """Return the columns that a row sees, and the seconds of flights there, or back."""
+        entries = slice(self.begin[row], self.begin[row + 1])
+        x, y = self.x[entries], self.y[entries]
+        durations = wind.durations(-x, -y, np.hypot(x, y)) if back else wind.durations(
+            x, y, np.hypot(x, y))
+        return self.column[entries], durations
+
 
 @dataclass(frozen=True)
 class Ways:
@@ -63,6 +71,44 @@ class Ways:
         for rows in row_blocks(len(self.blocked), size, pause):
             fly_around(outward, between, inward, self.blocked, wind.is_calm, rows.start, rows.stop,
                        legs.distance, legs.duration)
+
+    def bends(self, start: int, end: int, wind: Wind) -> IntArray:
+        """Return the corners, in their order, where the quickest flight between two nodes bends.
+
+        None where there is no flight around obstacles.
+
+        References
+        ----------
+        Dijkstra (1959), a note on two problems in connexion with graphs, Numer. Math. 1:269-271.
+        """
+        num_corners = len(self.between.begin) - 1
+        time, before = np.full(num_corners, np.inf), np.full(num_corners, -1)
+        left = np.full(num_corners, np.inf)  # from a corner to the end
+        corners, durations = self.outward.seen_from(start, wind)
+        time[corners] = durations
+        corners, durations = self.outward.seen_from(end, wind, back=True)
+        left[corners] = durations
+        ahead = time.copy()  # infinite once a corner is done with
+        while num_corners and ahead.min() < (time + left).min():
+            corner = int(ahead.argmin())
+            ahead[corner] = np.inf
+            corners, durations = self.between.seen_from(corner, wind)
+            sooner = time[corner] + durations < time[corners]
+            corners = corners[sooner]
+            time[corners] = ahead[corners] = time[corner] + durations[sooner]
+            before[corners] = corner
+        return _traced(time + left, before)
+
+
+def _traced(total: FloatArray, before: IntArray) -> IntArray:
+    """Return the way to the corner from which the end is reached the soonest."""
+    corners: list[int] = []
+    if len(total) and np.isfinite(total.min()):
+        corner = int(total.argmin())
+        while corner >= 0:
+            corners.append(corner)
+            corner = int(before[corner])
+    return np.array(corners[::-1], np.int64)
 
 
 def find_ways(points: FloatArray, obstacles: Obstacles, pause: Pause) -> Ways:

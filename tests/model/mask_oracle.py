@@ -74,10 +74,9 @@ def _timed_route(problem: Problem, vehicle: Vehicle, start: int | None = None) -
     return Route(vehicle.kind, vehicle.index, tuple(trips))
 
 
-def _held(problem: Problem, vehicle: Vehicle) -> Vehicle | None:
+def _held(problem: Problem, vehicle: Vehicle, timed: Trip) -> Vehicle | None:
     """Return the vehicle with its trip held until no parcel is too long aboard, if that helps."""
     trip = vehicle.trips[-1]
-    timed = _timed(problem, vehicle, trip)
     excess = most_excess(problem, timed)
     while excess > 0:
         trip = replace(trip, begins=timed.stops[0].arrival + excess)
@@ -156,38 +155,49 @@ def _at_this_stop(problem: Problem, kind: VehicleType, recovered: OpenTrip,
 def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
     """Drive the vehicle to a node; None if a sortie can be recovered neither here nor there."""
     trip = vehicle.trips[-1]
+    if trip.flying:
+        return _settle_flights(problem, vehicle, to)
+    settled = _recovered(trip, to, [], [], list(trip.operations[-1]))
+    return _held(problem, replace(vehicle, trips=(*vehicle.trips[:-1], settled)),
+                 _timed(problem, vehicle, settled))
+
+
+def _settle_flights(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
+    """Drive the vehicle to a node while drones are in the air."""
+    trip = vehicle.trips[-1]
     vehicle_type, flying = problem.vehicle_types[vehicle.kind], trip.flying
     loops = [index for index in flying if not lasts(problem, vehicle_type, trip, index, to)]
     while True:
         here = len(trip.nodes) - 1
         operations = list(trip.operations[-1])
-        if flying:
-            arrived = [operation for operation in operations if not operation.is_launch]
-            rough = _recovered(trip, to, loops, flying, [
-                *operations, *(Operation(index, False) for index in loops)])
-            timed = _timed(problem, vehicle, rough)
-            crew = max([timed.stops[here].ready,
-                        *(timed.sorties[index].recovery_time for index, _ in arrived)])
-            rests = {index: _rest(problem, vehicle_type, timed, trip.flights[index].drone, here)
-                     for index in flying}
-            operations = _at_this_stop(problem, vehicle_type, rough, arrived, crew, rests, loops)
-        drafted = _timed(problem, vehicle, _recovered(trip, to, loops, flying, operations))
+        arrived = [operation for operation in operations if not operation.is_launch]
+        rough = _recovered(trip, to, loops, flying, [
+            *operations, *(Operation(index, False) for index in loops)])
+        timed = _timed(problem, vehicle, rough)
+        crew = max([timed.stops[here].ready,
+                    *(timed.sorties[index].recovery_time for index, _ in arrived)])
+        rests = {index: _rest(problem, vehicle_type, timed, trip.flights[index].drone, here)
+                 for index in flying}
+        operations = _at_this_stop(problem, vehicle_type, rough, arrived, crew, rests, loops)
+        settled = _recovered(trip, to, loops, flying, operations)
+        timed = _timed(problem, vehicle, settled)
         arrivals = {}
         for index in flying:
-            visit = drafted.sorties[index].visits[0]
-            place = drafted.stops[drafted.sorties[index].recovery_stop].node
+            visit = timed.sorties[index].visits[0]
+            place = timed.stops[timed.sorties[index].recovery_stop].node
             drones = drones_of(vehicle_type, trip, index)
             arrivals[index] = visit.departure + int(
                 problem.travel[drones.travel].duration[visit.node, place])
         order = sorted(flying, key=lambda index: (arrivals[index], trip.flights[index].drone))
-        settled = _recovered(trip, to, loops, order, operations)
-        timed = _timed(problem, vehicle, settled)
+        if order != flying:
+            settled = _recovered(trip, to, loops, order, operations)
+            timed = _timed(problem, vehicle, settled)
         late = [index for index in order if arrivals[index] >= UNREACHABLE
                 or drones_of(vehicle_type, trip, index).endurance < airborne_duration(
                     problem, drones_of(vehicle_type, trip, index), timed, timed.sorties[index])
                 or _drained(problem, vehicle_type, timed, index)]
         if not late:
-            return _held(problem, replace(vehicle, trips=(*vehicle.trips[:-1], settled)))
+            return _held(problem, replace(vehicle, trips=(*vehicle.trips[:-1], settled)), timed)
         if set(late) & set(loops):
             return None
         assert settled.flights[late[0]].recovery_stop == here + 1

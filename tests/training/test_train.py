@@ -10,12 +10,16 @@ from pathlib import Path
 
 import pytest
 import torch
+from tests.conftest import eventually
 
 from training.config import TrainConfig
 from training.heuristics import nearest_neighbour
 from training.train import train, validation_batches
 
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
+
+LOADED = 600.0
+"""Seconds within which training begins, however slowly PyTorch is loaded."""
 
 TINY = TrainConfig(sizes=((0, 6), (2, 8)), num_problems=4, num_rollouts=3, warm_up=2)
 
@@ -79,8 +83,8 @@ def test_terminated_run_saves_what_it_has(tmp_path: Path) -> None:
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                                env={**os.environ, "OMP_NUM_THREADS": "1"})
     log = tmp_path / "log.csv"
-    while not log.exists():
-        assert process.poll() is None
+    eventually(lambda: log.exists() or process.poll() is not None, LOADED)
+    assert process.poll() is None
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=120)
     assert process.returncode == 0

@@ -6,6 +6,7 @@ import numpy as np
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
+from model.kernel.drone_types import most_drone_rows, row_of_drone
 from model.kernel.flight import recovery_end
 from model.kernel.instance import NONE, TIER
 from model.kernel.records import Record, one, read_rows, Records
@@ -54,8 +55,10 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
     room = (nodes, slots) if world.keeps else (0, 0)
     of_moves = room if world.general else (0, 0)
     # On one route, by a trip more on any, beside neighbours.
-    offers = max(AT_ONE_STOP * stops + sorties * (world.max_visits + 1),
-                 nodes + slots * (3 * trips + 2), 2 * AT_ONE_STOP * world.fit.shape[1])
+    at_one_stop = AT_ONE_STOP * most_drone_rows(world.type)
+    offers = max(at_one_stop * stops + sorties * (world.max_visits + 1),
+                 nodes + slots * (2 + most_drone_rows(world.type)) * (trips + 1),
+                 2 * at_one_stop * world.fit.shape[1])
     return Searcher(
         now=now, before=before, best=best, count=count, value=one(VALUES),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
@@ -91,7 +94,7 @@ def first_plan(problem: Problem, world: World) -> Solution:
 
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
-    types, number = world.type, problem.num_customers
+    types, number = world.type[:world.num_types], problem.num_customers
     demand = np.sort(world.place[0, problem.num_depots:, 0]["demand"], axis=0).cumsum(axis=0)
     asked = _asked_for(problem)
     most, fewest = 0, number
@@ -256,10 +259,13 @@ def setups_of(setup: Records, origins: IntArray, nodes: IntArray) -> IntArray:
 
 
 @compiled
-def sortie_ends(places: Records, kind: Record, nodes: IntArray, arrivals: IntArray,
-                begin: int) -> tuple[IntArray, int]:
-    """Return when a drone has served its customers, and when it is aboard, recovered from `begin`.
+def sortie_ends(places: Records, types: Records, k: int, drone: int, nodes: IntArray,
+                arrivals: IntArray, begin: int) -> tuple[IntArray, int]:
+    """Return when a truck's drone has served its customers, and when it is aboard.
+
+    It is recovered from `begin`.
     """
+    kind = types[row_of_drone(types, k, drone)]
     ends, by_air = np.empty_like(nodes), places_by_air(places, kind)
     for index in range(len(nodes)):
         ends[index] = end_of_service(by_air[nodes[index]], arrivals[index])
@@ -277,7 +283,7 @@ def _trips(world: World, fleet: Fleet, slot: int, route: Any) -> tuple[Trip, ...
     sorties = read_rows(fleet.sortie[slot, : route.sorties]) if route.sorties > 0 else []
     return tuple(
         Trip(tuple(halts[first:last + 1]),
-             tuple(_sortie(world, world.type[route.type], row, halts[row.launch].node, first)
+             tuple(_sortie(world, route.type, row, halts[row.launch].node, first)
                    for row in sorties if first <= row.launch <= last))
         for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))
 
@@ -295,11 +301,11 @@ def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: in
     return Stop(node, arrival, begin, leave, setup if kind == CUSTOMER else 0)
 
 
-def _sortie(world: World, kind: Record, row: Any, launch_node: int, first: int) -> Sortie:
+def _sortie(world: World, k: int, row: Any, launch_node: int, first: int) -> Sortie:
     nodes = np.array(row.nodes[: row.count], np.int64)
     arrivals = np.array(row.arrivals[: row.count], np.int64)
     starts = service_starts(world.place[0], nodes, arrivals)
-    ends, aboard = sortie_ends(world.place, kind, nodes, arrivals, row.begin)
+    ends, aboard = sortie_ends(world.place, world.type, k, row.drone, nodes, arrivals, row.begin)
     setups = setups_of(world.setup, np.array([launch_node, *nodes[:-1]], np.int64), nodes)
     visits = tuple(Visit(*visit) for visit in zip(
         nodes.tolist(), (arrivals - setups).tolist(), starts.tolist(), ends.tolist(),

@@ -1,6 +1,7 @@
 """What an insertion costs: from the blocks around it, or by timing the whole route again."""
 
 from model.kernel.compiled import inlined, spliced
+from model.kernel.drone_types import drone_row_at, first_drone, num_drone_rows
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, leg_at, legs_of, legs_to
 from model.kernel.load import release_of
@@ -165,16 +166,20 @@ def serve_alone(world: World, fleet: Fleet, slot: int, k: int, node: int, by_dro
     """
     start, end = world.type[k].begins_at, world.type[k].ends_at
     first = FROM_START if by_drone else BY_TRUCK
-    last = WAYS if by_drone and start != end else first
-    best, chosen, done = INFEASIBLE, first, False
-    for tried in range(first, last + 1):
+    ways = WAYS - FROM_START if by_drone and start != end else 1
+    number = ways * num_drone_rows(world.type, k) if by_drone else 1
+    best, chosen, done = INFEASIBLE, 0, False
+    for tried in range(number if number == 1 else number + 1):
         # The last time, the best of them is written once more.
-        way = chosen if tried == last else tried
-        begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k, start, end, node,
-                    way)
-        done = refresh(world, fleet, slot, acc)
+        option = chosen if tried == number else tried
+        row = drone_row_at(world.type, k, option // ways)
+        done = not by_drone or world.can[row, 1, node]
+        if done:
+            begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k, start, end,
+                        node, first + option % ways, first_drone(world.type, k, row))
+            done = refresh(world, fleet, slot, acc)
         if done and fleet.cost[slot] < best:
-            best, chosen = fleet.cost[slot], way
+            best, chosen = fleet.cost[slot], option
     return done
 
 

@@ -2,6 +2,9 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
+from model.kernel.drone_types import (
+    first_drone, first_drone_row, next_drone_row, row_of_drone,
+)
 from model.kernel.energy import charges_aboard
 from model.kernel.flight import (
     can_serve, earliest_back, gone_by, recovery_end, take_off, unreachable, within_endurance,
@@ -27,7 +30,7 @@ from model.search.route.rarer import loads_cost, tiers_of
 from model.search.route.refresh import idle_time
 from model.search.route.routes import lateness_cost
 from model.search.route.state import Searcher
-from model.search.route.vehicles import may_fit
+from model.search.route.vehicles import has_battery, may_fit
 
 MAX_SPAN = 8
 """How many stops after its launch a sortie is recovered at most."""
@@ -102,16 +105,18 @@ def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: i
 
 
 @spliced
-def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int) -> int:
-    """Return a drone that is aboard from stop `launch` to `recovery`; -1 if there is none.
+def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int,
+               row: int) -> int:
+    """Return a drone of a row that is aboard from stop `launch` to `recovery`; -1: there is none.
 
     That which flies least from and to these stops, so that drones fly side by side; on the trip, if
     drones are charged aboard.
     """
     sorties, stops = fleet.sortie[slot], fleet.stop[slot]
-    charging = charges_aboard(world.type[fleet.route[slot].type])
+    charging = charges_aboard(world.type[row])
     chosen, fewest = NOWHERE, 0
-    for drone in range(world.type[fleet.route[slot].type].drones):
+    number = first_drone(world.type, fleet.route[slot].type, row)
+    for drone in range(number, number + world.type[row].drones):
         free, beside = True, 0
         for s in range(fleet.route[slot].sorties):
             if sorties[s].drone == drone:
@@ -134,10 +139,24 @@ def free_drone(world: World, fleet: Fleet, slot: int, launch: int, recovery: int
 
 @pasted
 def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node: int) -> None:
-    """List sorties to a customer from stop `launch`. As `offer_stops`."""
+    """List sorties to a customer from stop `launch`, by each type of drones. As `offer_stops`."""
+    route, stops, sorties = searcher.now.route[slot], searcher.now.stop[slot], (
+        searcher.now.sortie[slot])
+    row = first_drone_row(world.type, route.type)
+    while row >= 0:
+        if world.can[row, 1, node] and has_battery(
+                world.type, route, sorties, searcher.now.trip[slot, stops[launch].trip], row):
+            offer_flights(world, searcher, slot, launch, node, row)
+        row = next_drone_row(world.type, row)
+
+
+@spliced
+def offer_flights(world: World, searcher: Searcher, slot: int, launch: int, node: int,
+                  row: int) -> None:
+    """List sorties to a customer from stop `launch` by drones of a row. As `offer_stops`."""
     now, best = searcher.now, searcher.bound.best
     k, stops = now.route[slot].type, now.stop[slot]
-    kind = world.type[k]
+    kind, rate = world.type[row], world.rate[row]
     m = kind.drone_travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, kind.home_travel, node)
     out = leg_at(inward, stops[launch].node)
@@ -166,15 +185,15 @@ def offer_sorties(world: World, searcher: Searcher, slot: int, launch: int, node
                 continue
         # The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         longer = max(0, begun + flight - stops[recovery].leave)
-        cost = ((out.distance + home.distance) * world.rate[k].drone_distance
-                + longer * world.rate[k].time + late - now.early[slot])
+        cost = ((out.distance + home.distance) * rate.drone_distance
+                + longer * rate.time + late - now.early[slot])
         if loads_cost(world, k):
             cost += load_more(world, now, slot, launch, recovery, node)
         if (cost < best and can_serve(kind, place, out.duration, home.duration)
                 and room_between(room, launch, recovery)):
             index = add_offer(searcher.offer, searcher.least, searcher.count, cost, BY_SORTIE,
                               slot, launch)
-            searcher.offer[index].last = recovery
+            searcher.offer[index].last, searcher.offer[index].type = recovery, row
 
 
 @pasted
@@ -182,16 +201,18 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
     """List a customer on each sortie of a route. As `offer_stops`."""
     now = searcher.now
     k, stops, sorties = now.route[slot].type, now.stop[slot], now.sortie[slot]
-    flights = legs_of(world.leg, world.type[k].drone_travel)
     for s in range(now.route[slot].sorties):
         sortie = sorties[s]
+        row = row_of_drone(world.type, k, sortie.drone)
+        flights = legs_of(world.leg, world.type[row].drone_travel)
         trip = stops[sortie.launch].trip
-        if (sortie.count >= world.visits[k] or not may_fit(world, now, slot, trip, k, node)
+        if (sortie.count >= world.visits[row] or not world.can[row, 1, node]
+                or not may_fit(world, now, slot, trip, k, node)
                 or not goods_may_join(world, now, slot, trip, node)
                 or not room_between(room_on(world, now, slot, k, node), sortie.launch,
                                     sortie.recovery)):
             continue
-        may_carry = can_carry(world, k, sortie, 0, node)
+        may_carry = can_carry(world, row, sortie, 0, node)
         if not (may_carry or tiers_of(world) > 0):
             continue
         here = stops[sortie.launch].node
@@ -201,11 +222,11 @@ def offer_joining(world: World, searcher: Searcher, slot: int, node: int) -> Non
                 there = sortie.nodes[place]
             out, on, direct = (leg(flights, here, node), leg(flights, node, there),
                                leg(flights, here, there))
-            cost = ((out.distance + on.distance - direct.distance) * world.rate[k].drone_distance
+            cost = ((out.distance + on.distance - direct.distance) * world.rate[row].drone_distance
                     - now.early[slot])
             here = there
             if cost < searcher.bound.best and place > 0 and tiers_of(world) > 0:
-                may_carry = can_carry(world, k, sortie, place, node)
+                may_carry = can_carry(world, row, sortie, place, node)
             if cost < searcher.bound.best and may_carry:
                 index = add_offer(searcher.offer, searcher.least, searcher.count, cost,
                                   ON_SORTIE, slot, place)
@@ -217,16 +238,21 @@ def offer_flight_trips(world: World, searcher: Searcher, slot: int, node: int) -
     """List trips that a drone flies alone to a customer. As `offer_stops`."""
     route, stops = searcher.now.route[slot], searcher.now.stop[slot]
     k = route.type
-    flights = legs_of(world.leg, world.type[k].drone_travel)
-    depot = world.type[k].depot
-    out, home = leg(flights, depot, node), leg(flights, node, depot)
-    cost = (out.distance + home.distance) * world.rate[k].drone_distance - searcher.now.early[slot]
-    if (world.loops and not unreachable(max(out.duration, home.duration))
-            and cost < searcher.bound.best and may_begin(world, k, node)):
-        for p in range(-1, route.length):
-            if p < 0 or stops[p].kind == END:
-                add_offer(searcher.offer, searcher.least, searcher.count, cost, FLIGHT_TRIP, slot,
-                          p)
+    depot, row = world.type[k].depot, first_drone_row(world.type, k)
+    while row >= 0:
+        flights = legs_of(world.leg, world.type[row].drone_travel)
+        out, home = leg(flights, depot, node), leg(flights, node, depot)
+        cost = (out.distance + home.distance) * world.rate[row].drone_distance
+        cost -= searcher.now.early[slot]
+        if (world.loops and not unreachable(max(out.duration, home.duration))
+                and cost < searcher.bound.best and world.can[row, 1, node]
+                and may_begin(world, k, node)):
+            for p in range(-1, route.length):
+                if p < 0 or stops[p].kind == END:
+                    index = add_offer(searcher.offer, searcher.least, searcher.count, cost,
+                                      FLIGHT_TRIP, slot, p)
+                    searcher.offer[index].drone = first_drone(world.type, k, row)
+        row = next_drone_row(world.type, row)
 
 
 @pasted
@@ -308,7 +334,7 @@ def price_offer(world: World, fleet: Fleet, move: Record, node: int, least: floa
     """
     kind, slot, p = move.kind, move.slot, move.first
     if kind == BY_SORTIE:
-        move.drone = free_drone(world, fleet, slot, p, move.last)
+        move.drone = free_drone(world, fleet, slot, p, move.last, move.type)
         if move.drone < 0:
             return INFEASIBLE
     elif kind == AT_STOP:

@@ -3,6 +3,7 @@
 
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined
+from model.kernel.drone_types import row_of_drone
 from model.search.route.halts import can_carry, can_take
 from model.search.route.layout import CUSTOMER, MODE_LEAN, NOWHERE, Fleet, World
 from model.search.route.randomness import below
@@ -63,11 +64,12 @@ def may_drive(world: World, fleet: Fleet, slot: int, k: int) -> bool:
             return False
     for s in range(route.sorties):
         sortie = sorties[s]
-        if (sortie.drone >= world.type[k].drones or sortie.count > world.visits[k]
-                or not can_carry(world, k, sortie, NOWHERE, NOWHERE)):
+        row = row_of_drone(world.type, k, sortie.drone)
+        if (sortie.drone >= world.type[k].drones or sortie.count > world.visits[row]
+                or not can_carry(world, row, sortie, NOWHERE, NOWHERE)):
             return False
         for visit in range(sortie.count):
-            if not world.can[k, 1, sortie.nodes[visit]]:
+            if not world.can[row, 1, sortie.nodes[visit]]:
                 return False
     return True
 

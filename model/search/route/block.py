@@ -17,11 +17,12 @@ from model.kernel.leg import leg, legs_of
 from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import (
-    allowed_within, are_single, end_of_service, in_same_window, latest_allowed, places_by_air,
-    places_of, service_duration, start_within, too_late,
+    allowed_within, are_single, end_of_service, in_same_window, latest_allowed, places_of,
+    service_duration, start_within, too_late,
 )
 from model.problem import IntArray
 from model.search.route.batteries import await_charge, charge, hover, note_charge
+from model.search.route.craft import Skies, craft_of, skies_of
 from model.search.route.layout import CUSTOMER, DONE, END, FLYING, START, WAITING, World
 
 SUMS = record("time", "free_d", "free_c", "hi", "lo", "dep", "oldest", "flying",
@@ -86,11 +87,10 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
     And write how long each is held back: until windows let it be back within its limit. Where some
     have several, that hangs on when it could begin, and is for `soonest_takeoff`.
     """
-    kind, single = world.type[k], are_single(world.place[0, 0])
-    legs, places = legs_of(world.leg, kind.drone_travel), places_by_air(world.place, kind)
-    homeward = legs_of(world.leg, kind.home_travel)
+    skies, single = skies_of(world, k), are_single(world.place[0, 0])
     for s in range(count):
         sortie = sorties[s]
+        kind, places, legs, homeward = craft_of(skies, sortie)
         node = sortie.home = stops[sortie.recovery].node
         sortie.state, sortie.held, sortie.limit = WAITING, NONE, endurance_of(kind)
         if is_limited(kind):
@@ -243,8 +243,8 @@ def is_aboard(sorties: Records, index: int, oldest: int) -> bool:
 
 
 @inlined
-def next_operation(places: Records, legs: IntArray, homeward: IntArray, kind: Record,
-                   sorties: Records, count: int, p: int, node: int, acc: Record) -> int:
+def next_operation(skies: Skies, sorties: Records, count: int, p: int, node: int,
+                   acc: Record) -> int:
     """Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 
     A drone that is there is recovered before another is launched.
@@ -257,12 +257,14 @@ def next_operation(places: Records, legs: IntArray, homeward: IntArray, kind: Re
         begin = FAR
         if sorties[index].state == FLYING:
             if sorties[index].recovery == p:
+                _, _, _, homeward = craft_of(skies, sorties[index])
                 last = sorties[index].nodes[sorties[index].count - 1]
                 flight = leg(homeward, last, node).duration
                 begin = max(2 * free, 2 * (max(acc.time + sorties[index].ready_d,
                                                sorties[index].ready_c) + flight))
         elif (sorties[index].state == WAITING and sorties[index].launch == p
               and is_aboard(sorties, index, acc.oldest)):
+            kind, places, legs, homeward = craft_of(skies, sorties[index])
             if charges_aboard(kind):
                 note_charge(kind, sorties, index, acc.first_sortie)
             takeoff = soonest_takeoff(places, legs, homeward, kind, sorties[index], node,
@@ -274,18 +276,13 @@ def next_operation(places: Records, legs: IntArray, homeward: IntArray, kind: Re
 
 
 @inlined
-def operate(places: Records, legs: IntArray, homeward: IntArray, kind: Record, sorties: Records,
-            count: int, p: int, node: int, acc: Record) -> bool:
-    """Launch and recover all that stop `p` asks for. In place; False if not allowed.
-
-    `legs` (origin, to, 2) are flown to customers, `homeward` to the truck; `kind` is the row of the
-    vehicle type.
-    """
-    # The whole world would be copied at each call.
+def operate(skies: Skies, sorties: Records, count: int, p: int, node: int, acc: Record) -> bool:
+    """Launch and recover all that stop `p` asks for. In place; False if not allowed."""
     while True:
-        index = next_operation(places, legs, homeward, kind, sorties, count, p, node, acc)
+        index = next_operation(skies, sorties, count, p, node, acc)
         if index < 0:
             break
+        kind, places, legs, homeward = craft_of(skies, sorties[index])
         if sorties[index].state == FLYING:
             if not bring_home(homeward, kind, sorties[index], node, acc):
                 return False
@@ -323,10 +320,7 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
     `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
     """
     vehicle_type = world.type[k]
-    flights = legs_of(world.leg, vehicle_type.drone_travel)
-    homeward = legs_of(world.leg, vehicle_type.home_travel)
-    places, by_air = (places_of(world.place, vehicle_type),
-                      places_by_air(world.place, vehicle_type))
+    places, skies = places_of(world.place, vehicle_type), skies_of(world, k)
     d, c = origin(world, k, time)
     acc.time, acc.hi, acc.lo, acc.dep = time, FAR, NONE, FAR
     acc.oldest, acc.flying, p = oldest, 0, first
@@ -341,7 +335,7 @@ def time_block(world: World, k: int, stops: Records, length: int, sorties: Recor
             c = max(c, max(stop.release, stop.hold))
         acc.free_d, acc.free_c = d, c
         d, c = serve(world, k, stop, time, d, c)
-        if not operate(by_air, flights, homeward, vehicle_type, sorties, count, p, node, acc):
+        if not operate(skies, sorties, count, p, node, acc):
             return -1
         d, c = max(d, acc.free_d), max(c, acc.free_c)
         stop.leave, stop.flying = max(time + d, c), acc.flying

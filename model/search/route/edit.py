@@ -96,7 +96,7 @@ def apply(depot: int, route: Record, stops: Records, sorties: Records, move: Rec
         make_room(route, stops, sorties, first + 1, 2)
         put(stops, first + 1, depot, START)
         put(stops, first + 2, depot, END)
-        add_sortie(route, sorties, first + 1, first + 1, 0, node)
+        add_sortie(route, sorties, first + 1, first + 1, move.drone, node)
     elif kind == TRIP_FROM:
         make_room(route, stops, sorties, first + 1, 3)
         put(stops, first + 1, depot, END)
@@ -111,8 +111,8 @@ def apply(depot: int, route: Record, stops: Records, sorties: Records, move: Rec
 
 @inlined
 def begin_route(route: Record, stops: Records, sorties: Records, k: int, start: int, end: int,
-                node: int, way: int) -> None:
-    """Write a route that serves one customer in one of the `WAYS`. In place."""
+                node: int, way: int, drone: int) -> None:
+    """Write a route that serves one customer in one of the `WAYS`, by a `drone`. In place."""
     route.trips = route.sorties = route.end = route.cum = route.working = 0
     route.offset = route.stamp = 0
     route.type = k
@@ -120,7 +120,7 @@ def begin_route(route: Record, stops: Records, sorties: Records, k: int, start: 
     if way != BY_TRUCK:
         put(stops, 1, end, END)
         route.length = 2
-        add_sortie(route, sorties, int(way == FROM_END), int(way != FROM_START), 0, node)
+        add_sortie(route, sorties, int(way == FROM_END), int(way != FROM_START), drone, node)
     else:
         put(stops, 1, node, CUSTOMER)
         put(stops, 2, end, END)

@@ -1,6 +1,7 @@
 """What is aboard at the stops of a route, where that has to be looked at from stop to stop."""
 
 from model.kernel.compiled import inlined, spliced
+from model.kernel.drone_types import row_of_drone
 from model.kernel.load import (
     EMPTY, NOTHING, Cargo, add_come, add_left, cargo_for, delivered_of, demand_of, followed,
     has_room, holds_in, lifts, may_follow, most_of, picked_of, plus, total_delivered, total_picked,
@@ -19,7 +20,7 @@ def flown(world: World, k: int, sortie: Record, place: int, node: int,
           tier: int) -> tuple[Cargo, bool]:
     """Return the cargo of a sortie that serves a customer more before its number `place`.
 
-    And whether a drone of type `k` may carry it. NOWHERE: nobody more.
+    And whether a drone of a row `k` may carry it. NOWHERE: nobody more.
     """
     kind, cargo, in_order = world.type[k], EMPTY, True
     for visit in range(sortie.count + 1):
@@ -36,7 +37,7 @@ def flown(world: World, k: int, sortie: Record, place: int, node: int,
 
 @inlined
 def can_carry(world: World, k: int, sortie: Record, place: int, node: int) -> bool:
-    """Tell whether a drone of type `k` may carry what a sortie does, as in `flown`."""
+    """Tell whether a drone of a row `k` may carry what a sortie does, as in `flown`."""
     if tiers_of(world) == 0:
         load = demand_of(world.place[0, node]) if place >= 0 else NOTHING
         for visit in range(sortie.count):
@@ -66,7 +67,8 @@ def note_amounts(world: World, fleet: Fleet, slot: int, tier: int) -> bool:
     allowed = True
     for s in range(route.sorties):
         sortie = fleet.sortie[slot, s]
-        cargo, may = flown(world, route.type, sortie, NOWHERE, NOWHERE, tier)
+        row = row_of_drone(world.type, route.type, sortie.drone)
+        cargo, may = flown(world, row, sortie, NOWHERE, NOWHERE, tier)
         allowed = allowed and may
         add_left(halts[sortie.launch], cargo[0], cargo[3])
         add_come(halts[sortie.recovery], cargo[1], cargo[4])

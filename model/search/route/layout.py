@@ -102,12 +102,12 @@ class World(NamedTuple):
     goods: Records  # (node,) GOODS, none where all go together
     setup: Records  # (node,) SETUP, none where nobody sets up
     fresh_for: IntArray  # (node,) ms, none where nothing is limited
-    type: Records  # (type,) TYPE
-    rate: Records  # (type,) RATE, per mm and per ms
-    mode: IntArray  # (type,) MODE_ flags
+    type: Records  # (row,) TYPE
+    rate: Records  # (row,) RATE, per mm and per ms
+    mode: IntArray  # (row,) MODE_ flags
     reload: BoolArray  # (type, node) where a trip may end and the next begin
-    visits: IntArray  # (type,) customers on a sortie
-    can: BoolArray  # (type, 2, node) by truck, by drone
+    visits: IntArray  # (row,) customers on a sortie
+    can: BoolArray  # (row, 2, node) by truck, by drone
     splice: BoolArray  # (type, type) vehicles may end each other's routes
     swap: BoolArray  # (type, type) may drive each other's routes at a cost by distance alone
     leg: IntArray  # (travel, origin, to, 2) duration, distance

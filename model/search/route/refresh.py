@@ -21,6 +21,9 @@ from model.search.route.routes import (
     drive_forward, first_departure, load_trips, look_back, open_up, price_route,
 )
 
+HALVINGS = 6
+"""Attempts to find out how late a trip may begin whose drones come in another order if it waits."""
+
 MOST_DRAWS = 64
 """Draws after which a search for one of few customers ends."""
 
@@ -102,13 +105,22 @@ def settle(world: World, route: Record, stops: Records, trips: Records, sorties:
         first = trips[index].first
         stop = stops[first]
         hold = latest_hold(world, route, stops, sorties, first)
-        if hold > max(stop.arrival, stop.release):
-            end = route.end
-            stop.hold = hold
-            if (not drive_forward(world, route, stops, sorties, acc) or route.end > end
-                    or any_too_long(world, route, stops, trips, sorties)):
-                # Drones in another order of arrival took longer.
-                stop.hold = NONE
+        soonest = max(stop.arrival, stop.release)
+        if hold > soonest:
+            end, found, failed, tried = route.end, NONE, hold, hold
+            for _ in range(1 + HALVINGS):
+                stop.hold = tried
+                if (drive_forward(world, route, stops, sorties, acc) and route.end <= end
+                        and not any_too_long(world, route, stops, trips, sorties)):
+                    found = tried
+                else:
+                    # Drones in another order of arrival took longer.
+                    failed = tried
+                if found == hold:
+                    break
+                tried = (max(found, soonest) + failed) // 2
+            if stop.hold != found:
+                stop.hold = found
                 if not drive_forward(world, route, stops, sorties, acc):
                     return False
     return True
@@ -118,6 +130,18 @@ def settle(world: World, route: Record, stops: Records, trips: Records, sorties:
 def settled_departure(world: World, route: Record, stops: Records, sorties: Records) -> int:
     """Return when truck or drone first leaves the depot on a settled route."""
     return counted_from(world.type[route.type], departure_of(world, route, stops, sorties, 0))
+
+
+@inlined
+def has_to_wait(world: World, route: Record, stops: Records, sorties: Records) -> bool:
+    """Tell whether a route with drones works too long unless it begins later than it could.
+
+    Whether they then come in the order that its times were found by has to be seen.
+    """
+    if route.sorties == 0:
+        return False
+    soonest = settled_departure(world, route, stops, sorties)
+    return route.end - soonest > world.type[route.type].max_working_duration
 
 
 @inlined
@@ -171,7 +195,8 @@ def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     if time_aboard_counts(world) and not hold_trips(world, route, stops, trips, sorties, acc):
         return False
     depart = first_departure(world, route, stops, sorties)
-    if mode & MODE_SETTLED:
+    settled = mode & MODE_SETTLED > 0 or has_to_wait(world, route, stops, sorties)
+    if settled:
         if not settle(world, route, stops, trips, sorties, acc):
             return False
         depart = settled_departure(world, route, stops, sorties)
@@ -182,7 +207,7 @@ def refresh_as_is(world: World, fleet: Fleet, slot: int, acc: Record) -> bool:
     if loads_cost(world, route.type):
         fleet.cost[slot] += load_cost(world, fleet, slot)
     fleet.early[slot] = early if mode & MODE_SETTLED else 0.0
-    if mode & MODE_SETTLED:
+    if settled:
         clear_holds(route, stops, trips)
         drive_forward(world, route, stops, sorties, acc)
     if mode & MODE_RETIMED:

@@ -1,6 +1,7 @@
 """All that follows from the sequence of a route: loads, times, where it bends, its cost."""
 
 from model.kernel.compiled import inlined, spliced
+from model.kernel.drone_types import are_several, row_of_drone
 from model.kernel.flight import launch_duration, recovery_end
 from model.kernel.instance import FAR, NONE
 from model.kernel.leg import leg, legs_of
@@ -12,7 +13,7 @@ from model.kernel.stop import are_single, lateness, latest_arrival, places_of, w
 from model.search.route.block import make_ready, plain_block, time_block, travel
 from model.search.route.ends import is_apart, place_ends
 from model.search.route.layout import CUSTOMER, END, MODE_PRICED, START, World, clear_trip
-from model.search.route.vehicles import add_load, may_make
+from model.search.route.vehicles import add_load, have_batteries, may_make
 
 
 @inlined
@@ -56,7 +57,8 @@ def load_trips(world: World, route: Record, stops: Records, trips: Records,
             trip.last = p
             stops[trip.first].release = trip.release
             if (trip.distance > most_distance or not may_make(vehicle_type, trip)
-                    or not allows_sorties(vehicle_type, s - flown)):
+                    or not allows_sorties(vehicle_type, s - flown)
+                    or not have_batteries(world.type, k, sorties, flown, s)):
                 return False
             stop.leg, stop.gap = 0, vehicle_type.reload_duration
         else:
@@ -190,15 +192,16 @@ def price_windows(world: World, route: Record, stops: Records,
 @inlined
 def sortie_cost(world: World, k: int, stops: Records, sortie: Record) -> float:
     """Return what the flight of a sortie costs."""
-    flights = legs_of(world.leg, world.type[k].drone_travel)
+    row = row_of_drone(world.type, k, sortie.drone)
+    flights = legs_of(world.leg, world.type[row].drone_travel)
     node, flown = stops[sortie.launch].node, 0
     for visit in range(sortie.count):
         following = sortie.nodes[visit]
         flown += leg(flights, node, following).distance
         node = following
     flown += leg(flights, node, stops[sortie.recovery].node).distance
-    airborne = recovery_end(world.type[k], sortie.begin) - sortie.takeoff
-    return flown * world.rate[k].drone_distance + airborne * world.rate[k].drone_time
+    airborne = recovery_end(world.type[row], sortie.begin) - sortie.takeoff
+    return flown * world.rate[row].drone_distance + airborne * world.rate[row].drone_time
 
 
 @inlined
@@ -207,7 +210,13 @@ def first_departure(world: World, route: Record, stops: Records, sorties: Record
     depart = min(stops[route.length - 1].depart, route.end - route.cum)
     offset, kind = 0, world.type[route.type]
     if route.sorties > 0 and sorties[0].launch == 0 and not has_begun(kind):
-        offset = launch_duration(kind, 0)
+        first = 0
+        if are_several(kind):
+            for s in range(1, route.sorties):
+                if sorties[s].launch == 0 and sorties[s].takeoff < sorties[first].takeoff:
+                    first = s
+        drones = world.type[row_of_drone(world.type, route.type, sorties[first].drone)]
+        offset = launch_duration(drones, 0)
     route.offset = offset
     return counted_from(kind, depart + offset)
 

@@ -3,6 +3,9 @@
 import math
 
 from model.kernel.compiled import inlined, spliced
+from model.kernel.drone_types import (
+    are_several, first_drone_row, next_drone_row, row_of_drone,
+)
 from model.kernel.flight import launches_differ
 from model.kernel.load import (
     Amount, amount_of, fits, holds, holds_in, most_of, picked_of, plus, write_amount,
@@ -29,6 +32,50 @@ def may_launch(kind: Record, route: Record, sorties: Records, trip: Record) -> b
         if trip.first <= sorties[s].launch <= trip.last:
             count += 1
     return allows_sorties(kind, count)
+
+
+@inlined
+def num_flown(types: Records, k: int, sorties: Records, first: int, behind: int, row: int) -> int:
+    """Return how many of a truck's sorties from `first` on are flown by drones of a row."""
+    count = 0
+    for s in range(first, behind):
+        if row_of_drone(types, k, sorties[s].drone) == row:
+            count += 1
+    return count
+
+
+@inlined
+def have_batteries(types: Records, k: int, sorties: Records, first: int, behind: int) -> bool:
+    """Tell whether there are batteries for the sorties of a trip.
+
+    Where drones are of one type, `allows_sorties` tells that already.
+    """
+    if not are_several(types[k]):
+        return True
+    row = first_drone_row(types, k)
+    while row >= 0:
+        if not allows_sorties(types[row], num_flown(types, k, sorties, first, behind, row)):
+            return False
+        row = next_drone_row(types, row)
+    return True
+
+
+@inlined
+def has_battery(types: Records, route: Record, sorties: Records, trip: Record, row: int) -> bool:
+    """Tell whether drones of a row have a battery for one more sortie on a trip.
+
+    Where they are of one type, `may_launch` tells that already.
+    """
+    if not are_several(types[route.type]):
+        return True
+    first = 0
+    while first < route.sorties and sorties[first].launch < trip.first:
+        first += 1
+    behind = first
+    while behind < route.sorties and sorties[behind].launch <= trip.last:
+        behind += 1
+    return allows_sorties(
+        types[row], num_flown(types, route.type, sorties, first, behind, row) + 1)
 
 
 @inlined

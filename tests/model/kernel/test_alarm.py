@@ -144,7 +144,9 @@ def test_a_beginning_ends_at_the_deadline() -> None:
 def test_a_beginning_ends_once_the_caller_wants_no_more() -> None:
     problem = one_long_trip(500, 200)
     began = time.perf_counter()
-    found = improve(problem, pack([problem], neighbours=False), Solution((), ()), SearchConfig(),
+    # Nobody served is what comes back where the search is stopped before it began.
+    nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    found = improve(problem, pack([problem], neighbours=False), nobody, SearchConfig(),
                     began + 60.0, should_stop=lambda: True)
     assert time.perf_counter() - began < SOON
     assert not found.whole

@@ -97,6 +97,21 @@ def test_user_cache_serves_where_the_source_cannot_be_written(tmp_path: Path) ->
     assert Path(seen).parent == tmp_path / "user" / "tandem-planner"
 
 
+def test_code_is_found_wherever_the_source_lies(tmp_path: Path) -> None:
+    script = (
+        "import numpy as np; from model.kernel.clock import arrival_by_profile as one;"
+        "times, factors = np.zeros(1, np.int64), np.ones(2, np.int64);"
+        "one(times, factors, 0, 1, 0); print(sum(one.stats.cache_hits.values()))")
+    for place, hits in (("here", "0"), ("there", "1")):
+        package = tmp_path / place / "model"
+        shutil.copytree(ROOT / "model", package, ignore=shutil.ignore_patterns("__pycache__"))
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", script], cwd=package.parent, capture_output=True,
+            check=True, text=True, env={**os.environ, "PYTHONPATH": str(package.parent),
+                                        "NUMBA_CACHE_DIR": str(tmp_path / "code")})
+        assert done.stdout.strip() == hits
+
+
 def test_nothing_is_kept_where_no_folder_can_be_written(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     assert folder_seen_from(ROOT, NUMBA_CACHE_DIR=str(tmp_path / "file")) == "None"

@@ -77,9 +77,7 @@ def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, 
     truck = problem.travel[kind.travel]
     kilometres = sum(_sum(truck.distance, trip.nodes) for trip in trips) / MM_PER_KM
     cost = kind.fixed_cost + kilometres * kind.cost_per_km
-    busy = Counter({"truck": sum(_sum(truck.duration, trip.nodes) for trip in trips)})
-    busy["truck"] += sum(kind.service_at(problem.customer_at(node))
-                         for trip in trips for node in trip.nodes[1:-1])
+    busy = Counter({"truck": sum(_least_duration(problem, kind, trip) for trip in trips)})
     flights = [(trip, sortie) for trip in trips for sortie in trip.sorties]
     for trip, sortie in flights:
         drones = kind.drone_type(sortie.drone)
@@ -93,15 +91,24 @@ def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, 
     return cost + max(busy.values()) / MS_PER_HOUR * kind.cost_per_hour
 
 
+def _least_duration(problem: Problem, kind: VehicleType, trip: TripDecision) -> int:
+    """Return what driving and serving take on a trip, which lasts no shorter."""
+    served = sum(kind.service_at(problem.customer_at(node)) for node in trip.nodes[1:-1])
+    return _sum(problem.travel[kind.travel].duration, trip.nodes) + served
+
+
 def _sum(legs: IntArray, path: Nodes) -> int:
     return sum(legs.item(origin, to) for origin, to in pairwise(path))
 
 
 def _cost_begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> float:
     """Return what a route costs whose trips begin as late as costs nothing."""
+    kind = problem.vehicle_types[decision.vehicle_type]
     for index in range(len(decision.trips)):
         first, end = soon.trips[index].stops[0].arrival, soon.trips[-1].stops[-1].departure
-        for start in range(end - (end - first) % STEP, first, -STEP):
+        # What begins later than that ends later, too.
+        last = end - sum(_least_duration(problem, kind, trip) for trip in decision.trips[index:])
+        for start in range(last - (last - first) % STEP, first, -STEP):
             trip = replace(decision.trips[index], start=start)
             trips = (*decision.trips[:index], trip, *decision.trips[index + 1:])
             late = schedule(problem, replace(decision, trips=trips))

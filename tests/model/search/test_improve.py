@@ -99,6 +99,9 @@ def test_search_counts_what_the_checker_counts_but_for_late_starts() -> None:
     (60, 742, "mixed"),  # likewise
     (200, 347, "mixed"),  # an empty trip: all of it was swapped for a tail without customers
     (100, 729, "mixed"),  # begun late, two drones come and go in another order than counted
+    (100, 40, "mixed"),  # likewise, and begun at once it works too long
+    (100, 286, "mixed"),
+    (150, 350, "mixed"),
 ])
 def test_plans_that_once_broke_rules_are_legal(num_customers: int, seed: int,
                                                variant: str) -> None:

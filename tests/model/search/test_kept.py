@@ -1,18 +1,18 @@
 """Insertion places that are kept for as long as their route stays the same."""
 
 from collections.abc import Iterator
+from copy import deepcopy
 
 import numpy as np
 import pytest
 
-from model.kernel.compiled import compiled_on_arrays
 from model.kernel.instance import pack
-from model.problem import Problem
+from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.insertion.evaluate import INFEASIBLE
-from model.search.insertion.places import try_route
 from model.search.moves.anneal import ANY, anneal
+from model.search.moves.recreate import BY_FAR
 from model.search.route.layout import CHANGING, World
 from model.search.route.state import Searcher
 from model.search.world import make_world
@@ -22,12 +22,23 @@ from training.instances import generate
 TURNS, ROUNDS = 40, 25
 
 
-@compiled_on_arrays
-def least_cost(world: World, searcher: Searcher, slot: int, node: int) -> float:
-    """Return what a customer more on a route costs at least. In place: the searcher's scratch."""
-    searcher.bound.best, searcher.bound.blink = INFEASIBLE, 0.0
-    try_route(world, searcher, slot, node, False)
-    return searcher.bound.best
+def least_costs(world: World, searcher: Searcher, slot: int, nodes: IntArray) -> FloatArray:
+    """Return what each of some customers more on a route costs at least, kept or not.
+
+    All are tried on that route alone, and none is inserted, since it costs less to leave them out.
+    """
+    unwanted = world._replace(unassigned_cost=-INFEASIBLE)
+    stamp, rng = searcher.now.route[slot].stamp, searcher.rng.copy()
+    while True:
+        trial = deepcopy(searcher)._replace(rng=rng)
+        trial.count.active, trial.count.missing = 1, len(nodes)
+        trial.active[0], trial.missing[: len(nodes)] = slot, nodes
+        trial.kept["stamp"], trial.alone[:] = stamp - 1, INFEASIBLE
+        anneal(unwanted, trial, 1, BY_FAR)
+        # Now and then, the first is inserted at any cost.
+        if trial.count.missing == len(nodes):
+            assert (trial.kept[nodes, slot]["stamp"] == stamp).all()
+            return trial.kept_cost[nodes, slot]
 
 
 def begun(problem: Problem, world: World) -> Searcher:
@@ -38,16 +49,15 @@ def begun(problem: Problem, world: World) -> Searcher:
     return searcher
 
 
-def kept_places(world: World, searcher: Searcher) -> Iterator[tuple[int, int]]:
-    """Search in rounds; yield the routes and customers for which a place is kept after each."""
+def kept_places(world: World, searcher: Searcher) -> Iterator[tuple[int, IntArray]]:
+    """Search in rounds; yield each route and for whom a place on it is kept after each round."""
     for _ in range(ROUNDS):
         anneal(world, searcher, TURNS, ANY)
         for slot in searcher.active[: searcher.count.active]:
             stamp = searcher.now.route[slot].stamp
             assert stamp != CHANGING
-            for node in np.flatnonzero(searcher.kept[:, slot]["stamp"] == stamp):
-                if searcher.now.where[node].slot != slot:
-                    yield int(slot), int(node)
+            nodes = np.flatnonzero(searcher.kept[:, slot]["stamp"] == stamp)
+            yield int(slot), nodes[searcher.now.where[nodes]["slot"] != slot]
 
 
 def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int, int]:
@@ -72,15 +82,16 @@ def test_places_kept_are_the_shortest_detours_on_routes_as_they_are(seed: int) -
     assert not world.general
     searcher = begun(problem, world)
     found = none = 0
-    for slot, node in kept_places(world, searcher):
-        _, detour, p = searcher.kept[node, slot]
-        detours = shortest(world, searcher, slot, node)
-        assert min(detours.values(), default=detour) >= detour
-        if p >= 0:
-            assert detours[p] == detour
-            found += 1
-        else:
-            none += 1
+    for slot, nodes in kept_places(world, searcher):
+        for node in nodes:
+            _, detour, p = searcher.kept[node, slot]
+            detours = shortest(world, searcher, slot, node)
+            assert min(detours.values(), default=detour) >= detour
+            if p >= 0:
+                assert detours[p] == detour
+                found += 1
+            else:
+                none += 1
     assert min(found, none) > ROUNDS
 
 
@@ -93,12 +104,12 @@ def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: s
     assert world.general
     searcher = begun(problem, world)
     found = none = 0
-    for slot, node in kept_places(world, searcher):
-        least = least_cost(world, searcher, slot, node)
-        if searcher.kept_move[node, slot].kind >= 0:
-            assert searcher.kept_cost[node, slot] == pytest.approx(least)
-            found += 1
-        else:
-            assert searcher.kept_cost[node, slot] <= least + 1e-9 * abs(least)
-            none += 1
+    for slot, nodes in kept_places(world, searcher):
+        cost = searcher.kept_cost[nodes, slot]
+        least = least_costs(world, searcher, slot, nodes)
+        is_found = searcher.kept_move[nodes, slot]["kind"] >= 0
+        assert cost[is_found] == pytest.approx(least[is_found])
+        assert (cost <= least + 1e-9 * abs(least))[~is_found].all()
+        found += is_found.sum()
+        none += (~is_found).sum()
     assert min(found, none) > ROUNDS

@@ -13,9 +13,10 @@ from model.search.improve import SearchConfig, improve
 from model.search.world import make_world
 from model.solution import Solution
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_charging, with_dimensions, with_duty, with_energy, with_gaps,
-    with_goods, with_limits_aboard, with_open_ends, with_own_costs, with_own_durations,
-    with_pickups, with_places, with_reloads, with_setups, with_table, with_turnaround,
+    draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_duty,
+    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_own_costs,
+    with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_table,
+    with_turnaround,
 )
 from training.instances import VALIDATED, generate
 
@@ -48,9 +49,10 @@ def test_problems_of_the_first_classes_are_plain(variant: str) -> None:
 
 
 @pytest.mark.parametrize("rule", [
-    unchanged, with_beginnings, with_charging, with_dimensions, with_duty, with_energy, with_gaps,
-    with_goods, with_limits_aboard, with_open_ends, with_own_costs, with_own_durations,
-    with_pickups, with_places, with_reloads, with_setups, with_table, with_turnaround,
+    unchanged, with_beginnings, with_charging, with_dimensions, with_drone_types, with_duty,
+    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_own_costs,
+    with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_table,
+    with_turnaround,
 ])
 def test_plans_are_the_same_by_either_code(rule: Rule, monkeypatch: pytest.MonkeyPatch) -> None:
     plain = 0

@@ -23,10 +23,10 @@ from model.simulation.simulator import (
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_charging, with_dimensions, with_duty, with_energy, with_gaps,
-    with_goods, with_limits_aboard, with_open_ends, with_open_reloads, with_own_costs,
-    with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_table,
-    with_turnaround,
+    draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_duty,
+    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
+    with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
+    with_table, with_turnaround,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -114,16 +114,33 @@ def charging_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_charging(rng, with_pickups(rng, with_gaps(rng, with_places(rng, problem))))
 
 
+def charging_drone_types(rng: np.random.Generator, problem: Problem) -> Problem:
+    return charging_often(rng, with_drone_types(rng, problem))
+
+
+def drone_types_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
+    problem = with_drone_types(rng, problem)
+    return with_some(rng, problem, with_gaps, with_energy, with_turnaround, with_duty, with_places,
+                     with_beginnings)
+
+
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
     with_open_reloads, with_duty, with_own_durations, with_goods, with_setups, with_limits_aboard,
-    with_turnaround, swapping_among_all, charging_often, charging_among_all])
+    with_turnaround, swapping_among_all, charging_often, charging_among_all, with_drone_types,
+    charging_drone_types, drone_types_among_all])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(80):
         rng = np.random.default_rng(seed)
         problem = change(rng, draw_tiny(rng))
         assert_exact(problem, rng, seed)
+
+
+def test_a_trip_is_held_until_its_drones_last_again() -> None:
+    rng = np.random.default_rng(924)
+    problem = drone_types_among_all(rng, draw_tiny(rng, drone_share=1.0))
+    assert_exact(problem, rng, 924)
 
 
 def with_pickups_and_all_else(rng: np.random.Generator, problem: Problem) -> Problem:

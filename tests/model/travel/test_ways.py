@@ -121,3 +121,25 @@ def test_crossings_of_areas_are_counted() -> None:
     bar: Ring = ((-10.0, 40.0), (110.0, 40.0), (110.0, 60.0), (-10.0, 60.0))
     assert count_crossings([SQUARE]) == 0
     assert count_crossings([SQUARE, bar]) == 4
+
+
+@given(PLACES, AREAS, st.sampled_from([0.0, 20.0]))
+@settings(max_examples=60, deadline=None)
+def test_bends_lie_on_the_way_that_legs_measure(
+        places: list[tuple[float, float]], rings: list[Ring], wind_kmh: float) -> None:
+    points = np.array(places)
+    airspace = Airspace(tuple(rings), wind_kmh, 250.0)
+    flights = Flights(points, airspace, planar_distances(points))
+    legs, wind = flights.legs(SPEED), airspace.wind(SPEED)
+    for start, end in itertools.permutations(range(len(points)), 2):
+        if not flights.ways.blocked[start, end]:
+            continue
+        bends = flights.obstacles.corners.place[flights.ways.bends(start, end, wind)]
+        assert (len(bends) > 0) == np.isfinite(legs.distance[start, end])
+        if len(bends):
+            steps = np.diff(np.concatenate((points[[start]], bends, points[[end]])), axis=0)
+            east, north = steps.T
+            lengths = np.hypot(east, north)
+            assert wind.durations(east, north, lengths).sum() == pytest.approx(
+                legs.duration[start, end])
+            assert wind_kmh > 0 or lengths.sum() == pytest.approx(legs.distance[start, end])

@@ -1,0 +1,74 @@
+"""The best places for one customer in a plan whose others stay, and why other vehicles have none.
+
+Each is a whole plan that was judged. They are the best of those tried: in small plans of all, else
+of each vehicle's likeliest, by truck and by drone.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from model.judge.alternatives import best_of, try_places
+from model.judge.bench import Bench, Draft, Trial
+from model.judge.past import Vehicle
+from model.judge.places import Place
+from model.judge.rules import Violation
+
+SPARE = 8
+"""So many more places than asked for are judged with the whole plan if these break rules there."""
+
+
+@dataclass(frozen=True)
+class Fits:
+    """What was found by trying."""
+
+    places: tuple[Trial, ...]  # the best first
+    others: tuple[Trial, ...]  # the best of each vehicle that has none of these, the best first
+    is_complete: bool  # no clock cut it short
+
+
+def find_fits(bench: Bench, count: int, until: float = math.inf) -> Fits:
+    """Return the best places found by an instant, `count` at most.
+
+    `until` is on `time.perf_counter`.
+    """
+    by_group, is_complete = try_places(bench, until)
+    drafts = [draft for some in by_group.values() for draft in some]
+    places = _best(bench, sorted(drafts, key=lambda draft: draft.rank), count)
+    chosen = {trial.place.vehicle for trial in places if trial.place is not None}
+    vehicles: dict[Vehicle, list[Draft]] = {}
+    for draft in drafts:
+        if draft.place.vehicle not in chosen:
+            vehicles.setdefault(draft.place.vehicle, []).append(draft)
+    others = [each.trial for some in vehicles.values() for each in best_of(bench, "vehicle", some)]
+    return Fits(tuple(places), tuple(sorted(others, key=lambda trial: trial.rank)), is_complete)
+
+
+def new_violations(bench: Bench, trial: Trial) -> list[Violation]:
+    """Return the rules that a plan breaks and that it doesn't without the customer."""
+    before = {(each.code, each.message) for each in bench.left_out.evaluation.violations}
+    return [each for each in trial.evaluation.violations
+            if (each.code, each.message) not in before]
+
+
+def _best(bench: Bench, drafts: Iterable[Draft], count: int) -> Sequence[Trial]:
+    """Return the plans with the first of some drafts, the best first; others if none is allowed.
+
+    Of those that differ only in where a drone is recovered, the best is one place.
+    """
+    seen: set[tuple[object, ...]] = set()
+    allowed: list[Trial] = []
+    broken: list[Trial] = []
+    for draft in drafts:
+        if len(allowed) >= count or len(broken) >= count + SPARE:
+            break
+        spot = _spot(draft.place)
+        if spot not in seen:
+            seen.add(spot)
+            trial = bench.finish(draft)
+            (broken if new_violations(bench, trial) else allowed).append(trial)
+    return sorted(allowed or broken, key=lambda trial: trial.rank)[:count]
+
+
+def _spot(place: Place) -> tuple[object, ...]:
+    return place.vehicle, place.trip, place.by, place.stop, place.sortie, place.own_trip

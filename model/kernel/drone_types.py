@@ -1,0 +1,125 @@
+"""Types of drones on one truck: rows of TYPE, as if the truck had these drones alone. Compiled.
+
+A truck with drones of one type is told by its own row. One with several has a row more for each of
+them, behind those of all trucks, which follow one another by their `drone_row`; in its own, what is
+said of drones holds for the most that any of them can, and all are counted.
+"""
+
+from dataclasses import replace
+
+from model.kernel.compiled import inlined
+from model.kernel.plain import is_plain
+from model.kernel.records import Record, Records
+from model.problem import BoolArray, Problem, VehicleType
+
+NO_ROW = -1
+
+
+def all_kinds(problem: Problem) -> list[tuple[VehicleType, int, int]]:
+    """Return the types of vehicles, as their rows have them, then those of their drones apart.
+
+    Each with the index of its type and the row that its `drone_row` names.
+    """
+    kinds: list[tuple[VehicleType, int, int]] = []
+    apart: list[tuple[VehicleType, int, int]] = []
+    for index, kind in enumerate(problem.vehicle_types):
+        first, number = len(problem.vehicle_types) + len(apart), len(kind.drone_types)
+        if number < 2:
+            kinds.append((kind, index, NO_ROW))
+            continue
+        kinds.append((_with_most(kind), index, first))
+        apart += [
+            (replace(kind, drones=drones, more_drones=(), charge_left=(), max_sorties=None), index,
+             first + place + 1 if place + 1 < number else NO_ROW)
+            for place, drones in enumerate(kind.drone_types)]
+    return kinds + apart
+
+
+def _with_most(kind: VehicleType) -> VehicleType:
+    """Return a truck whose drones can what any of them can, by no battery's leave."""
+    types = kind.drone_types
+    most = replace(
+        types[0], count=kind.num_drones,
+        capacity=tuple([max(amounts) for amounts in zip(*(drones.capacity for drones in types),
+                                                        strict=True)]),
+        endurance=max(drones.endurance for drones in types), energy=None, batteries=None,
+        service_duration=None, service_durations={},
+        swap_duration=max(drones.swap_duration for drones in types),
+        recovery_duration=max(drones.recovery_duration for drones in types),
+        max_customers_per_sortie=max(drones.max_customers_per_sortie for drones in types))
+    return replace(kind, drones=most, more_drones=())
+
+
+def any_aboard(types: Records, marked: BoolArray) -> BoolArray:
+    """Mark the rows that are marked, and trucks that carry drones whose row is."""
+    any_marked = marked.copy()
+    for k in range(len(types) - 1, -1, -1):
+        any_marked[k] |= types[k].drone_row >= 0 and any_marked[types[k].drone_row]
+    return any_marked
+
+
+def most_drone_rows(types: Records) -> int:
+    """Return how many rows tell of the drones of a truck at most."""
+    most = 1
+    for row in types["drone_row"][types["drone_row"] >= 0].tolist():
+        number = 1
+        while (row := int(types[row].drone_row)) >= 0:
+            number += 1
+        most = max(most, number)
+    return most
+
+
+@inlined
+def are_several(kind: Record) -> bool:
+    """Tell whether a truck has drones of several types, or others follow those of a row."""
+    return not is_plain(kind) and kind.drone_row >= 0
+
+
+@inlined
+def first_drone_row(types: Records, k: int) -> int:
+    """Return the row of the first drones on a truck; `next_drone_row` those behind."""
+    return types[k].drone_row if are_several(types[k]) else k
+
+
+@inlined
+def next_drone_row(types: Records, row: int) -> int:
+    """Return the row of a truck's next type of drones, NO_ROW behind the last."""
+    return types[row].drone_row if are_several(types[row]) else NO_ROW
+
+
+@inlined
+def row_of_drone(types: Records, k: int, drone: int) -> int:
+    """Return the row of a truck's drone."""
+    row = first_drone_row(types, k)
+    while are_several(types[row]) and drone >= types[row].drones:
+        drone -= types[row].drones
+        row = types[row].drone_row
+    return row
+
+
+@inlined
+def num_drone_rows(types: Records, k: int) -> int:
+    """Return how many rows tell of the drones of a truck."""
+    count, row = 1, next_drone_row(types, first_drone_row(types, k))
+    while row >= 0:
+        count, row = count + 1, next_drone_row(types, row)
+    return count
+
+
+@inlined
+def drone_row_at(types: Records, k: int, place: int) -> int:
+    """Return the row of a truck's drones at a place in their order, from 0."""
+    row = first_drone_row(types, k)
+    for _ in range(place):
+        row = next_drone_row(types, row)
+    return row
+
+
+@inlined
+def first_drone(types: Records, k: int, row: int) -> int:
+    """Return the number of a truck's first drone of a row."""
+    number, other = 0, first_drone_row(types, k)
+    while other != row:
+        number += types[other].drones
+        other = types[other].drone_row
+    return number

@@ -1,0 +1,85 @@
+"""The search's own numbers for customers: those near each other are so in memory, too."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from model.kernel.instance import Instance
+from model.problem import IntArray
+from model.solution import Route, Solution, Stop, Trip, Visit
+
+
+class Numbering(NamedTuple):
+    """Numbers of nodes, depots first as ever."""
+
+    node: IntArray  # (number,) the problem's
+    number: IntArray  # (node,) the search's
+
+
+def as_stated(num_nodes: int) -> Numbering:
+    """Return the problem's own numbers."""
+    nodes = np.arange(num_nodes)
+    return Numbering(nodes, nodes)
+
+
+def along_neighbours(near: IntArray, num_depots: int) -> Numbering:
+    """Number customers along a walk that goes on to the nearest who has no number yet.
+
+    An insertion looks at a customer's legs to its neighbours. Where their numbers are close, so are
+    these legs, in a few lines of the processor's cache: that is most of the time of large problems.
+    `near` as in `World`.
+    """
+    node = np.arange(len(near))
+    node[num_depots:] = list(_walk(near, num_depots))
+    return Numbering(node, np.argsort(node))
+
+
+def _walk(near: IntArray, num_depots: int) -> Iterator[int]:
+    """Yield all customers; from where all neighbours were met, the walk begins anew."""
+    was_met = [False] * len(near)
+    for start in range(num_depots, len(near)):
+        at = -1 if was_met[start] else start
+        while at >= 0:
+            was_met[at] = True
+            yield at
+            at = next((other for other in near[at].tolist()
+                       if other >= 0 and not was_met[other]), -1)
+
+
+def renumbered(instance: Instance, numbering: Numbering) -> Instance:
+    """Return one packed problem with all that is said of nodes in the search's order, but legs."""
+    node = numbering.node
+    by_node = {
+        name: np.take(getattr(instance, name), node, axis)
+        for name, axis in (("node", 2), ("amount", 1), ("price", 1), ("reload", 2),
+                           ("can_drive", 2), ("can_fly", 2), ("unassigned_more", 1))}
+    by_node |= {name: np.take(table, node, 1)
+                for name in ("goods", "setup", "fresh_for")
+                if (table := getattr(instance, name)).shape[1]}
+    return instance._replace(**by_node)
+
+
+def plan_in(numbers: IntArray, plan: Solution) -> Solution:
+    """Return a plan with other numbers for its nodes."""
+    number = numbers.tolist()
+    return Solution(tuple(_route_in(number, route) for route in plan.routes),
+                    tuple(sorted(number[node] for node in plan.unassigned)))
+
+
+def _route_in(number: list[int], route: Route) -> Route:
+    return Route(route.vehicle_type, route.vehicle,
+                 tuple(_trip_in(number, trip) for trip in route.trips))
+
+
+def _trip_in(number: list[int], trip: Trip) -> Trip:
+    stops = tuple(Stop(number[stop.node], stop.arrival, stop.service_start, stop.departure,
+                       stop.setup) for stop in trip.stops)
+    if not trip.sorties:
+        return Trip(stops)
+    return Trip(stops, tuple(
+        replace(sortie, visits=tuple(
+            Visit(number[visit.node], visit.arrival, visit.service_start, visit.departure,
+                  visit.setup) for visit in sortie.visits))
+        for sortie in trip.sorties))

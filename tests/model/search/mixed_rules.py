@@ -1,0 +1,102 @@
+"""Tiny problems in which rules mix, a few customers each, for plans that are enumerated."""
+
+import numpy as np
+
+from model.problem import Problem
+from tests.model.tiny import (
+    draw_tiny, with_beginnings, with_dimensions, with_drone_types, with_duty, with_energy,
+    with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
+    with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_turnaround,
+)
+
+
+def all_rules(rng: np.random.Generator) -> Problem:
+    """Draw problems of two or three customers until one has no speed profile."""
+    while True:
+        problem = draw_tiny(rng, drone_share=0.6)
+        if problem.num_customers <= 3 and not any(kind.speed_profile
+                                                  for kind in problem.vehicle_types):
+            return problem
+
+
+def all_rules_elsewhere(rng: np.random.Generator) -> Problem:
+    return with_places(rng, all_rules(rng))
+
+
+def all_rules_begun(rng: np.random.Generator) -> Problem:
+    return with_beginnings(rng, with_places(rng, all_rules(rng)))
+
+
+def all_rules_several_windows(rng: np.random.Generator) -> Problem:
+    return with_gaps(rng, all_rules(rng))
+
+
+def all_rules_on_batteries(rng: np.random.Generator) -> Problem:
+    while True:
+        problem = with_energy(rng, all_rules(rng))
+        if any(kind.drones for kind in problem.vehicle_types):
+            return problem
+
+
+def all_rules_swapping(rng: np.random.Generator) -> Problem:
+    """Return problems half of which have batteries, windows or vehicles under way as well."""
+    while True:
+        problem = with_turnaround(rng, all_rules(rng))
+        if any(kind.drones for kind in problem.vehicle_types):
+            change = (with_energy, with_gaps, with_beginnings)[int(rng.integers(3))]
+            return change(rng, problem) if rng.random() < 0.5 else problem
+
+
+def all_rules_drone_types(rng: np.random.Generator) -> Problem:
+    """Return problems some of whose trucks have drones of several types."""
+    while True:
+        problem = with_drone_types(rng, all_rules(rng))
+        if any(kind.more_drones for kind in problem.vehicle_types):
+            return problem
+
+
+def all_rules_open(rng: np.random.Generator) -> Problem:
+    return with_open_ends(rng, all_rules(rng))
+
+
+def all_rules_reloading(rng: np.random.Generator) -> Problem:
+    return with_reloads(rng, all_rules(rng))
+
+
+def all_rules_open_reloading(rng: np.random.Generator) -> Problem:
+    return with_open_reloads(rng, all_rules(rng))
+
+
+def all_rules_of_duty(rng: np.random.Generator) -> Problem:
+    problem = with_duty(rng, all_rules(rng))
+    return with_beginnings(rng, problem) if rng.random() < 0.3 else problem
+
+
+def all_rules_both_ways(rng: np.random.Generator) -> Problem:
+    problem = with_pickups(rng, all_rules(rng))
+    return with_dimensions(rng, problem) if rng.random() < 0.2 else problem
+
+
+def all_rules_own_durations(rng: np.random.Generator) -> Problem:
+    return with_own_durations(rng, all_rules(rng))
+
+
+def all_rules_goods_apart(rng: np.random.Generator) -> Problem:
+    return with_goods(rng, all_rules(rng))
+
+
+def all_rules_setups(rng: np.random.Generator) -> Problem:
+    return with_setups(rng, all_rules(rng))
+
+
+def all_rules_limits_aboard(rng: np.random.Generator) -> Problem:
+    return with_limits_aboard(rng, all_rules(rng))
+
+
+def all_rules_at_once(rng: np.random.Generator) -> Problem:
+    problem = all_rules(rng)
+    for change in (with_gaps, with_duty, with_pickups, with_own_durations, with_goods, with_setups,
+                   with_limits_aboard):
+        if rng.random() < 0.5:
+            problem = change(rng, problem)
+    return problem

@@ -1,0 +1,76 @@
+"""The search's own numbers for customers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.judge.check import check
+from model.kernel.instance import pack
+from model.search.improve import SearchConfig, improve
+from model.search.numbering import along_neighbours, plan_in
+from model.search.world import lay_ground, make_world
+from model.solution import Solution
+from tests.model.rollouts import random_problems
+from training.instances import generate
+
+
+def test_customers_on_a_line_are_numbered_along_it() -> None:
+    place = np.array([3.0, 7.0, 1.0, 5.0, 2.0, 6.0, 4.0])
+    ranks = np.abs(place[:, None] - place).argsort(axis=1)[:, 1:]
+    near = np.vstack([np.full((2, 6), -1), ranks + 2])
+    numbering = along_neighbours(near, 2)
+    assert numbering.node[:2].tolist() == [0, 1]
+    assert sorted(numbering.node.tolist()) == list(range(9))
+    assert place[numbering.node[2:] - 2].tolist() == [3.0, 2.0, 1.0, 4.0, 5.0, 6.0, 7.0]
+    assert numbering.number[numbering.node].tolist() == list(range(9))
+
+
+def test_customers_without_neighbours_are_numbered_as_they_come() -> None:
+    assert along_neighbours(np.full((4, 1), -1), 1).node.tolist() == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize("variant", ["cvrp", "mixed"])
+def test_neighbours_are_near_in_memory(variant: str) -> None:
+    problem = generate(np.random.default_rng(3), 300, variant)
+    distances = []
+    for along in (False, True):
+        near = lay_ground(problem, pack([problem]), along=along).near[problem.num_depots:, :16]
+        numbers = np.arange(problem.num_depots, problem.num_nodes)[:, None]
+        distances.append(float(np.median(np.abs(near - numbers))))
+    assert distances[1] < 0.3 * distances[0]
+
+
+def test_every_table_is_in_the_order_of_the_numbers() -> None:
+    for problem in random_problems(seed=11, count=60):
+        instance = pack([problem])
+        grounds = [lay_ground(problem, instance, along=way) for way in (False, True)]
+        stated, along = (make_world(problem, instance, ground=ground) for ground in grounds)
+        node = grounds[1].numbering.node
+        for name, axes in (("place", (1,)), ("amount", (0,)), ("price", (0,)), ("goods", (0,)),
+                           ("setup", (0,)), ("fresh_for", (0,)), ("must_serve", (0,)),
+                           ("unassigned_more", (0,)), ("reload", (1,)), ("can", (2,)),
+                           ("leg", (1, 2)), ("back", (1, 2))):
+            table = getattr(stated, name)
+            for axis in axes:
+                table = np.take(table, node, axis) if table.shape[axis] else table
+            assert np.array_equal(table, getattr(along, name)), name
+
+
+def test_what_is_begun_with_and_what_is_found_have_the_numbers_of_the_problem() -> None:
+    for number, problem in enumerate(random_problems(seed=13, count=30)):
+        nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+        found = improve(problem, pack([problem]), nobody, SearchConfig(number, turns=20))
+        assert check(problem, found.solution).violations == ()
+        again = improve(problem, pack([problem]), found.solution, SearchConfig(number, turns=20))
+        assert check(problem, again.solution).violations == ()
+
+
+def test_plan_in_other_numbers_is_the_same_plan() -> None:
+    problem = generate(np.random.default_rng(5), 30, "drone")
+    found = improve(problem, pack([problem]),
+                    Solution((), tuple(range(1, problem.num_nodes))), SearchConfig(turns=50))
+    plan = replace(found.solution, unassigned=(3, 1))
+    node = np.random.default_rng(1).permutation(problem.num_nodes)
+    assert plan_in(np.argsort(node), plan_in(node, plan)) == replace(plan, unassigned=(1, 3))
+    assert plan_in(node, plan).unassigned == tuple(sorted((int(node[1]), int(node[3]))))
