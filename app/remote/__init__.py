@@ -1,0 +1,1 @@
+"""Asking what others know over HTTP."""
