@@ -1,0 +1,1 @@
+"""Where addresses are: from an extract itself, or from a geocoder."""

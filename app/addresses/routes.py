@@ -1,0 +1,77 @@
+"""The endpoint that looks addresses up."""
+
+from collections.abc import Callable
+from typing import Annotated
+
+from anyio import CapacityLimiter
+from fastapi import APIRouter, Depends, Request, Response
+from pydantic import ValidationError
+
+from app.access.guard import Plan
+from app.addresses.addresses import Addresses
+from app.addresses.schemas import AddressesReply, AddressesRequest, LookedUpReply
+from app.errors import InputError, InvalidRequestError, schema_error
+from app.load.abandoned import watching
+from app.load.admission import Admission
+from app.load.bodies import Body
+from app.load.readings import Readings
+from app.schemas.openapi import ERROR_RESPONSES, json_body
+from app.streets.routes import ATTRIBUTION
+
+router = APIRouter()
+
+SLOTS, QUEUE, LONGEST_WAIT = 4, 16, 10.0
+"""Requests that ask geocoders at once, those that may wait meanwhile, and for how many seconds."""
+
+
+def new_lookups() -> Readings:
+    """Return turns of one application."""
+    return Readings(Admission(SLOTS, QUEUE, LONGEST_WAIT, "addresses are being looked up"),
+                    CapacityLimiter(SLOTS))
+
+
+async def take_place(request: Request) -> Readings:
+    """Refuse a request before its body is read, if its turn can't come."""
+    lookups: Readings = request.app.state.lookups
+    lookups.admission.refuse_if_full()
+    return lookups
+
+
+@router.post("/addresses", operation_id="look_up_addresses", summary="Look addresses up",
+             tags=["planning"], response_model=AddressesReply, responses=ERROR_RESPONSES,
+             openapi_extra=json_body(AddressesRequest))
+async def look_up(request: Request, principal: Plan,
+                  lookups: Annotated[Readings, Depends(take_place)], body: Body) -> Response:
+    """Return where addresses are, by the geocoder of TANDEM_GEOCODER."""
+    addresses: Addresses = request.app.state.addresses
+    async with watching(request) as should_stop:
+        reply = await lookups.run(
+            lambda: answer_addresses(body.content, body.received_at, addresses, should_stop))
+    return Response(reply, media_type="application/json")
+
+
+def answer_addresses(body: bytes, received_at: float, addresses: Addresses,
+                     should_stop: Callable[[], bool] = lambda: False) -> bytes:
+    """Return the reply to a request as JSON.
+
+    Raises
+    ------
+    InvalidRequestError
+        If it is not valid, or there is no geocoder.
+    """
+    try:
+        asked = AddressesRequest.model_validate_json(body)
+    except ValidationError as error:
+        raise InvalidRequestError([schema_error(details)
+                                   for details in error.errors(include_url=False)]) from error
+    if not addresses.names:
+        raise InvalidRequestError([InputError(
+            code="NO_GEOCODER", path="$.addresses", message="Addresses are not looked up here: "
+            "have the service set up with a geocoder (TANDEM_GEOCODER).")])
+    looked_up = addresses.look_up(asked.addresses, received_at + asked.seconds, should_stop)
+    replies = [LookedUpReply.of(address, looked_up.candidates.get(address))
+               for address in asked.addresses]
+    known = sum(reply.is_known for reply in replies)
+    return AddressesReply(
+        addresses=replies, known=known, attribution=ATTRIBUTION,
+        error=None if known == len(replies) else str(looked_up.error)).model_dump_json().encode()
