@@ -12,6 +12,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import osmium
 from shapely import Point, Polygon
 
 from app.conversion.problem import to_problem
@@ -19,6 +21,7 @@ from app.schemas.openapi import EXAMPLES_DIR, EXAMPLES as DOCUMENTED
 from app.schemas.request import PlanRequest
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Stop, Visit
+from model.travel.matrices import great_circle_distances
 
 WINDOWS_SEED = 20250926
 CITY_SEED = 47
@@ -29,6 +32,9 @@ MINUTE = 60
 
 Data = dict[str, Any]
 Windows = dict[str, tuple[float, float]]
+Location = tuple[float, float]
+Address = tuple[str, str]
+"""Street and number."""
 
 
 def table1(seed_dir: Path) -> Data:
@@ -138,9 +144,13 @@ def hetero_day() -> Data:
     }
 
 
-CITY_CENTRE = (8.541, 47.374)
-CITY_NO_FLY = ((8.532, 47.366), (8.548, 47.364), (8.556, 47.372), (8.550, 47.381), (8.536, 47.382),
-               (8.529, 47.375))
+CITY_EXTRACT = Path(__file__).parent / "helsinki.osm.pbf"
+CITY_HUB = ("Siltasaarenkatu", "12")
+CITY_SPACING = 40.0  # metres between two customers at least
+CITY_NO_FLY = ((24.9384, 60.1708), (24.9433, 60.1706), (24.9427, 60.1744), (24.9397, 60.1778),
+               (24.9379, 60.1777))
+"""Around the station and its tracks."""
+
 CITY_KINDS = (  # name, how many, kg, litres, minutes of service
     ("pharmacy", 8, (1, 4), (2, 10), 3),
     ("clinic", 4, (2, 8), (5, 20), 6),
@@ -152,19 +162,24 @@ CITY_KINDS = (  # name, how many, kg, litres, minutes of service
 
 
 def city_day() -> Data:
-    """Return a day in a city: three vehicle types, two trips, rush hours, wind and a no-fly area.
+    """Return a day in Helsinki's centre: three vehicle types, two trips, rush hours, wind and a
+    no-fly area.
 
-    Times are seconds since midnight, amounts kilograms and litres.
+    Customers are at true addresses; who they are and what they order is made up. Times are seconds
+    since midnight, amounts kilograms and litres.
     """
     rng = random.Random(CITY_SEED)
+    addresses = _addresses(CITY_EXTRACT)
+    hub = addresses.pop(CITY_HUB)
+    chosen = iter(_spread(rng, addresses, sum(count for _, count, *_ in CITY_KINDS)))
     customers = [
-        _city_customer(rng, f"{kind}-{number:02}", kind, kilograms, litres, minutes)
+        _city_customer(rng, f"{kind}-{number:02}", kind, next(chosen), kilograms, litres, minutes)
         for kind, count, kilograms, litres, minutes in CITY_KINDS
         for number in range(1, count + 1)
     ]
     return {
         "coordinate_system": "geographic",
-        "depots": [{"id": "hub-west", "location": [8.478, 47.391]}],
+        "depots": [{"id": "hub-north", "location": list(hub)}],
         "customers": customers,
         "fleet": [_van(), _drone_truck(), _cargo_bike()],
         "airspace": {
@@ -175,15 +190,41 @@ def city_day() -> Data:
     }
 
 
-def _city_customer(rng: random.Random, name: str, kind: str, kilograms: tuple[int, int],
-                   litres: tuple[int, int], minutes: int) -> Data:
-    location = (round(CITY_CENTRE[0] + rng.gauss(0, 0.028), 5),
-                round(CITY_CENTRE[1] + rng.gauss(0, 0.014), 5))
+def _addresses(extract: Path) -> dict[Address, Location]:
+    """Return the house numbers of an extract, by street and number, in a settled order."""
+    found: dict[Address, Location] = {}
+    for node in (osmium.FileProcessor(str(extract), osmium.osm.NODE)
+                 .with_filter(osmium.filter.KeyFilter("addr:housenumber"))):
+        number = node.tags["addr:housenumber"]
+        if not isinstance(node, osmium.osm.Node):
+            continue
+        if "addr:street" in node.tags and number.isalnum():
+            place = (round(node.location.lon, 5), round(node.location.lat, 5))
+            found.setdefault((node.tags["addr:street"], number), place)
+    return dict(sorted(found.items()))
+
+
+def _spread(rng: random.Random, addresses: dict[Address, Location],
+            count: int) -> list[tuple[Address, Location]]:
+    """Draw so many addresses that keep their distance from each other."""
+    chosen: list[tuple[Address, Location]] = []
+    for address, place in rng.sample(list(addresses.items()), len(addresses)):
+        places = np.array([place, *(other for _, other in chosen)])
+        gaps = great_circle_distances(places)[0, 1:]
+        if (gaps >= CITY_SPACING).all():
+            chosen.append((address, place))
+    return chosen[:count]
+
+
+def _city_customer(rng: random.Random, name: str, kind: str, address: tuple[Address, Location],
+                   kilograms: tuple[int, int], litres: tuple[int, int], minutes: int) -> Data:
+    (street, number), location = address
     customer: Data = {
         "id": name,
         "location": list(location),
         "demand": [rng.randint(*kilograms), rng.randint(*litres)],
         "service_duration": minutes * MINUTE,
+        "info": {"address": f"{street} {number}"},
     }
     if kind == "clinic":
         customer |= {"skills": ["cooled"],
@@ -207,7 +248,7 @@ def _city_customer(rng: random.Random, name: str, kind: str, kilograms: tuple[in
 
 def _van() -> Data:
     return {
-        "id": "van", "depot": "hub-west", "count": 2, "capacity": [900, 4000],
+        "id": "van", "profile": "van", "depot": "hub-north", "count": 2, "capacity": [900, 4000],
         "costs": {"fixed": 60, "per_km": 0.45, "per_hour": 32}, "speed_kmh": 36,
         "speed_profile": _rush_hours(), "shift": {"earliest": 6 * HOUR, "latest": 18 * HOUR},
         "max_working_duration": 8.5 * HOUR, "max_trip_distance": 120_000, "max_trips": 2,
@@ -217,9 +258,10 @@ def _van() -> Data:
 
 def _drone_truck() -> Data:
     return {
-        "id": "drone-truck", "depot": "hub-west", "count": 2, "capacity": [600, 2500],
-        "costs": {"fixed": 80, "per_km": 0.5, "per_hour": 32}, "speed_kmh": 36,
-        "speed_profile": _rush_hours(), "shift": {"earliest": 6 * HOUR, "latest": 18 * HOUR},
+        "id": "drone-truck", "profile": "van", "depot": "hub-north", "count": 2,
+        "capacity": [600, 2500], "costs": {"fixed": 80, "per_km": 0.5, "per_hour": 32},
+        "speed_kmh": 36, "speed_profile": _rush_hours(),
+        "shift": {"earliest": 6 * HOUR, "latest": 18 * HOUR},
         "max_working_duration": 8.5 * HOUR, "max_trips": 2, "reload_duration": 20 * MINUTE,
         "drones": {"count": 2, "capacity": [5, 12], "speed_kmh": 55, "endurance": 25 * MINUTE,
                    "launch_duration": 45, "recovery_duration": 45, "service_duration": 90,
@@ -229,10 +271,11 @@ def _drone_truck() -> Data:
 
 def _cargo_bike() -> Data:
     return {
-        "id": "cargo-bike", "depot": "hub-west", "count": 3, "capacity": [120, 500],
-        "costs": {"fixed": 15, "per_km": 0.05, "per_hour": 26}, "speed_kmh": 16,
-        "shift": {"earliest": 7 * HOUR, "latest": 17 * HOUR}, "max_working_duration": 8 * HOUR,
-        "max_trip_distance": 40_000, "max_trips": 2, "reload_duration": 10 * MINUTE,
+        "id": "cargo-bike", "profile": "bicycle", "depot": "hub-north", "count": 3,
+        "capacity": [120, 500], "costs": {"fixed": 15, "per_km": 0.05, "per_hour": 26},
+        "speed_kmh": 16, "shift": {"earliest": 7 * HOUR, "latest": 17 * HOUR},
+        "max_working_duration": 8 * HOUR, "max_trip_distance": 40_000, "max_trips": 2,
+        "reload_duration": 10 * MINUTE,
     }
 
 

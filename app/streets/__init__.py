@@ -1,0 +1,1 @@
+"""Streets, water and green of an OpenStreetMap extract, as the console draws them under a plan."""

@@ -1,0 +1,27 @@
+"""Which answers of servers can be right."""
+
+import numpy as np
+import pytest
+
+from app.roads.answers import Part, joined
+from app.roads.engine import RoadsAnswerError, RoadTable, whole
+
+PLACES = np.array([[24.94, 60.17], [24.940001, 60.17]])
+
+
+def answered(seconds: float, metres: float) -> RoadTable:
+    durations, distances = np.array([[0, seconds], [1, 0]]), np.array([[0, metres], [1, 0]])
+    (block,) = whole(2)
+    return joined(PLACES, [(block, Part(durations, distances, PLACES, PLACES))])
+
+
+def test_less_than_nothing_between_places_close_together_is_nothing() -> None:
+    table = answered(-0.1, -0.1)
+    assert table.durations_s.tolist() == table.distances_m.tolist() == [[0, 0], [1, 0]]
+
+
+def test_much_less_than_nothing_can_not_be_right() -> None:
+    with pytest.raises(RoadsAnswerError):
+        answered(-1.0, 0.0)
+    with pytest.raises(RoadsAnswerError):
+        answered(0.0, -10.0)
