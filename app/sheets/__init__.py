@@ -1,0 +1,1 @@
+"""Spreadsheets of customers -> requests of `POST /plan`, with every guess told."""

@@ -1,0 +1,96 @@
+"""Cells of a sheet: what they hold, how people see them, what they are called."""
+
+from dataclasses import dataclass
+from datetime import date, datetime, time, timedelta
+from typing import Any
+
+Raw = str | float | bool | datetime | date | time | timedelta | None
+"""What a cell holds. Texts have no blanks around; None: nothing."""
+
+BEFORE_ALL_DATES = date(1900, 1, 1)
+"""Up to here, spreadsheets mean the time of day alone."""
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Something guessed that may be meant otherwise, or left out."""
+
+    code: str
+    message: str
+    column: str | None = None  # letters
+    cell: str | None = None
+
+
+@dataclass(frozen=True)
+class CellError:
+    """A cell, or all of a sheet, that can't be used."""
+
+    code: str
+    message: str
+    cell: str | None = None
+
+
+class MisreadError(ValueError):
+    """A cell that doesn't say what its column means."""
+
+
+def raw_of(value: Any) -> Raw:
+    """Return what a cell of a workbook holds, from JSON."""
+    match value:
+        case str():
+            return value.strip() or None
+        case bool() | float() | None:
+            return value
+        case int():
+            return float(value)
+        case ["datetime", text]:
+            return datetime.fromisoformat(text)
+        case ["date", text]:
+            return date.fromisoformat(text)
+        case ["time", text]:
+            return time.fromisoformat(text)
+        case ["timedelta", seconds]:
+            return timedelta(seconds=seconds)
+        case _:
+            return str(value)
+
+
+def shown(raw: Raw) -> str:
+    """Return a cell about as a spreadsheet shows it."""
+    match raw:
+        case None:
+            return ""
+        case bool():
+            return "TRUE" if raw else "FALSE"
+        case float():
+            return str(int(raw)) if raw == round(raw) and abs(raw) < 1e15 else f"{raw:.10g}"
+        case datetime():
+            return raw.isoformat(sep=" ", timespec="minutes")
+        case time():
+            return clock_text(raw.hour * 3600 + raw.minute * 60 + raw.second)
+        case timedelta():
+            return clock_text(raw.total_seconds())
+        case _:
+            return str(raw)
+
+
+def clock_text(seconds: float) -> str:
+    """Return an instant of the day or a length as `8:30`, with seconds if there are any."""
+    minutes, rest = divmod(round(seconds), 60)
+    text = f"{minutes // 60}:{minutes % 60:02}"
+    return f"{text}:{rest:02}" if rest else text
+
+
+def letters(column: int) -> str:
+    """Return what spreadsheets call a column, counted from 0."""
+    text = ""
+    column += 1
+    while column:
+        column, digit = divmod(column - 1, 26)
+        text = chr(ord("A") + digit) + text
+    return text
+
+
+def cell_name(row: int, column: int) -> str:
+    """Return what spreadsheets call a cell, such as `C17`; both are counted from 0."""
+    return f"{letters(column)}{row + 1}"

@@ -1,0 +1,296 @@
+"""Times of day, windows and lengths of time, as people and programs write them."""
+
+import re
+from dataclasses import dataclass
+from datetime import date, datetime, time, timedelta
+
+from app.sheets.cells import BEFORE_ALL_DATES, MisreadError, Raw, clock_text, shown
+from app.sheets.headings import simple
+from app.sheets.numbers import number, split_unit
+from app.sheets.meanings import UNITS
+
+MINUTE, HOUR, DAY = 60, 3600, 86400
+
+LAST = 48 * HOUR
+"""Latest instant: the end of the night that follows."""
+
+MOST_HOURS = 4
+"""Of a stop in `4:00`; more may be minutes and seconds."""
+
+SIZES = {"minutes": MINUTE, "seconds": 1, "hours": HOUR, "days": DAY}
+
+_TIME = re.compile(
+    r"(?P<hour>\d{1,2})\s*(?:[:h.]\s*(?P<minute>\d{2})(?:[:.](?P<second>\d{2})(?:[.,]\d+)?)?)?\s*"
+    r"(?P<half>[ap]\.?\s?m\.?)?\s*(?P<word>uhr|uur|hrs|heures?|horas?|hs?|u|godz\.?)?")
+_BARE = re.compile(r"\d+(?:[.,]\d+)?")
+_DATE = re.compile(r"(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}([./-])\d{1,2}\2\d{2,4})"
+                   r"[T,\s]*(?P<rest>.*)")
+_ZONE = re.compile(r"(?<=\d)(Z|[+-]\d{2}:?\d{2})$", re.IGNORECASE)
+_DASH = re.compile(r"\s+[-\u2013\u2014]\s+")
+_BETWEEN = re.compile(r"\s*(?:[-\u2010-\u2015~]+|\.{2,}|\b(?:to|until|till|bis|a(?!\.)|à|al|alle"
+                      r"|tot|do|ate|até|às)\b)\s*", re.IGNORECASE)
+_APART = re.compile(r"\s*(?:[;|/+&\n]|,(?!\d)|,\s|\b(?:und|and|et|oder|or|y|e|en|i|sowie)\b)\s*",
+                    re.IGNORECASE)
+_SINCE = re.compile(r"(?:ab|de|du|da|das|from|after|von|since|not before|nach|des|dès|à partir de"
+                    r"|desde|dalle|dopo|vanaf|od|>=?)\s+(.*)|(.*?)\s*(?:\+|onwards)", re.IGNORECASE)
+_TILL = re.compile(r"(?:bis|until|till|before|by|vor|jusqu'?[àa]|avant|hasta|antes de|entro"
+                   r"|fino alle|tot|do|spätestens|<=?)\s+(.*)", re.IGNORECASE)
+_FRAMED = re.compile(r"(?:between|zwischen|entre|tra|tussen|fra)\s+(.+?)\s+(?:and|und|et|y|e|en)"
+                     r"\s+(.+)", re.IGNORECASE)
+ALWAYS = frozenset((
+    "all day", "any", "anytime", "any time", "open", "flexible", "24 h", "24h", "24 7", "ganztagig",
+    "egal", "jederzeit", "flexibel", "toute la journee", "todo el dia", "tutto il giorno",
+    "hele dag", "caly dzien", "dia todo"))
+"""Windows in words, in simple letters, that leave any time of day."""
+
+Window = tuple[float | None, float | None]
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a file writes what may be written in several ways."""
+
+    comma: bool = False  # before decimals
+    day_first: bool = True  # in dates with slashes
+    day: date | None = None  # that is planned; times with a date count from its midnight
+
+
+def clock(raw: Raw, unit: str, style: Style) -> float:
+    """Return an instant in seconds since midnight of the day that is planned.
+
+    Raises
+    ------
+    MisreadError
+        If the cell states none.
+    """
+    match raw:
+        case datetime():
+            return _bounded(_of_day(raw.date(), style) + _since_midnight(raw.time()), raw)
+        case time():
+            return _since_midnight(raw)
+        case timedelta():
+            return _bounded(raw.total_seconds(), raw)
+        case bool():
+            raise MisreadError(f"{shown(raw)} is no time of day")
+        case float():
+            return _bounded(_bare(raw, f"{raw:.10g}", unit), raw)
+        case str():
+            return _bounded(_text_clock(raw, unit, style), raw)
+    raise MisreadError(f"{shown(raw)!r} is no time of day: write one such as 8:30")
+
+
+def _text_clock(text: str, unit: str, style: Style) -> float:
+    dated = _DATE.fullmatch(text)
+    if dated and dated["rest"]:
+        rest = _ZONE.sub("", dated["rest"])
+        return _of_day(read_date(dated["date"], style), style) + _text_clock(rest, unit, style)
+    plain = re.sub(r"^(?:ore|um|at)\s+", "", text.lower().strip())
+    if _BARE.fullmatch(plain):
+        meant = look(plain) if unit == "clock" else unit
+        if meant == "h.mm" and re.fullmatch(r"\d{1,2}[.,]\d{2}", plain):
+            return _clock_parts(plain.replace(",", "."), text)
+        return _bare(number(plain, "," in plain), plain, unit)
+    return _clock_parts(plain, text)
+
+
+def _clock_parts(plain: str, text: str) -> float:
+    """Return the instant of `8:30`, `8h30`, `8.30 Uhr`, `8 am` or `8 Uhr`."""
+    found = _TIME.fullmatch(plain)
+    if found is None or not (found["minute"] or found["half"] or found["word"]):
+        raise MisreadError(f"{text!r} is no time of day: write one such as 8:30")
+    hour, minute, second = (int(found[part] or 0) for part in ("hour", "minute", "second"))
+    half = found["half"]
+    if minute > 59 or second > 59 or (half and not 1 <= hour <= 12):
+        raise MisreadError(f"{text!r} is no time of day: write one such as 8:30")
+    if half:
+        hour = hour % 12 + (12 if half.startswith("p") else 0)
+    return hour * HOUR + minute * MINUTE + second
+
+
+def _bare(value: float, text: str, unit: str) -> float:
+    """Return the instant of a number by its unit."""
+    if unit == "clock":
+        unit = look(text) or unit
+    if unit in SIZES:
+        return round(value * SIZES[unit])
+    if unit == "hhmm" and value == int(value):
+        hour, minute = divmod(int(value), 100)
+    elif unit == "h.mm":
+        hour, minute = divmod(round(value * 100), 100)
+    else:
+        raise MisreadError(f"{text} may be hours, minutes or seconds: say which its column has")
+    if minute > 59:
+        raise MisreadError(f"{text} has {minute} minutes, and an hour has 60")
+    return hour * HOUR + minute * MINUTE
+
+
+def look(text: str) -> str | None:
+    """Return the unit that a bare number itself looks like: `8` hours, `0830`, or `8.30`."""
+    if re.fullmatch(r"\d{1,2}", text) and int(text) <= 24:
+        return "hours"
+    if re.fullmatch(r"\d{3,4}", text) and int(text) <= 2400 and int(text) % 100 < 60:
+        return "hhmm"
+    if re.fullmatch(r"\d{1,2}[.,][0-5]\d", text):
+        return "h.mm"
+    return None
+
+
+def _since_midnight(instant: time) -> float:
+    # What Excel computes is a millisecond off now and then.
+    return round(instant.hour * HOUR + instant.minute * MINUTE + instant.second
+                 + instant.microsecond / 1e6)
+
+
+def _of_day(day: date, style: Style) -> float:
+    """Return the midnight of a date in seconds since that of the day that is planned."""
+    if day <= BEFORE_ALL_DATES or style.day is None:
+        return 0
+    return (day - style.day).days * DAY
+
+
+def _bounded(seconds: float, raw: Raw) -> float:
+    if seconds < 0:
+        raise MisreadError(f"{shown(raw)} lies before the day that is planned")
+    if seconds > LAST:
+        raise MisreadError(f"{shown(raw)} would be {seconds / HOUR:,.0f} hours after midnight: "
+                           "check the unit of the column, or the date")
+    return seconds
+
+
+def states_zone(text: str) -> bool:
+    """Tell whether a text is a time of some time zone."""
+    return _DATE.fullmatch(text) is not None and _ZONE.search(text) is not None
+
+
+def read_date(raw: Raw, style: Style) -> date:
+    """Return the date of a cell.
+
+    Raises
+    ------
+    MisreadError
+        If it states none.
+    """
+    if isinstance(raw, datetime):
+        return raw.date()
+    if isinstance(raw, date):
+        return raw
+    if isinstance(raw, str) and (found := _DATE.fullmatch(raw)):
+        parts = [int(part) for part in re.split(r"[./-]", found["date"])]
+        if parts[0] < 1000:
+            first, second, year = parts
+            is_day_first = style.day_first or "." in found["date"]
+            day, month = (first, second) if is_day_first else (second, first)
+            parts = [year + 2000 if year < 100 else year, month, day]
+        try:
+            return date(*parts)
+        except ValueError:
+            pass
+    raise MisreadError(f"{shown(raw)!r} is no date: write one such as 2026-11-23")
+
+
+def date_parts(raw: Raw) -> tuple[int, int] | None:
+    """Return the first two numbers of a date with slashes, whose order is open."""
+    if not isinstance(raw, str) or (found := _DATE.fullmatch(raw)) is None or "/" not in raw:
+        return None
+    first, second, *_ = map(int, re.split(r"[./-]", found["date"]))
+    return (first, second) if first < 1000 else None
+
+
+def windows(raw: Raw, unit: str, style: Style) -> list[Window]:
+    """Return the windows of a cell such as `8-10`, `8:30-12:00; 14-15` or `ab 9 Uhr`."""
+    if isinstance(raw, date) and (not isinstance(raw, datetime) or raw.time() == time()):
+        raise MisreadError(f"{shown(raw)} is a date: a spreadsheet takes a window such as 8-10 for "
+                           "one. Write 8:00-10:00")
+    if not isinstance(raw, str):
+        return [(clock(raw, unit, style), None)]
+    if simple(raw) in ALWAYS:
+        return [(None, None)]
+    text = _FRAMED.sub(r"\1-\2", raw)
+    return [_window(part, unit, style) for part in _parts(text)]
+
+
+def _parts(text: str) -> list[str]:
+    """Return the windows of a text; `10-12 and 14-16` are two, `8 and 10` is one."""
+    parts = [part for part in _APART.split(text) if part]
+    return parts if all(_BETWEEN.search(part) or _SINCE.fullmatch(part) or _TILL.fullmatch(part)
+                        for part in parts) else [text]
+
+
+def _window(text: str, unit: str, style: Style) -> Window:
+    if found := _SINCE.fullmatch(text):
+        begin = found[1] or found[2]
+        if len(_BETWEEN.split(begin)) == 1:
+            return clock(begin, unit, style), None
+        text = begin
+    if (found := _TILL.fullmatch(text)) and len(_BETWEEN.split(found[1])) == 1:
+        return None, clock(found[1], unit, style)
+    ends = _DASH.split(text)
+    if len(ends) != 2:
+        ends = [part for part in _BETWEEN.split(text) if part]
+    if len(ends) != 2:
+        raise MisreadError(f"{text!r} is no window: write one such as 8:00-10:00")
+    first, second = ends
+    latest = clock(second, unit, style)
+    half = re.search(r"[ap]\.?\s?m\.?\s*$", second.lower())
+    if half and not re.search(r"m\.?\s*$", first.lower()):
+        earliest = _bounded(_text_clock(f"{first}{half[0]}", unit, style), first)
+        if earliest >= latest:
+            earliest = clock(f"{first} am", unit, style)
+    else:
+        earliest = clock(first, unit, style)
+    return earliest, latest
+
+
+def duration(raw: Raw, unit: str, style: Style) -> float:
+    """Return a length of time in seconds.
+
+    Raises
+    ------
+    MisreadError
+        If the cell states none.
+    """
+    match raw:
+        case time():
+            seconds = _since_midnight(raw)
+        case timedelta():
+            seconds = raw.total_seconds()
+        case datetime() if raw.date() <= BEFORE_ALL_DATES:
+            seconds = _since_midnight(raw.time())
+        case bool():
+            raise MisreadError(f"{shown(raw)} is no length of time")
+        case float():
+            seconds = round(raw * SIZES[unit], 3)
+        case str():
+            seconds = _text_duration(raw, unit, style)
+        case _:
+            raise MisreadError(f"{shown(raw)!r} is no length of time: write one such as 10 min")
+    if not 0 <= seconds <= 7 * DAY:
+        raise MisreadError(f"{shown(raw)} is no length of time that a stop takes")
+    return seconds
+
+
+def _text_duration(text: str, unit: str, style: Style) -> float:
+    plain = text.lower().strip()
+    if found := re.fullmatch(r"(\d{1,2}):(\d{2})(?::(\d{2}))?", plain):
+        first, second, third = (int(part or 0) for part in found.groups())
+        if found[3] is None and first > MOST_HOURS:
+            raise MisreadError(f"{text!r} may be {first} minutes or {first} hours: write "
+                               f"{first} min")
+        return first * HOUR + second * MINUTE + third
+    if found := re.fullmatch(r"(\d+)\s*h[a-z]*\.?\s*(\d{1,2})\s*(?:m[a-z]*\.?)?", plain):
+        return int(found[1]) * HOUR + int(found[2]) * MINUTE
+    found = re.fullmatch(r"pt(?:(\d+)h)?(?:(\d+)m)?(?:(\d+)s)?", plain)
+    if found and any(found.groups()):
+        first, second, third = (int(part or 0) for part in found.groups())
+        return first * HOUR + second * MINUTE + third
+    value, own = split_unit(re.sub(r"['\u2032m]$", "min", plain))
+    stated = UNITS.get(own.strip(".")) if own else unit
+    if stated not in SIZES:
+        raise MisreadError(f"{text!r} is no length of time: write one such as 10 min")
+    return round(number(value, style.comma) * SIZES[stated], 3)
+
+
+def window_text(window: Window) -> str:
+    """Return a window as people write it."""
+    begin, end = ("" if side is None else clock_text(side) for side in window)
+    return f"{begin}\u2013{end}" if begin or end else "any time"

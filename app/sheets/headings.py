@@ -1,0 +1,131 @@
+"""What a heading says its column means, in which unit and language."""
+
+import re
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache, lru_cache
+
+from app.sheets.meanings import CLOCK_UNITS, DURATION_UNITS, MEANINGS, UNITS
+from app.sheets.words import BEGIN, END, WINDOW, WORDS
+
+SURE = 1.0
+HEADING = 0.66
+"""From this on, a heading counts as known."""
+
+SHORTEST_PART = 5
+"""Letters from which on a word is looked for within compounds, such as `adresse` in German."""
+
+LONGEST_HEADING = 60
+
+_SIGNS = str.maketrans({"ß": "ss", "ł": "l", "ø": "o", "æ": "ae", "œ": "oe", "đ": "d", "³": "3",
+                        "²": "2", "№": " no ", "\u0131": "i", "#": " no ", "º": " ", "°": " "})
+_UNIT = re.compile(r"[(\[{](?P<unit>[^)\]}]{1,20})[)\]}]")
+_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What a heading may mean."""
+
+    meaning: str
+    score: float  # 0 to 1
+    unit: str | None = None
+    language: str = "en"
+
+
+@lru_cache(2**14)
+def simple(text: str) -> str:
+    """Return a text in lower case, without accents, a blank between words."""
+    text = _CAMEL.sub(" ", text)
+    split = unicodedata.normalize("NFKD", text.lower().translate(_SIGNS))
+    letters = "".join(sign for sign in split if not unicodedata.combining(sign))
+    return " ".join(re.findall(r"[a-z0-9]+|[^\W\d_]+", letters, re.ASCII))
+
+
+def unit_named(text: str) -> str | None:
+    """Return the unit that a text is the name of."""
+    plain = text.strip().lower().translate(_SIGNS).rstrip(".")
+    return UNITS.get(plain) or UNITS.get(simple(text))
+
+
+def is_unit(text: str) -> bool:
+    """Tell whether a cell below a heading is its unit."""
+    return unit_named(text.strip("()[]{} ")) is not None
+
+
+@lru_cache(4096)
+def guesses(heading: str) -> tuple[Guess, ...]:
+    """Return what a heading may mean, the likeliest first."""
+    stated = _UNIT.search(heading)
+    unit = unit_named(stated["unit"]) if stated else None
+    words = simple(_UNIT.sub(" ", heading)).split()
+    found = dict(_scored(words, unit))
+    if unit is None and len(words) > 1 and (last := UNITS.get(words[-1])):
+        for meaning, guess in _scored(words[:-1], last):
+            better = Guess(meaning, guess.score * 0.97, last, guess.language)
+            if _takes(meaning, last) and better.score > found.get(meaning, better).score - 1e-9:
+                found[meaning] = better
+    # A heading may say no more than the unit of an amount.
+    alone = unit or UNITS.get(words[0]) if len(words) == 1 else unit if not words else None
+    if alone and _takes("demand", alone):
+        found.setdefault("demand", Guess("demand", 0.9, alone))
+    return tuple(sorted(found.values(), key=lambda guess: -guess.score))
+
+
+def is_known(heading: str, least: float = HEADING) -> bool:
+    """Tell whether a text is likely the heading of a column; `least` is the score it needs."""
+    found = guesses(heading) if len(heading) <= LONGEST_HEADING else ()
+    return bool(found) and found[0].score >= least
+
+
+def _takes(meaning: str, unit: str) -> bool:
+    """Tell whether cells of a meaning may be in a unit."""
+    units = MEANINGS[meaning].units
+    is_amount = MEANINGS[meaning].kind == "amount" and unit not in (*CLOCK_UNITS, *DURATION_UNITS)
+    return unit in units if units else is_amount
+
+
+def _scored(words: list[str], unit: str | None) -> Iterator[tuple[str, Guess]]:
+    """Yield the best guess for each meaning that fits any of the words."""
+    best: dict[str, Guess] = {}
+    for phrase, meaning, language in _phrases():
+        score = _score(words, phrase)
+        if score > (best[meaning].score if meaning in best else 0):
+            best[meaning] = Guess(meaning, score, unit if unit and _takes(meaning, unit) else None,
+                                  language)
+    yield from best.items()
+
+
+def _score(words: list[str], phrase: tuple[str, ...]) -> float:
+    """Return how well a phrase fits a heading: 1 exactly, 0 not at all."""
+    count = len(phrase)
+    if tuple(words) == phrase:
+        return SURE
+    if count < len(words) and any(tuple(words[start:start + count]) == phrase
+                                  for start in range(len(words) - count + 1)):
+        return 0.62 + 0.3 * sum(map(len, phrase)) / sum(map(len, words))
+    if count == 1 and len(phrase[0]) >= SHORTEST_PART:
+        for word in words:
+            # German puts the main word of a compound last.
+            if word.endswith(phrase[0]):
+                return 0.62 + 0.2 * len(phrase[0]) / sum(map(len, words))
+            if word.startswith(phrase[0]):
+                return 0.55 + 0.2 * len(phrase[0]) / sum(map(len, words))
+    return 0.0
+
+
+@cache
+def _phrases() -> list[tuple[tuple[str, ...], str, str]]:
+    """Return all phrases, as words, with their meanings and languages."""
+    listed = [(phrase, meaning, language) for meaning, languages in WORDS.items()
+              for language, phrases in languages.items() for phrase in phrases.split("|")]
+    for meaning, ends in (("earliest", BEGIN), ("latest", END)):
+        for language, phrases in ends.items():
+            whole = WINDOW[language].split("|")
+            for word in phrases.split("|"):
+                listed += [(text, meaning, language) for window in whole
+                           for text in (f"{window} {word}", f"{word} {window}")]
+                listed += [(f"{word} {filler}", meaning, language)
+                           for filler in ("time", "uhr", "zeit", "uhrzeit", "heure", "hora", "ora")]
+    return [(tuple(phrase.split()), meaning, language) for phrase, meaning, language in listed]

@@ -1,0 +1,101 @@
+"""What a column may mean, and the units its cells may be in."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal["text", "number", "amount", "clock", "windows", "duration", "names", "server",
+               "date", "degrees", "point", "kind"]
+
+CLOCK_UNITS = ("clock", "hours", "h.mm", "hhmm", "minutes", "seconds", "days")
+"""How bare numbers in a column of clock times are meant; `8:30` is 8:30 in any.
+
+clock: there are none; hours: 8.5 is 8:30; h.mm: 8.30 is; hhmm: 830 is; minutes and seconds: since
+midnight; days: shares of a day, as Excel holds times.
+"""
+
+DURATION_UNITS = ("minutes", "seconds", "hours", "days")
+
+PLANAR_UNITS = ("m", "km")
+
+MASSES = {"kg": 1.0, "g": 0.001, "t": 1000.0, "lb": 0.45359237, "oz": 0.028349523125}
+VOLUMES = {"l": 1.0, "ml": 0.001, "m3": 1000.0, "cm3": 0.001, "ft3": 28.316846592}
+FAMILIES = (MASSES, VOLUMES)
+"""Units of amounts by their size in the first of each; any other unit is a word."""
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What the cells of a column are for."""
+
+    title: str  # for people
+    kind: Kind
+    units: tuple[str, ...] = ()
+    repeats: bool = False  # several columns may mean it
+
+
+MEANINGS = {
+    "name": Meaning("Name", "text"),
+    "first_name": Meaning("First name", "text"),
+    "order": Meaning("Order number", "text"),
+    "address": Meaning("Address", "text", repeats=True),
+    "street": Meaning("Street", "text", repeats=True),
+    "house_number": Meaning("House number", "text"),
+    "postcode": Meaning("Postcode", "text"),
+    "town": Meaning("Town", "text"),
+    "country": Meaning("Country", "text"),
+    "latitude": Meaning("Latitude", "degrees"),
+    "longitude": Meaning("Longitude", "degrees"),
+    "point": Meaning("Latitude and longitude", "point"),
+    "x": Meaning("x", "number", PLANAR_UNITS),
+    "y": Meaning("y", "number", PLANAR_UNITS),
+    "demand": Meaning("Amount to deliver", "amount", repeats=True),
+    "earliest": Meaning("Window begins", "clock", CLOCK_UNITS, True),
+    "latest": Meaning("Window ends", "clock", CLOCK_UNITS, True),
+    "window": Meaning("Window, or several", "windows", CLOCK_UNITS),
+    "service": Meaning("Time at the stop", "duration", DURATION_UNITS),
+    "ready": Meaning("Parcel there from", "clock", CLOCK_UNITS),
+    "date": Meaning("Day of delivery", "date"),
+    "unassigned_cost": Meaning("Cost of leaving out", "number"),
+    "late_cost": Meaning("Cost per hour late", "number"),
+    "early_cost": Meaning("Cost per hour early", "number"),
+    "served_by": Meaning("Drone allowed", "server"),
+    "skills": Meaning("Skills needed", "names"),
+    "vehicles": Meaning("Only by vehicles", "names"),
+    "forbidden_vehicles": Meaning("Not by vehicles", "names"),
+    "kind": Meaning("Depot or customer", "kind"),
+    "phone": Meaning("Phone", "text", repeats=True),
+    "email": Meaning("E-mail", "text"),
+    "contact": Meaning("Contact", "text"),
+    "notes": Meaning("Notes", "text", repeats=True),
+    "priority": Meaning("Priority, for the driver alone", "text"),
+    "info": Meaning("For the driver, as it is", "text", repeats=True),
+    "ignored": Meaning("Not used", "text", repeats=True),
+}
+
+PLACES = ({"latitude", "longitude"}, {"point"}, {"x", "y"})
+"""Columns that tell where customers are."""
+
+UNIT_WORDS = {
+    "minutes": "min mins minute minutes minuten minuti minuto minutos minuten minuty mn",
+    "seconds": "s sec secs second seconds sek sekunden secondes segundos secondi sekundy",
+    "hours": "h hr hrs hour hours std stunde stunden heure heures hora horas ore ora uur godz",
+    "clock": "hh:mm h:mm hh.mm uhr uhrzeit hhmmss hh:mm:ss",
+    "hhmm": "hhmm",
+    "kg": "kg kgs kilo kilos kilogramm kilogram kilograms kilogrammes",
+    "g": "g gr gram grams gramm grammes",
+    "t": "t tonne tonnes tonnen tons",
+    "lb": "lb lbs pound pounds",
+    "oz": "oz ounces",
+    "l": "l ltr liter litre liters litres litri litros",
+    "ml": "ml",
+    "m3": "m3 cbm cubm",
+    "cm3": "cm3 ccm",
+    "ft3": "ft3 cuft cf",
+    "m": "m meter metre meters metres metri metros",
+    "km": "km kilometer kilometre kilometers kilometres",
+    "parcels": "pcs pc stk stuck parcels colis pakete units pieces szt",
+    "pallets": "pal pallets paletten palettes",
+}
+"""What units are called, in simple letters."""
+
+UNITS = {word: unit for unit, words in UNIT_WORDS.items() for word in words.split()}

@@ -1,0 +1,109 @@
+"""Customers, a depot and a fleet -> a request of `POST /plan`; what is assumed is told."""
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from pydantic_core import to_json
+
+from app.errors import InputError, InvalidRequestError
+from app.requests.reading import read_request
+from app.sheets.cells import CellError, Doubt, MisreadError
+from app.sheets.columns import Column
+from app.sheets.customers import Entry
+from app.sheets.fleet import Incomplete, fleet_of
+from app.sheets.geography import Ground, Pair, depot_pair, on_globe
+from app.sheets.rows import Row
+from app.sheets.schemas import ImportSettings
+
+CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "demand": ("demand",),
+         "time_window": ("latest", "earliest", "window"), "time_windows": ("window",),
+         "service_duration": ("service",), "release_time": ("ready",), "skills": ("skills",),
+         "vehicles": ("vehicles", "forbidden_vehicles"), "unassigned_cost": ("unassigned_cost",)}
+"""Meanings of the columns that fields of a customer come from."""
+
+_PATH = re.compile(r"\$\.customers\[(\d+)\]\.?(\w*)")
+
+Data = dict[str, Any]
+
+
+def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
+               columns: Sequence[Column],
+               settings: ImportSettings) -> tuple[Data, list[Doubt]]:
+    """Return a request and what was assumed for it.
+
+    Raises
+    ------
+    Incomplete
+        If a setting doesn't fit.
+    """
+    depot, doubts = _depots(stops, depots, ground, settings)
+    fleet, assumed = fleet_of(stops, columns, settings)
+    unit: Data = {}
+    if not ground.is_geographic:
+        in_km = any(column.meaning == "x" and column.unit == "km" for column in columns)
+        unit = {"planar_unit": 1000} if in_km else {}
+        doubts.append(Doubt("PLANE", "x and y are taken for places on a plane, in "
+                            f"{'kilometres' if in_km else 'metres'}."))
+    system = "geographic" if ground.is_geographic else "planar"
+    request: Data = {"coordinate_system": system, **unit, "depots": depot,
+                     "customers": [stop.customer for stop in stops], "fleet": fleet}
+    return request, [*doubts, *assumed]
+
+
+def errors_of(request: Data, stops: Sequence[Entry]) -> list[CellError]:
+    """Return what a request has that planning doesn't take, at the cells where it comes from."""
+    try:
+        read_request(to_json(request), policies=None)
+    except InvalidRequestError as error:
+        return [_at_cell(item, stops) for item in error.errors]
+    return []
+
+
+def stated_depot(settings: ImportSettings) -> Pair | None:
+    """Return the two numbers of the depot that the settings state.
+
+    Raises
+    ------
+    Incomplete
+        If they are none.
+    """
+    if settings.depot is None:
+        return None
+    try:
+        return depot_pair(settings.depot)
+    except MisreadError as error:
+        raise Incomplete("DEPOT", f"The depot can't be read: {error}.") from error
+
+
+def _at_cell(error: InputError, stops: Sequence[Entry]) -> CellError:
+    found = _PATH.match(error.path)
+    if found is None:
+        return CellError(error.code, error.message)
+    row = stops[int(found[1])].rows[0]
+    return CellError(error.code, error.message, row.cell(*CELLS.get(found[2], ("name",))))
+
+
+def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: Ground,
+            settings: ImportSettings) -> tuple[list[Data], list[Doubt]]:
+    stated = stated_depot(settings)
+    if stated is not None:
+        place = (stated[1], stated[0]) if ground.is_geographic else stated
+        if ground.is_geographic and not on_globe(place):
+            raise Incomplete("DEPOT", f"The depot {settings.depot!r} is not on the globe: write "
+                             "its latitude first, as maps show it.")
+        return [{"id": "depot", "location": list(place)}], []
+    placed = [(row, pair) for row in rows if (pair := ground.pair(row)) is not None]
+    if placed:
+        names = ", ".join(row.cell("name", "kind") for row, _ in placed)
+        single = len(placed) == 1
+        return ([{"id": "depot" if single else f"depot-{number}", "location": list(pair)}
+                 for number, (_, pair) in enumerate(placed, 1)],
+                [Doubt("DEPOT_IN_FILE", f"{names} {'is' if single else 'are'} taken for the depot"
+                       f"{'' if single else 's'}, not for customers.")])
+    middle = [round(sum(stop.customer["location"][axis] for stop in stops) / max(len(stops), 1), 6)
+              for axis in (0, 1)]
+    shown = ", ".join(f"{number:.10g}"
+                      for number in (middle[::-1] if ground.is_geographic else middle))
+    return [{"id": "depot", "location": middle}], [Doubt(
+        "DEPOT_ASSUMED", f"No depot is stated: the middle of the customers is taken, {shown}.")]
