@@ -34,6 +34,7 @@ class Purpose(Enum):
 
     CHANGING_TABLES = 7_236_101
     ADMITTING_JOBS = 7_236_102
+    KEEPING_PLANS = 7_236_103
 
 
 def database_url(settings: Settings) -> URL:

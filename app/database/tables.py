@@ -54,6 +54,10 @@ JOBS = Table(
     Column("plans", Integer, nullable=False, server_default="1"),  # that it stands for
     # Of the owner and the idempotency key, if there is one.
     Column("key", String(36)),
+    # What hinders its beginning, since when, and when it is tried again.
+    Column("waiting_for", Text),
+    Column("waiting_since", BigInteger),
+    Column("retry_at", BigInteger),
     Index("jobs_by_owner", "owner", "created_at", "id"),
     Index("jobs_by_client", "state", "parent", "client", "plans"),
     Index("jobs_by_key", "key", unique=True),
@@ -69,4 +73,79 @@ RESULTS = Table(
     "job_results", TABLES,
     Column("job", String(36), primary_key=True),
     Column("body", LargeBinary, nullable=False),  # compressed JSON, of the best plan so far
+)
+
+KEPT_PLANS = Table(
+    "kept_plans", TABLES,
+    # A key, or all who ask where access is open.
+    Column("owner", String(200), primary_key=True),
+    Column("id", String(64), primary_key=True),
+    Column("name", Text, nullable=False),
+    Column("note", Text, nullable=False),
+    # Another after each change.
+    Column("version", String(16), nullable=False),
+    # Milliseconds since 1970.
+    Column("created_at", BigInteger, nullable=False),
+    Column("changed_at", BigInteger, nullable=False, index=True),
+    Column("bytes", BigInteger, nullable=False),  # of the body before it is compressed
+    Column("customers", Integer, nullable=False),
+    Column("cost", Float),
+    Index("kept_plans_by_owner", "owner", "changed_at", "id"),
+)
+KEPT_PLAN_BODIES = Table(
+    "kept_plan_bodies", TABLES,
+    Column("owner", String(200), primary_key=True),
+    Column("plan", String(64), primary_key=True),
+    Column("body", LargeBinary, nullable=False),  # compressed JSON, of request and plan
+)
+PLAN_LINKS = Table(
+    "plan_links", TABLES,
+    Column("id", String(12), primary_key=True),
+    Column("owner", String(200), nullable=False),
+    Column("plan", String(64), nullable=False),
+    Column("digest", LargeBinary(32), nullable=False),  # see `app.access.tokens`
+    Column("created_at", BigInteger, nullable=False),  # milliseconds since 1970
+    Index("plan_links_by_plan", "owner", "plan"),
+)
+
+DISPATCHES = Table(
+    "dispatches", TABLES,
+    Column("id", String(36), primary_key=True),
+    Column("owner", String(200), nullable=False),
+    Column("client", String(200), nullable=False),
+    # Milliseconds since 1970.
+    Column("created_at", BigInteger, nullable=False),
+    Column("plan_start", BigInteger, nullable=False),
+    Column("ends_at", BigInteger, nullable=False),
+    Column("expires_at", BigInteger, nullable=False, index=True),
+    Column("zone_offset", Integer, nullable=False),  # of the plan's start, in minutes
+    Column("time_zone", String(100)),
+    Column("plan", LargeBinary, nullable=False),  # compressed JSON
+    Index("dispatches_by_owner", "owner", "created_at", "id"),
+)
+LINKS = Table(
+    "driver_links", TABLES,
+    # The part of the token that is no secret.
+    Column("id", String(12), primary_key=True),
+    Column("dispatch", String(36), nullable=False),
+    Column("position", Integer, nullable=False),
+    Column("vehicle", Text, nullable=False),
+    Column("digest", LargeBinary(32), nullable=False),
+    Column("opened_at", BigInteger),
+    Column("revoked_at", BigInteger),
+    Column("steps", LargeBinary, nullable=False),  # compressed JSON
+    Index("links_by_dispatch", "dispatch", "position"),
+)
+EVENTS = Table(
+    "driver_events", TABLES,
+    # Events belong to the vehicle: a new link in place of a lost one goes on with them.
+    Column("dispatch", String(36), primary_key=True),
+    Column("position", Integer, primary_key=True),
+    Column("id", String(36), primary_key=True),
+    Column("number", Integer, nullable=False),  # in order of arrival
+    Column("step", String(40), nullable=False),
+    Column("kind", String(10), nullable=False),
+    Column("time", BigInteger, nullable=False),
+    Column("received_at", BigInteger, nullable=False),
+    Column("reason", Text),
 )
