@@ -1,0 +1,112 @@
+/** A driver's day: opens it, keeps it on the phone, sends what is told when there is network. */
+
+import { html, render } from '../../console/vendor/htm-3.1.1/standalone.module.js';
+import * as days from './days.js';
+import { forgetToken, linkOf, tokenOf } from './link.js';
+import { ask, eventOf, LinkOver, Refused, send } from './queue.js';
+import { isOther } from './steps.js';
+import { Day, Message } from './views.js';
+
+const RETRY_MS = 15000;
+const REFRESH_MS = 60000;
+
+const root = document.getElementById('day');
+const token = tokenOf(location.hash, localStorage);
+const link = token && linkOf(token);
+const state = { day: null, waiting: [], isReached: true, isChanged: false, failure: '' };
+let asking = Promise.resolve();
+let asked = 0;
+
+/** Show the day, or why there is none. */
+function draw() {
+  if (state.day) {
+    document.title = state.day.vehicle;
+    render(html`<${Day} ...${state} onTell=${tell} onSeen=${seeChange} />`, root);
+  } else {
+    render(html`<${Message} text=${state.failure || 'Your day is not on this phone yet, and the '
+      + 'service cannot be reached.'} />`, root);
+  }
+}
+
+/** Keep what the driver tells, show it, and send it. */
+async function tell(step, kind, reason) {
+  await days.keepEvent(eventOf(link, step, kind, reason));
+  state.waiting = await days.waitingEvents(link);
+  draw();
+  catchUp();
+}
+
+/** Send what waits and ask for the day, one after another; nobody asks twice at once. */
+function catchUp({ isDue = false } = {}) {
+  asking = asking.then(() => exchange(isDue));
+  return asking;
+}
+
+async function exchange(isDue) {
+  try {
+    const waited = (await days.waitingEvents(link)).length > 0;
+    const standing = await send(token, link);
+    if (standing) await keep({ ...state.day, standing });
+    if (isDue || !state.day || Date.now() - asked > REFRESH_MS) {
+      const day = await ask(token, 'day');
+      if (day) await keep(day);
+      state.isReached = Boolean(day);
+      asked = Date.now();
+    } else if (waited) {
+      state.isReached = Boolean(standing);
+    }
+  } catch (error) {
+    await give(error);
+  }
+  state.waiting = await days.waitingEvents(link);
+  draw();
+}
+
+/** Say no more that the day has changed. */
+function seeChange() {
+  state.isChanged = false;
+  draw();
+}
+
+async function keep(day) {
+  state.isChanged ||= state.day !== null && isOther(state.day.steps, day.steps);
+  state.day = day;
+  await days.keepDay(day);
+}
+
+/** Give up what can't go on: a link that is over, or something told that is refused. */
+async function give(error) {
+  if (!(error instanceof Refused || error instanceof LinkOver)) throw error;
+  state.failure = error.message;
+  await days.dropEvents(await days.waitingEvents(link));
+  if (error instanceof Refused) return;
+  // Nothing of customers stays behind on a phone.
+  await days.forgetDay(link);
+  forgetToken(token, localStorage);
+  state.day = null;
+}
+
+async function begin() {
+  root.replaceChildren();
+  addEventListener('hashchange', () => location.reload());
+  if (!token) {
+    state.failure = 'Open the link that you were sent.';
+    draw();
+    return;
+  }
+  navigator.serviceWorker?.register('sw.js');
+  navigator.storage?.persist?.();
+  state.day = (await days.keptDay(link)) ?? null;
+  state.waiting = await days.waitingEvents(link);
+  if (state.day) draw();
+  addEventListener('online', () => catchUp({ isDue: true }));
+  document.addEventListener('visibilitychange', () => {
+    if (!document.hidden) catchUp();
+  });
+  setInterval(() => {
+    if (!document.hidden) catchUp();
+  }, RETRY_MS);
+  await catchUp({ isDue: true });
+}
+
+begin();

@@ -1,0 +1,71 @@
+/** Sends what was told: in order, each once as the service counts, until it says that it has it. */
+
+import * as days from './days.js';
+
+const MOST_AT_ONCE = 200;
+
+/** The link opens nothing any more. */
+export class LinkOver extends Error {}
+
+/** What was told can't be taken. */
+export class Refused extends Error {}
+
+/** Ask the service; `null` while there is no network or it can't answer now. */
+export async function ask(token, path, body) {
+  const headers = { Authorization: `Bearer ${token}` };
+  const options = { headers, cache: 'no-store', referrerPolicy: 'no-referrer' };
+  if (body) {
+    Object.assign(options, { method: 'POST', body: JSON.stringify(body) });
+    headers['Content-Type'] = 'application/json';
+  }
+  let reply;
+  try {
+    reply = await fetch(path, options);
+    if (reply.ok) return await reply.json();
+  } catch {
+    return null;
+  }
+  if (reply.status === 401 || reply.status === 410) throw new LinkOver(await detailOf(reply));
+  if (reply.status >= 500 || reply.status === 408 || reply.status === 429) return null;
+  throw new Refused(await detailOf(reply));
+}
+
+async function detailOf(reply) {
+  try {
+    return (await reply.json()).detail;
+  } catch {
+    return `The service answers ${reply.status}.`;
+  }
+}
+
+/** Return what is told of a step now, to be kept. */
+export function eventOf(link, step, kind, reason) {
+  const event = { link, id: crypto.randomUUID(), step, kind, time: new Date().toISOString() };
+  return reason ? { ...event, reason } : event;
+}
+
+/**
+ * Send what waits; return how steps stand by then, null if nothing could be sent.
+ *
+ * Another page of the same link may send the same: the service counts it once.
+ */
+export async function send(token, link) {
+  let standing = null;
+  let waiting = await days.waitingEvents(link);
+  while (waiting.length) {
+    const events = waiting.slice(0, MOST_AT_ONCE);
+    const told = events.map(({ id, step, kind, time, reason }) => ({
+      id,
+      step,
+      kind,
+      time,
+      ...(reason && { reason }),
+    }));
+    const reply = await ask(token, 'events', { now: new Date().toISOString(), events: told });
+    if (!reply) return standing;
+    standing = reply.standing;
+    await days.dropEvents(events);
+    waiting = await days.waitingEvents(link);
+  }
+  return standing;
+}

@@ -1,0 +1,71 @@
+/** How the day's steps stand: by what the service knows, and what it wasn't told yet. */
+
+/** Return what holds of steps, by id: `{state, reason, isSent}`. */
+export function standings(standing, waiting) {
+  const found = new Map(
+    standing.map(({ id, state, reason }) => [id, { state, reason, isSent: true }]),
+  );
+  for (const { step, kind, reason } of waiting) {
+    found.set(step, { state: kind === 'undone' ? 'open' : kind, reason, isSent: false });
+  }
+  return found;
+}
+
+/** Tell whether other steps are to be done, or in another order. */
+export function isOther(before, now) {
+  const ids = (steps) => steps.map(({ id }) => id).join();
+  return ids(before) !== ids(now);
+}
+
+/** Return the first step of which nothing holds, or null. */
+export function nextStep(steps, found) {
+  return steps.find(({ id }) => (found.get(id)?.state ?? 'open') === 'open') ?? null;
+}
+
+/** Return how many steps are over. */
+export function countOver(steps, found) {
+  return steps.filter(({ id }) => (found.get(id)?.state ?? 'open') !== 'open').length;
+}
+
+/** What a driver says who has done a step, by its kind. */
+export const DONE = {
+  depart: 'Left',
+  stop: 'Done',
+  launch: 'Launched',
+  recover: 'Recovered',
+  return: 'I am back',
+};
+
+/** Whether a step can fail. */
+export function mayFail({ kind }) {
+  return kind === 'stop' || kind === 'launch' || kind === 'recover';
+}
+
+/** Return what a step is called. */
+export function titleOf({ kind, place, drone, customers }) {
+  const flown = drone ? drone.slice(drone.lastIndexOf('/') + 1) : '';
+  const names = customers.map(({ id }) => id).join(', ');
+  return {
+    depart: `Leave ${place}`,
+    stop: place,
+    launch: `Launch ${flown} to ${names}`,
+    recover: `Recover ${flown}`,
+    return: `Back at ${place}`,
+  }[kind];
+}
+
+/** Return amounts such as `12 / 3.5`. */
+export function amounts(values) {
+  const options = { maximumFractionDigits: 3 };
+  return values.map((value) => value.toLocaleString('en', options)).join(' / ');
+}
+
+/** Return whether something is handed over or taken in at all. */
+export function isSome(values) {
+  return Boolean(values?.some((value) => value > 0));
+}
+
+/** Return a number to call without what people put between digits. */
+export function telephone(text) {
+  return `tel:${text.replace(/\(0\)/g, '').replace(/[^+\d*#]/g, '')}`;
+}

@@ -1,0 +1,48 @@
+/* Keeps drivers' page on the phone, so that it opens without network. VERSION stands before. */
+
+const CACHE = `drive-${VERSION}`;
+const FILES = [
+  './',
+  'drive.css',
+  'icon.svg',
+  'manifest.webmanifest',
+  'js/clocks.js',
+  'js/days.js',
+  'js/link.js',
+  'js/main.js',
+  'js/navigators.js',
+  'js/queue.js',
+  'js/steps.js',
+  'js/views.js',
+  '../console/vendor/htm-3.1.1/standalone.module.js',
+];
+
+self.addEventListener('install', (event) => {
+  const keep = async () => {
+    const cache = await caches.open(CACHE);
+    await cache.addAll(FILES.map((file) => new Request(file, { cache: 'no-cache' })));
+    await self.skipWaiting();
+  };
+  event.waitUntil(keep());
+});
+
+self.addEventListener('activate', (event) => {
+  const clean = async () => {
+    const names = await caches.keys();
+    const former = names.filter((name) => name.startsWith('drive-') && name !== CACHE);
+    await Promise.all(former.map((name) => caches.delete(name)));
+    await self.clients.claim();
+  };
+  event.waitUntil(clean());
+});
+
+// What is told and asked goes its own way, past here.
+self.addEventListener('fetch', (event) => {
+  const { request } = event;
+  if (request.method !== 'GET' || /\/drive\/(day|events)$/.test(request.url)) return;
+  const answer = async () => {
+    const cache = await caches.open(CACHE);
+    return (await cache.match(request, { ignoreSearch: true })) ?? fetch(request);
+  };
+  event.respondWith(answer());
+});
