@@ -27,9 +27,14 @@ def _launch_duration(drones: DronesInput, is_first: bool) -> int:
 
 def drones_of_sortie(kind: VehicleTypeInput | None, sortie: SortieInput) -> DronesInput | None:
     """Return the drones one of which flies a sortie; the last ones for one that there isn't."""
+    return drones_named(kind, sortie.drone)
+
+
+def drones_named(kind: VehicleTypeInput | None, name: str) -> DronesInput | None:
+    """Return the drones one of which has a name; the last ones for one that there isn't."""
     stated = [] if kind is None else kind.drone_types
     carried = [drones for drones in stated if drones.count > 0] or stated
-    number = drone_number(sortie.drone) or 0
+    number = drone_number(name) or 0
     for drones in carried[:-1]:
         number -= drones.count
         if number < 0:

@@ -39,6 +39,15 @@ def places_of(request: PlanRequest) -> list[Place]:
     return [*request.depots, *stands, *request.customers]
 
 
+def paths_of(request: PlanRequest) -> list[Path]:
+    """Return the path of each place's location, in the same order."""
+    depots = [("depots", index, "location") for index in range(len(request.depots))]
+    stands = [("fleet", index, *stand.location) for index, kind in enumerate(request.fleet)
+              for stand in stands_of(kind)]
+    customers = [("customers", index, "location") for index in range(len(request.customers))]
+    return [*depots, *stands, *customers]
+
+
 def nowhere_of(request: PlanRequest) -> int | None:
     """Return the node where open routes end, behind all places but customers; None: none does."""
     if all(kind.end != "open" for kind in request.fleet):

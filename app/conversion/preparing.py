@@ -85,6 +85,11 @@ class Preparing:
         return time.perf_counter() - self.began + seconds <= self._most_work
 
     @property
+    def until(self) -> float:
+        """When the work has to have ended, on `time.perf_counter`."""
+        return self.began + self._latest
+
+    @property
     def _most_work(self) -> float:
         return max(LEAST_WORK, SHARE * self.seconds)
 

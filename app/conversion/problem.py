@@ -21,7 +21,11 @@ from model.problem import IncompatibleGoods, Problem
 def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
                ground: Ground | None = None) -> Problem:
     """Convert a valid request, unless the work on it is to end; `ground` may be known already."""
-    travels = Travels(request, preparing, ground)
+    return problem_of(request, Travels(request, preparing, ground))
+
+
+def problem_of(request: PlanRequest, travels: Travels) -> Problem:
+    """Convert a valid request, with its legs, unless the work on it is to end."""
     travels.expect_legs()
     depots = depots_of(request)
     decimals = decimals_of(request.customers, request.fleet)

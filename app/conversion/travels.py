@@ -6,13 +6,18 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from app.conversion.energy import climb_duration
+from app.conversion.far_legs import Estimates, FarTravel
+from app.conversion.leg_origins import AS_ASKED, AS_THE_CROW_FLIES, LegOrigin
 from app.conversion.places import nowhere_of, places_of
 from app.conversion.preparing import UNHURRIED, Preparing
+from app.conversion.road_legs import RoadLegs, road_legs
 from app.conversion.rounding import rounded
 from app.conversion.units import thousandths
 from app.conversion.work import legs_seconds, sights_seconds
+from app.roads.roads import NO_ROADS, Roads
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
-from app.schemas.request import MatrixInput, PlanRequest
+from app.schemas.fields import point_of
+from app.schemas.request import MatrixInput, PlanRequest, RoadsInput
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
 from model.problem import FloatArray, SpeedProfile, Travel
 from model.travel.airspace import Airspace, Flights
@@ -28,16 +33,36 @@ from model.travel.matrices import (
     truck_travel,
     with_nowhere,
 )
+from model.travel.ways import Ways
 
 
 class _Key(NamedTuple):
     """What tells one pair of matrices from another."""
 
-    means: Literal["drive", "matrix", "flight"]
-    profile: str  # of the client's matrix, else empty
-    speed: float  # km/h, or a multiple of the matrix speed
+    means: Literal["drive", "matrix", "road", "flight"]
+    profile: str  # of the client's matrix or of roads, else empty
+    speed: float  # km/h, or a multiple of the speed of the matrix or on roads
     climb: int = 0  # ms more for each leg
     flown: bool = False  # which matters where some end nowhere
+    estimated_kmh: float = 0.0  # where roads may not be known
+
+
+SECONDS_PER_METRE = 3.6
+"""Seconds that a metre takes at one km/h."""
+
+
+class Detours(NamedTuple):
+    """Where flights bend around no-fly areas."""
+
+    ways: Ways
+    corners: FloatArray  # (corner, 2) as the request states places
+    airspace: Airspace
+
+    def bends(self, start: int, end: int, airspeed_kmh: float) -> FloatArray:
+        """Return the (place, 2) places where a flight from place to place bends, in their order."""
+        if not self.ways.blocked[start, end]:
+            return self.corners[:0]
+        return self.corners[self.ways.bends(start, end, self.airspace.wind(airspeed_kmh))]
 
 
 class Ground:
@@ -61,7 +86,8 @@ class Ground:
     @cached_property
     def locations(self) -> FloatArray:
         """As stated."""
-        points = [place.location for place in self.places if place.location is not None]
+        points = [point for place in self.places
+                  if (point := point_of(place.location)) is not None]
         return np.array(points, dtype=np.float64)
 
     @cached_property
@@ -107,6 +133,13 @@ class Ground:
             len(self.places), len(obstacles.corners.place), len(obstacles.edges)))
         return flights
 
+    def detours(self) -> Detours:
+        """Return where flights bend, of a request with no-fly areas."""
+        corners = self.flights.obstacles.corners.place
+        stated = (self._projection.unproject(corners) if self.is_geographic
+                  else corners / self._request.planar_unit)
+        return Detours(self.flights.ways, stated, self._airspace)
+
     @cached_property
     def _airspace(self) -> Airspace:
         stated = self._request.airspace
@@ -122,24 +155,30 @@ class Travels:
     """Collects the matrices of one valid request, unless the work on them is to end."""
 
     def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED,
-                 ground: Ground | None = None) -> None:
+                 ground: Ground | None = None, roads: Roads = NO_ROADS) -> None:
         self._request = request
         self._preparing = preparing
         self._ground = ground or Ground(request, preparing)
+        self._roads = roads
+        self._road_legs: dict[str, RoadLegs] = {}
         self._places = places_of(request)
         self._nowhere = nowhere_of(request)
         self._index: dict[_Key, int] = {}
         self._travels: list[Travel] = []
 
-    def count(self) -> int:
-        """Return how many pairs of matrices planning needs, without building any.
+    def count(self, on_roads: bool = False) -> int:
+        """Return how many pairs of matrices planning needs at most, without building any.
 
-        Where customers ask for a setup, ways back to trucks are apart from those to customers.
+        Where customers ask for a setup, ways back to trucks are apart from those to customers;
+        where profiles may have roads, equal speeds make no equal legs.
         """
         request = self._request
         sets_up = any(customer.setup_duration for customer in request.customers)
         flown = {self._flying(drones) for kind in request.fleet for drones in kind.drone_types}
-        return len(self._keys()) + (len(flown) if sets_up else 0)
+        driven = len(self._keys() - flown)
+        if on_roads and self._ground.is_geographic and request.roads != "none":
+            driven = max(driven, len({kind.profile for kind in request.fleet}))
+        return driven + len(flown) + (len(flown) if sets_up else 0)
 
     def expect_legs(self) -> None:
         """Make sure that there is time to build all matrices, if none is flown around areas.
@@ -167,6 +206,39 @@ class Travels:
         """Return the index of the drones' matrices."""
         return self._at(self._flying(drones))
 
+    def origins(self) -> tuple[LegOrigin, ...]:
+        """Return what the legs of each profile are made of, trucks' first."""
+        fleet = self._request.fleet
+        driven = {kind.profile: self._origin(kind.profile) for kind in fleet}
+        flown = {drones.profile: LegOrigin(
+                     drones.profile, "flight" if self._matrix(drones.profile) is None else "matrix")
+                 for kind in fleet for drones in kind.drone_types if drones.count > 0}
+        return (*driven.values(), *(origin for origin in flown.values()
+                                    if origin not in driven.values()))
+
+    def _origin(self, profile: str) -> LegOrigin:
+        stated = self._request.roads
+        if self._matrix(profile) is not None:
+            return LegOrigin(profile, "matrix")
+        if not self._ground.is_geographic:
+            return LegOrigin(profile, "straight")
+        if not self._has_roads(profile):
+            return LegOrigin(profile, "great_circle",
+                             note=AS_ASKED if stated == "none" else AS_THE_CROW_FLIES)
+        legs = self._legs_on_roads(profile)
+        detour = stated.detour if isinstance(stated, RoadsInput) and legs.estimated else None
+        return LegOrigin(profile, "roads", legs.engine, legs.estimated, detour, legs.farthest_m,
+                         legs.note)
+
+    def estimates(self) -> Estimates | None:
+        """Return what is estimated of the legs on roads until a plan drives them."""
+        travels = {}
+        for key, index in self._index.items():
+            far = self._road_legs[key.profile].far if key.means == "road" else None
+            if far is not None:
+                travels[index] = FarTravel(far, key.speed, self._travels[index])
+        return Estimates(travels, self._nowhere) if travels else None
+
     def coordinates(self) -> FloatArray:
         """Return the (node, 2) coordinates that the policy sees, in any planar unit."""
         nowhere = self._nowhere
@@ -188,16 +260,22 @@ class Travels:
     def _driving(self, vehicle_type: VehicleTypeInput) -> tuple[_Key, SpeedProfile | None]:
         matrix = self._matrix(vehicle_type.profile)
         usual = vehicle_type.speed_kmh or DEFAULT_TRUCK_SPEED_KMH
-        scale = usual if matrix is None else 1.0
+        on_roads = matrix is None and self._has_roads(vehicle_type.profile)
+        scale = usual if matrix is None and not on_roads else 1.0
+
+        def key_at(speed: float) -> _Key:
+            return (self._on_roads(vehicle_type.profile, speed, usual) if on_roads
+                    else self._driving_at(vehicle_type.profile, speed))
+
         if not vehicle_type.speed_profile:
-            return self._driving_at(vehicle_type.profile, scale), None
+            return key_at(scale), None
         changes = [
             (thousandths(change.from_time),
              scale * (change.factor or (change.speed_kmh or usual) / usual))
             for change in vehicle_type.speed_profile
         ]
         fastest, profile = speed_profile(scale, changes)
-        return self._driving_at(vehicle_type.profile, fastest), profile
+        return key_at(fastest), profile
 
     def _flying(self, drones: DronesInput) -> _Key:
         airspace = self._request.airspace
@@ -213,6 +291,15 @@ class Travels:
     def _driving_at(self, profile: str, speed: float) -> _Key:
         return (_Key("drive", "", speed) if self._matrix(profile) is None
                 else _Key("matrix", profile, speed))
+
+    def _has_roads(self, profile: str) -> bool:
+        return (self._ground.is_geographic and self._request.roads != "none"
+                and profile in self._roads.profiles)
+
+    def _on_roads(self, profile: str, speed: float, usual_kmh: float) -> _Key:
+        stated = self._request.roads
+        falls_back = isinstance(stated, RoadsInput) and stated.fallback is not None
+        return _Key("road", profile, speed, estimated_kmh=usual_kmh if falls_back else 0.0)
 
     def _matrix(self, profile: str) -> MatrixInput | None:
         return (self._request.matrices or {}).get(profile)
@@ -237,9 +324,31 @@ class Travels:
             distances = (self._ground.legs_m if matrix.distances is None
                          else self._at_places(matrix.distances))
             return matrix_travel(durations, distances, self._preparing.pause)
+        if key.means == "road":
+            return self._build_on_roads(key)
         if key.means == "drive":
             return truck_travel(self._ground.legs_m, key.speed, self._preparing.pause)
         return flight_travel(*self._ground.flights.legs(key.speed), self._preparing.pause)
+
+    def _build_on_roads(self, key: _Key) -> Travel:
+        legs = self._legs_on_roads(key.profile)
+        durations, distances = legs.durations_s, legs.distances_m
+        unknown = np.isnan(durations)
+        if unknown.any():
+            # Estimated, unless only drones go there: then no vehicle type drives these legs.
+            stated = self._request.roads
+            detour = stated.detour if isinstance(stated, RoadsInput) else 1.0
+            metres = self._ground.legs_m * detour
+            speed = key.estimated_kmh or DEFAULT_TRUCK_SPEED_KMH
+            durations = np.where(unknown, metres * SECONDS_PER_METRE / speed, durations)
+            distances = np.where(unknown, metres, distances)
+        return matrix_travel(durations / key.speed, distances, self._preparing.pause)
+
+    def _legs_on_roads(self, profile: str) -> RoadLegs:
+        if profile not in self._road_legs:
+            self._road_legs[profile] = road_legs(self._roads, profile, self._request, self._ground,
+                                                 self._preparing)
+        return self._road_legs[profile]
 
     def _at_places(self, table: list[list[float]]) -> FloatArray:
         """Return a client's matrix with one row and column per node.

@@ -14,3 +14,11 @@ def optional_thousandths(value: float | None) -> int | None:
 def whole(value: int) -> float:
     """Return ms as seconds or mm as metres."""
     return value / 1000
+
+
+MONEY_DECIMALS = 6
+
+
+def money(cost: float) -> float:
+    """Return a cost without the noise that sums of floats have far behind the point."""
+    return round(cost, MONEY_DECIMALS)

@@ -4,30 +4,36 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, to_json
 
 from app.conversion.preparing import Preparing
-from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_error
+from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_errors
 from app.plans.replies import Data, cost_reply, summary_reply
-from app.plans.task import task_of, violation_reply
+from app.plans.task import task_of, telling, violation_reply, warning_replies
+from app.plans.timing import timed_plan
 from app.requests.bounds import Bounds, bound_errors
 from app.requests.draft import Draft
-from app.requests.plan_reading import Known, plan_errors, read_plan
-from app.requests.reading import partial_draft, read_json, request_errors
+from app.requests.plan_reading import Known, plan_errors
+from app.requests.reading import partial_draft, read_json, request_errors, tells_day
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
-from app.schemas.check import CheckRequest
-from app.schemas.plan import PlanInput
+from app.roads.roads import NO_ROADS, Roads
+from app.schemas.check import CheckReply, CheckRequest, PlannedProblem
+from app.schemas.day import DayOfBody
+from app.schemas.hints import with_hints
+from app.schemas.times import read_body
+from app.schemas.untimed import UntimedPlanInput
 from app.settings import MAX_NUM_SAMPLES, MAX_TIME_LIMIT
 
 PROBLEM, PLAN = "problem", "plan"
 
-Kind = TypeVar("Kind", bound=CheckRequest)
+Kind = TypeVar("Kind", bound=PlannedProblem)
 
 
 def answer_check(body: bytes, bounds: Bounds,
-                 should_stop: Callable[[], bool] = lambda: False) -> bytes:
+                 should_stop: Callable[[], bool] = lambda: False,
+                 roads: Roads = NO_ROADS) -> bytes:
     """Return the reply to a request of `POST /check` as JSON, unless the work is to end.
 
     Raises
@@ -37,16 +43,23 @@ def answer_check(body: bytes, bounds: Bounds,
     """
     request = read_check(body, bounds)
     task = task_of(request.problem, Preparing(
-        should_stop, bounds.time_limit, f"the {bounds.time_limit:g} s of {bounds.time_setting}"))
-    solution = read_plan(request.plan, task.problem, (PLAN,))
+        should_stop, bounds.time_limit, f"the {bounds.time_limit:g} s of {bounds.time_setting}"),
+        roads=roads)
+    solution = timed_plan(task, request.plan, (PLAN,))
     evaluation = task.check(solution)
+    is_untimed = any(route.is_untimed for route in request.plan.routes)
+    violations = evaluation.violations
     reply: Data = {
         "feasible": evaluation.is_feasible,
-        "violations": [violation_reply(violation, f"$.{PROBLEM}", f"$.{PLAN}")
-                       for violation in evaluation.violations],
+        "violations": [violation_reply(violation, f"$.{PROBLEM}", f"$.{PLAN}") for violation
+                       in (telling(violations) if is_untimed else violations)],
         "cost": cost_reply(evaluation.cost),
         "summary": summary_reply(task.problem, solution, evaluation),
+        "warnings": warning_replies(warning.within(PROBLEM) for warning in task.warnings),
     }
+    if is_untimed:
+        reply["routes"] = task.routes_reply(solution, evaluation)
+    task.telling.tell(CheckReply, reply)
     return to_json(reply)
 
 
@@ -70,19 +83,21 @@ def read_about_plan(body: bytes, bounds: Bounds, kind: type[Kind]) -> Kind:
     bounds = replace(bounds, num_samples=MAX_NUM_SAMPLES, time_limit=MAX_TIME_LIMIT)
     require_readable(body, kind)
     try:
-        request = kind.model_validate_json(body)
+        request = read_body(kind, body)
     except ValidationError as error:
-        raise _refusal(error, body, bounds) from error
-    problem = request.problem
+        raise _refusal(error, body, bounds, kind) from error
+    problem = request.whole_problem
     errors = [*_within(PROBLEM, request_errors(problem, None, bounds)),
               *plan_errors(request.plan, Known.of(problem.depots, problem.customers,
                                                   problem.fleet), (PLAN,))]
     if errors:
-        raise InvalidRequestError(errors)
+        raise InvalidRequestError([
+            error.model_copy(update={"path": request.path_of(error.path)}) for error in errors])
     return request
 
 
-def _refusal(error: ValidationError, body: bytes, bounds: Bounds) -> RequestError:
+def _refusal(error: ValidationError, body: bytes, bounds: Bounds,
+             kind: type[BaseModel]) -> RequestError:
     """Return the refusal of a body that doesn't fit the schema, other errors included."""
     if error.error_count() > MAX_COUNTED_ERRORS:
         message = f"The request has {error.error_count()} errors: compare it with the schema."
@@ -90,18 +105,18 @@ def _refusal(error: ValidationError, body: bytes, bounds: Bounds) -> RequestErro
     details = error.errors(include_url=False)
     of_problem = [_inner(item) for item in details if item["loc"][:1] == (PROBLEM,)]
     others = [item for item in details if item["loc"][:1] != (PROBLEM,)]
-    errors = [*map(schema_error, others), *_within(PROBLEM, map(schema_error, of_problem))]
+    errors = [*schema_errors(others), *_within(PROBLEM, schema_errors(of_problem))]
     if len(body) <= MAX_SEARCHED_BYTES or details[0]["type"] == "json_invalid":
         try:
             raw = read_json(body)
         except NotJsonError as not_json:
             return not_json
-        if isinstance(raw, dict) and isinstance(raw.get(PROBLEM), dict):
-            draft = partial_draft(raw[PROBLEM], of_problem)
+        if isinstance(raw, dict) and isinstance(raw.get(PROBLEM), dict) and tells_day(of_problem):
+            draft = partial_draft(raw[PROBLEM], of_problem, DayOfBody(body))
             errors += _within(PROBLEM, [*semantic_errors(draft, None),
                                         *bound_errors(draft, bounds)])
-            errors += _plan_errors(raw, others, draft)
-    return InvalidRequestError(errors)
+            errors += _plan_errors(raw, others, draft, DayOfBody(body))
+    return InvalidRequestError(with_hints(errors, kind))
 
 
 def _inner(item: ErrorDetails) -> ErrorDetails:
@@ -117,9 +132,9 @@ def _within(part: str, errors: Iterable[InputError]) -> list[InputError]:
 
 
 def _plan_errors(raw: dict[str, Any], details: Sequence[ErrorDetails],
-                 draft: Draft) -> list[InputError]:
+                 draft: Draft, day: DayOfBody) -> list[InputError]:
     """Return what a plan names that a partly broken problem surely doesn't have."""
     if PLAN not in raw or any(item["loc"][:1] == (PLAN,) for item in details):
         return []
-    plan = PlanInput.model_validate_json(to_json(raw[PLAN]))
+    plan = read_body(UntimedPlanInput, to_json(raw[PLAN]), day)
     return plan_errors(plan, Known.of(draft.depots, draft.customers, draft.fleet), (PLAN,))

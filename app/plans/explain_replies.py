@@ -2,8 +2,9 @@
 
 from collections.abc import Iterable, Sequence
 
-from app.conversion.units import whole
+from app.conversion.units import money, whole
 from app.plans.replies import Data, cost_reply, one_per_type, reason_reply, vehicle_name
+from app.plans.task import telling
 from model.judge.alternatives import Alternative, halt_of
 from model.judge.bench import Bench, Trial
 from model.judge.binding import Binding
@@ -24,7 +25,7 @@ def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: I
     return {
         "customer": problem.customer_at(bench.node).id,
         "cost": cost_reply(bench.plan.evaluation.cost),
-        "here": _here(bench),
+        "here": here_reply(bench),
         "alternatives": [_alternative(bench, each) for each in alternatives],
         "binding": [_binding(bench, each) for each in binding],
         "reasons": [reason_reply(problem, reason) for reason in one_per_type(problem, reasons)],
@@ -37,45 +38,49 @@ def nobody_reply(cost: Cost) -> Data:
             "binding": [], "reasons": []}
 
 
-def _difference(cost: Cost, less: Cost) -> dict[str, float]:
+def difference(cost: Cost, less: Cost) -> dict[str, float]:
+    """Return by term what a cost is more than another."""
     before = cost_reply(less)
-    return {term: value - before[term] for term, value in cost_reply(cost).items()}
+    return {term: money(value - before[term]) for term, value in cost_reply(cost).items()}
 
 
-def _here(bench: Bench) -> Data | None:
+def here_reply(bench: Bench) -> Data | None:
+    """Return where a plan serves the customer, and what that costs; None: nowhere."""
     if bench.found is None:
         return None
-    saving = _difference(bench.plan.evaluation.cost, bench.left_out.evaluation.cost)
-    saving["total"] -= saving["unassigned"]
-    saving["unassigned"] = 0.0
-    return _placed(bench, bench.plan, bench.found) | {"saving": saving}
+    return placed_reply(bench, bench.plan, bench.found) | {
+        "saving": more_than_without(bench, bench.plan)}
+
+
+def more_than_without(bench: Bench, trial: Trial) -> dict[str, float]:
+    """Return what a plan costs more than without the customer; leaving him out counts nothing."""
+    more = difference(trial.evaluation.cost, bench.left_out.evaluation.cost)
+    more["total"] = money(more["total"] - more["unassigned"])
+    more["unassigned"] = 0.0
+    return more
 
 
 def _alternative(bench: Bench, each: Alternative) -> Data:
     trial = each.trial
-    placed = _placed(bench, trial, find_place(trial.solution, bench.node))
+    placed = placed_reply(bench, trial, find_place(trial.solution, bench.node))
     if each.window is not None:
         placed["window"] = each.window
     return {
         "kind": each.kind,
         **placed,
-        "cost": _difference(trial.evaluation.cost, bench.plan.evaluation.cost),
+        "cost": difference(trial.evaluation.cost, bench.plan.evaluation.cost),
         "feasible": trial.evaluation.is_feasible,
-        "reasons": [{"code": code, "message": message} for code, message in dict.fromkeys(
-            (item.code, item.message) for item in _telling(trial.evaluation.violations))],
+        "reasons": rules_reply(trial.evaluation.violations),
     }
 
 
-def _telling(violations: Sequence[Violation]) -> Iterable[Violation]:
-    """Return broken rules without those that follow from others.
-
-    What differs from what has happened has times that nobody has computed.
-    """
-    frozen = any(item.code == "FROZEN" for item in violations)
-    return [item for item in violations if not (frozen and item.code == "TIME_MISMATCH")]
+def rules_reply(violations: Sequence[Violation]) -> list[Data]:
+    """Return which rules are broken, and how."""
+    return [{"code": code, "message": message} for code, message in dict.fromkeys(
+        (item.code, item.message) for item in telling(violations))]
 
 
-def _placed(bench: Bench, trial: Trial, found: Found | None) -> Data:
+def placed_reply(bench: Bench, trial: Trial, found: Found | None) -> Data:
     """Return who serves the customer where and when in a plan."""
     halt = halt_of(trial, bench.node)
     if found is None or halt is None:
@@ -126,9 +131,9 @@ def drones_reply(problem: Problem, solution: Solution, cost: Cost, sorties: Sequ
     if searched is not None:
         flown, driven = searched
         if len(driven.solution.unassigned) <= len(flown.solution.unassigned):
-            saves = driven.final_cost - flown.final_cost
+            saves = money(driven.final_cost - flown.final_cost)
         if len(driven.solution.unassigned) <= len(solution.unassigned):
-            saves_at_most = driven.final_cost - cost.total
+            saves_at_most = money(driven.final_cost - cost.total)
     return {
         "sorties": [_worth(problem, solution, each) for each in sorties],
         "saves": saves,
@@ -147,7 +152,7 @@ def _worth(problem: Problem, solution: Solution, each: Worth) -> Data:
         "trip": each.trip,
         "sortie": each.sortie,
         "customers": [problem.customer_at(visit.node).id for visit in sortie.visits],
-        "saves": each.saves,
+        "saves": None if each.saves is None else money(each.saves),
         "tried": each.is_tried,
     }
 

@@ -12,10 +12,11 @@ from app.load.bodies import ReceivedBody
 from app.plans.checking import PLAN, PROBLEM, read_about_plan
 from app.plans.explain_replies import customer_reply, drones_reply, nobody_reply
 from app.plans.replies import Data
-from app.plans.task import Task, task_of, violation_reply
+from app.plans.task import Task, task_of, violation_reply, warning_replies
 from app.requests.bounds import Bounds
 from app.requests.plan_reading import parse_plan, read_plan
-from app.schemas.explain import ExplainOptions, ExplainRequest
+from app.roads.roads import NO_ROADS, Roads
+from app.schemas.explain import ExplainOptions, ExplainReply, ExplainRequest
 from app.schemas.request import PlanRequest
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench, Setting
@@ -57,7 +58,8 @@ class Question:
 
 
 def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[], Planner],
-                   should_stop: Callable[[], bool] = lambda: False) -> bytes:
+                   should_stop: Callable[[], bool] = lambda: False,
+                   roads: Roads = NO_ROADS) -> bytes:
     """Return the reply to a request of `POST /explain` as JSON, unless the work is to end.
 
     Raises
@@ -66,7 +68,8 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[], Pla
         If `body` is no valid request, the plan breaks a rule, or the work is to end.
     """
     request = read_explain(body.content, bounds)
-    task = task_of(request.problem, _preparing(bounds, should_stop))
+    task = task_of(request.problem, preparing_within(bounds, should_stop),
+                   roads=roads.with_all_legs())
     solution = read_plan(request.plan, task.problem, (PLAN,))
     question = _question(request.customer, request.drones, request.options, body.received_at)
     return to_json(_Explainer(task, solution, planner, should_stop).answer(question))
@@ -74,12 +77,13 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[], Pla
 
 def explain_job(request: PlanRequest, plan: bytes, customer: str | None, drones: bool,
                 options: ExplainOptions, bounds: Bounds, planner: Callable[[], Planner],
-                should_stop: Callable[[], bool]) -> bytes:
+                should_stop: Callable[[], bool], roads: Roads = NO_ROADS) -> bytes:
     """Return the same of a job's plan, as JSON; raises as `answer_explain` does."""
     began = time.perf_counter()
-    _require_within(options, bounds, "query.time_limit")
-    _require_known(request, customer, "query.customer")
-    task = task_of(request, _preparing(bounds, should_stop))
+    require_within(options, bounds, "query.time_limit")
+    require_known(request, customer, "query.customer")
+    task = task_of(request, preparing_within(bounds, should_stop),
+                   roads=roads.with_all_legs())
     solution = read_plan(parse_plan(plan), task.problem)
     question = _question(customer, drones, options, began)
     return to_json(_Explainer(task, solution, planner, should_stop).answer(question))
@@ -88,12 +92,13 @@ def explain_job(request: PlanRequest, plan: bytes, customer: str | None, drones:
 def read_explain(body: bytes, bounds: Bounds) -> ExplainRequest:
     """Return the request that `body` holds; raises as `read_about_plan` does."""
     request = read_about_plan(body, bounds, ExplainRequest)
-    _require_within(request.options, bounds, "$.options.time_limit")
-    _require_known(request.problem, request.customer, "$.customer")
+    require_within(request.options, bounds, "$.options.time_limit")
+    require_known(request.problem, request.customer, "$.customer")
     return request
 
 
-def _require_within(options: ExplainOptions, bounds: Bounds, path: str) -> None:
+def require_within(options: ExplainOptions, bounds: Bounds, path: str) -> None:
+    """Refuse more time than a service takes; raises `InvalidRequestError`."""
     if options.time_limit > bounds.time_limit:
         raise InvalidRequestError([InputError(
             code="OUT_OF_RANGE", path=path,
@@ -101,14 +106,16 @@ def _require_within(options: ExplainOptions, bounds: Bounds, path: str) -> None:
             "lower it.")])
 
 
-def _require_known(request: PlanRequest, customer: str | None, path: str) -> None:
+def require_known(request: PlanRequest, customer: str | None, path: str) -> None:
+    """Refuse a customer whom a problem doesn't have; raises `InvalidRequestError`."""
     if customer is not None and all(each.id != customer for each in request.customers):
         raise InvalidRequestError([InputError(
             code="UNKNOWN_CUSTOMER", path=path,
             message=f"The problem has no customer {customer[:200]!r}: use the id of one it has.")])
 
 
-def _preparing(bounds: Bounds, should_stop: Callable[[], bool]) -> Preparing:
+def preparing_within(bounds: Bounds, should_stop: Callable[[], bool]) -> Preparing:
+    """Return the work before plans are judged, which may take as long as a plan."""
     return Preparing(should_stop, bounds.time_limit,
                      f"the {bounds.time_limit:g} s of {bounds.time_setting}")
 
@@ -156,7 +163,9 @@ class _Explainer:
         if question.drones:
             drones, in_time = self._of_drones(question)
             complete = complete and in_time
-        return reply | {"drones": drones, "complete": complete}
+        self._task.telling.tell(ExplainReply, reply)
+        warnings = warning_replies(warning.within(PROBLEM) for warning in self._task.warnings)
+        return reply | {"drones": drones, "complete": complete, "warnings": warnings}
 
     def _of_customer(self, question: Question, name: str) -> tuple[Data, bool]:
         node = next(node for node, customer
@@ -178,8 +187,7 @@ class _Explainer:
         worth = list(sorties_worth(self._problem, self._solution, self._setting, until))
         each = (question.until - time.perf_counter()) / 2
         searched = None
-        several = any(kind.more_drones for kind in self._problem.vehicle_types)
-        if worth and not several and self._task.replanning is None and each >= LEAST_SEARCH:
+        if worth and self._task.replanning is None and each >= LEAST_SEARCH:
             searched = self._searched(each)
         reply = drones_reply(self._problem, self._solution, self._cost, worth, searched,
                              max(0.0, each) if searched else 0.0)

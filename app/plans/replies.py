@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
-from app.conversion.units import whole
+from app.conversion.units import money, whole
 from app.plans.energy import energy_models, energy_wh
 from model.judge.check import Evaluation
 from model.judge.explain import Reason, explain
@@ -41,7 +41,7 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
     reply = {
         "status": "partial" if solution.unassigned else "complete",
         "cost": cost_reply(evaluation.cost),
-        "routes": [_route(problem, route, metrics)
+        "routes": [route_reply(problem, route, metrics)
                    for route, metrics in zip(solution.routes, evaluation.routes, strict=True)],
         "unassigned": [_unassigned(problem, node, why(solution, node, explain_until))
                        for node in solution.unassigned],
@@ -51,8 +51,8 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
             "decoding": options.decoding,
             "seed": options.seed,
             "start": result.start,
-            "decoded_cost": result.decoded_cost,
-            "final_cost": result.final_cost,
+            "decoded_cost": money(result.decoded_cost),
+            "final_cost": money(result.final_cost),
             "search_iterations": result.search_iterations,
             "threads": result.threads,
             "deterministic": result.deterministic,
@@ -71,14 +71,15 @@ def vehicle_name(problem: Problem, route: Route) -> str:
 
 def cost_reply(cost: Cost) -> Data:
     """Return a cost by term."""
-    return {"total": cost.total} | {term: getattr(cost, term) for term in COST_TERMS}
+    return {term: money(getattr(cost, term)) for term in ("total", *COST_TERMS)}
 
 
 def _finite(rate: float | None) -> float | None:
     return None if rate is None else min(rate, MAX_RATE)
 
 
-def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
+def route_reply(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
+    """Return one vehicle's work."""
     name = vehicle_name(problem, route)
     return {
         "vehicle": name,
@@ -86,7 +87,7 @@ def _route(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
         "working_duration": whole(metrics.working_duration),
         "working_rate": _finite(metrics.working_rate),
         "overtime": whole(metrics.overtime),
-        "cost": metrics.cost,
+        "cost": money(metrics.cost),
         "trips": [_trip(problem, route.vehicle_type, name, trip, measured)
                   for trip, measured in zip(route.trips, metrics.trips, strict=True)],
     }
@@ -236,7 +237,7 @@ def _co2(problem: Problem, solution: Solution, evaluation: Evaluation) -> float 
         flown = energy_wh([sortie.energy for trip in metrics.trips for sortie in trip.sorties])
         total += driven * (kind.co2_kg_per_km or 0.0)
         total += (flown or 0.0) / WH_PER_KWH * (kind.co2_kg_per_kwh or 0.0)
-    return total
+    return money(total)
 
 
 def _served(problem: Problem, solution: Solution) -> set[int]:

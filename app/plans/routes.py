@@ -7,19 +7,26 @@ from fastapi import APIRouter, Depends, Request, Response
 from app.access.guard import Plan
 from app.load.abandoned import Planning
 from app.load.bodies import Body
+from app.load.readings import Reading
 from app.plans.checking import answer_check
 from app.plans.explaining import answer_explain
+from app.plans.fitting import answer_fit
 from app.plans.service import PlanService
 from app.requests.bounds import Bounds
 from app.schemas.check import CheckReply, CheckRequest
 from app.schemas.explain import ExplainReply, ExplainRequest
+from app.schemas.fit import FitReply, FitRequest
 from app.schemas.openapi import ERROR_RESPONSES, EXAMPLES, json_body
 from app.schemas.request import PlanRequest
-from app.schemas.response import PlanReply
+from app.schemas.response import PlanReply, WarningsReply
 
 router = APIRouter()
 
-CHECK_EXAMPLES = {"check": "A plan whose truck is too full, and too late at its second customer"}
+CHECK_EXAMPLES = {
+    "check": "A plan whose truck is too full, and too late at its second customer",
+    "check_untimed": "The same stops in another order, whose times are made",
+}
+FIT_EXAMPLES = {"fit": "Where a new order fits best"}
 EXPLAIN_EXAMPLES = {"explain": "Why truck-1 serves B, and what a drone saves"}
 CHECK_ERROR_RESPONSES = {status: response for status, response in ERROR_RESPONSES.items()
                          if status != 500}
@@ -46,11 +53,23 @@ async def plan(request: Request, principal: Plan, planning: Planning, body: Body
 
 @router.post("/check", summary="Judge a plan", tags=["planning"], response_model=CheckReply,
              responses=CHECK_ERROR_RESPONSES, openapi_extra=json_body(CheckRequest, CHECK_EXAMPLES))
-async def check(request: Request, principal: Plan, planning: Planning, body: Body) -> Response:
+async def check(request: Request, principal: Plan, planning: Planning, body: Body,
+                service: Service) -> Response:
     """Return every rule that a plan breaks, and its true cost by term."""
     bounds = Bounds.of_plans(request.app.state.settings)
     reply = await planning.run(
-        request, lambda should_stop: answer_check(body.content, bounds, should_stop))
+        request,
+        lambda should_stop: answer_check(body.content, bounds, should_stop, service.roads))
+    return Response(reply, media_type="application/json")
+
+
+@router.post("/warnings", summary="Look for what is hardly meant", tags=["planning"],
+             response_model=WarningsReply, responses=CHECK_ERROR_RESPONSES,
+             openapi_extra=json_body(PlanRequest, {"smallest": EXAMPLES["smallest"]}))
+async def warnings(request: Request, principal: Plan, reading: Reading, body: Body,
+                   service: Service) -> Response:
+    """Return what looks wrong with a request, or its errors, without planning it."""
+    reply = await reading.run(lambda: service.warnings(body))
     return Response(reply, media_type="application/json")
 
 
@@ -62,5 +81,17 @@ async def explain(request: Request, principal: Plan, planning: Planning, body: B
     """Return what it would cost to serve a customer elsewhere, and what drones save."""
     bounds = Bounds.of_plans(request.app.state.settings)
     reply = await planning.run(request, lambda should_stop: answer_explain(
-        body, bounds, service.warm_planner, should_stop))
+        body, bounds, service.warm_planner, should_stop, service.roads))
+    return Response(reply, media_type="application/json")
+
+
+@router.post("/fit", summary="Find a customer's best places", tags=["planning"],
+             response_model=FitReply, responses=CHECK_ERROR_RESPONSES,
+             openapi_extra=json_body(FitRequest, FIT_EXAMPLES))
+async def fit(request: Request, principal: Plan, planning: Planning, body: Body,
+              service: Service) -> Response:
+    """Return the best places for a customer in a plan whose others stay, each with its price."""
+    bounds = Bounds.of_plans(request.app.state.settings)
+    reply = await planning.run(
+        request, lambda should_stop: answer_fit(body, bounds, should_stop, service.roads))
     return Response(reply, media_type="application/json")

@@ -12,12 +12,14 @@ from app.conversion.preparing import Preparing
 from app.errors import NotReadyError
 from app.load.bodies import ReceivedBody
 from app.plans.replies import Data
-from app.plans.task import task_of
+from app.plans.task import task_of, warning_replies
 from app.plans.warming import showing, words
 from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.reading import read_request
 from app.requests.refusal import compile_scan
+from app.roads.roads import NO_ROADS, Roads
 from app.schemas.request import OptionsInput, PlanRequest
+from app.warnings.finding import warnings_of
 from model.kernel.cores import num_cores
 from model.kernel.warming import Warmth
 from model.planner import ALONE, Listener, Planner, PlanOptions
@@ -40,8 +42,9 @@ class PlanService:
 
     def __init__(self, planner: Planner, search_threads: int = 1,
                  on_plan: Callable[[Data], None] = lambda _: None,
-                 bounds: Bounds = UNBOUNDED) -> None:
+                 bounds: Bounds = UNBOUNDED, roads: Roads = NO_ROADS) -> None:
         self._planner = planner
+        self.roads = roads
         self._search_threads = search_threads
         self._on_plan = on_plan
         self._bounds = bounds
@@ -91,7 +94,18 @@ class PlanService:
         if not readiness.is_ready and not _only_decodes(request):
             raise _not_ready(readiness)
         return reply_to(self._planner, request, body.received_at, self._search_threads,
-                        self._on_plan, Listener(should_stop), self._bounds)
+                        self._on_plan, Listener(should_stop), self._bounds, self.roads)
+
+    def warnings(self, body: ReceivedBody) -> bytes:
+        """Return the reply to a request of `POST /warnings` as JSON; nothing is planned.
+
+        Raises
+        ------
+        RequestError
+            If `body` is no valid request.
+        """
+        request = read_request(body.content, self._planner.policies, self._bounds)
+        return to_json({"warnings": warning_replies(warnings_of(request, self.roads.profiles))})
 
     def warm_planner(self) -> Planner:
         """Return the planner.
@@ -129,19 +143,21 @@ def _only_decodes(request: PlanRequest) -> bool:
 
 def answer(planner: Planner, body: ReceivedBody, search_threads: int = 1,
            on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
-           bounds: Bounds = UNBOUNDED) -> bytes:
+           bounds: Bounds = UNBOUNDED, roads: Roads = NO_ROADS) -> bytes:
     """Return the reply to a planning request as JSON; raises as `PlanService.plan` does.
 
     A request that states no number of threads gets `search_threads`; `on_plan` is told the reply.
     """
     request = read_request(body.content, planner.policies, bounds)
-    return reply_to(planner, request, body.received_at, search_threads, on_plan, listener, bounds)
+    return reply_to(planner, request, body.received_at, search_threads, on_plan, listener, bounds,
+                    roads)
 
 
 def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_threads: int,
-             on_plan: Callable[[Data], None], listener: Listener, bounds: Bounds) -> bytes:
+             on_plan: Callable[[Data], None], listener: Listener, bounds: Bounds,
+             roads: Roads) -> bytes:
     """Return the reply to a planning request that was read, as `answer` does."""
-    task = task_of(request, preparing(request.options, bounds, listener.should_stop))
+    task = task_of(request, preparing(request.options, bounds, listener.should_stop), roads=roads)
     validated = time.perf_counter() - received_at
     options = plan_options(request.options, search_threads)
     result = task.plan(planner, options, received_at, listener)

@@ -1,17 +1,29 @@
 """What a request asks for: a plan from nothing, or one that goes on from another."""
 
 import time
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, field, replace
 
+from app.conversion.leg_origins import LegOrigin
+from app.conversion.locating import Located, located
 from app.conversion.names import number_in
 from app.conversion.preparing import UNHURRIED, Preparing
-from app.conversion.problem import to_problem
-from app.conversion.travels import Ground
+from app.conversion.problem import problem_of
+from app.conversion.travels import Ground, Travels
 from app.conversion.units import optional_thousandths
 from app.errors import InputError, InvalidRequestError
-from app.plans.replies import Data, plan_reply, vehicle_name
+from app.plans.carried import Info, carry, info_of
+from app.plans.far_plans import FarPlans
+from app.plans.geometry import Geometry
+from app.plans.replies import Data, plan_reply, route_reply, vehicle_name
+from app.plans.telling import IN_SECONDS, Telling
 from app.requests.plan_reading import read_earlier_plan
+from app.roads.roads import NO_ROADS, Roads
 from app.schemas.request import PlanRequest, ReplanInput
+from app.schemas.response import PlanReply
+from app.warnings.addresses import address_warnings
+from app.warnings.finding import warnings_of
+from app.warnings.warning import RequestWarning
 from model.judge.bench import Setting
 from model.judge.check import Evaluation, check
 from model.judge.explain import Reason, explain
@@ -29,6 +41,10 @@ EXPLAINING, EXPLAINING_SHARE = 0.05, 0.02
 """Seconds, and besides a share of the time limit, in which reasons are looked for why customers are
 left out: some hundred are found in the first of them."""
 
+GEOMETRY_PER_CUSTOMER, MOST_GEOMETRY, LEAST_GEOMETRY = 5e-5, 0.1, 0.5
+"""Seconds per customer kept back for the lines of legs, but no more than a share of the time limit;
+and how long, besides that share, they may take at most."""
+
 
 @dataclass(frozen=True)
 class Task:
@@ -36,6 +52,13 @@ class Task:
 
     problem: Problem
     replanning: Replanning | None = None
+    info: Info = field(default_factory=dict)
+    legs: tuple[LegOrigin, ...] = ()
+    geometry: Geometry | None = None
+    warnings: tuple[RequestWarning, ...] = ()
+    telling: Telling = IN_SECONDS
+    far: FarPlans | None = None  # where legs are estimated until a plan drives them
+    places: Located | None = None
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -43,16 +66,39 @@ class Task:
 
         `start` may be any earlier result of the same task.
         """
+        options = self._with_time_for_geometry(options)
         if self.replanning is not None:
             return self.replanning.plan(planner, options, received_at, listener, start)
         if not self.problem.customers:
             return _no_plan(self.problem, options)
+        if self.far is not None:
+            return self.far.plan(planner, options, received_at, listener, start)
         return planner.plan(self.problem, options, received_at, listener, start)
+
+    def _with_time_for_geometry(self, options: PlanOptions) -> PlanOptions:
+        """Return the options with a part of the time limit kept back."""
+        if self.geometry is None:
+            return options
+        kept_back = min(GEOMETRY_PER_CUSTOMER * self.problem.num_customers,
+                        MOST_GEOMETRY * options.time_limit)
+        return replace(options, time_limit=options.time_limit - kept_back)
+
+    def learn_legs(self, solution: Solution) -> None:
+        """Have the legs of a plan be true. In place.
+
+        Raises
+        ------
+        NoRoadsError
+            If the roads don't tell them.
+        """
+        if self.far is not None:
+            self.far.learn(solution)
 
     def check(self, solution: Solution) -> Evaluation:
         """Judge a plan, and whether it goes on from the one given."""
         if self.replanning is not None:
             return self.replanning.check(solution)
+        self.learn_legs(solution)
         return check(self.problem, solution)
 
     @property
@@ -76,33 +122,67 @@ class Task:
         """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""
         allowed = EXPLAINING + EXPLAINING_SHARE * options.time_limit
         until = time.perf_counter() + allowed
-        if self.replanning is None:
-            return plan_reply(self.problem, options, result, explain_until=until)
-        reply = plan_reply(self.problem, options, result, self.replanning.reasons, until)
-        return reply | {"replan": _replan_reply(self.problem, self.replanning)}
+        reasons = None if self.replanning is None else self.replanning.reasons
+        reply = plan_reply(self.problem, options, result, reasons, until)
+        reply["legs"] = [asdict(origin) for origin in self.legs]
+        reply["warnings"] = warning_replies(self.warnings)
+        if self.places is not None and self.places.found:
+            reply["addresses"] = self.places.replies()
+        self._complete(reply, LEAST_GEOMETRY + MOST_GEOMETRY * options.time_limit)
+        if self.replanning is not None:
+            reply["replan"] = _replan_reply(self.problem, self.replanning)
+        self.telling.tell(PlanReply, reply)
+        return {**self.telling.stated, **reply}
+
+    def routes_reply(self, solution: Solution, evaluation: Evaluation) -> list[Data | None]:
+        """Return a judged plan's routes as `plan_reply` does; None for those that can't be read."""
+        routes = [route_reply(self.problem, route, metrics) if metrics.trips else None
+                  for route, metrics in zip(solution.routes, evaluation.routes, strict=True)]
+        self._complete({"routes": [route for route in routes if route is not None]},
+                       LEAST_GEOMETRY)
+        return routes
+
+    def _complete(self, reply: Data, seconds: float) -> None:
+        """Add what the request says of customers, and within some time lines. In place."""
+        carry(self.info, reply)
+        if self.geometry is not None:
+            self.geometry.add(reply, time.perf_counter() + seconds)
 
 
 def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
-            ground: Ground | None = None) -> Task:
+            ground: Ground | None = None, roads: Roads = NO_ROADS) -> Task:
     """Return what a valid request asks for, unless the work on it is to end.
 
-    `ground` is that of the request, if it is known already.
+    `ground` is that of the request, if it is known already; `roads` are those that the service has.
 
     Raises
     ------
     InvalidRequestError
         If what has happened by the plan to go on from doesn't fit the problem, or the work takes
-        too long.
+        too long, or places are off the roads, or addresses aren't found.
+    NoRoadsError, NoGeocoderError
+        If the roads, or the geocoder, don't answer.
     StoppedError
         If it is stopped.
     """
-    problem = to_problem(request, preparing, ground)
+    places = located(request, roads.addresses, preparing)
+    if places.found:
+        request, ground = places.request, None
+    ground = ground or Ground(request, preparing)
+    travels = Travels(request, preparing, ground, roads)
+    problem = problem_of(request, travels)
+    legs = travels.origins()
+    geometry = Geometry(request, ground, roads, legs) if request.options.geometry else None
+    warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
+    beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
     replan = request.replan
     if replan is None:
-        return Task(problem)
+        estimates = travels.estimates()
+        far = None if estimates is None else FarPlans(problem, estimates)
+        return Task(problem, None, *beside, far, places)
     terms = _terms(replan, problem)
     try:
-        return Task(problem, Replanning(problem, terms))
+        return Task(problem, Replanning(problem, terms), *beside, places=places)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART", path=f"$.replan.plan.{on_the_wire(violation.path)}",
@@ -115,11 +195,25 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
             message=f"By the plan, {error}: plan for fewer vehicles at a time.")]) from error
 
 
+def warning_replies(warnings: Iterable[RequestWarning]) -> list[Data]:
+    """Return warnings as replies have them."""
+    return [warning._asdict() for warning in warnings]
+
+
 def violation_reply(violation: Violation, problem_path: str, plan_path: str) -> Data:
     """Return a broken rule and where, the problem and the plan being at these paths."""
     root = problem_path if violation.path.startswith("customers[") else plan_path
     return {"code": violation.code, "path": f"{root}.{on_the_wire(violation.path)}",
             "message": violation.message}
+
+
+def telling(violations: Sequence[Violation]) -> list[Violation]:
+    """Return broken rules without those that follow from others.
+
+    What differs from what has happened has times that nobody has computed.
+    """
+    frozen = any(item.code == "FROZEN" for item in violations)
+    return [item for item in violations if not (frozen and item.code == "TIME_MISMATCH")]
 
 
 def on_the_wire(path: str) -> str:

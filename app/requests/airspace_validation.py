@@ -5,7 +5,7 @@ from itertools import islice
 import numpy as np
 
 from app.requests.draft import Draft, Errors, error_at, point_errors
-from app.schemas.fields import Location
+from app.schemas.fields import Location, point_of
 from model.travel.airspace import Ring, invalid_polygon_reason
 from model.travel.matrices import LocalProjection
 from model.travel.obstacles import count_crossings
@@ -42,7 +42,8 @@ def _rings_m(draft: Draft, no_fly: list[list[Location]]) -> list[Ring]:
     """Return the areas' corners in planar metres."""
     corners = np.array([corner for ring in no_fly for corner in ring]) * draft.planar_unit
     if draft.coordinate_system == "geographic":
-        places = [place.location for place, *_ in draft.places() if place.location is not None]
+        places = [point for place, *_ in draft.places()
+                  if (point := point_of(place.location)) is not None]
         on_globe = [(x, y) for x, y in places if abs(x) <= 180 and abs(y) <= 90]
         projection = LocalProjection.around(np.array(on_globe or no_fly[0]))
         corners = projection.project(corners / draft.planar_unit)

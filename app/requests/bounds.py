@@ -24,12 +24,13 @@ class Bounds:
     time_limit: float = MAX_TIME_LIMIT  # seconds
     time_setting: str = PLAN_SECONDS  # where it comes from
     legs: int = MAX_LEGS
+    on_roads: bool = False  # whether profiles may have roads
 
     @classmethod
     def of_plans(cls, settings: Settings) -> "Bounds":
         """Return the bounds of `POST /plan`."""
         return cls(settings.max_customers, settings.max_num_samples, settings.max_plan_seconds,
-                   legs=settings.max_legs)
+                   legs=settings.max_legs, on_roads=settings.roads is not None)
 
 
 UNBOUNDED = Bounds()
@@ -70,7 +71,7 @@ def bound_errors(draft: Draft, bounds: Bounds) -> Iterator[InputError]:
 def leg_errors(request: PlanRequest, bounds: Bounds) -> Iterator[InputError]:
     """Yield an error if the matrices of a valid request would take too much memory."""
     travels = Travels(request)
-    kinds = travels.count()
+    kinds = travels.count(bounds.on_roads)
     places = len(places_of(request)) + (nowhere_of(request) is not None)
     legs = kinds * places**2
     once_more = ""

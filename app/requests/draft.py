@@ -10,7 +10,8 @@ from app.schemas.customer import CustomerInput
 from app.schemas.drones import DronesInput
 from app.schemas.fields import Location
 from app.schemas.request import (
-    AirspaceInput, DepotInput, IncompatibleGoodsInput, MatrixInput, OptionsInput, ReplanInput,
+    AirspaceInput, DepotInput, IncompatibleGoodsInput, LoadDimensionInput, MatrixInput,
+    OptionsInput, ReplanInput,
 )
 from app.schemas.vehicle import VehicleTypeInput
 
@@ -47,6 +48,8 @@ class Draft:
     options: OptionsInput | None
     replan: ReplanInput | None = None
     planar_rounding: str = "exact"
+    load_dimensions: Sequence[LoadDimensionInput] | None = None
+    has_day: bool = False
     incompatible_goods: Sequence[IncompatibleGoodsInput] = ()
 
     def places(self) -> Iterator[Placed]:

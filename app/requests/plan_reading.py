@@ -9,11 +9,13 @@ from pydantic import ValidationError
 from app.conversion.names import number_in
 from app.conversion.places import stands_of
 from app.conversion.units import thousandths
-from app.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_error
+from app.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_errors
 from app.requests.reading import read_json
 from app.schemas.customer import CustomerInput
+from app.schemas.hints import with_hints
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput
 from app.schemas.request import DepotInput
+from app.schemas.times import read_body
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import Problem, VehicleType
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
@@ -59,11 +61,11 @@ def parse_plan(body: bytes) -> PlanInput:
         If it holds no plan.
     """
     try:
-        return PlanInput.model_validate_json(body)
+        return read_body(PlanInput, body)
     except ValidationError as error:
         read_json(body)
-        details = error.errors(include_url=False)
-        raise InvalidRequestError([schema_error(item) for item in details]) from error
+        found = schema_errors(error.errors(include_url=False))
+        raise InvalidRequestError(with_hints(found, PlanInput)) from error
 
 
 def read_plan(plan: PlanInput, problem: Problem, path: Path = ()) -> Solution:

@@ -6,12 +6,14 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, from_json, to_json
 
-from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_error
+from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_errors
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
 from app.requests.draft import Draft
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
 from app.schemas.customer import CustomerInput
+from app.schemas.day import DayOfBody
+from app.schemas.hints import with_hints
 from app.schemas.request import (
     AirspaceInput,
     DepotInput,
@@ -20,6 +22,7 @@ from app.schemas.request import (
     PlanRequest,
     ReplanInput,
 )
+from app.schemas.times import read_body
 from app.schemas.vehicle import VehicleTypeInput
 
 Section = TypeVar("Section", bound=BaseModel)
@@ -48,7 +51,7 @@ def read_request(body: bytes, policies: Collection[str] | None,
     """
     require_readable(body, PlanRequest)
     try:
-        request = PlanRequest.model_validate_json(body)
+        request = read_body(PlanRequest, body)
     except ValidationError as error:
         raise _refusal(error, body, policies, bounds) from error
     errors = request_errors(request, policies, bounds)
@@ -86,16 +89,21 @@ def _refusal(error: ValidationError, body: bytes,
         message = f"The request has {error.error_count()} errors: compare it with the schema."
         return InvalidRequestError([InputError(code="TOO_MANY_ERRORS", path="$", message=message)])
     details = error.errors(include_url=False)
-    errors = [schema_error(item) for item in details]
+    errors = schema_errors(details)
     if len(body) <= MAX_SEARCHED_BYTES or details[0]["type"] == "json_invalid":
         try:
             raw = read_json(body)
         except NotJsonError as not_json:
             return not_json
-        if isinstance(raw, dict):
-            draft = partial_draft(raw, details)
+        if isinstance(raw, dict) and tells_day(details):
+            draft = partial_draft(raw, details, DayOfBody(body))
             errors += [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
-    return InvalidRequestError(errors)
+    return InvalidRequestError(with_hints(errors, PlanRequest))
+
+
+def tells_day(details: Sequence[ErrorDetails]) -> bool:
+    """Tell whether what is wrong leaves the day of a plan known, so that instants mean anything."""
+    return not {("plan_start",), ("time_zone",)} & _broken_parts(details)
 
 
 def _broken_parts(details: Sequence[ErrorDetails]) -> Parts:
@@ -116,43 +124,47 @@ def _whole_draft(request: PlanRequest) -> Draft:
         options=request.options,
         replan=request.replan,
         planar_rounding=request.planar_rounding,
+        load_dimensions=request.load_dimensions,
+        has_day=request.plan_start is not None,
         incompatible_goods=request.incompatible_goods,
     )
 
 
-def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails]) -> Draft:
+def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails], day: DayOfBody) -> Draft:
     """Return the well-formed parts of a request, by what is wrong with the others."""
     broken = _broken_parts(details)
     scale_known = not {("coordinate_system",), ("planar_unit",)} & broken
     return Draft(
         coordinate_system=raw.get("coordinate_system", "planar") if scale_known else None,
         planar_unit=raw.get("planar_unit", 1.0) if scale_known else 1.0,
-        depots=_entries(raw, broken, "depots", DepotInput),
-        customers=_entries(raw, broken, "customers", CustomerInput),
-        fleet=_entries(raw, broken, "fleet", VehicleTypeInput),
+        depots=_entries(raw, broken, "depots", DepotInput, day),
+        customers=_entries(raw, broken, "customers", CustomerInput, day),
+        fleet=_entries(raw, broken, "fleet", VehicleTypeInput, day),
         matrices=_matrices(raw, broken),
         matrices_known=("matrices",) not in broken,
-        airspace=_section(raw, broken, "airspace", AirspaceInput),
-        options=_section(raw, broken, "options", OptionsInput),
+        airspace=_section(raw, broken, "airspace", AirspaceInput, day),
+        options=_section(raw, broken, "options", OptionsInput, day),
         replan=(None if raw.get("replan") is None
-                else _section(raw, broken, "replan", ReplanInput)),
+                else _section(raw, broken, "replan", ReplanInput, day)),
         planar_rounding=raw.get("planar_rounding", "exact"),
+        has_day=raw.get("plan_start") is not None,
     )
 
 
 def _entries(raw: dict[str, Any], broken: Parts, name: str,
-             kind: type[Section]) -> list[Section | None] | None:
+             kind: type[Section], day: DayOfBody) -> list[Section | None] | None:
     """Return the entries of a list, None for broken ones, or None if the list is."""
     if (name,) in broken:
         return None
-    return [None if (name, index) in broken else kind.model_validate_json(to_json(value))
+    return [None if (name, index) in broken else read_body(kind, to_json(value), day)
             for index, value in enumerate(raw[name])]
 
 
-def _section(raw: dict[str, Any], broken: Parts, name: str, kind: type[Section]) -> Section | None:
+def _section(raw: dict[str, Any], broken: Parts, name: str, kind: type[Section],
+             day: DayOfBody) -> Section | None:
     if any(part[0] == name for part in broken):
         return None
-    return kind.model_validate_json(to_json(raw.get(name, {})))
+    return read_body(kind, to_json(raw.get(name, {})), day)
 
 
 def _matrices(raw: dict[str, Any], broken: Parts) -> dict[str, MatrixInput | None] | None:

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
 
-from app.errors import InputError, InvalidRequestError, json_path, schema_error
+from app.errors import InputError, InvalidRequestError, json_path, schema_errors
 from app.requests.scan import (
     COUNT, DEPTH, ERRORS, KEY_END, KEY_START, LEVELS, PARTS, SHAPE, Shapes, scan,
 )
 from app.requests.shapes import shapes_of
+from app.schemas.hints import with_hints
+from app.schemas.times import read_body
 
 MAX_COUNTED_ERRORS = 20_000
 """With more errors than this the single ones are not looked at."""
@@ -66,11 +68,11 @@ def _refuse_without_rows(body: bytes, model: type[BaseModel]) -> None:
     An error holds what was sent: where a field is missing, all that is beside it.
     """
     try:
-        model.model_validate_json(_ROW.sub(b"[]", body))
+        read_body(model, _ROW.sub(b"[]", body))
     except ValidationError as error:
         details = error.errors(include_url=False, include_input=False)
         if details[0]["type"] != "json_invalid":
-            raise InvalidRequestError(list(map(schema_error, details))) from None
+            raise InvalidRequestError(with_hints(schema_errors(details), model)) from None
 
 
 @cache

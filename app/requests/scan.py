@@ -43,7 +43,7 @@ class Shapes(NamedTuple):
     kinds: NDArray[np.int64]  # bits of what a value may be
     lowest: NDArray[np.float64]  # of numbers
     highest: NDArray[np.float64]
-    shortest: NDArray[np.int64]  # of strings in bytes
+    shortest: NDArray[np.int64]  # of strings in characters
     longest: NDArray[np.int64]
     most: NDArray[np.int64]  # entries of an array, or of an object with free keys
     fewest: NDArray[np.int64]  # entries of an array
@@ -136,7 +136,7 @@ def _field(shapes: Shapes, level: NDArray[np.int64], code: np.uint64, escapes: b
 
 
 @inlined
-def _allows(shapes: Shapes, shape: int, kind: int, value: float, length: int, code: np.uint64,
+def _allows(shapes: Shapes, shape: int, kind: int, value: float, code: np.uint64,
             escapes: bool) -> bool:
     """Tell whether a shape allows a value: of a kind, a number, or a string of a length."""
     if not shapes.kinds[shape] & kind:
@@ -148,16 +148,16 @@ def _allows(shapes: Shapes, shape: int, kind: int, value: float, length: int, co
             for key in range(first, last):
                 is_known |= shapes.key_hash[key] == code
             return is_known
-        return bool(shapes.shortest[shape] <= length <= shapes.longest[shape] or escapes)
+        return bool(shapes.shortest[shape] <= value <= shapes.longest[shape] or escapes)
     if kind in (INTEGER, FRACTION):
         return bool(shapes.lowest[shape] <= value <= shapes.highest[shape])
     return True
 
 
 @inlined
-def _string(text: NDArray[np.uint8], at: int) -> tuple[int, np.uint64, bool]:
-    """Read a string; return where it ends, its hash, and whether it has escapes."""
-    code, escapes = _START, False
+def _string(text: NDArray[np.uint8], at: int) -> tuple[int, int, np.uint64, bool]:
+    """Read a string; return where it ends, its length, its hash, and whether it has escapes."""
+    characters, code, escapes = 0, _START, False
     at += 1
     while at < len(text) and text[at] != 34:  # "
         if text[at] == 92:  # backslash
@@ -165,17 +165,22 @@ def _string(text: NDArray[np.uint8], at: int) -> tuple[int, np.uint64, bool]:
             at += 1
         if at < len(text):
             code = (code ^ np.uint64(text[at])) * _FACTOR
+            characters += text[at] & 0xC0 != 0x80  # all but the first byte of one are 10xxxxxx
         at += 1
-    return at + 1, code, escapes
+    return at + 1, characters, code, escapes
 
 
 @inlined
 def _value(text: NDArray[np.uint8], at: int) -> tuple[int, int, float, np.uint64, bool]:
-    """Read a value, of an object or array its begin; return where it ends and what it is."""
+    """Read a value, of an object or array its begin; return where it ends and what it is.
+
+    That is its kind, a number or the length of a string, and the string's hash and escapes.
+    """
     byte, value, code, escapes = text[at], 0.0, _START, False
     if byte == 34:  # "
         kind = STRING
-        at, code, escapes = _string(text, at)
+        at, characters, code, escapes = _string(text, at)
+        value = float(characters)
     elif byte in (123, 91):  # { [
         kind = OBJECT if byte == 123 else ARRAY
         at += 1
@@ -248,7 +253,9 @@ def _wrong(shapes: Shapes, level: NDArray[np.int64], shape: int, kind: int,
     """Count a wrong value, and return the shape of what is in it. In place."""
     # An array of numbers is left at its first error.
     if level[HAS_ERROR] == 0 or kind in (OBJECT, ARRAY) or not shapes.is_row[level[SHAPE]]:
-        found[ERRORS] += 1
+        # What is neither the number nor the text that it may be is two errors.
+        is_either = shapes.kinds[shape] & FRACTION and shapes.kinds[shape] & STRING
+        found[ERRORS] += 2 if is_either else 1
     level[HAS_ERROR] = 1
     return NOTHING if shape == NOTHING else ANYTHING
 
@@ -284,15 +291,14 @@ def scan(text: NDArray[np.uint8], shapes: Shapes, most: NDArray[np.int64],
             at, depth = at + 1, depth - 1
             awaits_key = levels[depth, KEY_START] >= 0
         elif awaits_key and byte == 34:  # "
-            end, code, escapes = _string(text, at)
+            end, _, code, escapes = _string(text, at)
             level[KEY_START], level[KEY_END] = at + 1, end - 1
             shape, at, awaits_key = _field(shapes, level, code, escapes, found), end, False
         else:
-            begin = at
             at, kind, value, code, escapes = _value(text, at)
             if level[KEY_START] < 0:
                 shape = _entry(shapes, level, found)
-            if not _allows(shapes, shape, kind, value, at - begin - 2, code, escapes):
+            if not _allows(shapes, shape, kind, value, code, escapes):
                 shape = _wrong(shapes, level, shape, kind, found)
             found[LOOSE] += shape == ANYTHING
             if kind in (OBJECT, ARRAY):

@@ -128,10 +128,9 @@ class _Collector:
             if _KINDS.get(entries.get("type")) in (INTEGER, INTEGER | FRACTION):
                 shape.is_row = shape.most > LONG
         elif kind == STRING:
-            # A character has four bytes at most.
-            shape.shortest = schema.get("minLength", 0)
-            shape.longest = 4 * schema.get("maxLength", UNBOUNDED // 4)
             texts = schema.get("enum", [schema["const"]] if "const" in schema else [])
+            shape.shortest = min(map(len, texts), default=schema.get("minLength", 0))
+            shape.longest = max(map(len, texts), default=schema.get("maxLength", UNBOUNDED))
             shape.keys |= dict.fromkeys(texts, NOTHING)
         elif kind & INTEGER:
             shape.lowest = schema.get("minimum", -np.inf)

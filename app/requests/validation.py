@@ -14,6 +14,7 @@ from app.requests.fleet_validation import (
 )
 from app.requests.plan_validation import Names, replan_errors
 from app.schemas.customer import CustomerInput
+from app.schemas.fields import point_of
 from app.schemas.request import DepotInput
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import MOST_INCOMPATIBLE
@@ -48,7 +49,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *turnaround_errors(draft),
         *airspace_errors(draft),
         *_policy_errors(draft, policies),
-        *_unplanned_errors(draft, policies),
+        *_day_errors(draft),
         *replan_errors(draft.replan, Names.of(draft.depots, draft.customers, draft.fleet)),
     ]
 
@@ -96,6 +97,8 @@ def _dimension_errors(draft: Draft) -> Errors:
     amounts += [(("customers", index, "pickup"), len(customer.pickup))
                 for index, customer in enumerate(draft.customers or ())
                 if customer is not None and customer.pickup is not None]
+    if draft.load_dimensions is not None:
+        amounts.append((("load_dimensions",), len(draft.load_dimensions)))
     for path, count in amounts:
         if count != dimensions:
             yield error_at("DIMENSION_MISMATCH", path,
@@ -139,8 +142,13 @@ def _table_errors(path: Path, table: list[list[float]]) -> Errors:
 def _location_errors(draft: Draft) -> Errors:
     needed_for = _profile_without_matrix(draft) if draft.matrices_known else None
     for place, path, _ in draft.places():
-        if place.location is not None:
-            yield from point_errors(draft, path, place.location)
+        point = point_of(place.location)
+        if point is not None:
+            yield from point_errors(draft, path, point)
+        elif place.location is not None:
+            if draft.coordinate_system == "planar":
+                yield error_at("ADDRESS_ON_PLANE", path, "Addresses are on the globe: state "
+                               "coordinate_system geographic, or [x, y].")
         elif needed_for is not None:
             yield error_at("MISSING_LOCATION", path,
                            f"{needed_for}: add a location, or the matrix.")
@@ -195,10 +203,7 @@ def _policy_errors(draft: Draft, policies: Collection[str] | None) -> Errors:
                        f"No policy has this name: use one of {', '.join(sorted(policies))}.")
 
 
-def _unplanned_errors(draft: Draft, policies: Collection[str] | None) -> Errors:
-    """Say what may be judged and can't be planned."""
-    for path, kind in draft.vehicle_types():
-        if policies is not None and sum(drones.count > 0 for drones in kind.drone_types) > 1:
-            yield error_at("NOT_PLANNED", (*path, "drones"),
-                           "Plans with drones of several types on a truck are judged, and can't be "
-                           "made: state one type.")
+def _day_errors(draft: Draft) -> Errors:
+    if draft.options is not None and draft.options.times in ("iso", "clock") and not draft.has_day:
+        yield error_at("MISSING_PLAN_START", ("options", "times"),
+                       "Without plan_start instants are seconds: add it, or ask for seconds.")

@@ -8,14 +8,17 @@ from app.schemas.fields import (
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
     Demand,
+    Duration,
     DurationsByType,
     Goods,
+    Info,
     Input,
-    Location,
+    Instant,
     LocationIndex,
     Money,
     Name,
-    Seconds,
+    Opening,
+    PlaceLocation,
     Skills,
 )
 from model.problem import MAX_DIMENSIONS
@@ -24,10 +27,10 @@ from model.problem import MAX_DIMENSIONS
 class TimeWindowInput(Input):
     """When service at a customer may start; both ends belong to the window."""
 
-    earliest: Seconds = Field(
+    earliest: Opening = Field(
         0.0, description="Earliest start of service in seconds since plan start; earlier waits."
     )
-    latest: Seconds | None = Field(
+    latest: Instant | None = Field(
         None, description="Latest arrival in seconds since plan start. Null: no limit."
     )
     late_cost_per_hour: Money | None = Field(
@@ -67,7 +70,7 @@ class CustomerInput(Input):
     """A place with a demand, served once by a truck or a drone."""
 
     id: Name = Field(description="Name of the customer, unique among customers.")
-    location: Location | None = Field(None, description=LOCATION_TEXT)
+    location: PlaceLocation | None = Field(None, description=LOCATION_TEXT)
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
     demand: Demand = Field(
         description=f"Amount to deliver in 1 to {MAX_DIMENSIONS} dimensions (such as kg and "
@@ -79,14 +82,14 @@ class CustomerInput(Input):
         description="Amount taken in at this stop, after the delivery, and brought to where the "
         "trip ends; as `demand`. Null: nothing."
     )
-    service_duration: Seconds = Field(0.0, description="Time spent at the customer in seconds.")
+    service_duration: Duration = Field(0.0, description="Time spent at the customer in seconds.")
     service_duration_by_type: DurationsByType = Field(
         {},
         description="Seconds instead of `service_duration` by vehicle type, such as `van`, and by "
         "the drones of one, such as `van/drone`, or `van/small` by the `id` of drones, before the "
         "drones' own `service_duration`.",
     )
-    setup_duration: Seconds = Field(
+    setup_duration: Duration = Field(
         0.0,
         description="Seconds spent on arrival, before service, by truck or drone; none if its stop "
         "before was at the same place, by coordinates or by `location_index`.",
@@ -104,7 +107,7 @@ class CustomerInput(Input):
         "either", description="Kind of vehicle that may serve the customer."
     )
     skills: Skills = Field([], description="Skills that the serving vehicle type must have, all.")
-    max_time_aboard: Seconds | None = Field(
+    max_time_aboard: Duration | None = Field(
         None,
         description="Longest time in seconds from the departure of its trip from the depot to the "
         "start of service. Null: no limit.",
@@ -112,7 +115,7 @@ class CustomerInput(Input):
     goods: Goods = Field(
         [], description="What is delivered, by the names that `incompatible_goods` uses."
     )
-    release_time: Seconds = Field(
+    release_time: Opening = Field(
         0.0,
         description="When the parcel is at the depot, in seconds since plan start: a trip that "
         "carries it begins no earlier.",
@@ -126,6 +129,11 @@ class CustomerInput(Input):
     vehicles: VehiclesInput | None = Field(
         None, description="Vehicles that may serve the customer. Null: all. A name that is both a "
         "type's and a vehicle's means the type."
+    )
+    info: Info = Field(
+        {},
+        description="What drivers are to know, in words: `address`, `phone`, `notes` and the like. "
+        "It stands at the customer's stop in the plan; planning doesn't look at it.",
     )
 
     @property

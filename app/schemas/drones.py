@@ -6,7 +6,7 @@ from pydantic import Discriminator, Field, Tag
 
 from app.errors import ALONE, LISTED
 from app.schemas.energy import EnergyInput, Watts
-from app.schemas.fields import Count, Demand, Input, Money, Name, Seconds, Speed
+from app.schemas.fields import Count, Demand, Duration, Input, Money, Name, Speed
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
 
@@ -24,7 +24,7 @@ class DroneCostsInput(Input):
 class TurnaroundInput(Input):
     """What a drone needs before it takes off again."""
 
-    swap_duration: Seconds = Field(
+    swap_duration: Duration = Field(
         0.0,
         description="Time to swap the battery in seconds, by which each launch of a trip takes "
         "longer, but for its first.",
@@ -61,19 +61,19 @@ class DronesInput(Input):
         "where the profile has a matrix.",
     )
     profile: Name = Field("drone", description="Entry of `matrices` that holds the flights.")
-    endurance: Seconds | None = Field(
+    endurance: Duration | None = Field(
         None, description="Longest flight from take-off to recovery in seconds. Null: no limit."
     )
     endurance_includes_waiting: bool = Field(
         True, description="Whether waiting for the truck at the recovery stop uses endurance."
     )
-    launch_duration: Seconds = Field(
+    launch_duration: Duration = Field(
         0.0, description="Time to launch in seconds; the truck stands still meanwhile."
     )
-    recovery_duration: Seconds = Field(
+    recovery_duration: Duration = Field(
         0.0, description="Time to recover in seconds; the truck stands still meanwhile."
     )
-    service_duration: Seconds | None = Field(
+    service_duration: Duration | None = Field(
         None, description="Time at a customer in seconds. Null: the customer's `service_duration`."
     )
     turnaround: TurnaroundInput | None = Field(

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from app.schemas.fields import Amount, Input, Metres, Seconds
+from app.schemas.fields import Amount, Duration, Input, Metres
 from model.problem import MAX_BATTERY
 
 Preset = Literal[
@@ -35,14 +35,14 @@ class ClimbInput(Input):
     altitude: Metres = Field(
         0.0, description="Height climbed in metres, by which a `preset` tells the power."
     )
-    up_seconds: Seconds = Field(
+    up_seconds: Duration = Field(
         0.0,
         description="How long the climb takes. A part of each leg's duration: added to flights "
         "computed from locations, included in those of a matrix.",
     )
     up_w: Watts = Field(0.0, description="Power of the climb, empty, in watts.")
     up_w_per_kg: Watts = Field(0.0, description="More of it for each kg aboard, in watts.")
-    down_seconds: Seconds = Field(0.0, description="How long the descent takes; as `up_seconds`.")
+    down_seconds: Duration = Field(0.0, description="How long the descent takes; as `up_seconds`.")
     down_w: Watts = Field(0.0, description="Power of the descent, empty, in watts.")
     down_w_per_kg: Watts = Field(0.0, description="More of it for each kg aboard, in watts.")
 

@@ -4,8 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.schemas.check import CheckRequest
-from app.schemas.response import CostReply, ReasonReply
+from app.schemas.check import PlannedProblem
+from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply
+from app.schemas.times import InstantReply
 from app.settings import MAX_TIME_LIMIT
 
 OTHERS_STAY = "All other customers stay with their vehicles, in their order."
@@ -21,7 +22,7 @@ class ExplainOptions(BaseModel):
         "reading took them, a fifth as many more.")
 
 
-class ExplainRequest(CheckRequest):
+class ExplainRequest(PlannedProblem):
     """A problem, a plan for it, and what is asked."""
 
     customer: str | None = Field(
@@ -50,18 +51,20 @@ class PositionReply(_Reply):
     recovered_at: str | None = Field(description="Id of that stop. Null by truck.")
 
 
-class _PlacedReply(_Reply):
+class PlacedReply(_Reply):
+    """Where and when a customer is served."""
+
     vehicle: str | None = Field(description="Name of the vehicle. Null: none.")
     by: Literal["truck", "drone"] | None = Field(description="Who comes. Null: nobody.")
     window: int | None = Field(
         description="Index in `time_windows` of the one in which service starts. Null: there is "
         "but one, or no service.")
     position: PositionReply | None = Field(description="Where in its work. Null: nowhere.")
-    service_start: float | None = Field(
-        description="Start of service, seconds since plan start. Null: there is none.")
+    service_start: InstantReply | None = Field(
+        description="Start of service. Null: there is none.")
 
 
-class HereReply(_PlacedReply):
+class HereReply(PlacedReply):
     """Where the plan serves the customer."""
 
     saving: CostReply = Field(
@@ -76,7 +79,7 @@ class RuleReply(_Reply):
     message: str = Field(description="How it would be broken.")
 
 
-class AlternativeReply(_PlacedReply):
+class AlternativeReply(PlacedReply):
     """The best that was found of one kind."""
 
     kind: Literal["place", "by", "window", "vehicle", "unassigned"] = Field(
@@ -158,3 +161,4 @@ class ExplainReply(_Reply):
     drones: DronesReply | None = Field(description="What drones save. Null: it was not asked.")
     complete: bool = Field(
         description="Whether there was time to try all that is tried with time enough.")
+    warnings: list[WarningReply] = Field([], description=WARNINGS_TEXT)

@@ -2,8 +2,10 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
+from app.errors import IN_PLACE, LISTED
+from app.schemas.times import READ_DURATION, READ_INSTANT, READ_OPENING
 from app.settings import MAX_CUSTOMERS
 from model.problem import MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY
 
@@ -15,7 +17,10 @@ MAX_DEPOTS = 100
 Name = Annotated[str, Field(min_length=1, max_length=200)]
 Count = Annotated[int, Field(ge=0, le=1_000_000)]
 Amount = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
-Seconds = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
+Duration = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_DURATION]
+Instant = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_INSTANT]
+Opening = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_OPENING]
+"""An instant from which on something is so."""
 Metres = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
 Money = Annotated[float, Field(ge=0, le=MAX_MONEY)]
 # Speed and factor together keep every share of the fastest speed above a millionth.
@@ -26,7 +31,13 @@ LocationIndex = Annotated[int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS)]
 Rounding = Literal["exact", "round", "trunc", "dimacs", "thousandths"]
 Skills = Annotated[list[Name], Field(max_length=100)]
 Goods = Annotated[list[Name], Field(max_length=100)]
-DurationsByType = Annotated[dict[Name, Seconds], Field(max_length=200)]
+DurationsByType = Annotated[dict[Name, Duration], Field(max_length=200)]
+MAX_INFO_ENTRIES = 20
+MAX_INFO_LENGTH = 500
+Info = Annotated[
+    dict[Name, Annotated[str, Field(max_length=MAX_INFO_LENGTH)]],
+    Field(max_length=MAX_INFO_ENTRIES),
+]
 MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + 1
 """Most rows of a matrix, and columns: what `location_index` can name."""
 
@@ -38,7 +49,8 @@ Table = Annotated[
 
 LOCATION_TEXT = (
     "`[x, y]` in units of `planar_unit` metres, or `[longitude, latitude]` in degrees when "
-    "`coordinate_system` is `geographic`. May be left out where `matrices` cover every vehicle."
+    "`coordinate_system` is `geographic`, or then `{\"address\": \"…\"}` where the service has a "
+    "geocoder. May be left out where `matrices` cover every vehicle."
 )
 LOCATION_INDEX_TEXT = "Row and column of this place in `matrices`, from 0. Needed with `matrices`."
 
@@ -47,3 +59,26 @@ class Input(BaseModel):
     """Strict on types, names and finiteness."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
+
+
+class AddressInput(Input):
+    """A place by its address, to be looked up."""
+
+    address: Annotated[str, Field(min_length=1, max_length=500)] = Field(
+        description="As on a letter, on one line: street and house number, postcode and town."
+    )
+
+
+def _tag_of_place(value: object) -> str:
+    return IN_PLACE if isinstance(value, dict | AddressInput) else LISTED
+
+
+PlaceLocation = Annotated[
+    Annotated[Location, Tag(LISTED)] | Annotated[AddressInput, Tag(IN_PLACE)],
+    Discriminator(_tag_of_place),
+]
+
+
+def point_of(location: Location | AddressInput | None) -> Location | None:
+    """Return the coordinates of a place, if it states any."""
+    return None if isinstance(location, AddressInput) else location

@@ -20,8 +20,10 @@ EXAMPLES = {
     "drones": "Trucks with a drone each, time windows and a shift",
     "table1": "The paper's hundred customers, four trucks with a drone each",
     "hetero_day": "A heterogeneous fleet on several trips within working hours",
-    "city_day": "A city: geographic, rush hours, a no-fly area, wind",
+    "city_day": "A city: true addresses, rush hours, a no-fly area, wind",
+    "clocks": "Times of day, a currency and units, on a day of 23 hours",
     "choosy": "Several windows, a price of leaving out, customers who name vehicles",
+    "roads": "Helsinki's centre by car: on roads if the service has any, else as the crow flies",
     "replan": "A truck is under way: an order has come in, another was cancelled",
 }
 ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {
@@ -34,12 +36,15 @@ ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {
         (413, "The body is too large."),
         (422, "The request is not valid; every error is listed."),
         (500, "The plan found broke a rule, so it is withheld."),
-        (503, "The service is starting, stopping or busy: try again after `Retry-After` seconds."),
+        (503, "The service is starting, stopping or busy, or its roads don't answer: try again "
+              "after `Retry-After` seconds."),
     )
 }
 TAGS = [
     {"name": "planning", "description": "Plans within seconds."},
     {"name": "jobs", "description": "Long plans, comparisons and sweeps in the background."},
+    {"name": "kept plans", "description": "Plans that are kept by name, and shared by links."},
+    {"name": "drivers", "description": "Plans on the road: links for drivers, and what they tell."},
     {"name": "operations", "description": "For those who run the service."},
 ]
 REFUSALS = {
@@ -53,7 +58,7 @@ REFUSALS = {
 }
 """What every endpoint that needs a key may answer before it looks at a request."""
 
-POST_REFUSALS = {"408": "The body took too long to arrive."}
+BODY_REFUSALS = {"408": "The body took too long to arrive."}
 """What those with a body may answer beside."""
 
 
@@ -83,6 +88,23 @@ def json_body(model: type[BaseModel], examples: Mapping[str, str] = {}) -> dict[
             for name, summary in examples.items()
         }
     return {"requestBody": {"required": True, "content": {"application/json": content}}}
+
+
+def problems(*statuses: int, **described: str) -> dict[int | str, dict[str, Any]]:
+    """Return the problems that an endpoint may answer with.
+
+    Parameters
+    ----------
+    statuses
+        Those that mean what they usually do.
+    described
+        Others, such as `_404`, with what they mean.
+    """
+    content = ERROR_RESPONSES[422]["content"]
+    own: dict[int | str, dict[str, Any]] = {
+        int(status[1:]): {"description": text, "content": content}
+        for status, text in described.items()}
+    return {status: ERROR_RESPONSES[status] for status in statuses} | own
 
 
 def event_stream(**events: type[BaseModel]) -> dict[str, Any]:
@@ -135,10 +157,10 @@ def _add_refusals(description: dict[str, Any]) -> None:
     """Document how endpoints that need a key turn requests away. In place."""
     content = {MEDIA_TYPE: {"schema": {"$ref": SCHEMA_REF.format(model="ProblemDocument")}}}
     for operations in description["paths"].values():
-        for method, operation in operations.items():
+        for operation in operations.values():
             if "security" not in operation:
                 continue
-            refusals = REFUSALS | (POST_REFUSALS if method == "post" else {})
+            refusals = REFUSALS | (BODY_REFUSALS if "requestBody" in operation else {})
             for status, reason in refusals.items():
                 operation["responses"].setdefault(
                     status, {"description": reason, "content": content})

@@ -8,6 +8,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.schemas.fields import Location
+from app.schemas.times import READ_ANY_INSTANT, PlanStart, TimeZone
 from model.problem import UNLIMITED
 
 MAX_INSTANT = UNLIMITED / 1000
@@ -15,10 +17,12 @@ MAX_INSTANT = UNLIMITED / 1000
 
 NOT_READ = "Not read: it is computed anew."
 
-Instant = Annotated[float, Field(ge=-MAX_INSTANT, le=MAX_INSTANT)]
+Instant = Annotated[float, Field(ge=-MAX_INSTANT, le=MAX_INSTANT), READ_ANY_INSTANT]
 Number = Annotated[float | None, Field(description=NOT_READ)]
 Loads = Annotated[
     Annotated[list[float], Field(fail_fast=True)] | None, Field(description=NOT_READ)]
+Line = Annotated[str | None, Field(
+    description="Encoded polyline, which pictures draw where it leads from place to place.")]
 Details = Annotated[dict[str, Any] | None, Field(description=NOT_READ)]
 
 
@@ -38,6 +42,8 @@ class VisitInput(_Plan):
     setup: Number = None
     lateness: Number = None
     load: Loads = None
+    geometry: Line = None
+    info: Details = None
 
     @property
     def ready(self) -> float:
@@ -61,6 +67,8 @@ class StopInput(_Plan):
     waiting: Number = None
     lateness: Number = None
     load: Loads = None
+    geometry: Line = None
+    info: Details = None
 
     @property
     def ready(self) -> float:
@@ -75,23 +83,24 @@ class SortieInput(_Plan):
     drone_type: str | None = Field(None, description="Not read: it follows from the number.")
     launch_stop: int = Field(description="Index in `stops` where it is launched.")
     recovery_stop: int = Field(description="Index in `stops` where it is recovered.")
-    customers: list[VisitInput] = Field(description="Customers served, in order.")
+    customers: tuple[VisitInput, ...] = Field(description="Customers served, in order.")
     launch_time: Instant = Field(description="Take-off; the launch lies before it.")
     recovery_time: Instant = Field(description="End of the recovery.")
     load: Loads = None
     distance: Number = None
     duration: Number = None
     energy_wh: Number = None
+    recovery_geometry: Line = None
 
 
 class TripInput(_Plan):
     """Depot to depot on one loading."""
 
-    stops: list[StopInput] = Field(
+    stops: tuple[StopInput, ...] = Field(
         description="Stops in order, where the trip begins first, where it ends last; an open "
         "route's last trip ends at its last customer."
     )
-    sorties: list[SortieInput] = Field([], description="Drone flights of this trip.")
+    sorties: tuple[SortieInput, ...] = Field((), description="Drone flights of this trip.")
     load: Loads = None
     load_rate: Number = None
     distance: Number = None
@@ -104,7 +113,7 @@ class RouteInput(_Plan):
 
     vehicle: str = Field(description="Name of the vehicle, `<type>-<number>`.")
     type: str = Field(description="Id of the vehicle type.")
-    trips: list[TripInput] = Field(description="Trips in order.")
+    trips: tuple[TripInput, ...] = Field(description="Trips in order.")
     working_duration: Number = None
     working_rate: Number = None
     overtime: Number = None
@@ -118,14 +127,38 @@ class LeftOutInput(_Plan):
     reasons: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
 
 
+class FoundInput(_Plan):
+    """Where an address of the request was found."""
+
+    path: str = Field(description="Where it is in the request.")
+    location: Location = Field(description="`[longitude, latitude]`.")
+    address: str | None = Field(None, description=NOT_READ)
+    label: str | None = Field(None, description=NOT_READ)
+    quality: str | None = Field(None, description=NOT_READ)
+    by: str | None = Field(None, description=NOT_READ)
+    doubt: str | None = Field(None, description=NOT_READ)
+
+
 class PlanInput(_Plan):
     """A plan, as `POST /plan` replied it."""
 
-    routes: list[RouteInput] = Field(description="One entry per vehicle used.")
-    unassigned: list[LeftOutInput] = Field([], description="Customers left out.")
+    routes: tuple[RouteInput, ...] = Field(description="One entry per vehicle used.")
+    unassigned: tuple[LeftOutInput, ...] = Field((), description="Customers left out.")
     status: str | None = Field(None, description=NOT_READ)
     cost: Details = None
     summary: Details = None
     solver: Details = None
     energy_models: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     replan: Details = None
+    plan_start: PlanStart | None = Field(
+        None,
+        description="When its seconds began. Beside a problem, that of the problem holds instead.",
+    )
+    time_zone: TimeZone = Field(None, description="As `plan_start`.", validate_default=True)
+    currency: str | None = Field(None, description="Not read.")
+    load_dimensions: list[dict[str, Any]] | None = Field(None, description="Not read.")
+    legs: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+    warnings: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+    addresses: list[FoundInput] | None = Field(
+        None, description="Where the request's addresses are, for pictures and drivers."
+    )

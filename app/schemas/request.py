@@ -6,25 +6,30 @@ an unknown depot, is checked in `app.requests.validation`.
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
+from app.errors import IN_PLACE, IN_WORDS
 from app.schemas.customer import CustomerInput
 from app.schemas.fields import (
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
     MAX_DEPOTS,
     Input,
+    Instant,
     Location,
     LocationIndex,
     Money,
     Name,
-    Rounding, Seconds,
+    PlaceLocation,
+    Rounding,
     Table,
 )
+from app.schemas.day import Day, Times
 from app.schemas.plan import PlanInput
+from app.schemas.times import Currency, PlanStart, TimeZone
 from app.schemas.vehicle import VehicleTypeInput
 from app.settings import DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT
-from model.problem import MOST_INCOMPATIBLE
+from model.problem import MAX_DIMENSIONS, MOST_INCOMPATIBLE
 
 MAX_VEHICLE_TYPES = 100
 MAX_POLYGON_POINTS = 500
@@ -36,7 +41,7 @@ class DepotInput(Input):
     """A place where trips start and end."""
 
     id: Name = Field(description="Name of the depot, unique among depots.")
-    location: Location | None = Field(None, description=LOCATION_TEXT)
+    location: PlaceLocation | None = Field(None, description=LOCATION_TEXT)
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
 
 
@@ -87,6 +92,47 @@ class IncompatibleGoodsInput(Input):
     )
 
 
+class RoadsInput(Input):
+    """How legs on roads are made, where the service has roads."""
+
+    fallback: Literal["great_circle"] | None = Field(
+        None,
+        description="What legs are made of that no road tells, because a place is off the roads or "
+        "they don't answer: `great_circle` times `detour`, at the vehicle type's speed. The "
+        "reply's `legs` tells how many are. Null: such requests are refused.",
+    )
+    detour: Annotated[float, Field(ge=1, le=10)] = Field(
+        1.3, description="By how much such legs are longer than the great circle."
+    )
+    walking_kmh: Annotated[float, Field(ge=0.1, le=100)] = Field(
+        5.0,
+        description="Speed in km/h between a place and the road nearest to it, where the vehicle "
+        "halts.",
+    )
+
+
+class AddressesInput(Input):
+    """What is taken for the place of an address."""
+
+    accept: Literal["house", "street", "any"] = Field(
+        "street",
+        description="`house`: the house itself or a named place, nothing less. `street`: also a "
+        "point between houses next to it, or the street alone, which the reply tells. `any`: the "
+        "likeliest place, be it a town, one of several, or elsewhere than the address says, which "
+        "the reply tells. Other addresses are refused.",
+    )
+
+
+def _tag_of_roads(value: object) -> str:
+    return IN_WORDS if isinstance(value, str) else IN_PLACE
+
+
+Roads = Annotated[
+    Annotated[Literal["none"], Tag(IN_WORDS)] | Annotated[RoadsInput, Tag(IN_PLACE)],
+    Discriminator(_tag_of_roads),
+]
+
+
 class OptionsInput(Input):
     """How to plan."""
 
@@ -126,6 +172,29 @@ class OptionsInput(Input):
         "`TANDEM_SEARCH_THREADS` says, usually one. No more are used than the machine has cores; "
         "the reply's `solver.threads` tells how many.",
     )
+    times: Times | None = Field(
+        None,
+        description="How the reply tells instants: `seconds` since plan start, `iso`, such as "
+        "`2026-03-29T07:30:00+02:00`, or `clock`, such as `07:30:00` and, on the next day, `+1 "
+        "07:30:00`. Lengths of time are always seconds. Null: `iso` with `plan_start`, else "
+        "`seconds`.",
+    )
+    geometry: bool = Field(
+        False,
+        description="Whether the reply has the line of each leg and flight, `geometry`, for maps "
+        "to draw.",
+    )
+
+
+class LoadDimensionInput(Input):
+    """What a dimension of the load is."""
+
+    name: Name = Field(description="Its name, such as `weight`.")
+    unit: Annotated[str, Field(max_length=50)] = Field("", description="Its unit, such as `kg`.")
+
+
+LoadDimensions = Annotated[
+    list[LoadDimensionInput], Field(min_length=1, max_length=MAX_DIMENSIONS)]
 
 
 class ReplanInput(Input):
@@ -135,7 +204,7 @@ class ReplanInput(Input):
         description="A plan that `POST /plan` replied, unchanged or cut down. Customers whom it "
         "lacks are new orders; customers whom the request lacks are cancelled."
     )
-    freeze_before: Seconds | None = Field(
+    freeze_before: Instant | None = Field(
         None,
         description="Now, in seconds since plan start: what has departed by then stays as the plan "
         "says, and vehicles go on from where they are with what they carry. Null: nothing has "
@@ -152,7 +221,7 @@ class ReplanInput(Input):
         description="Vehicles, such as `truck-2`, that do nothing more from `freeze_before` on; "
         "whom they haven't begun to serve by then others serve.",
     )
-    parcels_back: Seconds | None = Field(
+    parcels_back: Instant | None = Field(
         None,
         description="When the parcels aboard unavailable vehicles are at the depots again, in "
         "seconds since plan start. Null: at `freeze_before`.",
@@ -162,6 +231,28 @@ class ReplanInput(Input):
 class PlanRequest(Input):
     """Customers and a fleet."""
 
+    plan_start: PlanStart | None = Field(
+        None,
+        description="When the plan's seconds begin: a date and time after ISO 8601, with its "
+        "offset from UTC, or that of `time_zone`. With it, instants may be stated as times of its "
+        "day. Null: only seconds tell when.",
+    )
+    time_zone: TimeZone = Field(
+        None,
+        description="Zone of the plan's wall clock by its name in the IANA database, such as "
+        "`Europe/Berlin`. Null: the offset of `plan_start`, all day.",
+        validate_default=True,
+    )
+    currency: Currency | None = Field(
+        None,
+        description="What costs are in, by its code after ISO 4217, such as `EUR`. Replies repeat "
+        "it; planning doesn't look at it.",
+    )
+    load_dimensions: LoadDimensions | None = Field(
+        None,
+        description="What the dimensions of `demand` and `capacity` are, in their order. Replies "
+        "repeat it; planning doesn't look at it.",
+    )
     coordinate_system: Literal["planar", "geographic"] = Field(
         "planar", description="What `location` means: planar `[x, y]` or `[longitude, latitude]`."
     )
@@ -189,6 +280,16 @@ class PlanRequest(Input):
         description="Travel durations and distances by profile, used in place of locations and "
         "speeds.",
     )
+    roads: Roads | None = Field(
+        None,
+        description="Legs on roads, for geographic locations and profiles that `matrices` lacks "
+        "and the service has roads for (`TANDEM_ROADS`). `none`: great circles instead.",
+    )
+    addresses: AddressesInput = Field(
+        AddressesInput(),
+        description="How locations that are addresses are looked up, where the service has a "
+        "geocoder (`TANDEM_GEOCODER`).",
+    )
     airspace: AirspaceInput = Field(AirspaceInput(), description="No-fly areas and wind.")
     incompatible_goods: Annotated[list[IncompatibleGoodsInput], Field(max_length=100)] = Field(
         [], description="Goods that must not be carried together; at most 62 names in all."
@@ -203,3 +304,15 @@ class PlanRequest(Input):
         None, description="A plan to go on from. Null: plan from nothing."
     )
     options: OptionsInput = Field(OptionsInput(), description="How to plan.")
+
+    @property
+    def day(self) -> Day | None:
+        """The day of the plan; None if it is not stated."""
+        return None if self.plan_start is None else Day.of(self.plan_start, self.time_zone)
+
+    @property
+    def times(self) -> Times:
+        """How the reply tells instants."""
+        if self.options.times is not None:
+            return self.options.times
+        return "seconds" if self.plan_start is None else "iso"

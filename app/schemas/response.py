@@ -8,6 +8,11 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.schemas.times import InstantReply
+
+LINE = ("as an encoded polyline of six decimals, latitude (of planar places y) first. Null: not "
+        "known, or not found in time. Left out unless `options.geometry` asks for it.")
+
 
 class _Reply(BaseModel):
     model_config = ConfigDict(extra="forbid")
@@ -30,15 +35,16 @@ class CostReply(_Reply):
 
 
 class StopReply(_Reply):
-    """A place where the truck halts. Times in seconds since plan start."""
+    """A place where the truck halts."""
 
     kind: Literal["depot", "customer", "start", "end"] = Field(
         description="What the place is: `start` and `end` are those of a vehicle type."
     )
     id: str = Field(description="Id of the depot, the customer or the vehicle type.")
-    arrival: float = Field(description="Arrival; at the trip's first stop, when loading is done.")
-    service_start: float = Field(description="Start of service; at depots the arrival.")
-    departure: float = Field(
+    arrival: InstantReply = Field(
+        description="Arrival; at the trip's first stop, when loading is done.")
+    service_start: InstantReply = Field(description="Start of service; at depots the arrival.")
+    departure: InstantReply = Field(
         description="Departure, once service, launches and recoveries are done; at the trip's last "
         "stop, its end."
     )
@@ -50,24 +56,34 @@ class StopReply(_Reply):
     load: list[float] = Field(
         description="Load when the truck leaves, or ends its trip, per dimension."
     )
+    geometry: str | None = Field(
+        None, description=f"The way from the stop before, {LINE} A trip's first stop has none."
+    )
+    info: dict[str, str] | None = Field(
+        None, description="The customer's `info` of the request. Left out if it has none."
+    )
 
 
 class VisitReply(_Reply):
-    """A customer served by a drone. Times in seconds since plan start."""
+    """A customer served by a drone."""
 
     id: str = Field(description="Id of the customer.")
-    arrival: float = Field(description="Arrival of the drone.")
-    service_start: float = Field(description="Start of service.")
-    departure: float = Field(description="Departure of the drone.")
+    arrival: InstantReply = Field(description="Arrival of the drone.")
+    service_start: InstantReply = Field(description="Start of service.")
+    departure: InstantReply = Field(description="Departure of the drone.")
     setup: float = Field(0.0, description="Setup from the arrival on in seconds, if any.")
     lateness: float = Field(
         description="Arrival, setup included, after the time window's end in seconds."
     )
     load: list[float] = Field(description="What the drone carries when it leaves, per dimension.")
+    geometry: str | None = Field(None, description=f"The flight that leads there, {LINE}")
+    info: dict[str, str] | None = Field(
+        None, description="The customer's `info` of the request. Left out if it has none."
+    )
 
 
 class SortieReply(_Reply):
-    """One drone flight. Times in seconds since plan start."""
+    """One drone flight."""
 
     drone: str = Field(
         description="Name of the drone, `<vehicle>/drone-<number>`, numbered over all types.")
@@ -77,12 +93,15 @@ class SortieReply(_Reply):
     recovery_stop: int = Field(description="Index in `stops` where it is recovered.")
     load: list[float] = Field(description="What the drone carries at take-off, per dimension.")
     customers: list[VisitReply] = Field(description="Customers served, in order.")
-    launch_time: float = Field(description="Take-off; the launch lies before it.")
-    recovery_time: float = Field(description="End of the recovery.")
+    launch_time: InstantReply = Field(description="Take-off; the launch lies before it.")
+    recovery_time: InstantReply = Field(description="End of the recovery.")
     distance: float = Field(description="Distance flown in metres.")
     duration: float = Field(description="From take-off to the end of the recovery in seconds.")
     energy_wh: float | None = Field(
         description="What the flight takes of the battery in watt-hours. Null: not known."
+    )
+    recovery_geometry: str | None = Field(
+        None, description=f"The flight from its last customer to the recovery, {LINE}"
     )
 
 
@@ -164,7 +183,7 @@ class SummaryReply(_Reply):
         description="What all flights take in watt-hours. Null: not known, or there are none."
     )
     load_rate: LoadRateReply = Field(description="Load rates of the trips.")
-    makespan: float = Field(description="Last return of any vehicle, seconds since plan start.")
+    makespan: InstantReply = Field(description="Last return of any vehicle.")
     co2_kg: float | None = Field(
         description="CO2 of trucks' kilometres and drones' energy in kilograms, as far as vehicle "
         "types state it. Null if none does."
@@ -261,8 +280,73 @@ class ReplanReply(_Reply):
     )
 
 
+class LegsReply(_Reply):
+    """What the legs of a profile are made of."""
+
+    profile: str = Field(description="`profile` of vehicle types, or of drones.")
+    by: Literal["matrix", "roads", "great_circle", "straight", "flight"] = Field(
+        description="The request's `matrix`, the service's `roads`, the `great_circle` between "
+        "geographic locations, the `straight` line between planar ones, or a drone's `flight`."
+    )
+    engine: str | None = Field(description="What the roads were asked of, such as `osrm`.")
+    estimated: int = Field(
+        description="Legs that no road tells, and so are great circles times `detour`."
+    )
+    detour: float | None = Field(description="As the request states it, if any are estimated.")
+    farthest_from_road_m: float | None = Field(
+        description="Most metres between a place on the roads and the road."
+    )
+    note: str | None = Field(description="What to know of these legs, in words.")
+
+
+class LoadDimensionReply(_Reply):
+    """What a dimension of the load is."""
+
+    name: str = Field(description="Its name.")
+    unit: str = Field(description="Its unit.")
+
+
+class WarningReply(_Reply):
+    """What is allowed and is hardly meant."""
+
+    code: str = Field(description="Stable name of the warning, as `docs/warnings.md` lists them.")
+    message: str = Field(description="What was seen, what it would mean and what to write instead.")
+    path: str = Field(description="Where it was seen first, such as `$.customers[3].location`.")
+
+
+class WarningsReply(_Reply):
+    """What looks wrong with a valid request."""
+
+    warnings: list[WarningReply] = Field(description="Warnings; none: nothing looks wrong.")
+
+
+WARNINGS_TEXT = "What looks wrong with the request, though it is valid."
+
+
+class AddressReply(_Reply):
+    """Where an address of the request is."""
+
+    path: str = Field(description="Where it is in the request: `$.customers[3].location`.")
+    address: str = Field(description="As stated.")
+    location: tuple[float, float] = Field(description="`[longitude, latitude]` that was found.")
+    label: str = Field(description="What was found there, in the geocoder's words.")
+    quality: Literal["house", "interpolated", "street", "town"] = Field(
+        description="The house itself or a named place, a point between the houses next to it, the "
+        "street alone, or something larger."
+    )
+    by: str = Field(description="The geocoder: `extract`, `nominatim`, `photon` or `pelias`.")
+    doubt: str | None = Field(description="Why it may be wrong, in words. Null: nothing speaks so.")
+
+
 class PlanReply(_Reply):
     """A plan that passed the independent check."""
+
+    plan_start: str | None = Field(
+        None, description="As the request states it. Left out if it doesn't; so the next three.")
+    time_zone: str | None = Field(None, description="Zone of the plan's wall clock.")
+    currency: str | None = Field(None, description="What costs are in.")
+    load_dimensions: list[LoadDimensionReply] | None = Field(
+        None, description="What the dimensions of loads are.")
 
     status: Literal["complete", "partial"] = Field(
         description="`partial` if customers stay unassigned."
@@ -272,6 +356,13 @@ class PlanReply(_Reply):
     unassigned: list[UnassignedReply] = Field(description="Customers left out, with reasons.")
     summary: SummaryReply = Field(description="The plan in numbers.")
     solver: SolverReply = Field(description="How the plan was made.")
+    legs: list[LegsReply] = Field(
+        [], description="What the legs are made of, an entry for each profile used."
+    )
+    warnings: list[WarningReply] = Field([], description=WARNINGS_TEXT)
+    addresses: list[AddressReply] | None = Field(
+        None, description="Where the request's addresses are. Left out if it has none."
+    )
     energy_models: list[EnergyModelReply] | None = Field(
         None, description="Presets of drones' energy. Left out if none was named."
     )

@@ -12,13 +12,15 @@ from app.schemas.fields import (
     MAX_DEPOTS,
     Count,
     Demand,
+    Duration,
     Input,
-    Location,
+    Instant,
     LocationIndex,
     Metres,
     Money,
     Name,
-    Seconds,
+    Opening,
+    PlaceLocation,
     Skills,
     Speed,
 )
@@ -31,7 +33,7 @@ Kilograms = Annotated[float, Field(ge=0, le=1_000_000)]
 class PlaceInput(Input):
     """A place of its own."""
 
-    location: Location | None = Field(None, description=LOCATION_TEXT)
+    location: PlaceLocation | None = Field(None, description=LOCATION_TEXT)
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
 
 
@@ -66,7 +68,7 @@ class CostsInput(Input):
 class SpeedChangeInput(Input):
     """Speed from an instant on, until the next entry. State `speed_kmh` or `factor`, not both."""
 
-    from_time: Seconds = Field(
+    from_time: Instant = Field(
         alias="from", description="When this speed begins, in seconds since plan start."
     )
     speed_kmh: Speed | None = Field(None, description="Speed in km/h from then on.")
@@ -78,10 +80,10 @@ class SpeedChangeInput(Input):
 class ShiftInput(Input):
     """When vehicles of a type work."""
 
-    earliest: Seconds = Field(
+    earliest: Opening = Field(
         0.0, description="Earliest begin of the first trip in seconds since plan start."
     )
-    latest: Seconds | None = Field(
+    latest: Instant | None = Field(
         None, description="Latest return in seconds since plan start. Null: no limit."
     )
 
@@ -89,7 +91,7 @@ class ShiftInput(Input):
 class OvertimeInput(Input):
     """How far vehicles of a type may work past their shift and their longest working duration."""
 
-    max_duration: Seconds | None = Field(
+    max_duration: Duration | None = Field(
         None, description="Longest overtime in seconds. Null: no limit."
     )
     cost_per_hour: Money = Field(
@@ -105,7 +107,7 @@ class VehicleTypeInput(Input):
     depot: Name | None = Field(
         None, description="Depot where trips begin and end. Null: the first depot."
     )
-    start_location: Location | None = Field(
+    start_location: PlaceLocation | None = Field(
         None,
         description="Where the vehicles begin, loaded, in the coordinates of `location`; further "
         "trips begin at the depot. Null: at the depot.",
@@ -146,7 +148,7 @@ class VehicleTypeInput(Input):
         "speed holds. A leg that crosses a change is driven partly at each speed.",
     )
     shift: ShiftInput = Field(ShiftInput(), description="When the vehicles work.")
-    max_working_duration: Seconds | None = Field(
+    max_working_duration: Duration | None = Field(
         None,
         description="Longest time from first departure to last return in seconds. Null: no limit.",
     )
@@ -167,7 +169,7 @@ class VehicleTypeInput(Input):
     max_sorties: Count | None = Field(
         None, description="Most sorties of one trip, of all its drones. Null: no limit."
     )
-    reload_duration: Seconds = Field(
+    reload_duration: Duration = Field(
         0.0, description="Time at the depot between two trips in seconds."
     )
     skills: Skills = Field([], description="Skills of the vehicles, and of their drones.")

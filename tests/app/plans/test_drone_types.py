@@ -76,6 +76,41 @@ def test_service_lasts_as_long_as_is_stated_for_a_type_of_drones(client: httpx.C
     assert visits[0]["departure"] - visits[0]["service_start"] == pytest.approx(77)
 
 
+def test_who_is_too_heavy_for_small_drones_is_flown_to_by_a_large_one(
+        client: httpx.Client, smallest: Request) -> None:
+    request = flying(smallest, SMALL, LARGE)
+    request["customers"][0]["demand"] = [1]
+    plan = planned(client, request)
+    flown = {visit["id"]: (sortie["drone"], sortie["drone_type"])
+             for trip in plan["routes"][0]["trips"] for sortie in trip["sorties"]
+             for visit in sortie["customers"]}
+    light, heavy = (customer["id"] for customer in request["customers"])
+    assert flown == {light: ("truck-1/drone-1", "small"), heavy: ("truck-1/drone-3", "large")}
+    assert judged(client, request, plan) == set()
+    why = client.post("/explain", json={"problem": request, "plan": plan, "customer": heavy,
+                                        "drones": True})
+    assert why.status_code == 200, why.text
+    again = planned(client, request | {"replan": {"plan": plan}})
+    assert again["routes"] == plan["routes"]
+
+
+def test_a_day_under_way_goes_on_with_the_drones_of_its_types(client: httpx.Client,
+                                                              smallest: Request) -> None:
+    request = flying(smallest, SMALL, LARGE | {
+        "launch_duration": 60, "turnaround": {"batteries": 1, "swap_duration": 30}})
+    request["customers"][0]["demand"] = [1]
+    plan = planned(client, request)
+    sorties = [sortie for trip in plan["routes"][0]["trips"] for sortie in trip["sorties"]]
+    now = max(sortie["launch_time"] for sortie in sorties) - 30
+    again = planned(client, request | {"replan": {"plan": plan, "freeze_before": now}})
+    kept = [sortie for trip in again["routes"][0]["trips"] for sortie in trip["sorties"]]
+    assert [(sortie["drone"], sortie["drone_type"], sortie["launch_time"]) for sortie in kept] == [
+        (sortie["drone"], sortie["drone_type"], sortie["launch_time"]) for sortie in sorties]
+    fewer = flying(request, SMALL) | {"replan": {"plan": plan, "freeze_before": now + 31}}
+    reply = client.post("/plan", json=fewer)
+    assert [error["code"] for error in reply.json()["errors"]] == ["UNKNOWN_DRONE"]
+
+
 @pytest.mark.parametrize(("drones", "code", "path"), [
     ([SMALL, LARGE | {"id": "small"}], "DUPLICATE_ID", "[1].id"),
     ([{key: value for key, value in SMALL.items() if key != "id"}], "MISSING_DRONE_ID", "[0].id"),

@@ -19,7 +19,7 @@ from model.planner import ALONE, Listener, PlanCheckError, Planner, PlanOptions,
 from model.problem import Problem
 from model.solution import Solution
 from tests.app.conftest import FirstFitPlanner, ready
-from tests.conftest import complete
+from tests.conftest import complete, eventually
 
 Serve = Callable[[Planner], httpx.Client]
 
@@ -145,8 +145,7 @@ def test_service_that_cannot_be_warmed_is_never_ready() -> None:
     assert not service.readiness().is_ready
     service.start()
     service.stop()
-    while "failed" not in service.readiness().detail:
-        pass
+    eventually(lambda: "failed" in service.readiness().detail)
     assert service.readiness().detail == "warming up failed: no weights"
 
 
@@ -213,8 +212,7 @@ def test_service_searches_with_the_threads_of_its_settings(
     monkeypatch.setattr("app.plans.service.num_cores", lambda: 8)
     service = PlanService(planner, search_threads=3)
     service.start()
-    while not service.readiness().is_ready:
-        pass
+    eventually(lambda: service.readiness().is_ready)
     body = ReceivedBody(json.dumps(smallest).encode(), 0.0)
     assert json.loads(service.plan(body))["solver"]["threads"] == 3
     service.stop()

@@ -9,7 +9,7 @@ import pytest
 
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
-from tests.app.load.waiting import until
+from tests.conftest import soon
 
 Request = dict[str, Any]
 
@@ -21,7 +21,7 @@ MOST = 18
 def client(serve: Callable[..., httpx.Client], tmp_path: Path) -> httpx.Client:
     """Return a client of a service that holds few legs."""
     client = serve(FirstFitPlanner(), Settings(max_legs=MOST, data_dir=tmp_path, role="api"))
-    until(lambda: client.get("/health/ready").status_code == 200)
+    soon(lambda: client.get("/health/ready").status_code == 200)
     return client
 
 

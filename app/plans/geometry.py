@@ -1,0 +1,123 @@
+"""The ways of a plan's legs as encoded polylines: what a map draws."""
+
+import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+from app.conversion.launches import drones_named
+from app.conversion.leg_origins import LegOrigin
+from app.conversion.places import depots_of
+from app.conversion.travels import Detours, Ground
+from app.plans.road_lines import Line, RoadLines, encoded
+from app.roads.roads import NO_ROADS, Roads
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.request import PlanRequest
+from model.problem import FloatArray
+
+Data = dict[str, Any]
+
+
+class Geometry:
+    """The ways between the places of a request.
+
+    Parameters
+    ----------
+    request
+        A valid one.
+    ground
+        Its places and areas.
+    roads
+        Those that the service has.
+    legs
+        What the request's legs are made of.
+    """
+
+    def __init__(self, request: PlanRequest, ground: Ground, roads: Roads = NO_ROADS,
+                 legs: Sequence[LegOrigin] = ()) -> None:
+        self._types = {kind.id: kind for kind in request.fleet}
+        self._matrices = frozenset(request.matrices or {})
+        self._nodes = _nodes(request)
+        self._locations: list[tuple[float, float]] | None = (
+            [(float(x), float(y)) for x, y in ground.locations]
+            if all(place.location is not None for place in ground.places) else None)
+        self._detours = self._detours_of(request, ground)
+        self._roads = RoadLines(roads, {origin.profile for origin in legs if origin.by == "roads"})
+
+    def _detours_of(self, request: PlanRequest, ground: Ground) -> Detours | None:
+        """Return where flights bend; None: they are straight."""
+        flown = {drones.profile for kind in request.fleet for drones in kind.drone_types}
+        if not request.airspace.no_fly or flown <= self._matrices:
+            return None
+        return ground.detours()
+
+    def add(self, reply: Data, until: float) -> None:
+        """Add the lines of all legs to a reply. In place.
+
+        Parameters
+        ----------
+        reply
+            What `app.plans.replies` writes.
+        until
+            When roads, and flights around areas, are looked for no more, on `time.perf_counter`;
+            they are null.
+        """
+        for route in reply["routes"]:
+            kind = self._types[route["type"]]
+            for trip in route["trips"]:
+                stops = trip["stops"]
+                nodes = [self._nodes[stop["kind"], stop["id"]] for stop in stops]
+                driven = self._driven(nodes, kind.profile, until)
+                for stop, line in zip(stops[1:], driven, strict=True):
+                    stop["geometry"] = line
+                for sortie in trip["sorties"]:
+                    drones = drones_named(kind, sortie["drone"])
+                    if drones is not None:
+                        self._add_flights(sortie, nodes, drones, until)
+
+    def _add_flights(self, sortie: Data, stops: Sequence[int], drones: DronesInput,
+                     until: float) -> None:
+        visits = sortie["customers"]
+        nodes = [stops[sortie["launch_stop"]],
+                 *(self._nodes["customer", visit["id"]] for visit in visits),
+                 stops[sortie["recovery_stop"]]]
+        *lines, last = self._flown(nodes, drones, until)
+        for visit, line in zip(visits, lines, strict=True):
+            visit["geometry"] = line
+        sortie["recovery_geometry"] = last
+
+    def _driven(self, nodes: Sequence[int], profile: str, until: float) -> Iterable[Line]:
+        if profile not in self._roads.profiles or self._locations is None or len(nodes) < 2:
+            return self._straight(nodes)
+        return self._roads.along(profile, [self._locations[node] for node in nodes], until)
+
+    def _straight(self, nodes: Sequence[int]) -> Iterator[Line]:
+        for start, end in pairwise(nodes):
+            yield self._line(start, end)
+
+    def _flown(self, nodes: Sequence[int], drones: DronesInput, until: float) -> Iterator[Line]:
+        if self._detours is None or drones.profile in self._matrices:
+            yield from self._straight(nodes)
+            return
+        speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
+        for start, end in pairwise(nodes):
+            if not self._detours.ways.blocked[start, end]:
+                yield self._line(start, end)
+            elif time.perf_counter() < until:
+                yield self._line(start, end, self._detours.bends(start, end, speed))
+            else:
+                yield None
+
+    def _line(self, start: int, end: int, bends: FloatArray | Sequence[Any] = ()) -> Line:
+        if self._locations is None:
+            return None
+        places = [self._locations[start], *((float(x), float(y)) for x, y in bends),
+                  self._locations[end]]
+        return encoded(places)
+
+
+def _nodes(request: PlanRequest) -> Mapping[tuple[str, str], int]:
+    """Return the places by kind and id, in the order of all that are somewhere."""
+    depots = [(depot.kind, depot.id) for depot in depots_of(request) if depot.kind != "nowhere"]
+    customers = [("customer", customer.id) for customer in request.customers]
+    return {name: node for node, name in enumerate([*depots, *customers])}

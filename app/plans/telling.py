@@ -1,0 +1,86 @@
+"""Replies in what was asked for: instants as dates and times, beside what the request is in."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any, NamedTuple, get_args
+
+from pydantic import BaseModel
+
+from app.plans.replies import Data
+from app.schemas.request import PlanRequest
+from app.schemas.times import Told
+
+STATED = {"plan_start", "time_zone", "currency", "load_dimensions"}
+"""Fields of a request that its reply repeats."""
+
+Tell = Callable[[float], str | float]
+
+
+class _Parts(NamedTuple):
+    """Fields of a reply that are instants, and those that hold some."""
+
+    instants: tuple[str, ...]
+    inner: tuple[tuple[str, type[BaseModel]], ...]
+
+
+@dataclass(frozen=True)
+class Telling:
+    """How a reply tells instants, None being in seconds, and what it repeats of its request."""
+
+    instant: Tell | None = None
+    stated: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, request: PlanRequest) -> "Telling":
+        """Return what a request asks for."""
+        stated = request.model_dump(include=STATED, exclude_none=True)
+        day = request.day
+        if day is None or request.times == "seconds":
+            return cls(None, stated)
+        return cls(day.teller(request.times), stated)
+
+    def tell(self, model: type[BaseModel], reply: Data) -> None:
+        """Put instants as they are told in place of seconds; `model` describes the reply. In place.
+        """
+        if self.instant is not None:
+            _tell(_parts(model), reply, self.instant)
+
+
+IN_SECONDS = Telling()
+
+
+@cache
+def _parts(model: type[BaseModel]) -> _Parts:
+    instants, inner = [], []
+    for name, described in model.model_fields.items():
+        if any(isinstance(note, Told) for note in _notes(described.annotation, described.metadata)):
+            instants.append(name)
+        inner += [(name, kind) for kind in _models(described.annotation) if any(_parts(kind))]
+    return _Parts(tuple(instants), tuple(inner))
+
+
+def _notes(annotation: Any, notes: list[Any]) -> Iterator[Any]:
+    """Yield what is noted of a field's type, or of a part of it that may be null."""
+    yield from notes
+    for part in get_args(annotation):
+        yield from getattr(part, "__metadata__", ())
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:
+    """Yield the models that a type is made of, as those of a list."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models(part)
+
+
+def _tell(parts: _Parts, reply: Data, tell: Tell) -> None:
+    for name in parts.instants:
+        if reply.get(name) is not None:
+            reply[name] = tell(reply[name])
+    for name, kind in parts.inner:
+        value = reply.get(name)
+        for entry in value if isinstance(value, list) else [value]:
+            if entry is not None:
+                _tell(_parts(kind), entry, tell)

@@ -1,0 +1,41 @@
+"""Plans sent without times, timed as the judge finds best."""
+
+from dataclasses import replace
+
+from app.conversion.units import optional_thousandths
+from app.plans.task import Task
+from app.requests.plan_reading import read_plan
+from app.schemas.untimed import UntimedPlanInput, UntimedRouteInput
+from model.judge.check import judge_route
+from model.judge.retiming import read_route, time_route
+from model.solution import Route, Solution
+
+
+def timed_plan(task: Task, plan: UntimedPlanInput, path: tuple[str | int, ...]) -> Solution:
+    """Return a plan for a task; routes that leave out times have them all made.
+
+    Those that can't be read stay without. `path` is where the plan is in the request.
+
+    Raises
+    ------
+    InvalidRequestError
+        If it names what the problem doesn't have.
+    NoRoadsError
+        If the roads don't tell its legs.
+    """
+    solution = read_plan(plan, task.problem, path)
+    task.learn_legs(solution)
+    return replace(solution, routes=tuple([
+        _timed(task, route, stated, f"routes[{index}]") if stated.is_untimed else route
+        for index, (route, stated) in enumerate(zip(solution.routes, plan.routes, strict=True))]))
+
+
+def _timed(task: Task, route: Route, stated: UntimedRouteInput, path: str) -> Route:
+    problem, past = task.judged_problem, task.setting.past
+    if not judge_route(problem, route, path, past).metrics.trips:
+        return route
+    decision = read_route(problem, route)
+    trips = tuple([
+        replace(trip, operations=None, start=optional_thousandths(start))
+        for trip, start in zip(decision.trips, stated.starts, strict=True)])
+    return time_route(problem, replace(decision, trips=trips), path, past).route

@@ -1,0 +1,80 @@
+"""What a client may ask at `POST /fit`, and what it gets back."""
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.schemas.check import CheckRequest
+from app.schemas.customer import CustomerInput
+from app.schemas.explain import (
+    OTHERS_STAY, ExplainOptions, HereReply, PlacedReply, RuleReply,
+)
+from app.schemas.request import PlanRequest
+from app.schemas.response import WARNINGS_TEXT, CostReply, RouteReply, WarningReply
+
+MAX_PLACES = 20
+
+
+class FitRequest(CheckRequest):
+    """A problem, a plan for it, and a customer for whom places are sought."""
+
+    customer: str | None = Field(
+        None, description="Id of a customer of the problem, whether the plan serves him or not. "
+        "Null: `new_customer` is stated.")
+    new_customer: CustomerInput | None = Field(
+        None, description="A customer whom the problem doesn't have, as one of its `customers`. "
+        "Null: `customer` is stated.")
+    count: Annotated[int, Field(ge=1, le=MAX_PLACES)] = Field(
+        3, description="How many places are asked for.")
+    options: ExplainOptions = Field(ExplainOptions(), description="How much is tried.")
+
+    @property
+    def whole_problem(self) -> PlanRequest:
+        """The problem, the new customer being its last."""
+        if self.new_customer is None:
+            return self.problem
+        return self.problem.model_copy(
+            update={"customers": [*self.problem.customers, self.new_customer]})
+
+    def path_of(self, path: str) -> str:
+        """Return where in the request something of `whole_problem` is stated."""
+        return path.replace(f"$.problem.customers[{len(self.problem.customers)}]",
+                            "$.new_customer")
+
+
+class FitPlaceReply(PlacedReply):
+    """A place for the customer."""
+
+    cost: CostReply = Field(
+        description="What the plan costs more than without him, by term; nothing is counted for "
+        f"leaving him out. {OTHERS_STAY} Where it is not feasible: the cost with the rule broken.")
+    feasible: bool = Field(
+        description="Whether no rule is broken but those that the plan breaks without him.")
+    reasons: list[RuleReply] = Field(description="Rules that forbid it.")
+
+
+class BestPlaceReply(FitPlaceReply):
+    """One of the best places, and the vehicle's route with him."""
+
+    route: RouteReply = Field(
+        description="The vehicle's work with the customer there, as `POST /plan` tells it: in "
+        "place of its route, or beside the others, it makes the plan.")
+
+
+class FitReply(BaseModel):
+    """The best places for a customer."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    customer: str = Field(description="Id of the customer.")
+    cost: CostReply = Field(description="What the plan given costs, by term.")
+    here: HereReply | None = Field(description="Where the plan serves him. Null: nowhere.")
+    places: list[BestPlaceReply] = Field(
+        description="The best places that break no rule, the cheapest first; if there is none, "
+        "those that break fewest. Of several stops where a drone may be recovered, the best.")
+    others: list[FitPlaceReply] = Field(
+        description="The best place of each vehicle that has none of those, with what forbids it; "
+        "of vehicles that stay at home, one of each type.")
+    complete: bool = Field(
+        description="Whether there was time to try all that is tried with time enough.")
+    warnings: list[WarningReply] = Field([], description=WARNINGS_TEXT)

@@ -1,0 +1,200 @@
+"""Where customers fit best, and plans whose times are left out, over HTTP."""
+
+import json
+from collections.abc import Iterator
+from random import Random
+from typing import Any
+
+import httpx
+import pytest
+
+from app.schemas.fit import FitReply
+from app.schemas.openapi import EXAMPLES_DIR
+from tests.app.plans.test_checking import judged, planned, refused
+
+Request = dict[str, Any]
+
+
+@pytest.fixture
+def asked() -> Request:
+    """Return the documented example: two trucks and a new customer."""
+    example: Request = json.loads((EXAMPLES_DIR / "fit.json").read_text())
+    return example
+
+
+def fitted(client: httpx.Client, body: Request) -> dict[str, Any]:
+    """Return the service's reply."""
+    reply = client.post("/fit", json=body)
+    assert reply.status_code == 200, reply.text
+    FitReply.model_validate(reply.json())
+    return reply.json()
+
+
+def untimed(plan: Request) -> Request:
+    """Return a plan's decisions without any time."""
+    return {"routes": [
+        {"vehicle": route["vehicle"], "type": route["type"], "trips": [
+            {"stops": [{"kind": stop["kind"], "id": stop["id"]} for stop in trip["stops"]],
+             "sorties": [
+                 {name: sortie[name] for name in ("drone", "launch_stop", "recovery_stop")}
+                 | {"customers": [{"id": visit["id"]} for visit in sortie["customers"]]}
+                 for sortie in trip["sorties"]]}
+            for trip in route["trips"]]}
+        for route in plan["routes"]],
+        "unassigned": [{"id": each["id"]} for each in plan["unassigned"]]}
+
+
+def problem_of(seed: int) -> Request:
+    """Return a tiny problem with windows, and one customer more than its plan is made for."""
+    random = Random(seed)
+    customers = [
+        {"id": str(number), "location": [random.randint(-9, 9), random.randint(-9, 9)],
+         "demand": [random.randint(1, 4)], "service_duration": 60,
+         "time_window": {"earliest": random.randint(0, 900), "latest": random.randint(1800, 4800)}}
+        for number in range(6)]
+    return {"planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
+            "customers": customers,
+            "fleet": [{"id": "truck", "count": 3, "capacity": [9], "speed_kmh": 60,
+                       "costs": {"fixed": 3, "per_km": 1, "per_hour": 20}}]}
+
+
+def every_place(plan: Request, name: str) -> Iterator[Request]:
+    """Yield a plan with a customer at each place of the trucks, and alone with one more."""
+    stop = {"kind": "customer", "id": name}
+    hub = {"kind": "depot", "id": "hub"}
+    for index, route in enumerate(plan["routes"]):
+        stops = untimed(plan)["routes"][index]["trips"][0]["stops"]
+        for place in range(1, len(stops)):
+            trip = {"stops": [*stops[:place], stop, *stops[place:]]}
+            yield {"routes": [*plan["routes"][:index],
+                              {"vehicle": route["vehicle"], "type": "truck", "trips": [trip]},
+                              *plan["routes"][index + 1:]]}
+    if len(plan["routes"]) < 3:
+        name = f"truck-{len(plan['routes']) + 1}"
+        yield {"routes": [*plan["routes"], {"vehicle": name, "type": "truck",
+                                            "trips": [{"stops": [hub, stop, hub]}]}]}
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_best_place_is_the_cheapest_of_all(client: httpx.Client, seed: int) -> None:
+    problem = problem_of(seed)
+    new = problem["customers"][-1]
+    fewer = problem | {"customers": problem["customers"][:-1]}
+    plan = planned(client, fewer)
+    assert plan["status"] == "complete"
+    told = fitted(client, {"problem": fewer, "plan": plan, "new_customer": new, "count": 20,
+                           "options": {"time_limit": 10}})
+    assert told["complete"]
+    tried = [judged(client, problem, each) for each in every_place(plan, new["id"])]
+    costs = sorted(each["cost"]["total"] for each in tried if each["feasible"])
+    assert [place["cost"]["total"] + plan["cost"]["total"] for place in told["places"]
+            ] == pytest.approx(costs)
+    assert all(place["feasible"] and not place["reasons"] for place in told["places"])
+    taken = told["places"][0]["route"]
+    routes = [route for route in plan["routes"] if route["vehicle"] != taken["vehicle"]]
+    verdict = judged(client, problem, {"routes": [*routes, taken]})
+    assert verdict["feasible"]
+    assert verdict["cost"]["total"] == pytest.approx(costs[0])
+
+
+def test_the_documented_example_says_who_can_and_why_others_cannot(client: httpx.Client,
+                                                                   asked: Request) -> None:
+    told = fitted(client, asked)
+    assert (told["customer"], told["here"], told["complete"]) == ("D", None, True)
+    assert [(place["vehicle"], place["cost"]["total"]) for place in told["places"]] == [
+        ("truck-2", pytest.approx(2)), ("truck-2", pytest.approx(2))]
+    (other,) = told["others"]
+    assert (other["vehicle"], other["feasible"]) == ("truck-1", False)
+    assert {reason["code"] for reason in other["reasons"]} == {"CAPACITY"}
+
+
+def test_customers_of_the_plan_are_put_elsewhere_or_on_drones(client: httpx.Client) -> None:
+    example: Request = json.loads((EXAMPLES_DIR / "explain.json").read_text())
+    body = {"problem": example["problem"], "plan": example["plan"], "customer": "C", "count": 20}
+    told = fitted(client, body)
+    assert told["here"]["by"] == "drone"
+    assert told["here"]["saving"]["total"] == pytest.approx(4 * 0.25)
+    (truck,) = [place for place in told["places"] if place["position"]["after"] == "B"
+                and place["by"] == "truck"]
+    # From B to C and home from there, by truck.
+    assert truck["cost"]["total"] == pytest.approx(2 + 40 ** 0.5 - 6)
+    assert {place["by"] for place in told["places"]} == {"truck", "drone"}
+
+
+def test_rules_that_the_plan_breaks_already_forbid_no_place(client: httpx.Client,
+                                                            asked: Request) -> None:
+    asked["problem"]["customers"][0]["time_window"] = {"latest": 1}
+    before = fitted(client, asked)
+    assert [place["vehicle"] for place in before["places"]] == ["truck-2", "truck-2"]
+    assert all(place["feasible"] for place in before["places"])
+
+
+def test_if_no_place_is_allowed_the_least_wrong_are_told(client: httpx.Client,
+                                                         asked: Request) -> None:
+    asked["new_customer"]["demand"] = [16]
+    told = fitted(client, asked)
+    assert len(told["places"]) == 3
+    for place in told["places"]:
+        assert (place["feasible"], place["reasons"][0]["code"]) == (False, "CAPACITY")
+
+
+def test_what_is_asked_for_wrongly_is_refused(client: httpx.Client, asked: Request) -> None:
+    assert refused(client, asked | {"customer": "A"}, "/fit") == [("UNKNOWN_FIELD", "$.customer")]
+    assert refused(client, asked | {"new_customer": None}, "/fit") == [
+        ("MISSING_FIELD", "$.customer")]
+    assert refused(client, asked | {"customer": "nobody", "new_customer": None}, "/fit") == [
+        ("UNKNOWN_CUSTOMER", "$.customer")]
+    assert refused(client, asked | {"options": {"time_limit": 1e5}}, "/fit") == [
+        ("OUT_OF_RANGE", "$.options.time_limit")]
+    wrong = asked | {"new_customer": asked["new_customer"] | {"id": "A", "demand": [1, 1]}}
+    assert {path for _, path in refused(client, wrong, "/fit")} == {
+        "$.new_customer.id", "$.new_customer.demand"}
+    asked["plan"]["routes"][0]["trips"][0]["stops"].pop()
+    assert ("ILLEGAL_PLAN", "$.plan.routes[0].trips[0].stops[2]") in refused(client, asked, "/fit")
+
+
+def test_a_plan_of_decisions_alone_is_timed(client: httpx.Client, with_drones: Request) -> None:
+    plan = planned(client, with_drones)
+    verdict = judged(client, with_drones, untimed(plan))
+    assert verdict["feasible"]
+    assert verdict["summary"]["served"] == plan["summary"]["served"]
+    again = judged(client, with_drones, {"routes": verdict["routes"],
+                                         "unassigned": plan["unassigned"]})
+    assert again == {name: value for name, value in verdict.items() if name != "routes"}
+
+
+def test_only_vehicles_without_times_are_timed_anew(client: httpx.Client, asked: Request) -> None:
+    problem = asked["problem"]
+    first = judged(client, problem, asked["plan"])["routes"]
+    for stop in first[0]["trips"][0]["stops"]:
+        for name in ("arrival", "service_start", "departure"):
+            stop[name] += 600
+    swapped = untimed({"routes": first, "unassigned": []})["routes"][1]
+    verdict = judged(client, problem, {"routes": [first[0], swapped]})
+    assert verdict["routes"] == first
+    stated = swapped["trips"][0]["stops"]
+    stated[0]["arrival"] = 7200
+    assert [stop["arrival"] for stop in judged(client, problem, {"routes": [first[0], swapped]})[
+        "routes"][1]["trips"][0]["stops"]] in ([0, 300, 660], [7200, 7500, 7860])
+
+
+def test_routes_that_make_no_sense_are_null(client: httpx.Client, asked: Request) -> None:
+    asked["plan"]["routes"][1]["trips"][0]["stops"].pop()
+    verdict = judged(client, asked["problem"], asked["plan"])
+    assert not verdict["feasible"]
+    assert [route is None for route in verdict["routes"]] == [False, True]
+
+
+def test_what_has_happened_is_told_where_it_is_changed(client: httpx.Client,
+                                                       with_drones: Request) -> None:
+    plan = planned(client, with_drones)
+    first = plan["routes"][0]["trips"][0]["stops"][1]
+    problem = with_drones | {"replan": {"plan": plan, "freeze_before": first["departure"]}}
+    plan = planned(client, problem)
+    assert judged(client, problem, untimed(plan))["feasible"]
+    del plan["routes"][0]["trips"][0]["stops"][1]
+    for sortie in plan["routes"][0]["trips"][0]["sorties"]:
+        sortie["launch_stop"] = sortie["recovery_stop"] = 0
+    codes = {item["code"] for item in judged(client, problem, untimed(plan))["violations"]}
+    assert {"FROZEN", "MISSING"} <= codes
+    assert "TIME_MISMATCH" not in codes

@@ -1,0 +1,204 @@
+"""Times of day over HTTP: what is stated is planned, told as asked for, and can be sent again."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+from pydantic_core import to_json
+
+from app.errors import InvalidRequestError
+from app.requests.reading import read_request
+from app.schemas.request import PlanRequest
+from app.schemas.response import PlanReply
+from app.schemas.times import read_body
+
+Request = dict[str, Any]
+HOUR = 3600
+
+
+@pytest.fixture
+def day(smallest: Request) -> Request:
+    """Return a request whose only stops take time."""
+    smallest |= {"plan_start": "2026-03-29T00:00", "time_zone": "Europe/Berlin"}
+    for customer in smallest["customers"]:
+        customer["service_duration"] = "0:10"
+    smallest["fleet"][0]["shift"] = {"earliest": "01:00", "latest": "18:00"}
+    return smallest
+
+
+def planned(client: httpx.Client, request: Request) -> Request:
+    reply = client.post("/plan", json=request)
+    assert reply.status_code == 200, reply.text
+    plan: Request = reply.json()
+    PlanReply.model_validate(plan)
+    return plan
+
+
+def refused(client: httpx.Client, request: Request, path: str = "/plan") -> dict[str, str]:
+    reply = client.post(path, json=request)
+    assert reply.status_code == 422, reply.text
+    return {error["path"]: error["code"] for error in reply.json()["errors"]}
+
+
+def instants(plan: Request) -> Iterator[Any]:
+    yield plan["summary"]["makespan"]
+    for route in plan["routes"]:
+        for trip in route["trips"]:
+            for halt in [*trip["stops"], *(visit for sortie in trip["sorties"]
+                                           for visit in sortie["customers"])]:
+                yield from (halt["arrival"], halt["service_start"], halt["departure"])
+            for sortie in trip["sorties"]:
+                yield from (sortie["launch_time"], sortie["recovery_time"])
+
+
+@pytest.mark.parametrize(("plan_start", "zone", "opens"), [
+    ("2026-03-29T00:00", "Europe/Berlin", 6.5),
+    ("2026-10-25T00:00", "Europe/Berlin", 8.5),
+    ("2026-03-30T00:00", "Europe/Berlin", 7.5),
+    ("2026-03-29T05:00+02:00", "Europe/Berlin", 2.5),
+    ("2026-03-29T05:00+02:00", None, 2.5),
+    ("2026-03-08T00:00", "America/New_York", 6.5),
+    ("2026-11-01T00:00", "America/New_York", 8.5),
+    ("2026-05-04T00:00", "Pacific/Kiritimati", 7.5),
+])
+def test_windows_open_by_the_wall_clock(client: httpx.Client, day: Request, plan_start: str,
+                                        zone: str | None, opens: float) -> None:
+    day |= {"plan_start": plan_start, "time_zone": zone}
+    day["customers"][0]["time_window"] = {"earliest": "07:30", "latest": "07:30"}
+    told = {}
+    for times in ("seconds", "iso", "clock"):
+        plan = planned(client, day | {"options": {"times": times, "time_limit": 0}})
+        told[times] = next(stop["service_start"] for stop in plan["routes"][0]["trips"][0]["stops"]
+                           if stop["id"] == day["customers"][0]["id"])
+    assert told["seconds"] == opens * HOUR
+    assert told["iso"].startswith(plan_start[:10] + "T07:30:00")
+    assert told["clock"] == "07:30:00"
+
+
+def test_seconds_and_times_of_day_ask_for_the_same(client: httpx.Client, smallest: Request,
+                                                   ) -> None:
+    customer, vehicle = smallest["customers"][0], smallest["fleet"][0]
+    customer |= {"time_window": {"earliest": 3600, "latest": 7200}, "service_duration": 600,
+                 "setup_duration": 90, "release_time": 1800, "max_time_aboard": 3600,
+                 "service_duration_by_type": {vehicle["id"]: 600}}
+    vehicle |= {"shift": {"earliest": 900, "latest": 40000}, "max_working_duration": 36000,
+                "reload_duration": 600, "speed_profile": [{"from": 7200, "factor": 0.5}],
+                "overtime": {"max_duration": 1800, "cost_per_hour": 30},
+                "drones": {"count": 1, "capacity": [5], "endurance": 1500, "launch_duration": 60,
+                           "recovery_duration": 30, "turnaround": {"swap_duration": 45}}}
+    stated = planned(client, smallest)
+    customer |= {"time_window": {"earliest": "07:00", "latest": "2026-05-04T06:00:00Z"},
+                 "service_duration": "PT10M", "setup_duration": "0:01:30",
+                 "release_time": "06:30", "max_time_aboard": "1:00",
+                 "service_duration_by_type": {vehicle["id"]: "PT600S"}}
+    vehicle |= {"shift": {"earliest": "06:15:00", "latest": "2026-05-04 17:06:40"},
+                "max_working_duration": "10:00", "reload_duration": "PT0.1666666667H",
+                "speed_profile": [{"from": "08:00", "factor": 0.5}],
+                "overtime": {"max_duration": "PT30M", "cost_per_hour": 30}}
+    vehicle["drones"] |= {"endurance": "0:25", "launch_duration": "PT1M",
+                          "recovery_duration": "PT30S", "turnaround": {"swap_duration": "0:00:45"}}
+    told = planned(client, smallest | {
+        "plan_start": "2026-05-04T06:00+02:00", "options": {"times": "seconds"}})
+    for plan in (stated, told):
+        plan["solver"]["elapsed"] = {}
+    assert told.pop("plan_start") == "2026-05-04T06:00+02:00"
+    assert told == stated
+
+
+@pytest.mark.parametrize("times", ["seconds", "iso", "clock", None])
+def test_what_is_replied_can_be_sent_again(client: httpx.Client, day: Request,
+                                           times: str | None) -> None:
+    day["fleet"][0]["drones"] = {"count": 1, "capacity": [20], "endurance": "0:30"}
+    day["customers"][0] |= {"served_by": "drone"}
+    day["options"] = {"times": times} if times else {}
+    plan = planned(client, day)
+    kind = float if times == "seconds" else str
+    assert all(isinstance(instant, kind) for instant in instants(plan))
+    checked = client.post("/check", json={"problem": day, "plan": plan}).json()
+    assert checked["feasible"], checked
+    assert checked["summary"] == plan["summary"]
+    explained = client.post("/explain", json={
+        "problem": day, "plan": plan, "customer": day["customers"][1]["id"]}).json()
+    assert isinstance(explained["here"]["service_start"], kind), explained
+    on = planned(client, day | {"replan": {"plan": plan, "freeze_before": "01:00"}})
+    assert on["replan"]["settled"]
+
+
+def test_currency_zone_and_dimensions_are_repeated(client: httpx.Client, day: Request) -> None:
+    stated = {"currency": "CHF", "load_dimensions": [{"name": "weight", "unit": "kg"}],
+              "plan_start": "2026-03-29T00:00", "time_zone": "Europe/Berlin"}
+    plan = planned(client, day | stated)
+    assert {name: plan[name] for name in stated} == stated
+    assert refused(client, day | {"load_dimensions": [{"name": "a"}, {"name": "b"}]}) == {
+        "$.load_dimensions": "DIMENSION_MISMATCH"}
+    assert "$.currency" in refused(client, day | {"currency": "euro"})
+
+
+def test_openings_before_plan_start_hold_from_then_on(client: httpx.Client, day: Request) -> None:
+    day |= {"plan_start": "2026-05-04T14:00"}
+    day["customers"][0] |= {"time_window": {"earliest": "08:00", "latest": "17:00"},
+                            "release_time": "2026-05-03T18:00"}
+    plan = planned(client, day)
+    assert plan["summary"]["served"] == 2
+    day["customers"][0]["time_window"]["latest"] = "12:00"
+    assert refused(client, day) == {
+        "$.customers[0].time_window.latest": "BEFORE_PLAN_START"}
+    day["customers"][0]["time_window"]["latest"] = "+1 12:00"
+    assert planned(client, day)["summary"]["served"] == 2
+
+
+@pytest.mark.parametrize(("changes", "errors"), [
+    ({"plan_start": None, "time_zone": None},
+     {"$.fleet[0].shift.earliest": "MISSING_PLAN_START",
+      "$.fleet[0].shift.latest": "MISSING_PLAN_START"}),
+    ({"time_zone": None}, {"$.time_zone": "MISSING_FIELD"}),
+    ({"time_zone": "Europe/Berlinn"}, {"$.time_zone": "UNKNOWN_TIME_ZONE"}),
+    ({"plan_start": "29.03.2026"}, {"$.plan_start": "WRONG_TYPE"}),
+    ({"plan_start": 1774735200}, {"$.plan_start": "WRONG_TYPE"}),
+    ({"plan_start": "9999-12-31T23:59"}, {"$.plan_start": "OUT_OF_RANGE"}),
+])
+def test_what_tells_no_instant_is_refused_where_it_is(
+        client: httpx.Client, day: Request, changes: Request, errors: dict[str, str]) -> None:
+    assert refused(client, day | changes) == errors
+    problem = {"problem": day | changes, "plan": {"routes": []}}
+    assert refused(client, problem, "/check") == {
+        path.replace("$", "$.problem"): code for path, code in errors.items()}
+
+
+@pytest.mark.parametrize(("value", "code"), [
+    ("7:30 AM", "WRONG_TYPE"), ("25:00", "WRONG_TYPE"), ("soon", "WRONG_TYPE"),
+    (-1, "OUT_OF_RANGE"),
+    (True, "WRONG_TYPE"), (["07:30"], "WRONG_TYPE"), ("2999-01-01T00:00", "OUT_OF_RANGE"),
+])
+def test_each_wrong_instant_is_one_error(client: httpx.Client, day: Request, value: Any,
+                                         code: str) -> None:
+    day["customers"][1]["time_window"] = {"latest": value}
+    assert refused(client, day) == {"$.customers[1].time_window.latest": code}
+
+
+@pytest.mark.parametrize("value", ["P1M", "P1Y", "-PT5M", "10", "10 min", "1:75", "PT", "P"])
+def test_wrong_lengths_of_time_are_refused(client: httpx.Client, day: Request, value: str) -> None:
+    day["customers"][1]["service_duration"] = value
+    assert refused(client, day) == {"$.customers[1].service_duration": "WRONG_TYPE"}
+
+
+def test_told_times_need_a_day(client: httpx.Client, smallest: Request) -> None:
+    assert refused(client, smallest | {"options": {"times": "clock"}}) == {
+        "$.options.times": "MISSING_PLAN_START"}
+
+
+def test_a_request_that_was_read_holds_seconds() -> None:
+    body = (b'{"depots": [], "customers": [], "fleet": [{"id": "v", "count": 1, "capacity": [1],'
+            b' "shift": {"latest": "08:00"}}], "plan_start": "2026-05-04T06:00Z"}')
+    assert read_body(PlanRequest, body).fleet[0].shift.latest == 2 * HOUR
+
+
+def test_reading_ends_after_many_times_that_cannot_be_read() -> None:
+    customers = [{"id": str(number), "location": [0, 0], "demand": [1], "service_duration": "x",
+                  "setup_duration": "x", "release_time": "x", "max_time_aboard": "x"}
+                 for number in range(6000)]
+    body = to_json({"depots": [], "fleet": [], "customers": customers})
+    with pytest.raises(InvalidRequestError) as refused:
+        read_request(body, None)
+    assert [error.code for error in refused.value.errors] == ["TOO_MANY_ERRORS"]
