@@ -8,9 +8,19 @@ from fastapi.staticfiles import StaticFiles
 from pydantic import BaseModel
 from starlette.types import Scope
 
+from app.streets.routes import ATTRIBUTION
+from app.streets.sea import Box
+
 STATIC_DIR = Path(__file__).parent / "static"
 
 router = APIRouter(include_in_schema=False)
+
+
+class StreetsConfig(BaseModel):
+    """Streets that can be drawn under a plan."""
+
+    name: str  # of their tiles, at /map/{name}/{zoom}/{x}/{y}
+    bounds: Box
 
 
 class ConsoleConfig(BaseModel):
@@ -19,6 +29,9 @@ class ConsoleConfig(BaseModel):
     policies: tuple[str, ...]
     tile_url: str | None
     tile_attribution: str
+    streets: tuple[StreetsConfig, ...]
+    streets_attribution: str
+    finds_addresses: bool
 
 
 class ConsoleFiles(StaticFiles):
@@ -48,4 +61,8 @@ async def config(request: Request) -> ConsoleConfig:
     """Return the settings that the console follows."""
     settings = request.app.state.settings
     return ConsoleConfig(policies=settings.policies, tile_url=settings.tile_url,
-                         tile_attribution=settings.tile_attribution)
+                         tile_attribution=settings.tile_attribution,
+                         streets=tuple(StreetsConfig(name=streets.name, bounds=streets.bounds)
+                                       for streets in request.app.state.gallery.ready),
+                         streets_attribution=ATTRIBUTION,
+                         finds_addresses=bool(request.app.state.addresses.names))

@@ -1,9 +1,11 @@
 """Makes the pictures of the console in `docs/screenshots`.
 
-Run as `python -m tests.console.screenshots`.
+Run as `python -m tests.console.screenshots`, with names of pictures behind it for these alone. That
+of an import is made by `python -m benchmarks.first_minutes --pictures docs/screenshots`.
 """
 
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -36,10 +38,10 @@ def city(page: Page) -> None:
 
 
 def what_if(page: Page) -> None:
-    """Two plans side by side."""
-    open_example(page, "hetero_day")
+    """Two plans of a city side by side."""
+    open_example(page, "city_day")
     open_tab(page, "changes")
-    page.get_by_role("button", name="One van-200 fewer").click()
+    page.get_by_role("button", name="One drone-truck fewer").click()
     idle(page)
     page.get_by_role("button", name="Former plan beside").click()
 
@@ -104,14 +106,14 @@ def take(browser: Browser, address: str, name: str) -> None:
     context.close()
 
 
-def main() -> None:
-    """Write all pictures."""
+def main(names: Sequence[str]) -> None:
+    """Write pictures."""
     expect.set_options(timeout=WAIT_MS)
     FOLDER.mkdir(parents=True, exist_ok=True)
     with TemporaryDirectory() as folder, serving(Path(folder)) as address, chromium() as browser:
-        for name in VIEWS:
+        for name in names:
             take(browser, address, name)
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:] or list(VIEWS))

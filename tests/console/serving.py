@@ -20,20 +20,22 @@ START_SECONDS = 600
 
 
 @contextmanager
-def serving(folder: Path) -> Iterator[str]:
+def serving(folder: Path, **settings: str) -> Iterator[str]:
     """Serve with the real planner and yield the address.
 
     Parameters
     ----------
     folder
         For the service's data and its log.
+    settings
+        Variables of the environment besides.
     """
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         port = listener.getsockname()[1]
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith("TANDEM_")}
-    environment |= {"PYTHONPATH": str(ROOT), "TANDEM_DATA_DIR": str(folder)}
+    environment |= {"PYTHONPATH": str(ROOT), "TANDEM_DATA_DIR": str(folder)} | settings
     log = folder / "service.log"
     with log.open("wb") as output:
         process = subprocess.Popen([sys.executable, "-m", "app", "serve", "--port", str(port)],

@@ -46,6 +46,12 @@ def open_tab(page: Page, name: str) -> None:
     page.locator(f"#tab-{name}").click()
 
 
+def open_advanced(page: Page) -> None:
+    """Show the options of planning that few need."""
+    open_tab(page, "solve")
+    page.locator("details", has_text="Advanced").locator("summary").click()
+
+
 def state(page: Page, expression: str) -> Any:
     """Return part of the console's state, such as `state.selection`."""
     return page.evaluate("""async (read) => {

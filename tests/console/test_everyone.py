@@ -9,7 +9,7 @@ from playwright.sync_api import Page, expect
 from tests.console.steps import idle, open_example, open_tab, state
 
 TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes", "scenarios",
-        "replan", "export")
+        "replan", "export", "drivers")
 
 
 def findings(page: Page, part: str | None = None) -> list[str]:
@@ -66,11 +66,11 @@ def test_everything_is_reached_by_keyboard(page: Page) -> None:
 def test_focus_goes_through_the_page_in_order(page: Page) -> None:
     idle(page)
     labels = []
-    for _ in range(4):
+    for _ in range(7):
         page.keyboard.press("Tab")
         labels.append(page.evaluate("""() => document.activeElement.getAttribute('aria-label')
             ?? document.activeElement.innerText"""))
-    assert labels == ["Open an example", "Open a file", "Plan", "Keys"]
+    assert labels == ["table1", "Save", "Open an example", "Open a file", "Saved", "Plan", "Keys"]
 
 
 def test_phone_shows_map_panel_and_timeline_without_scrolling_sideways(

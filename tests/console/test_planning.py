@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from playwright.sync_api import Page, Route, expect
 
-from tests.console.steps import idle, open_tab, state, stop_button
+from tests.console.steps import idle, open_advanced, open_tab, state, stop_button
 
 
 def set_option(page: Page, name: str, value: str) -> None:
@@ -46,6 +46,8 @@ def test_planning_is_stopped_with_the_best_plan_so_far(page: Page) -> None:
 def test_policy_and_decoding_are_chosen(page: Page) -> None:
     idle(page)
     open_tab(page, "solve")
+    expect(page.locator("#field-options-policy")).to_be_hidden()
+    open_advanced(page)
     page.locator("#field-options-policy").select_option("pointer")
     page.locator("#field-options-decoding").select_option("sample")
     set_option(page, "num_samples", "4")

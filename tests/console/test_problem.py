@@ -1,50 +1,14 @@
-"""A problem from a file, from a sheet or drawn on the map, and edited in forms."""
+"""A problem from a file or drawn on the map, and edited in forms."""
 
 import json
 import re
-import zipfile
 from collections.abc import Callable
-from io import BytesIO
-from xml.sax.saxutils import escape
 
 from playwright.sync_api import Locator, Page, expect
 
 from tests.console.steps import (
     EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
 )
-
-SHEET = """name,lat,lon,kg,service_min,opens,closes,note
-Anna,47.38,8.54,5,3,8:00,10:00,ring twice
-Ben,47.39,8.51,7,3,,12:30,
-"""
-
-
-def excel_file(rows: list[list[str | float]]) -> bytes:
-    """Return the smallest Excel file that holds `rows`."""
-    lines = "".join(f'<row r="{number}">' + "".join(
-        f'<c r="{letter}{number}"><v>{cell}</v></c>' if isinstance(cell, float | int)
-        else f'<c r="{letter}{number}" t="inlineStr"><is><t>{escape(cell)}</t></is></c>'
-        for letter, cell in zip("ABCDEFGH", row, strict=False)) + "</row>"
-        for number, row in enumerate(rows, 1))
-    package = "http://schemas.openxmlformats.org/package/2006"
-    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
-    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
-    content = BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("[Content_Types].xml", f'<Types xmlns="{package}/content-types"/>')
-        archive.writestr("_rels/.rels", f'<Relationships xmlns="{package}/relationships">'
-                         f'<Relationship Id="r1" Type="{office}/officeDocument" '
-                         'Target="xl/workbook.xml"/></Relationships>')
-        archive.writestr("xl/workbook.xml", f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>'
-                         '<sheet name="Customers" sheetId="1" r:id="r1"/></sheets></workbook>')
-        archive.writestr("xl/_rels/workbook.xml.rels",
-                         f'<Relationships xmlns="{package}/relationships"><Relationship Id="r1" '
-                         f'Type="{office}/worksheet" Target="worksheets/sheet1.xml"/>'
-                         "</Relationships>")
-        archive.writestr("xl/worksheets/sheet1.xml", f'<worksheet xmlns="{main}"><sheetData>'
-                         f"{lines}</sheetData></worksheet>")
-    return content.getvalue()
-
 
 def test_problem_is_opened_from_a_file(console: Page) -> None:
     open_file(console, "mine.json", (EXAMPLES / "smallest.json").read_text("utf-8"))
@@ -57,48 +21,6 @@ def test_file_that_is_no_problem_is_refused_in_words(console: Page) -> None:
     open_file(console, "mine.json", '{"customers": []}')
     expect(console.get_by_role("alert")).to_contain_text("It lacks depots, fleet")
     console.get_by_role("alert").get_by_role("button", name="Close").click()
-
-
-def test_customers_come_from_csv(console: Page) -> None:
-    open_file(console, "today.csv", SHEET)
-    expect(console.get_by_text(
-        "2 customers, longitude and latitude. Not used: note.")).to_be_visible()
-    console.get_by_role("button", name="Use these customers").click()
-    planned(console, "2 of 2 served")
-    assert state(console, "state.request.coordinate_system") == "geographic"
-    assert state(console, "state.request.customers.0.time_window") == {
-        "earliest": 28800, "latest": 36000}
-
-
-def test_wrong_cell_is_marked_and_corrected_in_place(console: Page) -> None:
-    open_file(console, "today.csv", SHEET.replace("47.39", "47.x").replace("12:30", "noon"))
-    expect(console.get_by_text("2 errors.")).to_be_visible()
-    cell = console.get_by_label("lat, line 3")
-    expect(cell).to_have_attribute("aria-invalid", "true")
-    expect(console.get_by_role("button", name="Use these customers")).to_be_disabled()
-    cell.fill("47.39")
-    cell.press("Tab")
-    expect(console.get_by_text("1 error.")).to_be_visible()
-    console.get_by_label("closes, line 3").fill("12:30")
-    console.get_by_label("closes, line 3").press("Tab")
-    console.get_by_role("button", name="Use these customers").click()
-    planned(console, "2 of 2 served")
-
-
-def test_customers_come_from_excel(console: Page) -> None:
-    open_file(console, "today.xlsx", excel_file(
-        [["id", "x", "y", "demand", "from"], ["A", 3, 4, 10, 8 / 24], ["B", 6, 0, 5, 0.4]]))
-    console.get_by_role("button", name="Use these customers").click()
-    planned(console, "2 of 2 served")
-    assert state(console, "state.request.customers.0.time_window.earliest") == 28800
-
-
-def test_large_excel_sheet_is_read(console: Page) -> None:
-    rows: list[list[str | float]] = [
-        [f"customer with a long name {number}", number % 70, number // 70 + 0.5, 1]
-        for number in range(3000)]
-    open_file(console, "all.xlsx", excel_file([["id", "x", "y", "demand"], *rows]))
-    expect(console.get_by_text("3,000 customers, planar coordinates.")).to_be_visible()
 
 
 def drawing(page: Page) -> tuple[Locator, tuple[float, float]]:

@@ -6,7 +6,9 @@ from typing import Any
 
 from playwright.sync_api import Page, expect
 
-from tests.console.steps import idle, open_file, open_tab, place_of, planned, state
+from tests.console.steps import (
+    idle, open_advanced, open_file, open_tab, place_of, planned, state,
+)
 from tests.console.test_everyone import findings
 
 # Three customers east and three west of the hub, 5 km apart, a minute each kilometre; windows
@@ -30,7 +32,8 @@ def begin(page: Page) -> None:
     planned(page, "6 of 6 served")
     page.get_by_label("Time of day").fill(str(NOW))
     page.get_by_role("button", name="Replan from here").first.click()
-    expect(page.get_by_role("heading", name="Go on from plan 1, at 0:08")).to_be_visible()
+    expect(page.get_by_role(
+        "heading", name="Go on from \u201cfirst plan\u201d, at 0:08")).to_be_visible()
 
 
 def plan_on(page: Page) -> dict[str, Any]:
@@ -77,17 +80,18 @@ def test_orders_come_in_and_are_cancelled_while_trucks_are_under_way(page: Page)
     assert all(served[name] == customers_of(former)[name] for name in ("E1", "E2", "W1", "W2"))
     difference = reply["cost"]["total"] - former["cost"]["total"]
     expect(page.locator("#replan-verdict")).to_contain_text(f"{abs(difference):.2f}")
-    expect(page.locator("#differences")).to_contain_text("Plan 2 beside plan 1")
+    expect(page.locator("#differences")).to_contain_text(
+        "customer-7 added, without E3, replanned at 0:08, beside first plan")
     outcome = page.locator("#replan-outcome")
     expect(outcome).to_contain_text("2 vehicles had departed by 0:08")
     expect(outcome).to_contain_text("up to W2")
     page.get_by_role("button", name="Former plan beside").click()
     expect(page.locator(".map")).to_have_count(2)
     assert findings(page) == []
-    page.get_by_role("button", name="Go on from plan 2").click()
-    expect(page.get_by_role("heading", name="Go on from plan 2, at 0:08")).to_be_visible()
+    page.get_by_role("button", name="Go on from the new plan").click()
+    expect(page.get_by_role("heading", name="Go on from \u201ccustomer-7 added")).to_be_visible()
     page.locator(".tab").get_by_role("button", name="Plan on").click()
-    expect(page.locator("#replan-verdict")).to_contain_text("beside plan 2")
+    expect(page.locator("#replan-verdict")).to_contain_text("beside \u201ccustomer-7 added")
 
 
 def test_driver_sheet_marks_what_is_settled(page: Page) -> None:
@@ -163,7 +167,7 @@ def test_what_can_not_be_replanned_is_said_where_it_belongs(
 def test_plan_is_improved_and_replanned_by_keyboard(page: Page) -> None:
     open_file(page, "day.json", json.dumps(PROBLEM | {"options": {"time_limit": 0}}))
     planned(page, "6 of 6 served")
-    open_tab(page, "solve")
+    open_advanced(page)
     field = page.locator("#field-options-search_iterations")
     field.fill("500")
     field.press("Enter")
@@ -183,7 +187,8 @@ def test_plan_is_improved_and_replanned_by_keyboard(page: Page) -> None:
     expect(page.get_by_text("State a time of day")).to_be_visible()
     page.get_by_label("Now").fill("0:08")
     page.get_by_label("Now").press("Enter")
-    expect(page.get_by_role("heading", name="Go on from plan 2, at 0:08")).to_be_visible()
+    expect(page.get_by_role(
+        "heading", name="Go on from \u201cimproved\u201d, at 0:08")).to_be_visible()
     page.get_by_label("keeps all its customers").first.check()
     expect(page.get_by_role("list", name="Pinned customers")).to_be_visible()
     expect(page.locator(".pin-mark")).to_have_count(1)

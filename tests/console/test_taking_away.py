@@ -10,7 +10,7 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import open_example, open_tab, state
 
-DEPOTS = {"drones": "hub", "city_day": "hub-west"}
+DEPOTS = {"drones": "hub", "city_day": "hub-north"}
 
 
 def opened(page: Page, name: str) -> Page:

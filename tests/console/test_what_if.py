@@ -11,14 +11,14 @@ def test_change_shows_plan_and_cost_beside_the_former(page: Page) -> None:
     page.get_by_role("button", name="Drones off").click()
     idle(page)
     differences = page.locator("#differences")
-    expect(differences).to_contain_text("Plan 2 beside plan 1")
+    expect(differences).to_contain_text("drones off, beside first plan")
     expect(differences).to_contain_text("truck: drones 1 each \u2192 none")
     expect(differences.locator("tr").filter(has_text="Flights")).to_contain_text("\u2212")
     page.get_by_role("button", name="Former plan beside").click()
     expect(page.locator(".map")).to_have_count(2)
-    page.get_by_label("Show plan 1").check()
+    page.get_by_label("Show first plan").check()
     assert state(page, "state.request.fleet.0.drones.count") == 1
-    expect(differences).to_contain_text("Plan 1 beside plan 2")
+    expect(differences).to_contain_text("first plan, beside drones off")
 
 
 def test_vehicle_fewer_and_a_window_are_one_click_each(page: Page) -> None:
@@ -33,6 +33,12 @@ def test_vehicle_fewer_and_a_window_are_one_click_each(page: Page) -> None:
     idle(page)
     assert state(page, "state.request.customers.1.time_window.latest") == 2400
     expect(page.locator("#differences")).to_contain_text("B: time window, latest")
+    names = page.locator(".plan-name")
+    expect(names.nth(1)).to_have_value("one truck fewer")
+    expect(names.nth(2)).to_have_value("B's window 0:10\u20130:40")
+    names.nth(2).fill("B earlier")
+    names.nth(2).press("Enter")
+    expect(page.locator("#differences h3")).to_have_text("B earlier, beside one truck fewer")
 
 
 def test_fleets_are_compared(page: Page) -> None:

@@ -5,7 +5,7 @@ import {
   requestDifferences,
 } from '../../../app/console/static/js/core/differences.js';
 import { geoJson, gpx, stopsCsv } from '../../../app/console/static/js/core/exports.js';
-import { flightLines } from '../../../app/console/static/js/core/flights.js';
+import { flightLines, flownLines } from '../../../app/console/static/js/core/flights.js';
 import { pictureOf, toSvg } from '../../../app/console/static/js/core/picture.js';
 import { contains, indexPlan, spanOf } from '../../../app/console/static/js/core/plan.js';
 import { playback } from '../../../app/console/static/js/core/playback.js';
@@ -136,7 +136,7 @@ test('stops become CSV that no sheet takes for a formula', () => {
 });
 
 test('GeoJSON has places, trips and flights, and tells a plane as such', () => {
-  const { features, coordinate_system: system } = geoJson(index, flightLines(REQUEST));
+  const { features, coordinate_system: system } = geoJson(index, flownLines(REQUEST));
   assert.deepEqual(
     features.map(({ properties: { kind } }) => kind),
     ['depot', 'customer', 'customer', 'customer', 'trip', 'flight'],
@@ -144,9 +144,22 @@ test('GeoJSON has places, trips and flights, and tells a plane as such', () => {
   assert.equal(system, 'planar');
 });
 
+test('files say what drivers are to know', () => {
+  const info = { address: 'Mozartstr. 17', kind: '=ramp', notes: '5 < 6' };
+  const [first, ...others] = REQUEST.customers;
+  const request = { ...REQUEST, customers: [{ ...first, info }, ...others] };
+  const told = indexPlan(request, PLAN);
+  const lines = stopsCsv(told).trim().split('\r\n');
+  assert.ok(lines[0].endsWith(',load,address,info_kind,notes'));
+  assert.ok(lines[2].endsWith(",Mozartstr. 17,'=ramp,5 < 6"));
+  assert.ok(lines[3].endsWith(',,,'));
+  assert.deepEqual(geoJson(told, flownLines(request)).features[1].properties.info, info);
+  assert.ok(gpx(told.vehicles[0], flownLines(request)).includes('notes: 5 &lt; 6</desc>'));
+});
+
 test('GPX and SVG write names so that they stay names', () => {
   const vehicle = { ...index.vehicles[0], name: 'a<b&"c"' };
-  assert.ok(gpx(vehicle, flightLines(REQUEST)).includes('a&lt;b&amp;&quot;c&quot;, trip 1'));
+  assert.ok(gpx(vehicle, flownLines(REQUEST)).includes('a&lt;b&amp;&quot;c&quot;, trip 1'));
   assert.ok(toSvg(pictureOf(index, flightLines(REQUEST))).startsWith('<svg'));
 });
 
@@ -191,7 +204,7 @@ test('an open route begins at its place and is drawn to its last stop', () => {
   const trip = { ...PLAN.routes[0].trips[0], sorties: [] };
   trip.stops = [{ ...trip.stops[0], kind: 'start', id: 'van' }, trip.stops[1]];
   const plan = { ...PLAN, routes: [{ ...PLAN.routes[0], trips: [trip] }] };
-  const { features } = geoJson(indexPlan(request, plan), flightLines(request));
+  const { features } = geoJson(indexPlan(request, plan), flownLines(request));
   const of = (kind) => features.find(({ properties }) => properties.kind === kind);
   assert.deepEqual(of('start').geometry.coordinates, [5, 5]);
   assert.deepEqual(of('trip').geometry.coordinates, [

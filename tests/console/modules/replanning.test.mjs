@@ -123,7 +123,7 @@ test('going on keeps pins of whom the plan serves, and what is broken', () => {
   const { replan } = goOnFrom(first, PLAN, 90);
   const kept = { pinned: ['E'], unavailable: ['van-3'] };
   assert.deepEqual(replan, { ...kept, plan: PLAN, freeze_before: 90 });
-  assert.equal(furtherFrom(first, { plan: {} }).replan.freeze_before, 50);
+  assert.equal(furtherFrom(first, { plan: PLAN }).replan.freeze_before, 50);
   assert.equal(fromNothing(first).replan, undefined);
 });
 

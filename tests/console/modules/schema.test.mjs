@@ -7,6 +7,8 @@ import {
   labelOf,
   resolve,
   unitOf,
+  wordLines,
+  wordsOf,
 } from '../../../app/console/static/js/core/schema.js';
 import {
   heatTable,
@@ -104,4 +106,13 @@ test("a sweep's cells become a table, the last axis across", () => {
     ],
   );
   assert.deepEqual([table.least, table.most], [1, 5]);
+});
+
+test('texts by name are written as lines and read again', () => {
+  assert.equal(kindOf({ type: 'object', additionalProperties: { type: 'string' } }), 'words');
+  const words = { phone: '089 1234', notes: 'gate 3: ring' };
+  assert.equal(wordLines(words), 'phone: 089 1234\nnotes: gate 3: ring');
+  assert.deepEqual(wordsOf(wordLines(words)), words);
+  assert.deepEqual(wordsOf(' \n'), {});
+  assert.equal(wordsOf('no name'), null);
 });

@@ -1,8 +1,10 @@
 /** What the user can do to the problem and to what is shown. */
 
+import { numbersIn } from './core/entries.js';
 import { getIn, parsePath } from './core/paths.js';
 import { indexPlan } from './core/plan.js';
 import { goOnFrom, settledParts } from './core/replanning.js';
+import { inSeconds } from './core/times.js';
 import { store } from './store.js';
 
 const MOST_UNDOS = 100;
@@ -33,10 +35,24 @@ export function undo() {
   );
 }
 
-/** Begin anew with a problem; what is still planned for another is no longer wanted. */
-export function openRequest(request) {
+/**
+ * Begin anew with a problem; what is still planned for another is no longer wanted.
+ *
+ * @param stated the problem, its times as anybody may write them
+ * @param name what the problem is called
+ * @param isSafe whether it can be had again where it came from
+ * @param others what else of the state comes with it, such as its plans
+ */
+export function openRequest(stated, { name = 'Untitled', isSafe = false, ...others } = {}) {
+  const request = inSeconds(store.get().schemas, stated);
   store.set((state) => ({
     request,
+    stated,
+    name,
+    note: '',
+    home: null,
+    saved: isSafe ? { request, plan: null } : null,
+    viewing: null,
     epoch: state.epoch + 1,
     past: state.request ? [...state.past, state.request] : [],
     errors: [],
@@ -48,9 +64,14 @@ export function openRequest(request) {
     plans: [],
     shown: null,
     besides: null,
-    sheet: null,
     scenario: null,
+    steps: [],
+    undone: [],
+    locks: [],
+    fit: null,
+    sweepAxes: null,
     run: { state: 'idle', points: [], message: '' },
+    ...others,
   }));
 }
 
@@ -99,6 +120,13 @@ export function closeFailure() {
   store.set({ failure: null });
 }
 
+/** Give an entry of `plans` another name. */
+export function renamePlan(number, name) {
+  store.set(({ plans }) => ({
+    plans: plans.map((entry) => (entry.number === number ? { ...entry, name } : entry)),
+  }));
+}
+
 /** Return the entry of `plans` that is looked at. */
 export function shownPlan(state) {
   return state.plans.find(({ number }) => number === state.shown) ?? null;
@@ -109,12 +137,19 @@ export function besidePlan(state) {
   return state.plans.find(({ number }) => number === state.besides) ?? null;
 }
 
+/** Tell whether something is planned and none of its plans is there yet: those shown are older. */
+export function isWaiting({ run, plans }) {
+  return run.state !== 'idle' && !plans.some(({ number }) => number === run.number);
+}
+
 const indices = new WeakMap();
 
 /** Return the index of an entry of `plans`; made once. */
 export function indexOf(entry) {
   if (!entry) return null;
-  if (!indices.has(entry.plan)) indices.set(entry.plan, indexPlan(entry.request, entry.plan));
+  if (!indices.has(entry.plan)) {
+    indices.set(entry.plan, indexPlan(entry.request, entry.plan, numbersIn(entry)));
+  }
   return indices.get(entry.plan);
 }
 

@@ -27,7 +27,7 @@ export function keepKey(key) {
   else sessionStorage.removeItem(KEY);
 }
 
-async function send(path, { method = 'GET', body, headers = {}, signal } = {}) {
+async function send(path, { method = 'GET', body, form, headers = {}, signal } = {}) {
   const key = sessionStorage.getItem(KEY);
   const all = {
     ...headers,
@@ -38,14 +38,14 @@ async function send(path, { method = 'GET', body, headers = {}, signal } = {}) {
     method,
     headers: all,
     signal,
-    body: body && JSON.stringify(body),
+    body: form ?? (body && JSON.stringify(body)),
   });
   if (response.ok) return response;
   if (response.status === 401) {
     const given = await askForKey(key !== null);
     if (given) {
       keepKey(given);
-      return send(path, { method, body, headers, signal });
+      return send(path, { method, body, form, headers, signal });
     }
   }
   throw await errorOf(response);
@@ -87,6 +87,14 @@ export const getDescription = () => json('openapi.json');
 /** Return the console's settings. */
 export const getConfig = () => json('console/config.json');
 
+/** Return what a tile of streets shows; nothing where there are none. */
+export async function getTile(place) {
+  const response = await ask(`map/${place}`, {});
+  if (response.status === 204) return {};
+  if (!response.ok) throw await errorOf(response);
+  return response.json();
+}
+
 /** Return whether plans can be made now: `{status, detail, progress}`. */
 export async function getReadiness() {
   const response = await ask('health/ready');
@@ -97,19 +105,124 @@ export async function getReadiness() {
 
 /** Plan and return the reply. */
 export const postPlan = (request, signal) =>
-  json('plan', { method: 'POST', body: request, signal });
+  json('plan', { method: 'POST', body: toldInSeconds(request), signal });
+
+/** Return a request whose reply tells instants in seconds, which the console puts in words. */
+function toldInSeconds(request) {
+  if (!request.plan_start) return request;
+  return { ...request, options: { ...request.options, times: 'seconds' } };
+}
+
+function aboutPlan({ problem, ...question }) {
+  return { ...question, problem: toldInSeconds(problem) };
+}
+
+/** Return what looks wrong with a request, without planning it. */
+export const postWarnings = (request) => json('warnings', { method: 'POST', body: request });
+
+/** Have a sheet of customers read and return what it is taken for. */
+export function postImport(file, settings) {
+  const form = new FormData();
+  form.append('file', file, 'sheet');
+  form.append('settings', JSON.stringify(settings));
+  return json('import', { method: 'POST', form });
+}
 
 /** Return why a customer of a plan is served where it is, or what drones save. */
-export const postExplain = (question) => json('explain', { method: 'POST', body: question });
+export const postExplain = (question) =>
+  json('explain', { method: 'POST', body: aboutPlan(question) });
+
+/** Judge a plan, whose times are made where it states none. */
+export const postCheck = (body) => json('check', { method: 'POST', body: aboutPlan(body) });
+
+/** Return the best places of a customer in a plan. */
+export const postFit = (question) => json('fit', { method: 'POST', body: aboutPlan(question) });
 
 /** Start a job: `kind` is `jobs`, `compare` or `sweep`. Return it. */
-export const startJob = (kind, body) => json(kind, { method: 'POST', body });
+export const startJob = (kind, { base, ...body }) =>
+  json(kind, {
+    method: 'POST',
+    body: base ? { ...body, base: toldInSeconds(base) } : toldInSeconds(body),
+  });
 
 /** Return a job with what it has found so far. */
 export const getJob = (id) => json(`jobs/${encodeURIComponent(id)}`);
 
+/** Send a plan to its drivers and return their links. */
+export const postDispatch = (body) => json('dispatches', { method: 'POST', body });
+
+/** Put another plan of the day in the place of one on the road. */
+export const changeDispatch = (id, body) =>
+  json(`dispatches/${id}/plan`, { method: 'POST', body });
+
+/** Return how far a plan on the road is. */
+export const getDispatch = (id) => json(`dispatches/${id}`);
+
+/** Return what to plan on from, by what drivers told. */
+export const getGoingOn = (id) => json(`dispatches/${id}/replan`);
+
+/** End a plan's day. */
+export const endDispatch = (id) => json(`dispatches/${id}`, { method: 'DELETE' });
+
+/** Revoke a driver's link. */
+export const revokeLink = (id, link) =>
+  json(`dispatches/${id}/links/${link}`, { method: 'DELETE' });
+
+/** Make another link in place of one. */
+export const renewLink = (id, link) => json(`dispatches/${id}/links/${link}`, { method: 'POST' });
+
 /** Stop a job and return it with what it found. */
 export const stopJob = (id) => json(`jobs/${encodeURIComponent(id)}`, { method: 'DELETE' });
+
+/** Return all kept plans of the service without their content. */
+export async function getKeptPlans() {
+  const plans = [];
+  let cursor = null;
+  do {
+    const query = cursor ? `&cursor=${encodeURIComponent(cursor)}` : '';
+    const page = await json(`plans?limit=200${query}`);
+    plans.push(...page.plans);
+    cursor = page.next;
+  } while (cursor);
+  return plans;
+}
+
+const planPath = (id) => `plans/${encodeURIComponent(id)}`;
+
+/** Return the headers that name the version to be changed; null: there must be none. */
+function known(version) {
+  if (version === null) return { 'If-None-Match': '*' };
+  return { 'If-Match': version === '*' ? '*' : `"${version}"` };
+}
+
+/** Return a kept plan with its content. */
+export const getKeptPlan = (id) => json(planPath(id));
+
+/** Keep a plan in place of a version of it, see `known`. */
+export const putKeptPlan = (id, body, version) =>
+  json(planPath(id), { method: 'PUT', body, headers: known(version) });
+
+/** Change the name or note of a kept plan. */
+export const renameKeptPlan = (id, body, version) =>
+  json(planPath(id), { method: 'PATCH', body, headers: known(version) });
+
+/** Delete a kept plan. */
+export const deleteKeptPlan = (id, version) =>
+  send(planPath(id), { method: 'DELETE', headers: known(version) });
+
+/** Make a link to a kept plan and return it with its token. */
+export const postLink = (id) => json(`${planPath(id)}/links`, { method: 'POST' });
+
+/** Return the links of a kept plan. */
+export const getLinks = async (id) => (await json(`${planPath(id)}/links`)).links;
+
+/** End a link. */
+export const deleteLink = (id, link) =>
+  send(`${planPath(id)}/links/${encodeURIComponent(link)}`, { method: 'DELETE' });
+
+/** Return the plan that a link shows. */
+export const getSharedPlan = (token) =>
+  json('shared-plan', { headers: { 'X-Share-Token': token } });
 
 /**
  * Follow a job to its end, over lost connections too, and return it without its result.

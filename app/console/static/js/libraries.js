@@ -39,18 +39,6 @@ export function uPlot() {
   return window.uPlot;
 }
 
-/** Return the CSV reader. */
-export async function csvReader() {
-  await loadScript('papaparse-5.7.1/papaparse.min.js');
-  return window.Papa;
-}
-
-/** Return the function that reads an Excel file into rows of cells. */
-export async function excelReader() {
-  await loadScript('read-excel-file-9.3.17/read-excel-file.min.js');
-  return window.readXlsxFile;
-}
-
 /** Add drawing to Leaflet; maps made before take part after `L.PM.reInitLayer`. */
 export async function drawing() {
   await loadScript('leaflet-geoman-2.20.2/leaflet-geoman.min.js');

@@ -3,11 +3,15 @@
 import { html, render } from './libraries.js';
 import { openRequest, showFailure } from './actions.js';
 import * as api from './api.js';
+import { followKept } from './dispatching.js';
+import { adopt, startKeeping } from './keeping/drafts.js';
+import { goOn, listenToLinks, tokenInAddress, viewShared } from './keeping/kept.js';
 import { plan } from './planning.js';
 import { store } from './store.js';
 import { App } from './views/app.js';
-import { listenToDrops } from './views/files.js';
+import { listenToDrops, listenToPastes } from './views/files.js';
 import { listenToKeys } from './views/shortcuts.js';
+import { recallDismissed } from './views/warnings-bar.js';
 
 const FIRST_EXAMPLE = 'table1';
 const READY_CHECK_MS = 1000;
@@ -30,10 +34,17 @@ async function begin() {
   const root = document.getElementById('app');
   root.replaceChildren();
   render(html`<${App} />`, root);
+  recallDismissed();
   listenToKeys();
   listenToDrops();
+  listenToPastes();
+  listenToLinks();
   try {
-    const [description, config] = await Promise.all([api.getDescription(), api.getConfig()]);
+    const [description, config, restored] = await Promise.all([
+      api.getDescription(),
+      api.getConfig(),
+      startKeeping(tokenInAddress() !== null),
+    ]);
     const { examples } = description.paths['/plan'].post.requestBody.content['application/json'];
     store.set({
       config,
@@ -44,12 +55,26 @@ async function begin() {
         request: value,
       })),
     });
-    openRequest(examples[FIRST_EXAMPLE].value);
-    await untilReady();
-    await plan();
+    await open(restored, examples[FIRST_EXAMPLE].value);
   } catch (error) {
     showFailure(error);
   }
+}
+
+/** Open what the address names, else what was worked on before, else an example. */
+async function open(restored, example) {
+  const token = tokenInAddress();
+  if (token) {
+    await viewShared(token);
+    await untilReady();
+    return;
+  }
+  if (restored) adopt(restored);
+  else openRequest(example, { name: FIRST_EXAMPLE, isSafe: true });
+  await untilReady();
+  await followKept();
+  if (restored) await goOn(restored);
+  else await plan();
 }
 
 async function untilReady() {

@@ -2,6 +2,8 @@
 
 import * as api from './api.js';
 import { showFailure, shownPlan } from './actions.js';
+import { entryAfter } from './core/entries.js';
+import { planName, unlike } from './core/naming.js';
 import { furtherFrom } from './core/replanning.js';
 import { store } from './store.js';
 
@@ -22,19 +24,23 @@ export function plan() {
   return run(request, request);
 }
 
-/** Search on from the plan that is looked at; what is settled, pinned or broken stays so. */
+/** Search on from the plan that is looked at; settled, pinned, locked and broken stays so. */
 export function improvePlan() {
-  const { request } = store.get();
+  const { request, locks } = store.get();
   const entry = shownPlan(store.get());
-  return entry ? run(request, furtherFrom(request, entry)) : undefined;
+  return entry ? run(request, furtherFrom(request, entry, locks)) : undefined;
 }
 
-/** Plan what is `sent` for a problem. */
-async function run(request, sent) {
+/** Plan for a problem what is `asked`, with the lines of legs and flights, which the map draws. */
+async function run(request, asked) {
+  const sent = { ...asked, options: { ...asked.options, geometry: true } };
   if (current) await stop();
-  const { epoch } = store.get();
+  const { epoch, plans } = store.get();
+  const former = formerOf(store.get(), request);
   const task = {
     number: nextNumber(),
+    name: unlike(planName(former, request, asked !== request), plans),
+    former,
     epoch,
     controller: new AbortController(),
     job: null,
@@ -44,13 +50,50 @@ async function run(request, sent) {
   store.set({
     failure: null,
     errors: [],
-    run: { state: 'decoding', points: [], message: 'Planning', number: task.number },
+    run: { state: 'decoding', points: [], message: 'Planning', ...known(task, request) },
   });
-  try {
-    task.request = request;
+  task.request = request;
+  await finish(task, async () => {
     const inJob = searches(sent);
-    if (!inJob || decodeSeconds(sent) <= MOST_DECODE_SECONDS) await decode(task, sent);
+    const isQuick = decodeSeconds(sent) <= MOST_DECODE_SECONDS;
+    if (inJob && !isQuick) lookForWarnings(request);
+    if (!inJob || isQuick) await decode(task, sent);
     if (current === task && inJob) await improve(task, sent);
+  });
+}
+
+/** Return by what a task is known again after the page was left. */
+function known({ number, name, former }, request) {
+  return { number, name, former: former?.number ?? null, request };
+}
+
+/** Go on with what was being planned when the page was left, see `known`; `job` is its job. */
+export async function resume({ number, name, former, request, job }) {
+  if (!job) {
+    await plan();
+    return;
+  }
+  const { epoch, plans } = store.get();
+  const task = {
+    number,
+    name,
+    former: plans.find((entry) => entry.number === former) ?? null,
+    request,
+    epoch,
+    job,
+    controller: new AbortController(),
+    began: performance.now(),
+  };
+  current = task;
+  const run = { state: 'improving', points: [], message: 'Planning', job };
+  store.set({ run: { ...run, ...known(task, request) } });
+  await finish(task, () => follow(task));
+}
+
+/** Do the work of a task, and tell what goes wrong. */
+async function finish(task, work) {
+  try {
+    await work();
   } catch (error) {
     if (current === task) showFailure(error);
   } finally {
@@ -58,6 +101,16 @@ async function run(request, sent) {
       current = null;
       note({ state: 'idle' });
     }
+  }
+}
+
+/** Ask for warnings where the first plan, which has them, is long in coming. */
+async function lookForWarnings(request) {
+  try {
+    const { warnings } = await api.postWarnings(request);
+    if (store.get().request === request) store.set({ warned: { request, warnings } });
+  } catch {
+    // What is wrong with the request, or the service, is told by planning itself.
   }
 }
 
@@ -111,12 +164,18 @@ async function improve(task, request) {
     await api.stopJob(job.id);
     return;
   }
+  note({ job: job.id });
+  await follow(task);
+}
+
+/** Follow the job of a task to its end. */
+async function follow(task) {
   const fetching = latestOf(async () => {
-    const { result } = await api.getJob(job.id);
+    const { result } = await api.getJob(task.job);
     if (result && current === task) keep(task, result);
   });
   await api.followJob(
-    job.id,
+    task.job,
     (progress) => {
       if (current !== task) return;
       note({ share: progress.progress, iterations: progress.search_iterations });
@@ -125,7 +184,7 @@ async function improve(task, request) {
     },
     task.controller.signal,
   );
-  const ended = await api.getJob(job.id);
+  const ended = await api.getJob(task.job);
   if (current !== task) return;
   if (ended.error) throw new api.ApiError(0, 'The search failed', ended.error);
   if (ended.result) {
@@ -164,12 +223,21 @@ function keep(task, reply) {
     if (task.epoch !== state.epoch) return {};
     const before = state.plans.find(({ number }) => number === task.number);
     if (before && before.plan.cost.total < reply.cost.total) return {};
-    const entry = { number: task.number, request: task.request, plan: reply };
+    const entry = entryAfter(task.former, {
+      number: task.number,
+      name: before?.name ?? task.name,
+      request: task.request,
+      plan: reply,
+    });
     const others = state.plans.filter(({ number }) => number !== task.number);
-    const basis = state.plans.find(({ plan: former }) => former === task.request.replan?.plan);
-    const besides = before ? state.besides : (basis?.number ?? state.shown);
+    const besides = before ? state.besides : (task.former?.number ?? null);
     return { plans: [...others.slice(-MOST_PLANS), entry], shown: task.number, besides };
   });
+}
+
+/** Return the entry that a new plan is to be seen beside: what it goes on from, if any. */
+function formerOf(state, { replan }) {
+  return state.plans.find(({ plan: other }) => other === replan?.plan) ?? shownPlan(state);
 }
 
 function addPoint(task, cost) {

@@ -1,5 +1,6 @@
 /** The state that all views share, and how they follow it. */
 
+import { tellBy } from './core/format.js';
 import { useEffect, useState } from './libraries.js';
 
 /** Return a store that holds one object. */
@@ -22,17 +23,32 @@ export function createStore(initial) {
 export const store = createStore({
   schemas: null, // of /openapi.json
   examples: [], // {name, summary, request}
-  config: { policies: [], tile_url: null, tile_attribution: '' },
-  request: null, // the problem as it is edited
+  config: { policies: [], tile_url: null, tile_attribution: '', streets: [] },
+  request: null, // the problem as it is edited, all its times in seconds
+  stated: null, // the problem as it was opened
+  name: '', // of the problem, and what is noted with it
+  note: '',
+  home: null, // {where, id, version} of the kept plan that is open, see keeping/kept.js
+  saved: null, // {request, plan} as they are kept, or were opened
+  viewing: null, // token of the link by which a shared plan is looked at
+  unkept: null, // why the browser doesn't keep what is done here
   epoch: 0, // counts the problems that were opened
   past: [], // requests before the last edits
-  plans: [], // {number, request, plan}, the newest last
+  plans: [], // {number, name, request, plan, numbers}, the newest last, see core/entries.js
   shown: null, // number of the plan that is looked at
   besides: null, // number of the plan that stands beside it
+  steps: [], // changes of plans by hand, the newest last, see hands.js
+  undone: [], // those that were taken back, the newest last
+  judging: null, // what was done by hand and is being judged, in words
+  locks: [], // customers who stay with their vehicles where a plan is improved
+  fit: null, // {customer, entry, told}: the best places of a customer
   why: { plan: null, answers: new Map() }, // what was asked about a plan, by customer
+  prices: { plan: null, found: new Map() }, // of remedies in a plan, by their group
   run: { state: 'idle', points: [], message: '' },
   errors: [], // {keys, path, message, code} of a refused request
   failure: null, // {title, detail}
+  warned: null, // {request, warnings} that were asked for before there is a plan
+  dismissed: [], // keys of warnings that are not shown, see core/warned.js
   selection: null, // key of what is selected, see core/plan.js
   hover: null,
   time: null, // instant of the playback, seconds
@@ -53,12 +69,14 @@ export const store = createStore({
   scenario: null, // comparison or sweep and its job
   scenarioSeconds: 1,
   keptFleets: {}, // fleets by name, to compare
-  sweepAxes: [
-    { path: 'fleet[*].max_working_duration', text: '4:00, 6:00, 8:00, 10:00' },
-    { path: 'fleet[*].capacity[0]', text: '100, 150, 200' },
-  ],
-  sheet: null, // an imported sheet that is looked over
+  sweepAxes: null, // `[{path, text}]` as chosen; null: around the fleet at hand
+  dispatch: null, // a plan on the road: its reply, links by id as made, its plan if known
+  keeping: null, // a dialog about kept plans, see keeping/kept.js
+  importing: null, // a sheet that is looked over, see importing.js
 });
+
+// Before any view: all of them tell times and money alike.
+store.subscribe(({ request }) => tellBy(request));
 
 /** Follow a part of the state. */
 export function useStore(select) {

@@ -1,6 +1,8 @@
 /** What a customer, stop or sortie is, as pairs of a term and its value. */
 
-import { amounts, clock, duration, km, money, percent } from './format.js';
+import { amounts, clock, duration, km, length, money, percent } from './format.js';
+import { lengthOf, planeOf } from './geometry.js';
+import { partsOf } from './plan.js';
 import { windowsInWords, windowsOf } from './windows.js';
 
 const SERVED_BY = { truck: 'truck only', drone: 'drone only', either: 'truck or drone' };
@@ -10,6 +12,7 @@ export function describe(request, index, key) {
   if (!key) return null;
   if (key[0] === 's') return describeSortie(index, key);
   if (key[0] === 't') return describeTrip(index, key);
+  if (key[0] === 'l') return describeLeg(request, index, key);
   if (key[0] === 'v') return describeVehicle(index, key);
   const halt = index?.halts.get(key);
   if (key[0] === 'd') return halt ? { title: halt.id, facts: haltFacts(halt) } : null;
@@ -45,6 +48,7 @@ function customerFacts(customer) {
   const { allowed, forbidden } = customer.vehicles ?? {};
   if (allowed) facts.push(['Only by', allowed.join(', ')]);
   if (forbidden) facts.push(['Not by', forbidden.join(', ')]);
+  facts.push(...Object.entries(customer.info ?? {}));
   const price = customer.unassigned_cost;
   if (price !== null && price !== undefined) facts.push(['Left out', `costs ${money(price)}`]);
   return facts;
@@ -84,6 +88,7 @@ function describeSortie(index, key) {
   return {
     title: `Flight of ${sortie.drone}`,
     facts: [
+      ...(reply.drone_type ? [['Type', reply.drone_type]] : []),
       ['From', sortie.from.id],
       ['To', sortie.visits.map(({ id }) => id).join(', ')],
       ['Back at', sortie.to.id],
@@ -111,6 +116,24 @@ function describeTrip(index, key) {
       ['Takes', duration(trip.reply.duration)],
       ['Stops', String(trip.stops.filter(({ kind }) => kind === 'customer').length)],
       ['Flights', String(trip.sorties.length)],
+    ],
+  };
+}
+
+/** Return what is known of the drive that leads to a stop. */
+function describeLeg(request, index, key) {
+  const { trip, leg } = partsOf(index, key);
+  const before = trip?.stops[leg?.stop - 1];
+  if (!before) return null;
+  const metres = lengthOf(leg.line.map(planeOf(request).toPlane));
+  return {
+    title: `${before.id} \u2192 ${leg.id}`,
+    facts: [
+      ['Driven by', trip.vehicle.name],
+      [leg.line.length > 2 ? 'Road' : 'Straight', length(metres)],
+      ['Takes', duration(leg.arrival - before.departure)],
+      ['Departure', clock(before.departure, { precise: true })],
+      ['Arrival', clock(leg.arrival, { precise: true })],
     ],
   };
 }

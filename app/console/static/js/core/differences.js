@@ -1,6 +1,9 @@
 /** What differs between two problems, and between two plans. */
 
+import { count, money } from './format.js';
+import { matchVehicles } from './matching.js';
 import { indexPlan } from './plan.js';
+import { trueCost } from './terms.js';
 
 /** Return `[{path, before, after}]` of two requests; entries with an id are matched by it. */
 export function requestDifferences(before, after, path = '') {
@@ -66,21 +69,55 @@ export function planMeasures(before, now) {
   ];
 }
 
-/** Return customers that another vehicle or drone serves than before: `[{id, before, now}]`. */
-export function movedCustomers(former, entry) {
-  const [before, now] = [former, entry].map(({ request, plan }) => serversOf(request, plan));
-  const ids = new Set([...before.keys(), ...now.keys()]);
-  return [...ids]
-    .filter((id) => before.get(id) !== now.get(id))
-    .map((id) => ({ id, before: before.get(id) ?? null, now: now.get(id) ?? null }));
+/** Return what a plan costs and serves beside the former, in a sentence. */
+export function planDifference(former, entry) {
+  const change = trueCost(entry) - trueCost(former);
+  const served = entry.plan.summary.served - former.plan.summary.served;
+  const size = money(Math.abs(change));
+  const costs = size === money(0) ? 'the same' : `${size} ${change < 0 ? 'less' : 'more'}`;
+  if (!served) return `It costs ${costs}.`;
+  const customers = count(Math.abs(served), 'customer');
+  return `It costs ${costs} and serves ${customers} ${served < 0 ? 'fewer' : 'more'}.`;
 }
 
+/**
+ * Return customers that another vehicle or drone serves than before: `[{id, before, now}]`.
+ *
+ * Vehicles are the same that `pairs` of `matchVehicles` name, and drones of one type on them.
+ */
+export function movedCustomers(former, entry, pairs = matchVehicles(former, entry)) {
+  const names = new Map(pairs.map(({ before, now }) => [before, now]));
+  const [before, now] = [former, entry].map(({ request, plan }) => serversOf(request, plan));
+  const stayed = (then, after) =>
+    then && after && then.drone === after.drone &&
+    (then.vehicle ? names.get(then.vehicle) === after.vehicle : !after.vehicle);
+  return [...new Set([...before.keys(), ...now.keys()])]
+    .filter((id) => !stayed(before.get(id), now.get(id)))
+    .map((id) => ({
+      id,
+      before: before.get(id)?.shown ?? null,
+      now: now.get(id)?.shown ?? null,
+    }));
+}
+
+/** Return who serves each customer: `{vehicle, drone, shown}`, no vehicle for nobody. */
 function serversOf(request, plan) {
-  const servers = new Map(plan.unassigned.map(({ id }) => [id, 'nobody']));
-  for (const halt of indexPlan(request, plan).halts.values()) {
-    if (halt.kind === 'customer') {
-      servers.set(halt.id, halt.sortie ? halt.sortie.drone : halt.vehicle.name);
-    }
+  const nobody = { vehicle: null, drone: null, shown: 'nobody' };
+  const servers = new Map(plan.unassigned.map(({ id }) => [id, nobody]));
+  for (const { kind, id, sortie, vehicle } of indexPlan(request, plan).halts.values()) {
+    if (kind !== 'customer') continue;
+    servers.set(id, {
+      vehicle: vehicle.name,
+      drone: sortie ? (sortie.reply.drone_type ?? 'drone') : null,
+      shown: sortie ? sortie.drone : vehicle.name,
+    });
   }
   return servers;
+}
+
+/** Return the tours that go on under another vehicle's name, the longest first. */
+export function renamedTours(pairs) {
+  return pairs
+    .filter(({ before, now, shared }) => before !== now && shared > 0)
+    .sort((first, second) => second.shared - first.shared);
 }

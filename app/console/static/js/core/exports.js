@@ -52,6 +52,7 @@ export function stopRows(index) {
         x: halt.location?.[0] ?? '',
         y: halt.location?.[1] ?? '',
         load: halt.load.join(' '),
+        info: halt.source?.info ?? {},
       }));
     }),
   );
@@ -59,8 +60,17 @@ export function stopRows(index) {
 
 /** Return the stops as CSV with a line of names. */
 export function stopsCsv(index) {
-  const lines = stopRows(index).map((row) => COLUMNS.map((name) => cell(row[name])).join(','));
-  return `${[COLUMNS.join(','), ...lines].join('\r\n')}\r\n`;
+  const rows = stopRows(index);
+  const told = [...new Set(rows.flatMap(({ info }) => Object.keys(info)))];
+  // What is told of customers may have the name of another column.
+  const named = (name) => (COLUMNS.includes(name) ? `info_${name}` : name);
+  const head = [...COLUMNS, ...told.map(named)];
+  const lines = rows.map((row) =>
+    [...COLUMNS.map((name) => row[name]), ...told.map((name) => row.info[name] ?? '')]
+      .map(cell)
+      .join(','),
+  );
+  return `${[head.map(cell).join(','), ...lines].join('\r\n')}\r\n`;
 }
 
 function cell(value) {
@@ -107,10 +117,12 @@ function point({ location }, properties) {
 
 function customerProperties(index, customer) {
   const halt = index.halts.get(`c:${customer.id}`);
-  if (!halt) return { kind: 'customer', id: customer.id, served: false };
+  const told = customer.info && { info: customer.info };
+  if (!halt) return { kind: 'customer', id: customer.id, served: false, ...told };
   return {
     kind: 'customer',
     id: customer.id,
+    ...told,
     served: true,
     vehicle: halt.vehicle.name,
     trip: halt.trip.index + 1,
@@ -128,7 +140,7 @@ function tripFeatures(trip, legsOf) {
   const lines =
     places.length > 1
       ? [
-          feature('LineString', places, {
+          feature('LineString', joined(trip.stops.map(({ line }) => line)), {
             kind: 'trip',
             ...common,
             load_rate: trip.reply.load_rate,
@@ -137,7 +149,7 @@ function tripFeatures(trip, legsOf) {
         ]
       : [];
   const flights = trip.sorties.flatMap((sortie) => {
-    const line = legsOf(sortie).flat();
+    const line = joined(legsOf(sortie));
     return line.length > 1
       ? [
           feature('LineString', line, {
@@ -153,12 +165,23 @@ function tripFeatures(trip, legsOf) {
   return [...lines, ...flights];
 }
 
+/** Return lines, each of which begins where the one before ends, as one. */
+function joined(lines) {
+  return lines.flat().filter(([x, y], index, all) => {
+    const [beforeX, beforeY] = all[index - 1] ?? [];
+    return x !== beforeX || y !== beforeY;
+  });
+}
+
 function closed(ring) {
   const [first, last] = [ring[0], ring[ring.length - 1]];
   return first[0] === last[0] && first[1] === last[1] ? ring : [...ring, first];
 }
 
-/** Return a vehicle's trips as GPX routes, its drones' flights as tracks; degrees only. */
+/**
+ * Return a vehicle's trips as GPX routes, their roads, where known, and its drones' flights as
+ * tracks; degrees only.
+ */
 export function gpx(vehicle, legsOf) {
   const routes = vehicle.trips.map(
     (trip) => `  <rte>
@@ -166,31 +189,46 @@ export function gpx(vehicle, legsOf) {
 ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
   </rte>`,
   );
-  const tracks = vehicle.trips
+  const drives = vehicle.trips
+    .filter((trip) => trip.stops.some(({ line }) => line.length > 2))
+    .map((trip) =>
+      track(
+        `${vehicle.name}, trip ${trip.index + 1}, road`,
+        trip.stops.map(({ line }) => line),
+      ),
+    );
+  const flights = vehicle.trips
     .flatMap((trip) => trip.sorties)
-    .map(
-      (sortie) => `  <trk>
-    <name>${escaped(`${sortie.drone} to ${sortie.visits.map(({ id }) => id).join(', ')}`)}</name>
-    <trkseg>
-${legsOf(sortie)
-  .flat()
-  .map(([lon, lat]) => `      <trkpt lat="${lat}" lon="${lon}"/>`)
-  .join('\n')}
-    </trkseg>
-  </trk>`,
+    .map((sortie) =>
+      track(
+        `${sortie.drone} to ${sortie.visits.map(({ id }) => id).join(', ')}`,
+        legsOf(sortie),
+      ),
     );
   return `<?xml version="1.0" encoding="UTF-8"?>
 <gpx version="1.1" creator="Tandem" xmlns="http://www.topografix.com/GPX/1/1">
-${[...routes, ...tracks].join('\n')}
+${[...routes, ...drives, ...flights].join('\n')}
 </gpx>
 `;
 }
 
+function track(name, lines) {
+  const points = joined(lines).map(([lon, lat]) => `      <trkpt lat="${lat}" lon="${lon}"/>`);
+  return `  <trk>
+    <name>${escaped(name)}</name>
+    <trkseg>
+${points.join('\n')}
+    </trkseg>
+  </trk>`;
+}
+
 function routePoint(halt, position) {
   const [lon, lat] = halt.location;
+  const told = Object.entries(halt.source?.info ?? {}).map(([name, text]) => `, ${name}: ${text}`);
   return (
     `    <rtept lat="${lat}" lon="${lon}"><name>${escaped(`${position} ${halt.id}`)}</name>` +
-    `<desc>Arrival ${clock(halt.arrival)}, departure ${clock(halt.departure)}</desc></rtept>`
+    `<desc>Arrival ${clock(halt.arrival)}, departure ${clock(halt.departure)}` +
+    `${escaped(told.join(''))}</desc></rtept>`
   );
 }
 

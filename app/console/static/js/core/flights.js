@@ -1,44 +1,59 @@
-/** The lines that flights of a plan take on the map. */
+/** The lines that flights of a plan take: as they are flown, and as the map draws them. */
 
 import { Airspace } from './detour.js';
+import { dronesOfSortie } from './drones.js';
 import { arc, planeOf } from './geometry.js';
 
 const DEFAULT_DRONE_SPEED_KMH = 60;
 
 /**
- * Return a function that gives a sortie's legs, each a list of coordinates as in the request.
+ * Return a function that gives a sortie's legs as they are flown, each a list of coordinates as in
+ * the request: those of the reply if it has them. Sorties with a place that has no location have
+ * no legs.
+ */
+export function flownLines(request) {
+  const { legsOf } = flying(request);
+  return legsOf;
+}
+
+/**
+ * Return a function that gives a sortie's legs as they are drawn.
  *
  * A clear flight is straight and drawn as an arc, so that out and back are told apart; one around
- * no-fly areas is drawn as it is flown. Sorties with a place that has no location have no legs.
+ * no-fly areas is drawn as it is flown.
  */
 export function flightLines(request) {
+  const { legsOf, plane, airspaceOf } = flying(request);
+  const drawn = (line, airspace) => {
+    if (line.length > 2) return line;
+    const bow = arc(...line.map(plane.toPlane));
+    const crosses = bow.some((point, index) => index > 0 && airspace.blocks(bow[index - 1], point));
+    return crosses ? line : bow.map(plane.fromPlane);
+  };
+  return (sortie) => legsOf(sortie).map((line) => drawn(line, airspaceOf(sortie)));
+}
+
+/** Return what tells how a request's drones fly. */
+function flying(request) {
   const plane = planeOf(request);
   const rings = (request.airspace?.no_fly ?? []).map((ring) => ring.map(plane.toPlane));
   const airspaces = new Map();
-  const airspaceOf = (type) => {
-    const speed = type?.drones?.speed_kmh ?? DEFAULT_DRONE_SPEED_KMH;
+  const airspaceOf = (sortie) => {
+    const drones = dronesOfSortie(sortie.trip.vehicle.type, sortie.reply);
+    const speed = drones?.speed_kmh ?? DEFAULT_DRONE_SPEED_KMH;
     if (!airspaces.has(speed)) {
       airspaces.set(speed, new Airspace(rings, request.airspace?.wind, speed));
     }
     return airspaces.get(speed);
   };
-  return (sortie) => {
+  const flown = (sortie, from, to) =>
+    airspaceOf(sortie).flight(plane.toPlane(from), plane.toPlane(to)).map(plane.fromPlane);
+  const legsOf = (sortie) => {
     const places = [sortie.from, ...sortie.visits, sortie.to].map((halt) => halt.location);
     if (places.includes(null)) return [];
-    const points = places.map(plane.toPlane);
-    const airspace = airspaceOf(sortie.trip.vehicle.type);
-    return points
+    return places
       .slice(1)
-      .map((point, index) => flightLine(airspace, points[index], point).map(plane.fromPlane));
+      .map((to, index) => sortie.lines?.[index] ?? flown(sortie, places[index], to));
   };
-}
-
-function flightLine(airspace, from, to) {
-  const flown = airspace.flight(from, to);
-  if (flown.length > 2) return flown;
-  const drawn = arc(from, to);
-  const crosses = drawn.some(
-    (point, index) => index > 0 && airspace.blocks(drawn[index - 1], point),
-  );
-  return crosses ? flown : drawn;
+  return { plane, airspaceOf, legsOf };
 }

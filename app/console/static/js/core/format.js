@@ -1,9 +1,51 @@
 /** Numbers and times as people read them, and back. Times in seconds, distances in metres. */
 
+import { dayOf } from './day.js';
+
 const MINUS = '\u2212';
 
-/** Return an instant such as `8:05`, or `8:05:30` where seconds matter. */
-export function clock(seconds, { precise = false } = {}) {
+let shownDay = null;
+let shownCurrency = '';
+let shownUnits = []; // of the dimensions of loads
+
+/** Tell instants by a problem's day from now on, money in its currency, loads in its units. */
+export function tellBy(request) {
+  const { plan_start: start, time_zone: zone = null, currency } = request ?? {};
+  shownUnits = (request?.load_dimensions ?? []).map(({ name, unit }) => `\u00a0${unit || name}`);
+  if (shownDay?.stated !== start || shownDay?.zone !== zone) {
+    shownDay = dayOf({ plan_start: start, time_zone: zone });
+  }
+  shownCurrency = currency ? `\u00a0${currency}` : '';
+}
+
+/** Return an instant such as `8:05`, or `8:05:30` where seconds matter; `+1 6:00` the day after. */
+export function clock(seconds, options = {}) {
+  if (seconds === null || seconds === undefined) return '';
+  if (!shownDay) return hours(seconds, options);
+  const { days, clock: passed } = shownDay.clockAt(options.precise ? seconds : seconds + 30);
+  const text = options.precise
+    ? hours(passed / 1000, options)
+    : hours(Math.floor(passed / 60000) * 60);
+  return days ? `${days > 0 ? '+' : MINUS}${Math.abs(days)} ${text}` : text;
+}
+
+/** Return an instant with its date, where the problem has one. */
+export function dated(seconds) {
+  return shownDay ? `${shownDay.date}, ${clock(seconds)}` : clock(seconds);
+}
+
+/** Return the date of the problem's day, empty if it has none. */
+export function shownDate() {
+  return shownDay?.date ?? '';
+}
+
+/** Return the instant that begins the hour of plan start, for ticks on whole hours. */
+export function firstHour() {
+  return shownDay ? -((shownDay.wallAt(shownDay.start) - shownDay.midnight) / 1000) : 0;
+}
+
+/** Return a length as hours and minutes, such as `8:05`, or `8:05:30` where seconds matter. */
+export function hours(seconds, { precise = false } = {}) {
   if (seconds === null || seconds === undefined) return '';
   const whole = precise ? Math.round(seconds) : Math.round(seconds / 60) * 60;
   const sign = whole < 0 ? MINUS : '';
@@ -13,8 +55,14 @@ export function clock(seconds, { precise = false } = {}) {
   return precise && size % 60 ? `${head}:${pad(size % 60)}` : head;
 }
 
-/** Return the seconds of `8:05`, `8:05:30` or a plain number; null for any other text. */
+/** Return the instant of `8:05`, `8:05:30`, `+1 6:00` or plain seconds; null for any other text. */
 export function parseClock(text) {
+  const seconds = shownDay?.secondsAt(String(text)) ?? null;
+  return seconds ?? parseHours(text);
+}
+
+/** Return the seconds of `8:05`, `8:05:30` or a plain number; null for any other text. */
+export function parseHours(text) {
   const trimmed = String(text).trim();
   const parts = /^(\d+):([0-5]?\d)(?::([0-5]?\d(?:\.\d+)?))?$/.exec(trimmed);
   if (parts) return Number(parts[1]) * 3600 + Number(parts[2]) * 60 + Number(parts[3] ?? 0);
@@ -31,10 +79,12 @@ export function parseNumber(text) {
   return Number(trimmed);
 }
 
-/** Return a message of the service with its seconds as times, `36000 s` as `10:00`. */
+/** Return a message of the service with its seconds as times, `at 36000 s` as `at 10:00`. */
 export function timesInWords(message) {
-  return message.replace(/\b(\d+(?:\.\d+)?) s\b/g, (_, seconds) =>
-    clock(Number(seconds), { precise: true }),
+  return message.replace(/(at |before |after |until )?\b(\d+(?:\.\d+)?) s\b/g, (_, when, seconds) =>
+    when
+      ? when + clock(Number(seconds), { precise: true })
+      : hours(Number(seconds), { precise: true }),
   );
 }
 
@@ -54,8 +104,12 @@ export function number(value, digits = 2) {
   return value < 0 && text !== '0' ? MINUS + text : text;
 }
 
-/** Return an amount of money, always with two decimals. */
+/** Return an amount of money, always with two decimals, in the problem's currency. */
 export function money(value) {
+  return `${plainMoney(value)}${shownCurrency}`;
+}
+
+function plainMoney(value) {
   const options = { minimumFractionDigits: 2, maximumFractionDigits: 2 };
   const text = Math.abs(value).toLocaleString('en', options);
   return value < 0 && text !== '0.00' ? MINUS + text : text;
@@ -72,14 +126,19 @@ export function km(metres) {
   return `${number(metres / 1000, 1)} km`;
 }
 
+/** Return a length in metres, of a kilometre and more in kilometres. */
+export function length(metres) {
+  return metres < 999.5 ? `${number(metres, 0)} m` : km(metres);
+}
+
 /** Return a share, 0 to 1, in percent. */
 export function percent(share) {
   return share === null || share === undefined ? '' : `${number(share * 100, 1)} %`;
 }
 
-/** Return amounts such as `12 / 3.5`. */
+/** Return amounts such as `12 / 3.5`, or `12 kg / 3.5 l` where units are known. */
 export function amounts(values) {
-  return values.map((value) => number(value, 3)).join(' / ');
+  return values.map((value, at) => `${number(value, 3)}${shownUnits[at] ?? ''}`).join(' / ');
 }
 
 /** Return a window such as `8:00 to 10:30`, `from 8:00`, `until 10:30` or `any time`. */
@@ -94,4 +153,14 @@ export function timeWindow(window) {
 /** Return a count and its noun. */
 export function count(value, noun, plural = `${noun}s`) {
   return `${number(value, 0)} ${value === 1 ? noun : plural}`;
+}
+
+/** Return where a place is; degrees as navigators take them, latitude first. */
+export function pointText([x, y], { isGeographic }) {
+  return isGeographic ? `Latitude, longitude: ${y}, ${x}` : `x, y: ${x}, ${y}`;
+}
+
+/** Return the name of a file without its ending. */
+export function withoutEnding(name) {
+  return name.replace(/(?<=.)\.[^.]*$/, '');
 }

@@ -85,8 +85,9 @@ function tripShapes(trip, legsOf, at) {
   const colour = vehicleColour(trip.vehicle.number, false);
   const places = trip.stops.flatMap(({ location }) => (location ? [at(location)] : []));
   const middle = places[Math.floor(places.length / 2)];
+  const way = trip.stops.flatMap(({ line }) => line.map(at));
   return [
-    { kind: 'line', points: places, colour, width: 2.2, dash: tripDash(trip.index) },
+    { kind: 'line', points: way, colour, width: 2.2, dash: tripDash(trip.index) },
     ...trip.sorties.flatMap((sortie) =>
       legsOf(sortie).map((leg) => ({
         kind: 'line',

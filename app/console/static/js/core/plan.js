@@ -2,14 +2,23 @@
  * A plan as the views need it: vehicles, trips, sorties and halts, each with a key.
  *
  * Keys are `c:<customer>`, `d:<vehicle>/<trip>/<stop>` for depots, `v:<vehicle>`,
- * `t:<vehicle>/<trip>` and `s:<vehicle>/<trip>/<sortie>`; vehicles count in the fleet's order.
+ * `t:<vehicle>/<trip>`, `s:<vehicle>/<trip>/<sortie>` and `l:<vehicle>/<trip>/<stop>` for the leg
+ * that leads to a stop; vehicles count in the fleet's order.
  */
 
+import { decodeLine } from './polyline.js';
 import { standsOf } from './stands.js';
 import { windowAt } from './windows.js';
 
-/** Return the index of a plan, or null without one. */
-export function indexPlan(request, plan) {
+/** How exactly lines state places, which they round. */
+const NEAR = 1e-5;
+
+/**
+ * Return the index of a plan, or null without one.
+ *
+ * @param given the number of each vehicle by name; without it they count in the fleet's order
+ */
+export function indexPlan(request, plan, given = null) {
   if (!plan) return null;
   const customers = new Map(request.customers.map((customer) => [customer.id, customer]));
   const depots = new Map(request.depots.map((depot) => [`depot ${depot.id}`, depot]));
@@ -17,19 +26,19 @@ export function indexPlan(request, plan) {
   const types = new Map(request.fleet.map((type) => [type.id, type]));
   const index = { request, plan, customers, depots, types, vehicles: [], halts: new Map() };
   // Replies put vehicles under way first; here each keeps its row, number and colour.
-  const numbers = numbersOf(request, plan);
-  index.vehicles = inOrder(request.fleet, plan).map((route, position) =>
+  const numbers = given ?? numbersOf(request, plan);
+  index.vehicles = inOrder(request.fleet, plan, given).map((route, position) =>
     indexRoute(index, route, position, numbers.get(route.vehicle)),
   );
   return index;
 }
 
-/** Return a plan's routes in the order of the fleet. */
-function inOrder(fleet, { routes }) {
+/** Return a plan's routes in the order of the fleet, those of a type by number. */
+function inOrder(fleet, { routes }, given = null) {
   const types = new Map(fleet.map(({ id }, position) => [id, position]));
   const place = ({ type, vehicle }) => [
     types.get(type) ?? fleet.length,
-    Number(vehicle.slice(type.length + 1)),
+    given ? given.get(vehicle) : Number(vehicle.slice(type.length + 1)),
   ];
   return [...routes].sort((first, second) => {
     const [[type, number], [otherType, otherNumber]] = [place(first), place(second)];
@@ -40,7 +49,7 @@ function inOrder(fleet, { routes }) {
 const numberings = new WeakMap();
 
 /** Return the number of each vehicle of a plan, from 0; where it goes on from another, as there. */
-function numbersOf(request, plan) {
+export function numbersOf(request, plan) {
   if (numberings.has(plan)) return numberings.get(plan);
   const numbers = new Map(request.replan ? numbersOf({ fleet: request.fleet }, request.replan.plan)
     : []);
@@ -93,6 +102,11 @@ function indexTrip(index, vehicle, reply, number) {
       load: stop.load,
     });
   });
+  reply.stops.forEach(({ geometry }, position) => {
+    const halt = trip.stops[position];
+    const places = [trip.stops[position - 1]?.location, halt.location];
+    halt.line = lineOf(geometry, places) ?? places.filter(Boolean);
+  });
   trip.sorties = reply.sorties.map((sortie, position) => {
     const key = `s:${place}/${position}`;
     const entry = {
@@ -115,9 +129,23 @@ function indexTrip(index, vehicle, reply, number) {
         waiting: visit.service_start - visit.arrival - (visit.setup ?? 0),
       });
     });
+    const places = [entry.from, ...entry.visits, entry.to].map((halt) => halt?.location);
+    entry.lines = [...sortie.customers.map(({ geometry }) => geometry), sortie.recovery_geometry]
+      .map((geometry, index) => lineOf(geometry, places.slice(index, index + 2)));
     return entry;
   });
   return trip;
+}
+
+/** Return a line of the reply, null if it doesn't lead from place to place any more. */
+function lineOf(geometry, [from, to]) {
+  if (!geometry || !from || !to) return null;
+  const line = decodeLine(geometry);
+  return line.length > 1 && near(line[0], from) && near(line[line.length - 1], to) ? line : null;
+}
+
+function near([x, y], [otherX, otherY]) {
+  return Math.abs(x - otherX) < NEAR && Math.abs(y - otherY) < NEAR;
 }
 
 function haltOf(key, reply, trip, source) {
@@ -168,6 +196,7 @@ export function partsOf(index, key) {
   const found = { vehicle: index.vehicles[vehicle] };
   if (kind !== 'v') found.trip = found.vehicle?.trips[trip];
   if (kind === 's') found.sortie = found.trip?.sorties[sortie];
+  if (kind === 'l') found.leg = found.trip?.stops[sortie];
   return found;
 }
 

@@ -48,7 +48,7 @@ function truckSpans(vehicle) {
       from: before.departure,
       until: halt.arrival,
       doing,
-      line: [before.location, halt.location],
+      line: halt.trip === before.trip ? halt.line : [before.location, halt.location],
     };
     return [way, standing];
   });

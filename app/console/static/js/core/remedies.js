@@ -34,23 +34,31 @@ const CHANGES = [
       raise(request, [...type, 'capacity'], mostOf(getIn(request, customer))),
   ],
   [
-    /^fits if the drone capacity were at least /,
-    (request, { type, customer }) =>
-      raise(request, [...type, 'drones', 'capacity'], mostOf(getIn(request, customer))),
+    /^fits if the drone capacity(?: of (.+))? were at least /,
+    (request, { type, customer }, id) =>
+      raise(
+        request,
+        [...dronesAt(request, type, id), 'capacity'],
+        mostOf(getIn(request, customer)),
+      ),
   ],
   [
     /^fits if .+ may pick up at any time$/,
     (request, { type }) => setIn(request, [...type, 'pickups'], 'any'),
   ],
   [
-    new RegExp(`^fits if endurance were ${NUMBER} minutes? longer$`),
-    (request, { type }, more) =>
-      add(request, [...type, 'drones', 'endurance'], numberOf(more) * SECONDS_PER_MINUTE),
+    new RegExp(`^fits if endurance(?: of (.+))? were ${NUMBER} minutes? longer$`),
+    (request, { type }, id, more) =>
+      add(
+        request,
+        [...dronesAt(request, type, id), 'endurance'],
+        numberOf(more) * SECONDS_PER_MINUTE,
+      ),
   ],
   [
-    new RegExp(`^fits with a battery of ${NUMBER} Wh more$`),
-    (request, { type }, more) =>
-      add(request, [...type, 'drones', 'energy', 'battery_wh'], numberOf(more)),
+    new RegExp(`^fits with a battery(?: of (.+))? of ${NUMBER} Wh more$`),
+    (request, { type }, id, more) =>
+      add(request, [...dronesAt(request, type, id), 'energy', 'battery_wh'], numberOf(more)),
   ],
   [
     new RegExp(`^fits if trips could be ${NUMBER} km longer$`),
@@ -91,8 +99,9 @@ const CHANGES = [
     (request, { type }) => setIn(request, [...type, 'max_sorties'], 1),
   ],
   [
-    /^fits if .+ carried 1 battery$/,
-    (request, { type }) => setIn(request, [...type, 'drones', 'turnaround', 'batteries'], 1),
+    /^fits if .+ carried 1 battery(?: of (.+))?$/,
+    (request, { type }, id) =>
+      setIn(request, [...dronesAt(request, type, id), 'turnaround', 'batteries'], 1),
   ],
   [
     new RegExp(`^fits if .+ could work ${NUMBER} minutes? longer$`),
@@ -121,6 +130,13 @@ function allowType(request, { type, customer }) {
   return others.length
     ? setIn(request, [...customer, 'vehicles', 'forbidden'], others)
     : removeIn(request, [...customer, 'vehicles']);
+}
+
+/** Return where the drones that a remedy names are stated. */
+function dronesAt(request, type, id) {
+  const { drones } = getIn(request, type);
+  const place = Array.isArray(drones) ? [drones.findIndex((each) => each.id === id)] : [];
+  return [...type, 'drones', ...place];
 }
 
 function closeLater(request, keys, position, minutes) {
@@ -171,4 +187,80 @@ export function applyRemedy(request, id, reason) {
     if (match && (!code || code === reason.code)) return change(request, places, ...match.slice(1));
   }
   return null;
+}
+
+/** Remedies that change the vehicles of a type by so much: the largest suffices for all. */
+const BY_SO_MUCH = /(longer|later|more|more overtime|one more vehicle|were above [\d.,]+)$/;
+
+/** Return a remedy without its numbers and names, which tells its kind from others. */
+function kindOf({ remedy }) {
+  return remedy ? remedy.replace(/[\d.,]*\d/g, '#') : '';
+}
+
+function sizeOf({ remedy }) {
+  return numberOf(/[\d.,]*\d/.exec(remedy)?.[0] ?? '0');
+}
+
+/**
+ * Return the unassigned customers of a plan by what would help: `[{key, code, type, remedy,
+ * members, changed, isForEach}]`, the largest group first, each customer in one group.
+ *
+ * `members` are `{customer, reason}`; `changed` is the request with the remedy for all of them,
+ * null if none is known; `isForEach` says that it changes the customers, not the vehicles.
+ */
+export function groupUnassigned(request, unassigned) {
+  const groups = new Map();
+  for (const customer of unassigned) {
+    for (const reason of customer.reasons) {
+      const key = [reason.vehicle_type, reason.code, kindOf(reason)].join('|');
+      if (!groups.has(key)) groups.set(key, []);
+      groups.get(key).push({ customer, reason });
+    }
+  }
+  const without = unassigned.filter(({ reasons }) => !reasons.length);
+  if (without.length) groups.set('', without.map((customer) => ({ customer, reason: null })));
+  return oneEach([...groups]).map(([key, members]) => grouped(request, key, members));
+}
+
+/** Leave each customer in the largest group, those with a remedy before those without. */
+function oneEach(groups) {
+  const found = [];
+  const taken = new Set();
+  let left = groups;
+  while (left.length) {
+    const open = left
+      .map(([key, members]) => [key, members.filter(({ customer }) => !taken.has(customer.id))])
+      .filter(([, members]) => members.length);
+    const rank = ([, [{ reason }, ...others]]) =>
+      (reason?.remedy ? 1e9 : 0) + others.length;
+    open.sort((one, other) => rank(other) - rank(one));
+    const [largest, ...others] = open;
+    if (!largest) break;
+    found.push(largest);
+    largest[1].forEach(({ customer }) => taken.add(customer.id));
+    left = others;
+  }
+  return found;
+}
+
+function grouped(request, key, members) {
+  const { reason } = members[0];
+  if (!reason?.remedy) {
+    return { key, code: reason?.code, type: reason?.vehicle_type, remedy: null, members,
+      changed: null, isForEach: false };
+  }
+  const ordered = [...members].sort((one, other) => sizeOf(other.reason) - sizeOf(one.reason));
+  const [most] = ordered;
+  const first = applyRemedy(request, most.customer.id, most.reason);
+  const isForEach = first !== null && first.customers !== request.customers;
+  const suffices = !isForEach && BY_SO_MUCH.test(most.reason.remedy);
+  const changed =
+    first === null || suffices
+      ? first
+      : ordered.reduce(
+          (so, { customer, reason: own }) => applyRemedy(so, customer.id, own) ?? so,
+          request,
+        );
+  return { key, code: reason.code, type: reason.vehicle_type, remedy: most.reason.remedy, members,
+    changed, isForEach };
 }

@@ -30,9 +30,12 @@ function withoutUndefined(entries) {
   return Object.fromEntries(Object.entries(entries).filter(([, value]) => value !== undefined));
 }
 
-/** Return the request that looks for a cheaper plan from an entry of the plans on. */
-export function furtherFrom(request, entry) {
-  return { ...request, replan: { ...request.replan, plan: entry.plan } };
+/** Return the request that looks for a cheaper plan from an entry on; who is locked is pinned. */
+export function furtherFrom(request, entry, locks = []) {
+  const replan = { ...request.replan, plan: entry.plan };
+  const pinned = [...new Set([...(replan.pinned ?? []), ...locks])];
+  if (pinned.length) replan.pinned = pinnedIn(entry.plan, { pinned });
+  return { ...request, replan };
 }
 
 /** Return a request that plans from nothing. */
@@ -85,7 +88,7 @@ export function progressOf(route, type, { freeze_before: now, unavailable = [] }
   route.trips.forEach(({ stops, sorties = [] }, trip) => {
     const standing = stops.findIndex(({ departure }) => departure > now);
     const left = standing < 0 ? stops.length : standing;
-    const launching = launchDurations(type?.drones, sorties);
+    const launching = launchDurations(type, sorties);
     const flights = sorties.flatMap(({ launch_time: launch }, flight) =>
       launch - launching[flight] <= now ? [flight] : [],
     );

@@ -36,7 +36,9 @@ export function kindOf(schema) {
   if (schema.enum) return 'choice';
   if (schema.type === 'boolean') return 'switch';
   if (schema.type === 'number' || schema.type === 'integer') return 'number';
-  if (schema.type === 'object') return 'object';
+  if (schema.type === 'object') {
+    return schema.additionalProperties?.type === 'string' ? 'words' : 'object';
+  }
   if (schema.type !== 'array') return 'text';
   const item = schema.items ?? {};
   if (item.$ref || item.type === 'object') return 'objects';
@@ -49,6 +51,25 @@ export function unitOf(schema) {
   const text = schema.description ?? '';
   if (!['number', 'integer'].includes(schema.type)) return '';
   return UNITS.find(([pattern]) => pattern.test(text))?.[1] ?? '';
+}
+
+/** Return texts by name as lines such as `phone: 089 1234`. */
+export function wordLines(words) {
+  return Object.entries(words ?? {})
+    .map(([name, text]) => `${name}: ${text}`)
+    .join('\n');
+}
+
+/** Return what lines such as `phone: 089 1234` say; null if one lacks its name. */
+export function wordsOf(text) {
+  const lines = text.split('\n').filter((line) => line.trim());
+  if (!lines.every((line) => line.indexOf(':') > 0)) return null;
+  return Object.fromEntries(
+    lines.map((line) => {
+      const colon = line.indexOf(':');
+      return [line.slice(0, colon).trim(), line.slice(colon + 1).trim()];
+    }),
+  );
 }
 
 /** Return a field's name in words: `max_trip_distance` becomes `Max trip distance`. */
@@ -64,6 +85,14 @@ export function labelOf(name) {
 /** Return a description in plain text; a field that is null is an empty one to whoever fills it. */
 export function helpOf(schema) {
   return (schema.description ?? '').replaceAll('`', '').replace(/\bNull: /, 'Empty: ');
+}
+
+/** Return the description of a time in plain text, whose unit is not the service's. */
+export function timeHelpOf(schema) {
+  return helpOf(schema)
+    .replace(/,? in seconds( since plan start)?/g, '')
+    .replace(/^Seconds /, 'Time ')
+    .replace(' since plan start', '');
 }
 
 /** Return an object with what a schema demands and nothing else. */

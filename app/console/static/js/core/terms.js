@@ -11,10 +11,27 @@ const NAMES = {
   unassigned: 'Left out',
 };
 
+/** The least amount of money that is shown. */
+const LEAST = 0.005;
+
 /** Return `[term, name]` of all terms that count in some of the costs. */
 export function costTerms(...costs) {
   const terms = new Set(costs.flatMap(Object.keys));
   return [...terms]
     .filter((term) => term !== 'total' && costs.some((cost) => cost[term]))
     .map((term) => [term, NAMES[term] ?? labelOf(term)]);
+}
+
+/** Return what of a plan's cost is a penalty for customers left out that nobody stated. */
+export function penaltyOf({ request, plan }) {
+  if (request.unassigned_cost !== null && request.unassigned_cost !== undefined) return 0;
+  const prices = new Map(request.customers.map(({ id, unassigned_cost: price }) => [id, price]));
+  const stated = plan.unassigned.reduce((sum, { id }) => sum + (prices.get(id) ?? 0), 0);
+  const penalty = (plan.cost.unassigned ?? 0) - stated;
+  return penalty < LEAST ? 0 : penalty;
+}
+
+/** Return what a plan costs, without penalties that nobody stated. */
+export function trueCost(entry) {
+  return entry.plan.cost.total - penaltyOf(entry);
 }

@@ -1,5 +1,6 @@
 /** A plan as rows of bars: what each vehicle and drone does when. Times in seconds. */
 
+import { dronesOfSortie } from './drones.js';
 import { launchDurations } from './launches.js';
 
 /** What bars mean, in the order of the legend. */
@@ -77,7 +78,7 @@ function stopBars(halt, type) {
 function droneRows(vehicle) {
   const rows = new Map();
   const sorties = vehicle.trips.flatMap((trip) => {
-    const durations = launchDurations(vehicle.type?.drones, trip.sorties.map(({ reply }) => reply));
+    const durations = launchDurations(vehicle.type, trip.sorties.map(({ reply }) => reply));
     return trip.sorties.map((sortie, index) => [sortie, durations[index]]);
   });
   for (const [sortie, launching] of sorties) {
@@ -94,7 +95,7 @@ function droneRows(vehicle) {
 
 function sortieBars(vehicle, sortie, launching) {
   const { launch_time: launch, recovery_time: recovered } = sortie.reply;
-  const drones = vehicle.type?.drones ?? {};
+  const drones = dronesOfSortie(vehicle.type, sortie.reply) ?? {};
   const landing = Math.max(recovered - (drones.recovery_duration ?? 0), launch);
   const bars = [
     {

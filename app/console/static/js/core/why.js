@@ -67,8 +67,13 @@ function whereInWords({ position, by, service_start: start }) {
 
 /** Return a sentence for a limit that binds, or a rule without a number. */
 export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves }) {
-  const field = rule.replace(/^time_windows\[-?\d+\]/, 'time_window').replace(/\[\d+\]$/, '');
-  const [name, more] = RULES[field] ?? [rule, 'more'];
+  const [, drones] = /^drones\[(.+)\]\./.exec(rule) ?? [];
+  const field = rule
+    .replace(/^time_windows\[-?\d+\]/, 'time_window')
+    .replace(/^drones\[.+\]\./, 'drones.')
+    .replace(/\[\d+\]$/, '');
+  const [told, more] = RULES[field] ?? [rule, 'more'];
+  const name = drones && RULES[field] ? `${told} of ${drones}` : told;
   const whose = /^its |its window| it( |$)/.test(name) ? '' : ` of ${at}`;
   const subject = name.charAt(0).toUpperCase() + name.slice(1) + whose;
   if (unit === 'rule') return `${subject}: without this rule ${money(saves)} would be saved.`;

@@ -1,5 +1,6 @@
 /** The buttons of the drawing tools, and what the chosen one draws with. */
 
+import { shownPlan } from '../actions.js';
 import { clock, parseClock, parseNumber } from '../core/format.js';
 import { html, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
@@ -20,7 +21,9 @@ export function DrawBar() {
     if (open) store.set({ tool: null });
     setWanted(!open);
   };
-  const tools = Object.entries(TOOLS).filter(([key]) => key !== 'pin' || replans);
+  const isPlanned = useStore((state) => shownPlan(state) !== null);
+  const hidden = { pin: !replans, fit: !isPlanned };
+  const tools = Object.entries(TOOLS).filter(([key]) => !hidden[key]);
   return html`<div class="draw-bar">
     <button type="button" aria-expanded=${open} onClick=${toggle}>Draw</button>
     ${
@@ -38,7 +41,7 @@ export function DrawBar() {
 }
 
 function Brush({ tool }) {
-  if (tool === 'customer') {
+  if (tool === 'customer' || tool === 'fit') {
     return html`<${BrushField} name="demand" label="Demand"
         show=${(values) => values.join(', ')} read=${readAmounts} />
       <${BrushField} name="service_duration" label="Service (s)" show=${String}

@@ -9,6 +9,7 @@ import { leaflet } from '../libraries.js';
 const L = leaflet();
 
 const LINE = { weight: 2.5, opacity: 0.9, lineCap: 'round', lineJoin: 'round' };
+const LEG = { weight: 5, opacity: 0, lineCap: 'round', lineJoin: 'round' };
 const MOST_LABELS = 30;
 const SETTLED = { weight: 2, opacity: 0.5, dashArray: '1 5' };
 const FLIGHT = { weight: 1.6, opacity: 0.95, dashArray: '1 4', lineCap: 'round' };
@@ -59,6 +60,7 @@ export function planLines(index, parts, dark) {
       for (const { standing, places } of stretches(trip, parts)) {
         lines.push(line(trip.key, places, styles[standing]));
       }
+      lines.push(...legLines(trip, colour));
       for (const sortie of trip.sorties) {
         const legs = legsOf(sortie).map((leg) => leg.map(latLng));
         const style = { ...styles[standingIn(parts, sortie)], ...FLIGHT };
@@ -82,11 +84,24 @@ function stretches(trip, parts) {
   stops.slice(1).forEach((halt, position) => {
     const standing = standingIn(parts, halt);
     const last = found[found.length - 1];
-    const place = latLng(halt.location);
-    if (last?.standing === standing) last.places.push(place);
-    else found.push({ standing, places: [latLng(stops[position].location), place] });
+    const isNext = trip.stops[halt.stop - 1] === stops[position];
+    const way = (isNext ? halt.line : [stops[position].location, halt.location]).map(latLng);
+    if (last?.standing === standing) last.places.push(...way.slice(1));
+    else found.push({ standing, places: way });
   });
   return found;
+}
+
+/** Return the drives from stop to stop, which are seen where one is selected. */
+function legLines(trip, colour) {
+  const base = { ...LEG, color: colour };
+  return trip.stops
+    .filter(({ line: way }) => way.length > 1)
+    .map((halt) => line(legKey(trip, halt), halt.line.map(latLng), base));
+}
+
+function legKey(trip, halt) {
+  return `l:${trip.key.slice(2)}/${halt.stop}`;
 }
 
 function line(key, places, base) {

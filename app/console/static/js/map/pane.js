@@ -16,6 +16,7 @@ import {
 } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { DrawBar } from './draw-bar.js';
+import { attachPlanDrag, followFit } from './plan-drag.js';
 import { MapLegend } from './legend.js';
 import { attachTools } from './tools.js';
 import { MapView, synchronise } from './view.js';
@@ -58,7 +59,7 @@ export function MapPane() {
       split &&
       beside &&
       html`<div class="map-frame">
-      <p class="map-title">Plan ${beside.number}, before</p>
+      <p class="map-title">${beside.name}, before</p>
       <${Map} key=${groundOf(beside.request)} request=${beside.request} entry=${beside}
         onView=${setSecond} /></div>`
     }
@@ -96,9 +97,12 @@ function Map({ request, entry, onView, isMain = false }) {
     });
     setView(made);
     onView(made);
+    if (isMain) attachPlanDrag(made);
     const endTools = isMain ? attachTools(made) : () => {};
+    const endFit = isMain ? followFit(made) : () => {};
     return () => {
       endTools();
+      endFit();
       made.destroy();
       onView(null);
     };

@@ -11,6 +11,7 @@ import {
   removeCustomer,
   setArea,
 } from '../core/changes.js';
+import { askFit, askFitAt } from '../hands.js';
 import { choicesOf, setPinned } from '../core/replanning.js';
 import { drawing, leaflet } from '../libraries.js';
 import { store } from '../store.js';
@@ -27,6 +28,10 @@ export const TOOLS = {
     hint: 'Click two corners: customers between get this window.',
   },
   area: { name: 'No-fly area', hint: 'Click the corners, the first again to close.' },
+  fit: {
+    name: 'Best places',
+    hint: 'Click where somebody is to be served, or a customer: the three best places, with costs.',
+  },
   change: { name: 'Move', hint: 'Drag customers, and corners of no-fly areas.' },
   pin: { name: 'Pin', hint: 'Click customers to keep them with their vehicles.' },
   erase: { name: 'Erase', hint: 'Click customers or no-fly areas to remove them.' },
@@ -88,6 +93,10 @@ const BEGIN = {
     }),
   area: (view) =>
     drawShape(view, 'Polygon', (layer) => edit((request) => setArea(request, ringOf(layer)))),
+  fit(view) {
+    view.onGround = askFitAt;
+    view.onSelect = (key, point) => (isCustomer(key) ? askFit({ id: idOf(key) }) : askFitAt(point));
+  },
   change(view) {
     view.onPress = (key, layer, event) => isCustomer(key) && drag(view, key, layer, event);
     return changeAreas(view);

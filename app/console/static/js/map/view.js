@@ -17,9 +17,12 @@ import {
   tripLabels,
 } from './layers.js';
 import { ScaleBar } from './scale.js';
+import { StreetsLayer } from './streets.js';
 
 const L = leaflet();
 const DIM = 0.18;
+const LEAST_FOCUS = 0.9;
+const LIT = 5; // pixels
 const TIP_GAP = 14; // pixels between a place and its tip
 const TIP_EDGE = 4; // pixels between a tip and the map's edge
 
@@ -38,19 +41,15 @@ export class MapView {
       wheelPxPerZoomLevel: 90,
       minZoom: geographic ? 1 : -16,
       maxZoom: geographic ? 20 : 16,
-      attributionControl: Boolean(geographic && config.tile_url),
+      attributionControl: false,
       zoomControl: false,
     });
     L.control.zoom({ position: 'topright' }).addTo(this.map);
     this.map.setView([0, 0], 2);
-    if (geographic && config.tile_url) {
-      const attribution = document.createElement('span');
-      attribution.textContent = config.tile_attribution;
-      L.tileLayer(config.tile_url, { attribution: attribution.innerHTML, maxZoom: 20 }).addTo(
-        this.map,
-      );
-      this.map.attributionControl.setPrefix(false);
-    }
+    this.grounds = geographic ? groundsOf(config) : [];
+    if (this.grounds.length) L.control.attribution({ prefix: false }).addTo(this.map);
+    this.grounds.forEach((ground) => ground.addTo(this.map));
+    element.classList.toggle('with-streets', this.grounds.length > 0);
     new ScaleBar({ metresPerUnit: geographic ? null : planarUnit }).addTo(this.map);
     this.areas = L.layerGroup().addTo(this.map);
     this.shapes = L.layerGroup().addTo(this.map);
@@ -70,7 +69,9 @@ export class MapView {
     this.onSelect = onSelect;
     this.onGround = () => this.onSelect(null);
     this.onPress = () => {};
-    this.map.on('click', ({ latlng }) => this.onGround([latlng.lng, latlng.lat]));
+    this.map.on('click', ({ latlng }) => {
+      if (!this.isDeaf) this.onGround([latlng.lng, latlng.lat]);
+    });
   }
 
   destroy() {
@@ -82,6 +83,7 @@ export class MapView {
   /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
   draw(request, index, parts, dark) {
     Object.assign(this, { request, index, dark });
+    this.grounds.forEach((ground) => ground.setDark?.(dark));
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
     this.noFly.forEach((shape) => this.areas.addLayer(shape));
@@ -101,7 +103,7 @@ export class MapView {
     layer.on('mousedown', (event) => this.onPress(key, layer, event));
     layer.on('click', (event) => {
       L.DomEvent.stopPropagation(event);
-      this.onSelect(key, [event.latlng.lng, event.latlng.lat]);
+      if (!this.isDeaf) this.onSelect(key, [event.latlng.lng, event.latlng.lat]);
     });
     this.shapes.addLayer(layer);
   }
@@ -141,9 +143,11 @@ export class MapView {
       const style = { ...base };
       if (!inside) Object.assign(style, { opacity: base.opacity * DIM, fillOpacity: DIM });
       if (isFocus) style.weight = base.weight + 2;
+      if (isFocus && !base.radius) style.opacity = Math.max(base.opacity, LEAST_FOCUS);
       layer.setStyle(style);
       if (base.radius) layer.setRadius(isFocus ? base.radius + 3 : base.radius);
-      if (isFocus) layer.bringToFront();
+      // Above customers, legs would take their clicks.
+      if (isFocus && key[0] !== 'l') layer.bringToFront();
     }
     this.#number(selection);
   }
@@ -152,6 +156,21 @@ export class MapView {
     this.numbers.clearLayers();
     const { trip } = partsOf(this.index, selection);
     if (trip) stopNumbers(trip).forEach((mark) => this.numbers.addLayer(mark));
+  }
+
+  /** Let the leg that a key names stand out, as what is dropped there would be on it; or none. */
+  light(key) {
+    this.lit?.layer.setStyle(this.lit.base);
+    this.lit = key && this.entries.find((entry) => entry.key === key);
+    this.lit?.layer.setStyle({ opacity: LEAST_FOCUS, weight: this.lit.base.weight + LIT });
+  }
+
+  /** Take no notice of the click that ends a drag. */
+  ignoreClick() {
+    this.isDeaf = true;
+    setTimeout(() => {
+      this.isDeaf = false;
+    }, 0);
   }
 
   /** Show a tip at what a key names; null hides it. */
@@ -223,6 +242,22 @@ export class MapView {
     }
     this.trucks.get(key).setLatLng(latLng(what.location));
   }
+}
+
+/** Return the layers under the plan: tiles of a server, or streets of the service's extracts. */
+function groundsOf(config) {
+  if (config.tile_url) {
+    const attribution = asText(config.tile_attribution);
+    return [L.tileLayer(config.tile_url, { attribution, maxZoom: 20 })];
+  }
+  const attribution = asText(config.streets_attribution);
+  return config.streets.map((extract) => new StreetsLayer(extract, { attribution }));
+}
+
+function asText(text) {
+  const element = document.createElement('span');
+  element.textContent = text;
+  return element.innerHTML;
 }
 
 /** Return the key of the trip or vehicle that is to stand out. */

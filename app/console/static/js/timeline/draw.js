@@ -1,6 +1,6 @@
 /** Draws rows of bars into a canvas, and finds what lies at a point of it. */
 
-import { clock } from '../core/format.js';
+import { clock, firstHour } from '../core/format.js';
 import { contains, partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { standingIn } from '../core/replanning.js';
@@ -72,9 +72,19 @@ export function drawTimeline(context, rows, view) {
     ({ top, height: size }) => top + size >= scroll && top <= scroll + height,
   );
   for (const row of seen) drawRow(context, row, scale, view);
+  if (view.drop) drawDrop(context, view.drop, scale, view);
   context.restore();
   if (view.now !== null) drawNow(context, scale.x(view.now), view);
   if (view.time !== null) drawClock(context, scale.x(view.time), view);
+}
+
+/** Mark the row and the instant where what is dragged would come. */
+function drawDrop(context, { row, time }, scale, { width, colours }) {
+  context.globalAlpha = 0.15;
+  context.fillStyle = colours.accent;
+  context.fillRect(0, row.top, width, row.height);
+  context.globalAlpha = 1;
+  context.fillRect(scale.x(time) - 1, row.top, 2, row.height);
 }
 
 function drawAxis(context, scale, { range, width, height, colours }) {
@@ -83,7 +93,9 @@ function drawAxis(context, scale, { range, width, height, colours }) {
   context.font = colours.font;
   context.textBaseline = 'middle';
   context.textAlign = 'center';
-  for (let time = Math.ceil(range[0] / step) * step; time <= range[1]; time += step) {
+  const first = firstHour();
+  let time = first + Math.ceil((range[0] - first) / step) * step;
+  for (; time <= range[1]; time += step) {
     const x = Math.round(scale.x(time)) + 0.5;
     context.strokeStyle = colours.grid;
     context.lineWidth = 1;

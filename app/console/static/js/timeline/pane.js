@@ -6,10 +6,14 @@ import { partsOf, spanOf } from '../core/plan.js';
 import { ACTIVITIES, timelineRows } from '../core/timeline.js';
 import { html, useEffect, useLayoutEffect, useMemo, useRef, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { move } from '../views/stop-moves.js';
+import { isHere, placeAt } from '../core/moving.js';
+import { standingIn } from '../core/replanning.js';
 import { AXIS, drawTimeline, heightOf, hit, placeRows, scaleOf } from './draw.js';
 import { Player } from './player.js';
 
 const CLOSEST = 300; // seconds
+const LEAST_DRAG = 4; // pixels, below which it is a click
 
 /** The pane below the map. */
 export function TimelinePane() {
@@ -122,6 +126,7 @@ function attach(box, canvas, state) {
       index,
       parts,
       now,
+      drop: state.current.drop,
       selection,
       hover: hovered,
       time,
@@ -188,9 +193,29 @@ function pointer(box, canvas, state, view) {
     if (!row) return null;
     return onLabel ? row.vehicle.key : (bar?.key ?? null);
   };
+  /** Return the customer at a pointer who may be put elsewhere. */
+  const haltAt = (event) => {
+    const { index, parts } = state.current;
+    const { halt } = partsOf(index, keyAt(event));
+    return halt?.kind === 'customer' && standingIn(parts, halt) !== 'settled' ? halt : null;
+  };
+  /** Return where who is dragged would come: `{row, time, place}`; null: nowhere new. */
+  const dropAt = (event) => {
+    const { rows, range } = state.current;
+    const { row } = hit(rows, place(event), view());
+    if (!row) return null;
+    const time = scaleOf(range, view().width).time(place(event).x);
+    const found = placeAt(row.vehicle, time, drag.halt);
+    return found && !isHere(drag.halt, found) ? { row, time, place: found } : null;
+  };
+  const show = (drop) => {
+    state.current.drop = drop;
+    state.current.redraw();
+  };
   return [
     listen(canvas, 'pointerdown', (event) => {
-      drag = { x: event.clientX, range: state.current.range, moved: false };
+      const halt = haltAt(event);
+      drag = { x: event.clientX, y: event.clientY, range: state.current.range, moved: false, halt };
       canvas.setPointerCapture(event.pointerId);
     }),
     listen(canvas, 'pointermove', (event) => {
@@ -201,9 +226,14 @@ function pointer(box, canvas, state, view) {
         canvas.title = tipOf(state.current.index, key);
         return;
       }
+      if (drag.halt) {
+        drag.moved ||= Math.hypot(event.clientX - drag.x, event.clientY - drag.y) > LEAST_DRAG;
+        if (drag.moved) show(dropAt(event));
+        return;
+      }
       const scale = scaleOf(drag.range, view().width);
       const shift = scale.time(0) - scale.time(event.clientX - drag.x);
-      drag.moved ||= Math.abs(event.clientX - drag.x) > 4;
+      drag.moved ||= Math.abs(event.clientX - drag.x) > LEAST_DRAG;
       const { whole, setRange } = state.current;
       if (drag.moved)
         setRange(
@@ -214,11 +244,17 @@ function pointer(box, canvas, state, view) {
         );
     }),
     listen(canvas, 'pointerup', (event) => {
+      if (drag?.halt && drag.moved) show(dropAt(event));
       if (drag && !drag.moved) select(keyAt(event));
+      const { drop, index } = state.current;
+      const { halt } = drag ?? {};
       drag = null;
+      show(null);
+      if (halt && drop) move(index, halt.id, drop.place);
     }),
     listen(canvas, 'pointercancel', () => {
       drag = null;
+      show(null);
     }),
     listen(canvas, 'pointerleave', () => hover(null)),
     listen(

@@ -1,11 +1,15 @@
 /** What if: change one thing, plan, and see the plan beside the former. */
 
-import { besidePlan, edit, select, shownPlan } from '../actions.js';
+import { besidePlan, edit, renamePlan, select, shownPlan } from '../actions.js';
 import { addVehicles, changeWindows, giveWindows, withoutDrones } from '../core/changes.js';
-import { movedCustomers, planMeasures, requestDifferences } from '../core/differences.js';
+import {
+  movedCustomers, planDifference, planMeasures, renamedTours, requestDifferences,
+} from '../core/differences.js';
+import { droneCount } from '../core/drones.js';
 import { fromNothing } from '../core/replanning.js';
 import { clock, count, km, money, number, percent, signed } from '../core/format.js';
-import { costTerms } from '../core/terms.js';
+import { matchVehicles } from '../core/matching.js';
+import { costTerms, penaltyOf, trueCost } from '../core/terms.js';
 import { html } from '../libraries.js';
 import { plan } from '../planning.js';
 import { store, useStore } from '../store.js';
@@ -37,7 +41,7 @@ function changeAndPlan(change) {
 
 function Changes() {
   const request = useStore((state) => state.request);
-  const hasDrones = request.fleet.some((type) => type.drones?.count);
+  const hasDrones = request.fleet.some((type) => droneCount(type));
   const windows = request.customers.filter((customer) => windowsOf(customer).length).length;
   const onlyOne = request.fleet.length === 1;
   return html`<section class="section"><h3>Change one thing and plan again</h3>
@@ -98,15 +102,31 @@ function Plans() {
       <th scope="col" class="number">Served</th><th scope="col">Shown</th><th
         scope="col">Beside</th></tr></thead>
     <tbody>${plans.map(
-      ({ number: own, plan: { cost, summary } }) => html`<tr key=${own}>
-      <th scope="row">Plan ${own}</th><td class="number">${money(cost.total)}</td>
-      <td class="number">${summary.served}</td>
-      <td><input type="radio" name="shown" aria-label=${`Show plan ${own}`} checked=${shown === own}
-        onChange=${() => open(own)} /></td>
-      <td><input type="radio" name="besides" aria-label=${`Put plan ${own} beside`}
-        disabled=${shown === own} checked=${besides === own}
-        onChange=${() => store.set({ besides: own })} /></td></tr>`,
+      (entry) => html`<tr key=${entry.number}>
+      <th scope="row"><${PlanName} entry=${entry} /></th>
+      <td class="number">${money(trueCost(entry))}</td>
+      <td class="number">${served(entry.plan.summary)}</td>
+      <td><input type="radio" name="shown" aria-label=${`Show ${entry.name}`}
+        checked=${shown === entry.number} onChange=${() => open(entry.number)} /></td>
+      <td><input type="radio" name="besides" aria-label=${`Put ${entry.name} beside`}
+        disabled=${shown === entry.number} checked=${besides === entry.number}
+        onChange=${() => store.set({ besides: entry.number })} /></td></tr>`,
     )}</tbody></table></section>`;
+}
+
+function served({ served: number, customers }) {
+  return number < customers ? `${number} of ${customers}` : number;
+}
+
+/** The name of a plan, which can be written over. */
+function PlanName({ entry }) {
+  const commit = (event) => {
+    const name = event.target.value.trim();
+    if (name) renamePlan(entry.number, name);
+    else event.target.value = entry.name;
+  };
+  return html`<input type="text" class="plan-name" value=${entry.name} title=${entry.name}
+    aria-label=${`Name of plan ${entry.number}`} maxlength="100" onChange=${commit} />`;
 }
 
 const SHOWN = { distance: km, drone_distance: km, makespan: clock, load_rate: percent };
@@ -117,14 +137,11 @@ export function Differences({ entry, former }) {
     fromNothing(former.request),
     fromNothing(entry.request),
   ).filter(({ path }) => !path.startsWith('options'));
-  const moved = movedCustomers(former, entry);
-  const head = html`<tr><th scope="col"></th><th scope="col"
-    class="number">Plan ${former.number}</th>
-    <th scope="col" class="number">Plan ${entry.number}</th><th scope="col"
-      class="number">Difference</th></tr>`;
-  const costs = [former.plan.cost, entry.plan.cost];
+  const pairs = matchVehicles(former, entry);
+  const moved = movedCustomers(former, entry, pairs);
   return html`<section class="section"
-    id="differences"><h3>Plan ${entry.number} beside plan ${former.number}</h3>
+    id="differences"><h3>${entry.name}, beside ${former.name}</h3>
+    <p id="plan-difference"><strong>${planDifference(former, entry)}</strong></p>
     ${
       changes.length > 0
         ? html`<ul>${changes.slice(0, MOST_LISTED).map(
@@ -134,17 +151,8 @@ export function Differences({ entry, former }) {
         </ul>`
         : html`<p class="help">The problem is the same.</p>`
     }
-    <table><thead>${head}</thead><tbody>
-      ${[['total', 'Total'], ...costTerms(...costs)].map(
-        ([term, name]) => html`<${Difference} key=${term} name=${name}
-        before=${costs[0][term] ?? 0} now=${costs[1][term] ?? 0} show=${money} cost />`,
-      )}
-      ${planMeasures(former.plan, entry.plan).map(
-        ({ key, name, before, now }) => html`<${Difference}
-        key=${key} name=${name} before=${before} now=${now}
-          show=${SHOWN[key] ?? ((value) => number(value, 0))} />`,
-      )}
-    </tbody></table>
+    <${Figures} entry=${entry} former=${former} />
+    <${Tours} tours=${renamedTours(pairs)} />
     <h4>${count(moved.length, 'customer')} with another vehicle, or none</h4>
     <table><tbody>${moved.slice(0, MOST_LISTED).map(
       ({ id, before, now }) => html`<tr key=${id}>
@@ -155,6 +163,39 @@ export function Differences({ entry, former }) {
     ${moved.length > MOST_LISTED && html`<p
       class="help">and ${moved.length - MOST_LISTED} more</p>`}
   </section>`;
+}
+
+/** Costs and measures of two plans; penalties that nobody stated stand apart from what is paid. */
+function Figures({ entry, former }) {
+  const both = [former, entry];
+  const costs = both.map(({ plan }) => plan.cost);
+  const penalties = both.map(penaltyOf);
+  const line = (name, [before, now], show = money, cost = true) => html`<${Difference}
+    key=${name} name=${name} before=${before} now=${now} show=${show} cost=${cost} />`;
+  const paid = (term) => costs.map((cost, index) =>
+    (cost[term] ?? 0) - (term === 'unassigned' ? penalties[index] : 0));
+  return html`<table><thead><tr><th scope="col"></th>
+      <th scope="col" class="number">${former.name}</th>
+      <th scope="col" class="number">${entry.name}</th>
+      <th scope="col" class="number">Difference</th></tr></thead><tbody>
+    ${line('Costs', both.map(trueCost))}
+    ${costTerms(...costs)
+      .filter(([term]) => term !== 'unassigned' || paid(term).some((amount) => amount > 0))
+      .map(([term, name]) => line(name, paid(term)))}
+    ${planMeasures(former.plan, entry.plan).map(({ key, name, before, now }) =>
+      line(name, [before, now], SHOWN[key] ?? ((value) => number(value, 0)), false))}
+    ${penalties.some(Boolean) && html`${line('Penalty for who is left out', penalties)}
+      ${line('Costs and penalty', costs.map(({ total }) => total))}`}
+  </tbody></table>
+  ${penalties.some(Boolean) && html`<p class="help">Nobody pays the penalty: it makes the planner
+    serve whom it can. What leaving out truly costs is stated under Fleet.</p>`}`;
+}
+
+/** Tours that go on under another vehicle's name. */
+function Tours({ tours }) {
+  if (!tours.length) return null;
+  return html`<ul>${tours.map(({ before, now, shared }) => html`<li key=${now}>${now} does what
+    ${' '}${before} did, with ${count(shared, 'customer')} of it</li>`)}</ul>`;
 }
 
 function Difference({ name, before, now, show, cost = false }) {

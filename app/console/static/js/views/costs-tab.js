@@ -2,6 +2,7 @@
 
 import { besidePlan, shownPlan } from '../actions.js';
 import { duration, km, money, number, percent } from '../core/format.js';
+import { legsInWords } from '../core/legs.js';
 import { costTerms } from '../core/terms.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -26,7 +27,8 @@ export function CostsTab() {
         <tr><th scope="row"><strong>Total</strong></th>
           <td class="number"><strong>${money(plan.cost.total)}</strong></td><td></td></tr></tbody>
             </table>
-      ${former && html`<p class="help">What if shows this plan beside plan ${former.number}.</p>`}
+      ${former && html`<p class="help">
+        What if shows this plan beside \u201c${former.name}\u201d.</p>`}
     </section>
     <section class="section"><h3>Cost by vehicle</h3>
       <table><thead><tr><th scope="col">Vehicle</th><th scope="col" class="number">Cost</th>
@@ -38,11 +40,20 @@ export function CostsTab() {
       )}
       </tbody></table></section>
     <${DronesWorth} />
-    <${Summary} summary=${plan.summary} />`;
+    <${Summary} summary=${plan.summary} />
+    <${Legs} legs=${plan.legs} />`;
 }
 
 function shareOf(cost, term) {
   return cost.total > 0 ? cost[term] / cost.total : 0;
+}
+
+function Legs({ legs }) {
+  const lines = legsInWords(legs);
+  if (lines.length === 0) return null;
+  return html`<section class="section"><h3>Driving</h3>${lines.map(
+    (line) => html`<p class="help" key=${line}>${line}</p>`,
+  )}</section>`;
 }
 
 function Summary({ summary }) {

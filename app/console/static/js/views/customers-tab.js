@@ -7,18 +7,17 @@ import { freeName, removeCustomer } from '../core/changes.js';
 import { windowsInWords, windowsOf } from '../core/windows.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { DayFields } from './day-fields.js';
 import { Field, Fields } from './form.js';
-import { LongTable, Name } from './parts.js';
-import { SheetPreview } from './sheet-preview.js';
+import { LongTable } from './long-table.js';
+import { Name } from './parts.js';
 import { WhyHere } from './why-here.js';
 
 /** The tab. */
 export function CustomersTab() {
   const request = useStore((state) => state.request);
-  const sheet = useStore((state) => state.sheet);
-  if (sheet) return html`<${SheetPreview} sheet=${sheet} />`;
   return html`<${CustomerTable} request=${request} /><${SelectedCustomer} request=${request} />
-    <${Places} request=${request} />`;
+    <${Places} request=${request} /><${DayFields} request=${request} />`;
 }
 
 function CustomerTable({ request }) {
@@ -46,15 +45,16 @@ function CustomerTable({ request }) {
         onInput=${(event) => setFilter(event.target.value)} />
       <button type="button" onClick=${() => addCustomer(request)}>Add</button></div>
     <${LongTable} label="Customers" height=${330} head=${head} rows=${rows}
+      revealed=${rows.findIndex(({ customer }) => selection === `c:${customer.id}`)}
       renderRow=${({
         customer,
         position,
-      }) => html`<${CustomerRow} key=${position} customer=${customer}
+      }, place) => html`<${CustomerRow} key=${position} place=${place} customer=${customer}
         halt=${index?.halts.get(`c:${customer.id}`)} index=${index} errors=${broken.get(position)}
         selected=${selection === `c:${customer.id}`}
           marked=${hovered === `c:${customer.id}`} />`} />
-    ${!request.customers.length && html`<p class="help">None yet: open a file, draw them on the map
-      or add them one by one.</p>`}
+    ${!request.customers.length && html`<p class="help">None yet: open a file, paste from a sheet,
+      draw them on the map or add them one by one.</p>`}
   </section>`;
 }
 
@@ -73,12 +73,13 @@ function brokenCells(errors) {
   return cells;
 }
 
-function CustomerRow({ customer, halt, index, selected, marked, errors }) {
+function CustomerRow({ customer, place, halt, index, selected, marked, errors }) {
   const key = `c:${customer.id}`;
   const cell = (field) =>
     errors?.has(field) ? { class: 'invalid', title: errors.get(field) } : {};
   const arrival = halt ? clock(halt.arrival) : index ? 'not served' : '';
-  return html`<tr data-selected=${selected} data-marked=${marked} onMouseEnter=${() => hover(key)}
+  return html`<tr ...${place} data-selected=${selected} data-marked=${marked}
+      onMouseEnter=${() => hover(key)}
       onMouseLeave=${() => hover(null)}>
     <th scope="row" ...${cell('id')}><button type="button" class="link" aria-pressed=${selected}
       title=${customer.id}

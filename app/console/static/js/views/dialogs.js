@@ -2,6 +2,8 @@
 
 import { html, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { ImportDialog } from './import-dialog.js';
+import { KeepingDialogs } from './keeping-dialogs.js';
 import { Dialog } from './parts.js';
 import { SHORTCUTS } from './shortcuts.js';
 
@@ -10,7 +12,7 @@ export function Dialogs() {
   const dialog = useStore((state) => state.dialog);
   if (dialog?.name === 'keys') return html`<${KeysDialog} />`;
   if (dialog?.name === 'key') return html`<${KeyDialog} ...${dialog} />`;
-  return null;
+  return html`<${KeepingDialogs} /><${ImportDialog} />`;
 }
 
 function close() {

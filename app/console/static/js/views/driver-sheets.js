@@ -1,6 +1,6 @@
 /** Sheets for drivers, one page or more for each vehicle, for the printer alone. */
 
-import { amounts, clock, duration, timeWindow } from '../core/format.js';
+import { amounts, clock, duration, pointText, shownDate, timeWindow } from '../core/format.js';
 import { standingOf } from '../core/replanning.js';
 import { html, render } from '../libraries.js';
 
@@ -10,24 +10,29 @@ const STANDINGS = { settled: 'settled', lost: 'not to be served', open: '' };
  * Print the sheets of vehicles.
  *
  * @param parts what of the plan is settled, of `settledParts`
+ * @param isGeographic whether places are longitudes and latitudes
+ * @param links of vehicles, by name, if they have any
  */
-export function printSheets(vehicles, parts) {
+export function printSheets(vehicles, parts, isGeographic, links = new Map()) {
   const holder = document.getElementById('sheets') ?? document.createElement('div');
   holder.id = 'sheets';
   document.body.append(holder);
   render(
     html`${vehicles.map((vehicle) => html`<${Sheet}
-      key=${vehicle.key} vehicle=${vehicle} parts=${parts} />`)}`,
+      key=${vehicle.key} vehicle=${vehicle} parts=${parts} isGeographic=${isGeographic}
+      link=${links.get(vehicle.name)} />`)}`,
     holder,
   );
   window.print();
 }
 
-function Sheet({ vehicle, parts }) {
+function Sheet({ vehicle, parts, isGeographic, link }) {
   return html`<article class="sheet-page">
+    ${link?.qr && html`<figure class="qr"><img src=${link.qr} alt="" />
+      <figcaption>This day on a phone</figcaption></figure>`}
     <h1>${vehicle.name}</h1>
     <p>Works ${duration(vehicle.route.working_duration)}. Driver: ____________________
-      Date: ______________</p>
+      Date: ${shownDate() || '______________'}</p>
     ${vehicle.trips.map(
       (trip) => html`<section key=${trip.key}>
       <h2>Trip ${trip.index + 1}, load ${amounts(trip.reply.load)}</h2>
@@ -36,7 +41,7 @@ function Sheet({ vehicle, parts }) {
       <tbody>${trip.stops.map(
         (halt, position) => html`<tr key=${halt.key}><td>${position || ''}</td>
         <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
-        <td><strong>${halt.id}</strong>${place(halt)}</td>
+        <td><strong>${halt.id}</strong>${place(halt, isGeographic)}</td>
         <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
         <td>${halt.kind === 'customer' ? handed(halt.source) : ''}</td>
         <td>${orders(trip, halt).map((order) => html`<div
@@ -54,8 +59,14 @@ function handed({ demand, pickup }) {
   return pickup ? `${amounts(demand)}, back ${amounts(pickup)}` : amounts(demand);
 }
 
-function place({ location }) {
-  return location ? html`<br /><small>${location.join(', ')}</small>` : '';
+/** Return where a stop is and what is told of it. */
+function place({ location, source }, isGeographic) {
+  const { address, ...told } = source?.info ?? {};
+  const where = [address, location && pointText(location, { isGeographic })].filter(Boolean);
+  return html`${where.map((text) => html`<br key=${text} /><small>${text}</small>`)}
+    ${Object.entries(told).map(
+      ([name, text]) => html`<div key=${name}><small>${name}:</small> ${text}</div>`,
+    )}`;
 }
 
 /** Return what the driver does with drones at a stop. */

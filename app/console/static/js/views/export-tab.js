@@ -1,8 +1,10 @@
 /** Take the plan away: files, sheets for drivers, pictures. */
 
 import { indexOf, settledOf, shownPlan } from '../actions.js';
+import { linksByVehicle } from '../core/dispatches.js';
 import { geoJson, gpx, stopsCsv } from '../core/exports.js';
-import { flightLines } from '../core/flights.js';
+import { flightLines, flownLines } from '../core/flights.js';
+import { asStated } from '../core/times.js';
 import { drawPicture, pictureOf, toSvg } from '../core/picture.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -14,15 +16,21 @@ const PNG_SCALE = 2;
 /** The tab. */
 export function ExportTab() {
   const request = useStore((state) => state.request);
+  const schemas = useStore((state) => state.schemas);
+  const stated = useStore((state) => state.stated);
   const entry = useStore(shownPlan);
+  const links = linksByVehicle(useStore((state) => state.dispatch));
   const index = indexOf(entry);
   const problem = html`<section class="section"><h3>Problem</h3><div class="buttons">
-    <button type="button" onClick=${() => saveJson('problem.json', request)}>Problem as JSON
+    <button type="button" onClick=${() =>
+      saveJson('problem.json', asStated(schemas, request, stated))}>Problem as JSON
       </button></div></section>`;
   if (!index) return html`${problem}<p class="empty">Nothing is planned yet.</p>`;
-  const legsOf = flightLines(entry.request);
+  const drawnOf = flightLines(entry.request);
+  const legsOf = flownLines(entry.request);
   const parts = settledOf(entry, request);
   const isGeographic = entry.request.coordinate_system === 'geographic';
+  const print = (vehicles) => printSheets(vehicles, parts, isGeographic, links);
   return html`${problem}
     <section class="section"><h3>Plan</h3><div class="buttons">
       <button type="button" onClick=${() => saveJson('plan.json', entry.plan)}>Plan as JSON</button>
@@ -36,13 +44,13 @@ export function ExportTab() {
         )}>GeoJSON</button></div></section>
     <section class="section"><h3>Picture</h3><div class="buttons">
       <button type="button" onClick=${() =>
-        save('plan.svg', 'image/svg+xml', toSvg(pictureOf(index, legsOf)))}>
+        save('plan.svg', 'image/svg+xml', toSvg(pictureOf(index, drawnOf)))}>
         SVG</button>
-      <button type="button" onClick=${() => savePng('plan.png', pictureOf(index, legsOf))}>PNG
+      <button type="button" onClick=${() => savePng('plan.png', pictureOf(index, drawnOf))}>PNG
         </button></div></section>
     <section class="section"><h3>For drivers</h3>
       <div class="buttons">
-        <button type="button" onClick=${() => printSheets(index.vehicles, parts)}>
+        <button type="button" onClick=${() => print(index.vehicles)}>
           Print all driver sheets</button></div>
       ${!isGeographic && html`<p
         class="help">GPX needs longitudes and latitudes; this problem lies on a plane.</p>`}
@@ -50,7 +58,7 @@ export function ExportTab() {
         (vehicle) => html`<tr key=${vehicle.key}>
         <th scope="row"><${Badge} vehicle=${vehicle} /> ${vehicle.name}</th>
         <td><div class="buttons">
-          <button type="button" onClick=${() => printSheets([vehicle], parts)}
+          <button type="button" onClick=${() => print([vehicle])}
             aria-label=${`Print the driver sheet of ${vehicle.name}`}>Print sheet</button>
           <button type="button" disabled=${!isGeographic} aria-label=${`GPX of ${vehicle.name}`}
             onClick=${() =>

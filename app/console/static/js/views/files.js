@@ -1,8 +1,10 @@
-/** Opens files: problems as JSON, sheets of customers as CSV or Excel. */
+/** Opens files: problems as JSON, sheets of customers in any format that the service reads. */
 
-import { openRequest, openTab, showFailure } from '../actions.js';
+import { openRequest, showFailure } from '../actions.js';
 import { ApiError } from '../api.js';
-import { csvReader, excelReader } from '../libraries.js';
+import { withoutEnding } from '../core/format.js';
+import { pastedSheet } from '../core/importing.js';
+import { beginImport } from '../importing.js';
 import { plan } from '../planning.js';
 import { store } from '../store.js';
 
@@ -11,7 +13,7 @@ export async function openFile(file) {
   try {
     const ending = file.name.slice(file.name.lastIndexOf('.') + 1).toLowerCase();
     if (ending === 'json') await openJson(file);
-    else openSheet(file.name, await rowsOf(file, ending));
+    else await beginImport(file);
   } catch (error) {
     showFailure(error);
   }
@@ -33,6 +35,18 @@ export function listenToDrops() {
   });
 }
 
+/** Import what is pasted outside of fields, if it comes from a sheet. */
+export function listenToPastes() {
+  document.addEventListener('paste', (event) => {
+    const { dialog, importing, keeping } = store.get();
+    if (dialog || importing || keeping || event.target.closest?.('input, textarea, select')) return;
+    const text = pastedSheet(event.clipboardData.getData('text/plain'));
+    if (text === null) return;
+    event.preventDefault();
+    openFile(new File([text], 'what was pasted'));
+  });
+}
+
 async function openJson(file) {
   let content;
   try {
@@ -51,29 +65,6 @@ async function openJson(file) {
       `It lacks ${lacking.join(', ')}: open a request as the API takes it, or an exported problem.`,
     );
   }
-  openRequest(request);
+  openRequest(request, { name: withoutEnding(file.name), isSafe: true });
   await plan();
-}
-
-async function rowsOf(file, ending) {
-  if (ending === 'xlsx') {
-    const read = await excelReader();
-    const [first] = await read(file);
-    return first.data;
-  }
-  const reader = await csvReader();
-  return reader.parse((await file.text()).replace(/^\ufeff/, ''), { skipEmptyLines: 'greedy' })
-    .data;
-}
-
-function openSheet(name, rows) {
-  if (rows.length < 2) {
-    throw new ApiError(
-      0,
-      `${name} has no customers`,
-      'It needs a line of names and a line per customer.',
-    );
-  }
-  store.set({ sheet: { name, rows }, failure: null });
-  openTab('customers');
 }

@@ -2,9 +2,10 @@
 
 import { edit } from '../actions.js';
 import { freeName } from '../core/changes.js';
+import { droneCount } from '../core/drones.js';
 import { amounts, count } from '../core/format.js';
 import { removeIn } from '../core/paths.js';
-import { html, useState } from '../libraries.js';
+import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Field, Fields } from './form.js';
 
@@ -13,8 +14,16 @@ export function FleetTab() {
   const request = useStore((state) => state.request);
   const schemas = useStore((state) => state.schemas);
   const [help, setHelp] = useState(true);
+  const [added, setAdded] = useState(null);
   const { properties } = schemas.PlanRequest;
-  const add = () =>
+  useEffect(() => {
+    if (!added) return;
+    const field = document.getElementById(`field-fleet-${added.position}-id`);
+    field.closest('details').scrollIntoView({ block: 'start' });
+    field.focus({ preventScroll: true });
+    field.select();
+  }, [added]);
+  const add = () => {
     edit({
       ...request,
       fleet: [
@@ -25,6 +34,8 @@ export function FleetTab() {
         },
       ],
     });
+    setAdded({ position: request.fleet.length });
+  };
   return html`<div class=${help ? 'section' : 'section no-help'}>
     <div class="buttons"><h3>${count(request.fleet.length, 'vehicle type')}</h3>
       <button type="button" onClick=${add}>Add a type</button>
@@ -33,7 +44,7 @@ export function FleetTab() {
     </div>
     ${request.fleet.map(
       (type, position) => html`<${VehicleType} key=${position} type=${type}
-      position=${position} request=${request} />`,
+      position=${position} request=${request} isNew=${position === added?.position} />`,
     )}
     <fieldset class="group"><legend>Wind</legend>
       <${Fields} schema=${schemas.WindInput} keys=${['airspace', 'wind']} request=${request}
@@ -57,15 +68,15 @@ export function FleetTab() {
   </div>`;
 }
 
-function VehicleType({ type, position, request }) {
+function VehicleType({ type, position, request, isNew }) {
   const schemas = useStore((state) => state.schemas);
   const errors = useStore((state) => state.errors).filter(
     ({ keys }) => keys[0] === 'fleet' && keys[1] === position,
   ).length;
-  const drones = type.drones?.count ? `, ${count(type.drones.count, 'drone')} each` : '';
+  const drones = droneCount(type) ? `, ${count(droneCount(type), 'drone')} each` : '';
   const choices = { depot: request.depots.map(({ id }) => id) };
   const skip = request.matrices ? [] : ['profile'];
-  return html`<details class="card" open=${position === 0 || errors > 0}>
+  return html`<details class="card" open=${position === 0 || isNew || errors > 0}>
     <summary><strong>${type.id}</strong> ${
       errors > 0 &&
       html`<span class="error">

@@ -1,8 +1,13 @@
 /** Forms made from the API's schema, with units, descriptions and errors at their fields. */
 
+import { freeName } from '../core/changes.js';
 import { clock, parseClock, parseNumber } from '../core/format.js';
 import { getIn, keyOf, removeIn, setIn } from '../core/paths.js';
-import { blank, emptyMeans, helpOf, kindOf, labelOf, resolve, unitOf } from '../core/schema.js';
+import { assumptionIn, presetOf } from '../core/presets.js';
+import {
+  blank, emptyMeans, helpOf, kindOf, labelOf, resolve, timeHelpOf, unitOf, wordLines, wordsOf,
+} from '../core/schema.js';
+import { durationText, readDuration, timeKind } from '../core/times.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 
@@ -37,12 +42,30 @@ export function Field({ name, schema, keys, request, onChange, choices = {}, req
   const found = resolve(schemas, schema);
   const kind = choices[name] ? 'choice' : kindOf(found.schema);
   if (kind === 'other') return null;
+  const time = timeKind(schema);
   const shared = { name, keys, request, onChange, errors, schema: found.schema, choices };
+  if (kind === 'object' && Array.isArray(getIn(request, keys))) {
+    return html`<${ListField} ...${shared} schema=${{ ...found.schema, items: found.schema }}
+      nullable=${found.nullable} />`;
+  }
   if (kind === 'object') return html`<${ObjectField} ...${shared} nullable=${found.nullable} />`;
+  if (kind === 'words') return html`<${WordsField} ...${shared} />`;
   if (kind === 'objects') return html`<${ListField} ...${shared} nullable=${found.nullable} />`;
-  return html`<${PlainField} ...${shared} kind=${kind} nullable=${found.nullable}
+  return html`<${PlainField} ...${shared} kind=${time ?? kind} nullable=${found.nullable}
     required=${required} />`;
 }
+
+/** How numbers that are times are shown and read, by their kind. */
+const INSTANT = {
+  show: (value) => clock(value, { precise: true }),
+  read: parseClock,
+  example: '"7:30"',
+};
+const TIMES = {
+  instant: INSTANT,
+  opening: INSTANT,
+  duration: { show: durationText, read: readDuration, example: '"10 min" or "1:30", hours first' },
+};
 
 function idOf(keys) {
   return `field-${keys.join('-')}`;
@@ -74,20 +97,14 @@ function PlainField({
       required=${required} choices=${choices[name]} onProblem=${setProblem}
       describedBy=${`${id}-help${shown.length ? ` ${id}-error` : ''}`}
         invalid=${shown.length > 0} />
-    <span class="unit">${unitOf(schema)}<${Readable} schema=${schema} value=${value} /></span>
-    <p class="help" id=${`${id}-help`}>${helpOf(schema)}</p>
+    <span class="unit">${TIMES[kind] ? '' : unitOf(schema)}</span>
+    <p class="help" id=${`${id}-help`}>${TIMES[kind] ? timeHelpOf(schema) : helpOf(schema)}</p>
     ${
       shown.length > 0 &&
       html`<p class="error" id=${`${id}-error`}>
       ${shown.map(({ message }) => message).join(' ')}</p>`
     }
   </div>`;
-}
-
-/** Seconds as a time of day or length of time. */
-function Readable({ schema, value }) {
-  if (unitOf(schema) !== 's' || typeof value !== 'number' || value < 600) return null;
-  return html`<span class="readable"> = ${clock(value, { precise: true })} h</span>`;
 }
 
 /** Shown for a value that is no choice but an object. */
@@ -116,11 +133,12 @@ const LIST = /[,;]\s*/;
 /** Return the text of a value. */
 function textOf(kind, value) {
   if (value === null || value === undefined) return '';
+  if (TIMES[kind] && typeof value === 'number') return TIMES[kind].show(value);
   return kind === 'numbers' || kind === 'texts' ? value.join(', ') : String(value);
 }
 
 /** Return `{value}` or `{problem}` of a text; the value undefined if it is left out. */
-function valueOf(text, { kind, schema, required }) {
+function valueOf(text, { kind, required }) {
   const trimmed = text.trim();
   if (trimmed === '' && kind === 'texts') return { value: undefined };
   if (trimmed === '') {
@@ -128,9 +146,14 @@ function valueOf(text, { kind, schema, required }) {
   }
   if (kind === 'text') return { value: trimmed };
   if (kind === 'texts') return { value: trimmed.split(LIST).filter(Boolean) };
-  const read = unitOf(schema) === 's' ? parseClock : parseNumber;
+  if (TIMES[kind]) {
+    const value = TIMES[kind].read(trimmed);
+    return value === null
+      ? { problem: `"${trimmed}" is no time: write ${TIMES[kind].example}.` }
+      : { value };
+  }
   if (kind === 'number') {
-    const value = read(trimmed);
+    const value = parseNumber(trimmed);
     return value === null ? { problem: `"${trimmed}" is not a number: state one.` } : { value };
   }
   const values = trimmed.split(LIST).map(parseNumber);
@@ -157,14 +180,15 @@ function TextInput({
     onProblem(null);
   }, [textOf(kind, value)]);
   const commit = () => {
-    const read = valueOf(text, { kind, schema, required });
+    const read = valueOf(text, { kind, required });
     onProblem(read.problem ?? null);
     if (!read.problem && textOf(kind, read.value) !== textOf(kind, value)) set(read.value);
   };
-  const numeric = kind === 'number' && unitOf(schema) !== 's';
+  const numeric = kind === 'number';
   return html`<input type="text" id=${id} value=${text} aria-describedby=${describedBy}
     aria-invalid=${invalid} aria-required=${required} autocomplete="off" spellcheck=${false}
-    inputmode=${numeric ? 'decimal' : 'text'} placeholder=${emptyMeans(schema, nullable)}
+    inputmode=${numeric ? 'decimal' : 'text'}
+    placeholder=${TIMES[kind] && schema.default === 0 ? '' : emptyMeans(schema, nullable)}
     onInput=${(event) => setText(event.target.value)} onBlur=${commit}
     onKeyDown=${(event) => event.key === 'Enter' && commit()} />`;
 }
@@ -175,7 +199,9 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices 
   const present = value !== null && value !== undefined;
   const toggle = (event) =>
     onChange(
-      event.target.checked ? setIn(request, keys, blank(schemas, schema)) : removeIn(request, keys),
+      event.target.checked
+        ? setIn(request, keys, presetOf(name, request) ?? blank(schemas, schema))
+        : removeIn(request, keys),
     );
   return html`<fieldset class="group">
     <legend>${
@@ -185,6 +211,7 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices 
         : labelOf(name)
     }</legend>
     <p class="help">${helpOf(schema)}</p>
+    <p class="assumed" role="status">${present ? assumptionIn(name, request, value) : ''}</p>
     ${
       (present || !nullable) &&
       html`<${Fields} schema=${schema} keys=${keys} request=${request}
@@ -193,10 +220,36 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices 
   </fieldset>`;
 }
 
+function WordsField({ name, schema, keys, request, onChange, errors }) {
+  const id = idOf(keys);
+  const value = wordLines(getIn(request, keys));
+  const [text, setText] = useState(value);
+  useLayoutEffect(() => setText(value), [value]);
+  const words = wordsOf(text);
+  const commit = () => {
+    if (!words || wordLines(words) === value) return;
+    onChange(text.trim() ? setIn(request, keys, words) : removeIn(request, keys));
+  };
+  const shown = words ? errors : [{ message: 'Write lines such as phone: 089 1234.' }];
+  return html`<div class=${`field kind-words ${shown.length ? 'invalid' : ''}`}>
+    <label for=${id}>${labelOf(name)}</label>
+    <textarea id=${id} rows=${Math.min(value.split('\n').length + 1, 6)} value=${text}
+      aria-describedby=${`${id}-help`} aria-invalid=${shown.length > 0}
+      placeholder="phone: 089 1234" onInput=${(event) => setText(event.target.value)}
+      onBlur=${commit}></textarea>
+    <p class="help" id=${`${id}-help`}>${helpOf(schema)}</p>
+    ${shown.map(({ message }) => html`<p class="error" key=${message}>${message}</p>`)}
+  </div>`;
+}
+
 function ListField({ name, schema, keys, request, onChange, nullable, errors, choices }) {
   const schemas = useStore((state) => state.schemas);
   const values = getIn(request, keys) ?? [];
-  const add = () => onChange(setIn(request, keys, [...values, blank(schemas, schema.items)]));
+  const add = () => {
+    const preset = presetOf(name, request);
+    const entry = preset && { id: freeName(values, 'drone'), ...preset };
+    onChange(setIn(request, keys, [...values, entry ?? blank(schemas, schema.items)]));
+  };
   const remove = (index) => {
     const isLast = nullable && values.length === 1;
     onChange(removeIn(request, isLast ? keys : [...keys, index]));

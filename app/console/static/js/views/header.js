@@ -1,11 +1,13 @@
 /** The header: what problem is open, planning, and what came of it. */
 
-import { openRequest, shownPlan } from '../actions.js';
+import { isWaiting, openRequest, shownPlan } from '../actions.js';
 import { count, money } from '../core/format.js';
 import { html, useRef } from '../libraries.js';
 import { plan, stop } from '../planning.js';
 import { store, useStore } from '../store.js';
+import { openPlans } from '../keeping/kept.js';
 import { openFile } from './files.js';
+import { ProblemName } from './problem-name.js';
 
 /** The bar at the top. */
 export function Header() {
@@ -14,7 +16,7 @@ export function Header() {
   const goesOn = useStore((state) => Boolean(state.request?.replan));
   return html`<header class="head">
     <h1><img src="console/icon.svg" alt="" />Tandem</h1>
-    ${ready && html`<${Opener} />`}
+    ${ready && html`<${ProblemName} /><${Opener} />`}
     <button type="button" class="primary" disabled=${!ready} onClick=${plan}
       id="plan-button">${goesOn ? 'Plan on' : 'Plan'}</button>
     <button type="button" class="stop" disabled=${!busy} onClick=${stop}>Stop</button>
@@ -44,7 +46,7 @@ function Opener() {
   const choose = (event) => {
     const example = examples.find(({ name }) => name === event.target.value);
     event.target.value = '';
-    openRequest(example.request);
+    openRequest(example.request, { name: example.name, isSafe: true });
     plan();
   };
   return html`<div class="problem">
@@ -54,8 +56,9 @@ function Opener() {
         value=${name}>${name}: ${summary}</option>`)}
     </select>
     <button type="button" onClick=${() => input.current.click()}>Open a file</button>
+    <button type="button" id="saved-plans" onClick=${openPlans}>Saved</button>
     <input type="file" hidden ref=${input} id="file-input" aria-label="File to open"
-      accept=".json,.csv,.tsv,.txt,.xlsx" onChange=${(event) => {
+      accept=".json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods" onChange=${(event) => {
         openFile(event.target.files[0]);
         event.target.value = '';
       }} />
@@ -69,9 +72,11 @@ function Result() {
   const run = useStore((state) => state.run);
   const stale = useStore((state) => shownPlan(state)?.request !== state.request);
   const goesOn = useStore((state) => Boolean(state.request?.replan));
+  const waits = useStore(isWaiting) && run.state !== 'stopping';
   return html`<div class="result-line" aria-live="polite">
     ${entry && html`<${Totals} plan=${entry.plan} />`}
-    ${run.state !== 'idle' && html`<span>${STATES[run.state]}</span>`}
+    ${run.state !== 'idle' && html`<span>${STATES[waits ? 'decoding' : run.state]}</span>`}
+    ${waits && entry && html`<span class="stale">The plan before is shown meanwhile.</span>`}
     ${
       run.state === 'improving' &&
       html`<span class="progress" role="progressbar" aria-label="Search"

@@ -6,15 +6,17 @@ import { store, useStore } from '../store.js';
 import { ChangesTab } from './changes-tab.js';
 import { CostsTab } from './costs-tab.js';
 import { CustomersTab } from './customers-tab.js';
+import { DriversTab } from './drivers-tab.js';
 import { ExportTab } from './export-tab.js';
 import { FleetTab } from './fleet-tab.js';
+import { HandBar } from './hand-bar.js';
 import { ReplanTab } from './replan-tab.js';
 import { RoutesTab } from './routes-tab.js';
 import { ScenariosTab } from './scenarios-tab.js';
 import { SolveTab } from './solve-tab.js';
 import { UnassignedTab } from './unassigned-tab.js';
 
-/** Tabs in order; the digit of each, 0 for the tenth, is its shortcut. */
+/** Tabs in order; the digit of each of the first ten, 0 for the tenth, is its shortcut. */
 export const TABS = {
   customers: { name: 'Customers', view: CustomersTab },
   fleet: { name: 'Fleet', view: FleetTab },
@@ -26,6 +28,7 @@ export const TABS = {
   replan: { name: 'Replan', view: ReplanTab },
   scenarios: { name: 'Scenarios', view: ScenariosTab },
   export: { name: 'Export', view: ExportTab },
+  drivers: { name: 'Drivers', view: DriversTab },
 };
 
 /** Return the tab where a place of the request is edited. */
@@ -64,6 +67,7 @@ export function Panel() {
         }</button>`,
       )}
     </div>
+    <${HandBar} />
     <div class="tab" role="tabpanel" id="tab-body" aria-labelledby=${`tab-${tab}`} tabindex="0"
       key=${tab}><h2 class="visually-hidden">${label}</h2><${View} /></div>
   </aside>`;

@@ -59,40 +59,17 @@ export function Facts({ facts }) {
 }
 
 /** A dialog over the page, closed by Escape or its button. */
-export function Dialog({ title, onClose, children, name }) {
+export function Dialog({ title, onClose, children, name, wide = false }) {
   const element = useRef(null);
   useEffect(() => {
     element.current.showModal();
   }, []);
-  return html`<dialog ref=${element} class="dialog" aria-labelledby=${`${name}-title`}
+  return html`<dialog ref=${element} class=${`dialog ${wide ? 'broad' : ''}`}
+      aria-labelledby=${`${name}-title`}
       onClose=${onClose} onCancel=${onClose}>
     <header><h2 id=${`${name}-title`}>${title}</h2>
       <button type="button" class="quiet" aria-label="Close"
         onClick=${onClose}>Close</button></header>
     ${children}
   </dialog>`;
-}
-
-/** Rows of equal height, of which only those in view are there. */
-export function LongTable({ head, rows, height, rowHeight = 28, label, renderRow }) {
-  const [top, setTop] = useState(0);
-  const first = Math.max(Math.floor(top / rowHeight) - 8, 0);
-  const seen = Math.ceil(height / rowHeight) + 16;
-  const last = Math.min(first + seen, rows.length);
-  return html`<div class="long-table" style=${{ maxHeight: `${height}px` }} tabindex="0"
-    role="region"
-      aria-label=${label} onScroll=${(event) => setTop(event.currentTarget.scrollTop)}>
-    <table aria-rowcount=${rows.length + 1}>
-      <thead>${head}</thead>
-      <tbody>
-        ${first > 0 && html`<tr aria-hidden="true"
-          style=${{ height: `${first * rowHeight}px` }}></tr>`}
-        ${rows.slice(first, last).map((row, index) => renderRow(row, first + index))}
-        ${
-          last < rows.length &&
-          html`<tr aria-hidden="true"
-          style=${{ height: `${(rows.length - last) * rowHeight}px` }}></tr>`
-        }
-      </tbody>
-    </table></div>`;
 }

@@ -4,6 +4,7 @@ import { besidePlan, edit, replanFrom, shownPlan } from '../actions.js';
 import { clock, money, number, parseClock, signed } from '../core/format.js';
 import { setIn } from '../core/paths.js';
 import { fromNothing } from '../core/replanning.js';
+import { trueCost } from '../core/terms.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 import { improvePlan, plan } from '../planning.js';
 import { store, useStore } from '../store.js';
@@ -31,8 +32,8 @@ export function ReplanTab() {
 function Beginning({ entry }) {
   const time = useStore((state) => state.time);
   return html`<section class="section"><h3>The day is under way</h3>
-      <p class="help">Say what time it is: what has departed by then stays as it is in plan
-        ${' '}${entry.number}, and the rest is planned anew, with new orders, cancelled ones and
+      <p class="help">Say what time it is: what has departed by then stays as it is in this plan,
+        ${' '}and the rest is planned anew, with new orders, cancelled ones and
         broken vehicles.</p>
       <${Now} value=${minuteOf(time)} label="Replan from here" onSet=${replanFrom} />
     </section>
@@ -46,10 +47,10 @@ function minuteOf(time) {
 function Improve({ entry }) {
   const busy = useStore((state) => state.run.state !== 'idle');
   return html`<section class="section"><h3>Improve this plan</h3>
-    <p class="help">Search on from plan ${entry.number} for a cheaper one, as long as the time limit
-      says.</p>
+    <p class="help">Search on from \u201c${entry.name}\u201d for a cheaper one, as long as the time
+      limit says.</p>
     <div class="buttons"><button type="button" disabled=${busy}
-      onClick=${improvePlan}>Improve plan ${entry.number}</button></div></section>`;
+      onClick=${improvePlan}>Improve this plan</button></div></section>`;
 }
 
 /** A time of day, taken from the clock of the day or typed. */
@@ -79,7 +80,7 @@ function Draft({ request, entry }) {
   const basis = useStore(({ plans, request: { replan } }) =>
     plans.find((other) => other.plan === replan?.plan));
   const now = request.replan.freeze_before ?? null;
-  const name = basis ? `plan ${basis.number}` : 'the plan that came with the problem';
+  const name = basis ? `\u201c${basis.name}\u201d` : 'the plan that came with the problem';
   const set = (instant) => edit(setIn(request, ['replan', 'freeze_before'], instant));
   const isFurther = entry && entry.plan !== request.replan.plan;
   return html`<section class="section">
@@ -94,9 +95,9 @@ function Draft({ request, entry }) {
           onClick=${() => set(minuteOf(time))}>Move to ${clock(time)}</button>`}
         ${isFurther && html`<button type="button"
           onClick=${() => replanFrom(minuteOf(time) ?? now ?? 0)}>
-          Go on from plan ${entry.number}</button>`}
+          Go on from the new plan</button>`}
         ${isFurther && html`<button type="button"
-          onClick=${improvePlan}>Improve plan ${entry.number}</button>`}
+          onClick=${improvePlan}>Improve the new plan</button>`}
         <button type="button" onClick=${() => edit(fromNothing(request))}>Stop replanning</button>
       </div></section>
     <${News} request=${request} basis=${basis} />
@@ -115,10 +116,10 @@ function Verdict() {
   const former = useStore(besidePlan);
   const request = useStore((state) => state.request);
   if (!former || !entry?.plan.replan || entry.plan === request.replan?.plan) return null;
-  const [now, before] = [entry, former].map(({ plan: { cost } }) => cost.total);
+  const [now, before] = [entry, former].map(trueCost);
   const out = entry.plan.unassigned.length;
-  return html`<p id="replan-verdict">Plan ${entry.number} costs <strong>${money(now)}</strong>,
+  return html`<p id="replan-verdict">The new plan costs <strong>${money(now)}</strong>,
     ${' '}<span class=${judgeOf(now - before)}>${signed(now - before)}
-    </span> beside plan ${former.number}${out > 0 && html`; <button type="button" class="link"
+    </span> beside \u201c${former.name}\u201d${out > 0 && html`; <button type="button" class="link"
       onClick=${() => store.set({ tab: 'unassigned' })}>${number(out, 0)} left out</button>`}.</p>`;
 }

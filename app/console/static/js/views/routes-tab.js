@@ -5,10 +5,14 @@ import { describe } from '../core/describe.js';
 import { amounts, clock, count, duration, km, money, percent, timeWindow } from '../core/format.js';
 import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
+import { customersOf } from '../core/replanning.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { useSavesNothing } from './drones-worth.js';
+import { setLocked } from '../hands.js';
+import { dropOn, Grip } from './list-drag.js';
 import { Badge, Facts, linked, SelectButton, ShareBar } from './parts.js';
+import { StopMoves } from './stop-moves.js';
 import { WhyHere } from './why-here.js';
 
 /** Vehicles are unfolded at first if there are fewer. */
@@ -35,7 +39,8 @@ function Selected({ index }) {
       </p>`;
   return html`<section class="card"><header><strong>${about.title}</strong></header>
     <div class="inside"><${Facts} facts=${about.facts} />
-      ${selection.startsWith('c:') && html`<${WhyHere} id=${selection.slice(2)} />`}
+      ${selection.startsWith('c:') && html`<${StopMoves} id=${selection.slice(2)} />
+        <${WhyHere} id=${selection.slice(2)} />`}
     </div></section>`;
 }
 
@@ -78,7 +83,8 @@ function Vehicle({ index, vehicle }) {
   // What is folded is left out, as there may be thousands of stops.
   return html`<details class="card" open=${open}
     onToggle=${(event) => setOpen(event.currentTarget.open)}>
-    <summary><${Badge} vehicle=${vehicle} /><strong>${vehicle.name}</strong>
+    <summary data-drop-vehicle=${vehicle.index}><${Badge} vehicle=${vehicle} />
+      <strong>${vehicle.name}</strong>
       <span class="right">${[
         count(vehicle.trips.length, 'trip'),
         duration(route.working_duration) + rate,
@@ -87,11 +93,22 @@ function Vehicle({ index, vehicle }) {
       ].join(', ')}</span></summary>
     ${
       open &&
-      html`<div class="inside">${vehicle.trips.map(
+      html`<div class="inside"><${LockAll} vehicle=${vehicle} />${vehicle.trips.map(
         (trip) => html`<${Trip} key=${trip.key}
       index=${index} trip=${trip} />`,
       )}</div>`
     }</details>`;
+}
+
+/** Locks all customers of a vehicle, or lets go of them. */
+function LockAll({ vehicle }) {
+  const locks = useStore((state) => state.locks);
+  const ids = customersOf(vehicle.route);
+  const isLocked = ids.length > 0 && ids.every((id) => locks.includes(id));
+  return html`<div class="buttons"><button type="button" aria-pressed=${isLocked}
+    aria-label=${`Lock the customers of ${vehicle.name}`}
+    onClick=${() => setLocked(ids, !isLocked)}>${isLocked ? 'All locked' : 'Lock all'}</button>
+    </div>`;
 }
 
 function Trip({ index, trip }) {
@@ -124,9 +141,12 @@ function Trip({ index, trip }) {
 }
 
 function Stop({ index, halt, selection, hovered }) {
-  return html`<tr class=${halt.lateness > 0 ? 'late' : ''}
+  const isLocked = useStore((state) => state.locks).includes(halt.id);
+  return html`<tr class=${halt.lateness > 0 ? 'late' : ''} ...${dropOn(halt)}
     ...${linked(index, halt.key, selection, hovered)}>
-    <th scope="row"><${SelectButton} of=${halt.key}>${halt.id}</${SelectButton}></th>
+    <th scope="row">${halt.kind === 'customer' && html`<${Grip} index=${index} halt=${halt} />`}
+      <${SelectButton} of=${halt.key}>${halt.id}</${SelectButton}>${isLocked
+        && halt.kind === 'customer' && html` <span class="lock-mark">locked</span>`}</th>
     <td>${clock(halt.arrival)}${halt.waiting > 0 && html` <span
       class="help">+${duration(halt.waiting)}</span>`}</td>
     <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>

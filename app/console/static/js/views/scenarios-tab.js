@@ -1,8 +1,11 @@
 /** Scenarios: fleets side by side, and sweeps of one or two fields as a heat map. */
 
 import { withoutDrones } from '../core/changes.js';
-import { clock, count, money, number, percent } from '../core/format.js';
-import { heatTable, readValues, variableFields, writeAt } from '../core/grid.js';
+import { droneCount } from '../core/drones.js';
+import { count, hours, money, number, percent } from '../core/format.js';
+import {
+  axesAround, heatTable, readValues, valuesAround, variableFields, writeAt,
+} from '../core/grid.js';
 import { heatColour } from '../core/palette.js';
 import { fromNothing } from '../core/replanning.js';
 import { costTerms } from '../core/terms.js';
@@ -43,7 +46,7 @@ function baseOf({ request, scenarioSeconds }) {
 /** Return fleets worth a comparison with a request's own. */
 function suggestedFleets(request) {
   const fleets = { 'as it is': request.fleet };
-  if (request.fleet.some((type) => type.drones?.count))
+  if (request.fleet.some((type) => droneCount(type)))
     fleets['without drones'] = withoutDrones(request).fleet;
   if (request.fleet.length > 1) {
     const total = request.fleet.reduce((sum, { count }) => sum + count, 0);
@@ -72,8 +75,8 @@ function Compare() {
       .map(
         (type) =>
           `${type.count} ${type.id}${
-            type.drones?.count
-              ? ` with ${type.drones.count} drone${type.drones.count > 1 ? 's' : ''}`
+            droneCount(type)
+              ? ` with ${droneCount(type)} drone${droneCount(type) > 1 ? 's' : ''}`
               : ''
           }`,
       )
@@ -101,12 +104,17 @@ function Compare() {
 function Sweep() {
   const request = useStore((state) => state.request);
   const schemas = useStore((state) => state.schemas);
-  const axes = useStore((state) => state.sweepAxes);
+  const chosen = useStore((state) => state.sweepAxes);
+  const axes = useMemo(() => chosen ?? axesAround(request.fleet), [chosen, request.fleet]);
   const fields = useMemo(() => variableFields(schemas, request.fleet), [schemas, request.fleet]);
   const set = (index, patch) =>
     store.set({
       sweepAxes: axes.map((axis, other) => (other === index ? { ...axis, ...patch } : axis)),
     });
+  const choose = (index, path) => {
+    const field = fields.find((one) => one.path === path);
+    set(index, { path, text: field ? valuesAround(request.fleet, field) : '' });
+  };
   const unit = (axis) => fields.find(({ path }) => path === axis.path)?.unit ?? '';
   const used = axes.filter(({ path }) => path);
   const values = used.map((axis) => readValues(axis.text, unit(axis)));
@@ -124,7 +132,7 @@ function Sweep() {
     ${axes.map(
       (axis, index) => html`<div class="sweep-axis" key=${index}>
       <select aria-label=${`Field of axis ${index + 1}`} value=${axis.path}
-          onChange=${(event) => set(index, { path: event.target.value, text: '' })}>
+          onChange=${(event) => choose(index, event.target.value)}>
         ${index > 0 && html`<option value="">nothing more</option>`}
         ${fields.map(({ path, label }) => html`<option key=${path}
           value=${path}>${label}</option>`)}</select>
@@ -192,7 +200,8 @@ function CompareResult({ scenario: { body, result } }) {
         ${
           plan &&
           html`<button type="button" aria-label=${`Show the plan of ${fleet}`}
-          onClick=${() => showScenarioPlan({ ...body.base, fleet: body.fleets[fleet] }, plan)}>Show
+          onClick=${() =>
+            showScenarioPlan({ ...body.base, fleet: body.fleets[fleet] }, plan, fleet)}>Show
             </button>`
         }
       </td>`,
@@ -210,7 +219,7 @@ function SweepResult({ scenario: { body, result } }) {
     value === null
       ? 'Cost'
       : found?.unit === 's'
-        ? `${clock(value)} h`
+        ? `${hours(value)} h`
         : `${number(value)} ${found?.unit ?? ''}`;
   const table = heatTable(result);
   return html`<section class="section wide"><h3>Cost by ${down.label.toLowerCase()}${

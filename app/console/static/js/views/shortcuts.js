@@ -1,6 +1,8 @@
 /** Keys that work everywhere but in fields. */
 
 import { indexOf, openTab, replanFromClock, select, shownPlan, undo } from '../actions.js';
+import { redoStep, undoStep } from '../hands.js';
+import { openPlans, save } from '../keeping/kept.js';
 import { improvePlan, plan, stop } from '../planning.js';
 import { store } from '../store.js';
 import { togglePlaying } from '../timeline/player.js';
@@ -15,7 +17,10 @@ export const SHORTCUTS = [
   ['R', 'Replan from the clock of the day'],
   ['Space', 'Play or pause the day'],
   ['1 to 9, 0', 'Open a tab of the panel'],
-  ['U', 'Undo the last edit of the problem'],
+  ['Ctrl S', 'Save: keep what is open by a name'],
+  ['O', 'Open a saved plan'],
+  ['U', 'Undo the last change by hand, or edit of the problem'],
+  ['Y', 'Redo a change by hand'],
   ['T', 'Go to the timeline; arrows then go from stop to stop'],
   ['M', 'Go to the map; arrows pan, + and \u2212 zoom'],
   ['L', 'Light or dark'],
@@ -28,7 +33,9 @@ const ACTIONS = {
   i: improvePlan,
   r: replanOrAsk,
   s: stop,
-  u: undo,
+  u: () => undoStep() || undo(),
+  y: redoStep,
+  o: openPlans,
   l: switchTheme,
   ' ': () => togglePlaying(indexOf(shownPlan(store.get()))),
   t: () => document.querySelector('.rows canvas')?.focus(),
@@ -43,10 +50,20 @@ function replanOrAsk() {
   else replanFromClock();
 }
 
+/** Tell whether a dialog is open. */
+function isAsked() {
+  const { dialog, importing, keeping } = store.get();
+  return Boolean(dialog || importing || keeping);
+}
+
 /** Begin to listen. */
 export function listenToKeys() {
   document.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || store.get().dialog) return;
+    const isSave = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 's';
+    if (isSave) event.preventDefault();
+    if (isAsked()) return;
+    if (isSave) save();
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target;
     const typing = target.matches('input:not([type=range]), select, textarea, [contenteditable]');
     if (typing && event.key !== 'Escape') return;

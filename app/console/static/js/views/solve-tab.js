@@ -2,6 +2,7 @@
 
 import { edit, shownPlan } from '../actions.js';
 import { duration, money, number } from '../core/format.js';
+import { labelOf } from '../core/schema.js';
 import { html, uPlot, useEffect, useRef } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Fields } from './form.js';
@@ -11,18 +12,36 @@ import { Facts } from './parts.js';
 const STEEP = 3;
 const SEEN = 1.25; // of the least cost is seen then
 
+const PLAIN = ['time_limit'];
+const OF_SAMPLES = ['num_samples', 'temperature'];
+const OWN = ['geometry', 'times']; // the console states them itself
+
 /** The tab. */
 export function SolveTab() {
   const request = useStore((state) => state.request);
   const schemas = useStore((state) => state.schemas);
   const policies = useStore((state) => state.config.policies);
+  const errors = useStore((state) => state.errors);
   const sampled = request.options?.decoding === 'sample';
+  const rest = Object.keys(schemas.OptionsInput.properties).filter((name) => !PLAIN.includes(name));
+  const wrong = errors.some(({ keys }) => keys[0] === 'options' && rest.includes(keys[1]));
+  const shared = { schema: schemas.OptionsInput, keys: ['options'], request, onChange: edit };
   return html`<section class="section"><h3>How to plan</h3>
-      <${Fields} schema=${schemas.OptionsInput} keys=${['options']} request=${request}
-        onChange=${edit}
-        choices=${{ policy: policies }} skip=${sampled ? [] : ['num_samples', 'temperature']} />
+      <${Fields} ...${shared} skip=${rest} />
+      <details class="card" open=${wrong}><summary>Advanced
+          <span class="right">${statedIn(request.options, rest)}</span></summary>
+        <div class="inside"><${Fields} ...${shared} choices=${{ policy: policies }}
+          skip=${[...PLAIN, ...OWN, ...(sampled ? [] : OF_SAMPLES)]} /></div></details>
     </section>
     <${Curve} /><${Solver} />`;
+}
+
+/** Return which of some options a problem states. */
+function statedIn(options, names) {
+  return names
+    .filter((name) => !OWN.includes(name) && options?.[name] !== undefined)
+    .map((name) => labelOf(name).toLowerCase())
+    .join(', ');
 }
 
 function Curve() {

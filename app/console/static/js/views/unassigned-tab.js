@@ -1,28 +1,97 @@
-/** Customers that no vehicle serves: why, and what would change that, one click away. */
+/** Customers that no vehicle serves, by what would help: its price, and one click to apply it. */
 
 import { edit, indexOf, shownPlan } from '../actions.js';
-import { count, number } from '../core/format.js';
-import { applyRemedy } from '../core/remedies.js';
-import { html } from '../libraries.js';
+import { count, money, number, signed } from '../core/format.js';
+import { applyRemedy, groupUnassigned } from '../core/remedies.js';
+import { html, useEffect, useMemo } from '../libraries.js';
 import { plan } from '../planning.js';
+import { priceGroup, priceLargest, priceOf } from '../pricing.js';
 import { useStore } from '../store.js';
 import { linked, SelectButton } from './parts.js';
+import { StopMoves } from './stop-moves.js';
 import { WhyHere } from './why-here.js';
+
+/** Customers of a group who are shown one by one from the start. */
+const FEW = 3;
 
 /** The tab. */
 export function UnassignedTab() {
   const entry = useStore(shownPlan);
-  const request = useStore((state) => state.request);
+  const idle = useStore((state) => state.run.state === 'idle');
+  const groups = useMemo(
+    () => (entry ? groupUnassigned(entry.request, entry.plan.unassigned) : []),
+    [entry],
+  );
+  useEffect(() => {
+    if (entry && idle) priceLargest(entry, groups);
+  }, [entry, idle]);
   if (!entry) return html`<p class="empty">Nothing is planned yet.</p>`;
   const { unassigned, summary } = entry.plan;
   if (!unassigned.length) return html`<p class="empty">Every customer is served.</p>`;
   return html`<section class="section"><h3>${count(unassigned.length, 'customer')} unassigned</h3>
     ${summary.must_unserved > 0 && html`<p>${number(summary.must_unserved, 0)} of them must be
       served: nothing says what leaving them out may cost.</p>`}
-    ${unassigned.map(
-      (customer) => html`<${Unassigned} key=${customer.id} customer=${customer}
-      index=${indexOf(entry)} request=${request} />`,
+    ${groups.map(
+      (group) => html`<${Group} key=${group.key} group=${group} entry=${entry} />`,
     )}</section>`;
+}
+
+function Group({ group, entry }) {
+  const request = useStore((state) => state.request);
+  const { members, remedy, isForEach } = group;
+  const sentence = remedy && remedy.charAt(0).toUpperCase() + remedy.slice(1);
+  const most = isForEach && members.length > 1 ? 'Each its own, at most: ' : '';
+  const customers = members.map(
+    ({ customer }) => html`<${Unassigned} key=${customer.id} customer=${customer}
+      index=${indexOf(entry)} request=${request} />`,
+  );
+  const price = group.changed && html`<${Price} group=${group} entry=${entry} />`;
+  if (members.length === 1) return html`<section>${customers}${price}</section>`;
+  return html`<section class="group" data-group=${group.key}>
+    <h4>${count(members.length, 'customer')}:
+      ${' '}${members[0].reason?.message ?? 'no reason found'}</h4>
+    ${sentence && html`<p>${most}${sentence}.</p>`}
+    ${price}
+    <details open=${members.length <= FEW}><summary>${members
+      .map(({ customer }) => customer.id)
+      .slice(0, 2 * FEW)
+      .join(', ')}${members.length > 2 * FEW ? ' \u2026' : ''}</summary>${customers}</details>
+  </section>`;
+}
+
+/** What a remedy for a whole group serves and costs, and the button that applies it. */
+function Price({ group, entry }) {
+  const prices = useStore((state) => state.prices);
+  const request = useStore((state) => state.request);
+  const price = priceOf(prices, entry, group);
+  const apply = () => {
+    edit(group.changed);
+    plan();
+  };
+  return html`<div class="buttons"><span class="price" aria-live="polite">${priceInWords(
+    price,
+    group,
+  )}</span>
+    ${
+      !price &&
+      html`<button type="button" onClick=${() => priceGroup(entry, group)}>What it
+        costs</button>`
+    }
+    ${
+      group.members.length > 1 &&
+      html`<button type="button" class="primary" disabled=${request !== entry.request}
+      aria-label=${[`Apply to all ${group.members.length} and plan again: ${group.remedy}`,
+        group.type].join(', ')} onClick=${apply}>Apply to all and plan again</button>`
+    }</div>`;
+}
+
+function priceInWords(price, { members }) {
+  if (!price) return '';
+  if (price.state === 'asking') return 'Finding what it costs\u2026';
+  if (price.state === 'failed') return price.reason;
+  if (price.served <= 0) return 'Serves nobody more, by a short search.';
+  const whom = members.length === 1 ? 'Serves it' : `Serves ${price.served} more`;
+  return `${whom}, cost ${signed(price.cost, money)}.`;
 }
 
 function Unassigned({ customer, index, request }) {
@@ -37,7 +106,7 @@ function Unassigned({ customer, index, request }) {
       ${reason.remedy && html`<${Remedy} customer=${customer} reason=${reason}
         request=${request} />`}
     </div>`,
-    )}<${WhyHere} id=${customer.id} /></div></article>`;
+    )}<${StopMoves} id=${customer.id} /><${WhyHere} id=${customer.id} /></div></article>`;
 }
 
 function Remedy({ customer, reason, request }) {

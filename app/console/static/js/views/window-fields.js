@@ -20,16 +20,19 @@ export function WindowFields({ customer, onApply }) {
   const [text, setText] = useState(texts);
   useLayoutEffect(() => setText(texts()), [customer]);
   const times = text.map((part) => (part.trim() === '' ? null : parseClock(part)));
-  const isWrong = text.map((part, at) => part.trim() !== '' && times[at] === null);
+  const isWrong = text.map(
+    (part, at) => part.trim() !== '' && (times[at] === null || (at % 2 && times[at] < 0)),
+  );
   const apply = () =>
     onApply(
       windows.map((_, number) => ({
-        earliest: times[2 * number] ?? 0,
+        earliest: Math.max(0, times[2 * number] ?? 0),
         latest: times[2 * number + 1] ?? null,
       })),
     );
   const input = (at, label) => html`<label>${label} <input type="text" size="6"
-    value=${text[at] ?? ''} placeholder=${at % 2 ? 'never' : '0:00'} aria-invalid=${isWrong[at]}
+    value=${text[at] ?? ''} placeholder=${at % 2 ? 'never' : '0:00'}
+    aria-invalid=${Boolean(isWrong[at])}
     onKeyDown=${(event) => event.key === 'Enter' && !isWrong.includes(true) && apply()}
     onInput=${({ target }) =>
       setText(text.map((part, other) => (other === at ? target.value : part)))} /></label>`;

@@ -1,0 +1,72 @@
+/** Plans on the road: what is sent out, and how far drivers are, in words. */
+
+import { clock, count } from './format.js';
+import { goOnFrom } from './replanning.js';
+
+/** Return what sends a plan out; its seconds count from the day's midnight here, unless stated. */
+export function dispatchOf({ request, plan }, now = new Date()) {
+  return {
+    problem: request,
+    plan,
+    plan_start: request.plan_start ?? isoOf(midnight(now)),
+    time_zone: request.time_zone ?? Intl.DateTimeFormat().resolvedOptions().timeZone,
+  };
+}
+
+function midnight(instant) {
+  return new Date(instant.getFullYear(), instant.getMonth(), instant.getDate());
+}
+
+/** Return an instant with the offset that holds here. */
+function isoOf(instant) {
+  const pad = (number) => String(number).padStart(2, '0');
+  const ahead = -instant.getTimezoneOffset();
+  const offset = [Math.floor(Math.abs(ahead) / 60), Math.abs(ahead) % 60].map(pad).join(':');
+  const date = [instant.getFullYear(), instant.getMonth() + 1, instant.getDate()];
+  const time = [instant.getHours(), instant.getMinutes(), instant.getSeconds()];
+  const day = `${date[0]}-${date.slice(1).map(pad).join('-')}`;
+  return `${day}T${time.map(pad).join(':')}${ahead < 0 ? '-' : '+'}${offset}`;
+}
+
+/** Return links by vehicle, with the addresses and pictures told when they were made. */
+export function linksByVehicle(dispatch) {
+  return new Map(
+    (dispatch?.reply.links ?? []).map((link) => [
+      link.vehicle,
+      { ...link, ...dispatch.made[link.id] },
+    ]),
+  );
+}
+
+/** Return what was told of links when they were made, with that of a reply. */
+export function withMade(made, { links }) {
+  const told = links.filter(({ url }) => url).map(({ id, url, qr }) => [id, { url, qr }]);
+  return { ...made, ...Object.fromEntries(told) };
+}
+
+/** Return how far a driver is, in words. */
+export function standingText({ state, opened_at: opened, done, failed, steps, standing }) {
+  if (state === 'revoked') return 'revoked';
+  const over = done + failed;
+  const far = over ? `${over} of ${steps}` : opened ? 'opened' : 'not opened yet';
+  const last = standing.reduce((latest, { time }) => Math.max(latest, time), -Infinity);
+  const at = over ? `, at ${clock(last)}` : '';
+  const lost = failed ? `, ${count(failed, 'failure')}` : '';
+  return `${far}${at}${lost}${state === 'over' ? '; the day is over' : ''}`;
+}
+
+/** Return the request that goes on from what drivers told: see `GET /dispatches/{id}/replan`. */
+export function goOnAsTold(request, { replan, failed }) {
+  const back = new Map(
+    failed
+      .filter(({ is_open: isOpen }) => isOpen)
+      .map(({ customer, parcel_back: time }) => [customer, Math.ceil(time)]),
+  );
+  const customers = request.customers.map((customer) => {
+    const time = back.get(customer.id);
+    if (time === undefined) return customer;
+    return { ...customer, release_time: Math.max(customer.release_time ?? 0, time) };
+  });
+  const changed = back.size ? { ...request, customers } : request;
+  return goOnFrom(changed, replan.plan, replan.freeze_before);
+}

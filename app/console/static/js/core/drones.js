@@ -1,0 +1,29 @@
+/** The drones of a vehicle type: one type of them, or a list of types. */
+
+/** Return the types of drones of a vehicle type, of which there is at least one drone. */
+export function droneTypes(type) {
+  const stated = type?.drones ?? [];
+  return (Array.isArray(stated) ? stated : [stated]).filter(({ count }) => count > 0);
+}
+
+/** Return how many drones a vehicle of a type carries. */
+export function droneCount(type) {
+  return droneTypes(type).reduce((sum, { count }) => sum + count, 0);
+}
+
+/** Return the drones one of which flies a sortie of a plan, null where there are none. */
+export function dronesOfSortie(type, { drone }) {
+  const carried = droneTypes(type);
+  let number = Number(drone.slice(drone.lastIndexOf('-') + 1));
+  for (const drones of carried) {
+    if (number <= drones.count) return drones;
+    number -= drones.count;
+  }
+  return carried.at(-1) ?? null;
+}
+
+/** Return a vehicle type's `drones` with all of them changed. */
+export function changeDrones({ drones }, change) {
+  if (Array.isArray(drones)) return drones.map(change);
+  return drones ? change(drones) : drones;
+}

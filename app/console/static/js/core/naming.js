@@ -1,0 +1,161 @@
+/** Names of plans by what changed since the plan before, such as `one van fewer`. */
+
+import { fieldChange } from './changed-words.js';
+import { requestDifferences } from './differences.js';
+import { droneCount } from './drones.js';
+import { clock, count } from './format.js';
+import { fromNothing } from './replanning.js';
+import { windowsInWords, windowsOf } from './windows.js';
+
+const MOST_PARTS = 2;
+const LONGEST = 60;
+const NUMBERS = ['', 'one', 'two', 'three', 'four', 'five', 'six'];
+
+/** Sections of a problem by how a change of them is called. */
+const SECTIONS = {
+  'airspace.no_fly': 'other no-fly areas',
+  'airspace.wind': 'other wind',
+  depots: 'other depots',
+  matrices: 'other matrices',
+};
+
+/**
+ * Return the name of a plan.
+ *
+ * @param former the plan before, null for the first
+ * @param request what is planned
+ * @param isFurther whether the search goes on from the former plan
+ */
+export function planName(former, request, isFurther = false) {
+  if (!former) return 'first plan';
+  const parts = changedParts(former.request, request);
+  const shown = parts.slice(0, MOST_PARTS);
+  if (parts.length > MOST_PARTS) {
+    shown.push(count(parts.length - MOST_PARTS, 'more change'));
+  }
+  const now = request.replan?.freeze_before;
+  if (isFurther) shown.push('improved');
+  else if (now !== null && now !== undefined && now !== former.request.replan?.freeze_before) {
+    shown.push(`replanned at ${clock(now)}`);
+  } else if (!shown.length) shown.push(searchName(former.request, request));
+  return shown.join(', ');
+}
+
+/** Return a name that no other plan has: `planned again (2)`. */
+export function unlike(name, plans) {
+  const taken = new Set(plans.map((entry) => entry.name));
+  let [free, number] = [name, 1];
+  while (taken.has(free)) {
+    number += 1;
+    free = `${name} (${number})`;
+  }
+  return free;
+}
+
+function searchName({ options: before = {} }, { options: now = {} }) {
+  if (before.time_limit === now.time_limit || now.time_limit === undefined) return 'planned again';
+  return `planned for ${now.time_limit} s`;
+}
+
+/** Return what differs between two problems, in few words each. */
+function changedParts(before, now) {
+  const changes = requestDifferences(fromNothing(before), fromNothing(now)).filter(
+    ({ path }) => !/^options\b|\.info\b/.test(path),
+  );
+  const [ofCustomers, others] = parted(changes, ({ path }) => path.startsWith('customers['));
+  const [ofFleet, rest] = parted(others, ({ path }) => path.startsWith('fleet['));
+  return [
+    ...fleetParts(ofFleet, before, now),
+    ...customerParts(ofCustomers, before, now),
+    ...new Set(rest.map(sectionPart)),
+  ].map((text) => (text.length > LONGEST ? `${text.slice(0, LONGEST - 1)}\u2026` : text));
+}
+
+function parted(entries, isFirst) {
+  return [entries.filter(isFirst), entries.filter((entry) => !isFirst(entry))];
+}
+
+function sectionPart(change) {
+  const { path, before, after } = change;
+  const whole = path === 'airspace' ? `${path}.${Object.keys(after ?? before)[0]}` : path;
+  const found = Object.keys(SECTIONS).find((section) => whole.startsWith(section));
+  return found ? SECTIONS[found] : fieldChange(change);
+}
+
+function fleetParts(changes, before, now) {
+  const [ofDrones, others] = parted(changes, ({ path }) => /\]\.drones$/.test(path));
+  return [...others.map((change) => typePart(change, before, now)), ...dronesPart(ofDrones, now)];
+}
+
+/** Return drones that come or go: of all types, or of one. */
+function dronesPart(changes, now) {
+  if (!changes.length) return [];
+  if (!now.fleet.some((type) => droneCount(type))) return ['drones off'];
+  if (changes.length > 1 || now.fleet.length === 1) return ['other drones'];
+  const [{ path, after }] = changes;
+  return [`drones of ${/\[(.*)\]/.exec(path)[1]} ${after ? 'on' : 'off'}`];
+}
+
+/** Return what became of a vehicle type: more, fewer, another field. */
+function typePart(change, before, now) {
+  const [, id, field] = /^fleet\[(.*?)\](?:\.(.*))?$/.exec(change.path);
+  const [then, after] = [before, now].map(
+    ({ fleet }) => fleet.find((type) => type.id === id)?.count ?? 0,
+  );
+  if (field !== undefined && field !== 'count') return fieldChange(change);
+  const size = Math.abs(after - then);
+  const amount = `${NUMBERS[size] ?? size} ${id}${size > 1 && /[a-z]$/i.test(id) ? 's' : ''}`;
+  if (after > then) return `${amount} more`;
+  return after || size === 1 ? `${amount} fewer` : `without ${id}`;
+}
+
+function customerParts(changes, before, now) {
+  const [whole, fields] = parted(changes, ({ path }) => path.endsWith(']'));
+  const added = whole.filter(({ before: there }) => there === undefined).map(idOf);
+  const gone = whole.filter(({ after: there }) => there === undefined).map(idOf);
+  const [ofWindows, others] = parted(fields, ({ path }) => /\]\.time_windows?\b/.test(path));
+  return [
+    ...many(added, (id) => `${id} added`, (number) => `${count(number, 'customer')} added`),
+    ...many(gone, (id) => `without ${id}`, (number) => `without ${count(number, 'customer')}`),
+    ...windowParts(ofWindows, before, now),
+    ...fieldParts(others),
+  ];
+}
+
+function many(ids, one, several) {
+  if (!ids.length) return [];
+  return [ids.length === 1 ? one(ids[0]) : several(ids.length)];
+}
+
+function idOf({ path }) {
+  return /^customers\[(.*?)\](?:\.|$)/.exec(path)[1];
+}
+
+function windowParts(changes, before, now) {
+  const ids = [...new Set(changes.map(idOf))];
+  if (!ids.length) return [];
+  const found = now.customers.filter(({ id }) => ids.includes(id));
+  if (ids.length === 1) {
+    const words = windowsInWords(windowsOf(found[0])).replaceAll(' to ', '\u2013');
+    return [`${ids[0]}'s window ${words}`];
+  }
+  if (!now.customers.some((customer) => windowsOf(customer).length)) return ['windows off'];
+  const isSoft = changes.every(({ path, after }) => /late_cost_per_hour$/.test(path) && after);
+  if (isSoft) return ['windows soft'];
+  return [`windows of ${count(ids.length, 'customer')}`];
+}
+
+/** Return changes of other fields of customers, those of one field together. */
+function fieldParts(changes) {
+  const byField = new Map();
+  for (const change of changes) {
+    const field = /\]\.([^.]*)/.exec(change.path)[1];
+    if (!byField.has(field)) byField.set(field, []);
+    byField.get(field).push(change);
+  }
+  return [...byField].map(([field, group]) =>
+    group.length === 1
+      ? fieldChange(group[0])
+      : `${field.replaceAll('_', ' ')} of ${count(group.length, 'customer')}`,
+  );
+}

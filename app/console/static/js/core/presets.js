@@ -1,0 +1,35 @@
+/** What is assumed of a part of the fleet when it is added, for a person to correct. */
+
+import { amounts, duration } from './format.js';
+
+/** Which of the orders a drone is assumed to carry: the lightest quarter, per dimension. */
+const SHARE = 0.25;
+
+/** Return the drones that a vehicle type gets when they are switched on. */
+export function assumedDrones({ customers = [], fleet = [] }) {
+  const dimensions = customers[0]?.demand?.length ?? fleet[0]?.capacity?.length ?? 1;
+  const capacity = Array.from({ length: dimensions }, (_, dimension) => {
+    const orders = customers
+      .map(({ demand }) => demand?.[dimension] ?? 0)
+      .filter((amount) => amount > 0)
+      .sort((first, second) => first - second);
+    return orders[Math.floor((orders.length - 1) * SHARE)] ?? 1;
+  });
+  return { count: 1, capacity, endurance: 1800, launch_duration: 60, recovery_duration: 60 };
+}
+
+/** Return what a field of the fleet begins with when it is added, undefined for nothing known. */
+export function presetOf(name, request) {
+  return name === 'drones' ? assumedDrones(request) : undefined;
+}
+
+/** Return what is assumed, in words, as long as nothing of it was corrected; else an empty text. */
+export function assumptionIn(name, request, value) {
+  const assumed = presetOf(name, request);
+  if (!assumed || JSON.stringify(assumed) !== JSON.stringify(value)) return '';
+  return (
+    `Assumed: one drone, which carries ${amounts(assumed.capacity)} (a quarter of the orders ` +
+    `weigh no more), flies ${duration(assumed.endurance)} at most, and takes ` +
+    `${duration(assumed.launch_duration)} to launch and to recover. State what yours does.`
+  );
+}

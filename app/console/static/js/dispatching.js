@@ -1,0 +1,108 @@
+/** Plans on the road: sent to drivers, followed, and planned on from. */
+
+import * as api from './api.js';
+import { edit, openTab, showFailure, shownPlan } from './actions.js';
+import { dispatchOf, goOnAsTold, withMade } from './core/dispatches.js';
+import { store } from './store.js';
+
+const KEPT = 'tandem-dispatch';
+const POLL_MS = 5000;
+
+let timer = null;
+
+/** Send the plan that is looked at to its drivers. */
+export function sendOut() {
+  const entry = shownPlan(store.get());
+  return entry && attempt(async () => {
+    keep({}, await api.postDispatch(dispatchOf(entry)), entry.plan);
+  });
+}
+
+/** Put the plan that is looked at in the place of what drivers have: they keep their links. */
+export function sendChange() {
+  const { request: problem, plan } = shownPlan(store.get());
+  return attempt(async () => {
+    const { reply, made } = store.get().dispatch;
+    keep(made, await api.changeDispatch(reply.id, { problem, plan }), plan);
+  });
+}
+
+/** Follow what was sent out before the page was loaded again. */
+export async function followKept() {
+  const kept = JSON.parse(sessionStorage.getItem(KEPT) ?? 'null');
+  if (!kept) return;
+  try {
+    keep(kept.made, await api.getDispatch(kept.id));
+  } catch (error) {
+    if (error.status !== 404) throw error;
+    sessionStorage.removeItem(KEPT);
+  }
+}
+
+/** Let a vehicle's link open nothing any more. */
+export function revoke(link) {
+  return change((id) => api.revokeLink(id, link));
+}
+
+/** Make another link for a vehicle in place of one. */
+export function renew(link) {
+  return change((id) => api.renewLink(id, link));
+}
+
+/** End the day: no link opens anything any more. */
+export function endDay() {
+  return change(api.endDispatch);
+}
+
+/** Leave what is on the road alone, so that another plan can be sent out. */
+export function leaveDispatch() {
+  sessionStorage.removeItem(KEPT);
+  store.set({ dispatch: null });
+}
+
+/** Plan on from what drivers told. */
+export function goOnFromDrivers() {
+  return attempt(async () => {
+    const told = await api.getGoingOn(store.get().dispatch.reply.id);
+    edit((request) => goOnAsTold(request, told));
+    openTab('replan');
+  });
+}
+
+function change(work) {
+  return attempt(async () => {
+    const { reply, made } = store.get().dispatch;
+    keep(made, await work(reply.id));
+  });
+}
+
+async function attempt(work) {
+  try {
+    await work();
+  } catch (error) {
+    showFailure(error);
+  }
+}
+
+/** Show a dispatch and ask again in a while how far it is. */
+function keep(made, reply, plan = store.get().dispatch?.plan ?? null) {
+  const all = withMade(made, reply);
+  store.set({ dispatch: { reply, made: all, plan } });
+  // Tokens are kept as the key is: until the tab is closed.
+  sessionStorage.setItem(KEPT, JSON.stringify({ id: reply.id, made: all }));
+  clearTimeout(timer);
+  if (reply.links.some(({ state }) => state === 'open')) timer = setTimeout(poll, POLL_MS);
+}
+
+async function poll() {
+  const { dispatch } = store.get();
+  if (!dispatch) return;
+  try {
+    if (!document.hidden) keep(dispatch.made, await api.getDispatch(dispatch.reply.id));
+    else timer = setTimeout(poll, POLL_MS);
+  } catch (error) {
+    // An outage passes; what can't be mended is told.
+    if (error.status === 0 || error.status >= 500) timer = setTimeout(poll, POLL_MS);
+    else showFailure(error);
+  }
+}

@@ -1,0 +1,211 @@
+/** Hands on the plan: customers are put elsewhere, locked, and given their best places. */
+
+import * as api from './api.js';
+import { showFailure, shownPlan } from './actions.js';
+import { addCustomer } from './core/changes.js';
+import { numbersIn } from './core/entries.js';
+import { judgedPlan, withCustomerAt, withRoute } from './core/moving.js';
+import { unlike } from './core/naming.js';
+import { stop } from './planning.js';
+import { store } from './store.js';
+
+const MOST_STEPS = 100;
+const PLACES = 3;
+const FIT_SECONDS = 1;
+
+let work = Promise.resolve();
+
+/**
+ * Put a customer of the plan that is looked at elsewhere, and have that judged.
+ *
+ * @param place see `withCustomerAt`; null leaves the customer out
+ * @param words what is done, such as `B to truck-2`
+ */
+export const moveCustomerTo = (id, place, words) =>
+  change((entry) => ({
+    request: entry.request,
+    decided: withCustomerAt(entry.request, entry.plan, id, place),
+    words,
+  }));
+
+/** Put a customer where the service found a place, see `askFit`. */
+export const takeFit = (fit, place) =>
+  change((entry) => {
+    const { id } = fit.customer;
+    const isNew = entry.request.customers.every((customer) => customer.id !== id);
+    const request = isNew
+      ? { ...entry.request, customers: [...entry.request.customers, fit.customer] }
+      : entry.request;
+    return {
+      request,
+      added: isNew ? fit.customer : null,
+      decided: withRoute(entry.plan, id, place.route),
+      words: `${id} to ${place.vehicle}`,
+    };
+  });
+
+/** Change the plan that is looked at once all earlier changes are judged. */
+function change(decide) {
+  work = work.then(async () => {
+    if (store.get().run.state !== 'idle') await stop();
+    const entry = shownPlan(store.get());
+    if (entry) await judge(entry, decide(entry));
+  }).catch(showFailure);
+  return work;
+}
+
+async function judge(entry, { request, decided, added = null, words }) {
+  store.set({ judging: words });
+  try {
+    const problem = { ...request, options: { ...request.options, geometry: true } };
+    const verdict = await api.postCheck({ problem, plan: decided });
+    store.set((state) => applied(state, entry, {
+      request, added, words, verdict, plan: judgedPlan(entry.plan, decided, verdict),
+    }));
+  } finally {
+    store.set({ judging: null });
+  }
+}
+
+/** Return what changes once a change is judged; nothing if the plan is no longer there. */
+function applied(state, entry, { request, added, words, verdict, plan }) {
+  if (!state.plans.includes(entry)) return {};
+  const { hand } = entry;
+  const after = {
+    ...entry,
+    number: hand ? entry.number : state.plans[state.plans.length - 1].number + 1,
+    name: hand ? entry.name : unlike(`${entry.name}, by hand`, state.plans),
+    request,
+    plan,
+    numbers: numbersWith(entry, plan),
+    hand: {
+      from: hand?.from ?? entry.number,
+      fromName: hand?.fromName ?? entry.name,
+      before: hand?.before ?? entry.plan.cost.total,
+      change: plan.cost.total - entry.plan.cost.total,
+      violations: verdict.violations,
+      words,
+    },
+  };
+  const now = requestWith(state.request, entry.request, request, added);
+  const step = {
+    before: { entry: hand ? entry : null, shown: state.shown, besides: state.besides,
+      request: state.request },
+    after: { entry: after, shown: after.number, besides: after.hand.from, request: now },
+  };
+  return {
+    ...swapped(state, step, 'after'),
+    fit: null,
+    steps: [...state.steps.slice(-MOST_STEPS), step],
+    undone: [],
+  };
+}
+
+/** Return the numbers of vehicles by name: each keeps its own, new ones get the next. */
+function numbersWith(entry, plan) {
+  const numbers = new Map(numbersIn(entry));
+  let next = Math.max(-1, ...numbers.values()) + 1;
+  for (const { vehicle } of plan.routes) {
+    if (!numbers.has(vehicle)) {
+      numbers.set(vehicle, next);
+      next += 1;
+    }
+  }
+  return Object.fromEntries(numbers);
+}
+
+/** Return the problem as it is edited, with a customer who came by hand. */
+function requestWith(edited, planned, request, added) {
+  if (!added || edited === planned) return request;
+  if (edited.customers.some(({ id }) => id === added.id)) return edited;
+  return { ...edited, customers: [...edited.customers, added] };
+}
+
+/** Return the state with one side of a step. */
+function swapped({ plans }, step, side) {
+  const { entry, shown, besides, request } = step[side];
+  const { number } = step.after.entry;
+  const others = plans.filter((other) => other.number !== number);
+  return { plans: entry ? [...others, entry] : others, shown, besides, request };
+}
+
+/** Tell whether a side of a step is how things stand. */
+function stands(state, step, side) {
+  if (!step) return false;
+  const { entry, shown, request } = step[side];
+  const plan = (entry ?? shownPlan(state))?.plan;
+  return state.request === request && state.shown === shown && shownPlan(state)?.plan === plan;
+}
+
+/** Return the last change by hand that may be taken back. */
+export function stepBack(state) {
+  const step = state.steps[state.steps.length - 1];
+  return stands(state, step, 'after') ? step : null;
+}
+
+/** Return the change by hand that may be made again. */
+export function stepForth(state) {
+  const step = state.undone[state.undone.length - 1];
+  return stands(state, step, 'before') ? step : null;
+}
+
+/** Take the last change by hand back; tell whether there was one. */
+export function undoStep() {
+  const step = stepBack(store.get());
+  if (step) {
+    store.set((state) => ({
+      ...swapped(state, step, 'before'),
+      steps: state.steps.slice(0, -1),
+      undone: [...state.undone, step],
+    }));
+  }
+  return step !== null;
+}
+
+/** Make a change by hand again. */
+export function redoStep() {
+  const step = stepForth(store.get());
+  if (!step) return;
+  store.set((state) => ({
+    ...swapped(state, step, 'after'),
+    steps: [...state.steps, step],
+    undone: state.undone.slice(0, -1),
+  }));
+}
+
+/** Ask for the best places of a customer, `{id}`, or of one whom the problem doesn't have yet. */
+export async function askFit(customer) {
+  const entry = shownPlan(store.get());
+  if (!entry) return;
+  const known = entry.request.customers.some(({ id }) => id === customer.id);
+  const fit = { customer, entry, told: null };
+  store.set({ fit });
+  try {
+    const told = await api.postFit({
+      problem: { ...entry.request, options: { ...entry.request.options, geometry: true } },
+      plan: entry.plan,
+      ...(known ? { customer: customer.id } : { new_customer: customer }),
+      count: PLACES,
+      options: { time_limit: FIT_SECONDS },
+    });
+    store.set((state) => (state.fit === fit ? { fit: { ...fit, told } } : {}));
+  } catch (error) {
+    store.set((state) => (state.fit === fit ? { fit: null } : {}));
+    showFailure(error);
+  }
+}
+
+/** Ask for the best places of a new customer at a point of the map. */
+export function askFitAt(point) {
+  const { request, brush } = store.get();
+  const { customers } = addCustomer(request, point, brush);
+  return askFit(customers[customers.length - 1]);
+}
+
+/** Lock customers to their vehicles, or let go of them. */
+export function setLocked(ids, isLocked) {
+  store.set(({ locks }) => {
+    const others = locks.filter((id) => !ids.includes(id));
+    return { locks: isLocked ? [...others, ...ids] : others };
+  });
+}

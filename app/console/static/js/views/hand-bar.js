@@ -1,0 +1,90 @@
+/** What was changed by hand and how it was judged, and the best places of a customer. */
+
+import { hover, shownPlan } from '../actions.js';
+import { count, money, signed } from '../core/format.js';
+import { placeInWords, rulesInWords } from '../core/hands-words.js';
+import { redoStep, stepBack, stepForth, takeFit, undoStep } from '../hands.js';
+import { html } from '../libraries.js';
+import { improvePlan } from '../planning.js';
+import { store, useStore } from '../store.js';
+
+const MOST_RULES = 6;
+
+/** Above the open tab, while there is something to tell. */
+export function HandBar() {
+  const entry = useStore(shownPlan);
+  const judging = useStore((state) => state.judging);
+  const fit = useStore((state) => state.fit);
+  const hand = entry?.hand;
+  const isBroken = !fit && hand?.violations.length > 0;
+  return html`<section class=${`hand-bar ${isBroken ? 'broken' : ''}`} aria-live="polite"
+    aria-label="Changes by hand">${judging && html`<p>Judging: ${judging}</p>`}${
+      fit && html`<${Fit} fit=${fit} />`}${
+      !fit && !judging && hand && html`<${Outcome} entry=${entry} />`}${
+      !fit && !judging && !hand && html`<${Again} />`}</section>`;
+}
+
+function Outcome({ entry }) {
+  const { words, change, before, fromName, violations } = entry.hand;
+  const rules = rulesInWords(violations, entry.plan.routes);
+  const busy = useStore((state) => state.run.state !== 'idle');
+  const isBack = useStore((state) => Boolean(stepBack(state)));
+  const isForth = useStore((state) => Boolean(stepForth(state)));
+  const whole = entry.plan.cost.total - before;
+  return html`<p id="hand-outcome">${words}: <strong class=${classOf(change)}>${signed(change)}
+      </strong>${Math.abs(whole - change) > 0.005 && html`, in all <strong class=${classOf(whole)}
+      >${signed(whole)}</strong> beside ${fromName}`}</p>
+    ${rules.length > 0 && html`<p class="late-text">Breaks ${count(rules.length, 'rule')}:</p>
+      <ul>${rules.slice(0, MOST_RULES).map((rule) => html`<li key=${rule}>${rule}</li>`)}
+      ${rules.length > MOST_RULES && html`<li>and ${rules.length - MOST_RULES} more</li>`}</ul>`}
+    <div class="buttons">
+      <button type="button" disabled=${!isBack} onClick=${undoStep}>Undo</button>
+      <button type="button" disabled=${!isForth} onClick=${redoStep}>Redo</button>
+      <button type="button" disabled=${busy} onClick=${improvePlan}>Improve around this</button>
+    </div>`;
+}
+
+/** What was just taken back can be made again. */
+function Again() {
+  const step = useStore(stepForth);
+  return step && html`<div class="buttons"><span>Taken back: ${step.after.entry.hand.words}</span>
+    <button type="button" onClick=${redoStep}>Redo</button></div>`;
+}
+
+function classOf(change) {
+  if (Math.abs(change) < 0.005) return '';
+  return change > 0 ? 'delta-bad' : 'delta-good';
+}
+
+function Fit({ fit }) {
+  const { customer, told } = fit;
+  const close = () => store.set({ fit: null });
+  return html`<p><strong>Best places for ${customer.id}</strong>
+      ${told?.here && html`, now with ${told.here.vehicle} at ${money(told.here.saving.total)}`}</p>
+    ${!told && html`<p>Trying places</p>`}
+    ${told && html`<ol class="places">${told.places.map(
+      (place, position) => html`<${Place} key=${position} fit=${fit} place=${place} />`)}</ol>
+      ${told.others.length > 0 && html`<details><summary>${
+        count(told.others.length, 'other vehicle')}</summary><ul>${told.others.map(
+        (place, position) => html`<li key=${position}>${placeInWords(place).join(', ')}: ${
+          place.feasible ? signed(place.cost.total, money)
+            : rulesInWords(place.reasons).join(' ')}</li>`)}</ul></details>`}
+      ${!told.complete && html`<p class="help">There was not time to try every place.</p>`}`}
+    <div class="buttons"><button type="button" onClick=${close}>Close</button></div>`;
+}
+
+function Place({ fit, place }) {
+  const [who, where] = placeInWords(place);
+  return html`<li onMouseEnter=${() => hover(keyOf(place))} onMouseLeave=${() => hover(null)}>
+    <span>${who} <span class="help">${where}</span></span>
+    <strong class="number">${signed(place.cost.total, money)}</strong>
+    <button type="button" onClick=${() => takeFit(fit, place)}
+      aria-label=${`Take ${who}, ${where}`}>Take</button>
+    ${!place.feasible && html`<span class="late-text">${
+      rulesInWords(place.reasons).join(' ')}</span>`}</li>`;
+}
+
+/** Return the key of the stop that a place comes after, which map and timeline mark. */
+function keyOf({ position }) {
+  return `c:${position.after}`;
+}

@@ -1,0 +1,24 @@
+/** That a shared plan is looked at, or that the browser doesn't keep what is done. */
+
+import { html } from '../libraries.js';
+import { askName } from '../keeping/kept.js';
+import { store, useStore } from '../store.js';
+
+/** Tell whether there is something to be told. */
+export const isToBeTold = ({ unkept, viewing }) => Boolean(unkept || viewing);
+
+/** The notice, if there is something to be told. */
+export function KeepingNotice() {
+  const unkept = useStore((state) => state.unkept);
+  const viewing = useStore((state) => state.viewing);
+  if (viewing) {
+    return html`<div class="notice calm" role="status"><div><strong>You look at a shared
+      plan.</strong> Nobody else sees what you change here.</div>
+      <button type="button" onClick=${askName}>Save as</button></div>`;
+  }
+  if (!unkept) return null;
+  return html`<div class="notice" role="alert"><div>${unkept}</div>
+    <button type="button" onClick=${askName}>Save</button>
+    <button type="button" class="quiet"
+      onClick=${() => store.set({ unkept: null })}>Close</button></div>`;
+}

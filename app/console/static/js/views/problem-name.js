@@ -1,0 +1,26 @@
+/** What the open problem is called, and whether it is saved. */
+
+import { isUnsaved } from '../core/drafts.js';
+import { askName, save } from '../keeping/kept.js';
+import { html, useEffect } from '../libraries.js';
+import { useStore } from '../store.js';
+
+/** The name, which can be changed, and the button that saves. */
+export function ProblemName() {
+  const name = useStore((state) => state.name);
+  const unsaved = useStore(isUnsaved);
+  const isKept = useStore((state) => state.home !== null);
+  const mark = unsaved ? '\u2022 ' : '';
+  useEffect(() => {
+    document.title = name ? `${mark}${name} \u2013 Tandem` : 'Tandem';
+  }, [name, mark]);
+  return html`<div class="problem-name">
+    <button type="button" class="quiet" id="problem-name" title=${`${name}: rename or save as`}
+      onClick=${askName}><span class="name">${name}</span>${
+        unsaved &&
+        html`<span class="unsaved" role="img" aria-label="not saved"
+          title="Not saved">\u2022</span>`
+      }</button>
+    <button type="button" id="save" onClick=${save} disabled=${isKept && !unsaved}>Save</button>
+  </div>`;
+}

@@ -1,0 +1,58 @@
+/** What can be done by hand with a customer of the plan: put elsewhere, locked, left out. */
+
+import { indexOf, shownPlan } from '../actions.js';
+import { moveInWords } from '../core/hands-words.js';
+import { placeAt, placeBeside, vehiclesFor } from '../core/moving.js';
+import { askFit, moveCustomerTo, setLocked } from '../hands.js';
+import { html } from '../libraries.js';
+import { useStore } from '../store.js';
+
+/** Put a customer at a place, and say so. */
+export function move(index, id, place) {
+  return moveCustomerTo(id, place, moveInWords(index, id, place));
+}
+
+/** The buttons of a customer. */
+export function StopMoves({ id }) {
+  const entry = useStore(shownPlan);
+  const locks = useStore((state) => state.locks);
+  const index = indexOf(entry);
+  const halt = index?.halts.get(`c:${id}`);
+  const isKnown = index && (halt || entry.plan.unassigned.some((other) => other.id === id));
+  if (!isKnown) return null;
+  const isLocked = locks.includes(id);
+  return html`<div class="buttons" role="group" aria-label=${`Move ${id}`}>
+    ${halt && html`<${Beside} index=${index} halt=${halt} step=${-1} name="Earlier" />
+      <${Beside} index=${index} halt=${halt} step=${1} name="Later" />`}
+    <${ToVehicle} index=${index} id=${id} halt=${halt} />
+    <button type="button" onClick=${() => askFit(customerOf(entry, id))}>Best places</button>
+    ${halt && html`<button type="button" aria-pressed=${isLocked}
+      onClick=${() => setLocked([id], !isLocked)}>${isLocked ? 'Locked' : 'Lock'}</button>
+      <button type="button" onClick=${() => move(index, id, null)}>Leave out</button>`}</div>`;
+}
+
+function customerOf({ request }, id) {
+  return request.customers.find((customer) => customer.id === id);
+}
+
+function Beside({ index, halt, step, name }) {
+  const place = placeBeside(halt, step);
+  return html`<button type="button" disabled=${!place}
+    onClick=${() => move(index, halt.id, place)}>${name}</button>`;
+}
+
+/** A choice of vehicles; the customer comes where it is served at the time that it is now. */
+function ToVehicle({ index, id, halt }) {
+  const others = vehiclesFor(index.request, index)
+    .filter(({ vehicle }) => !vehicle || vehicle !== halt?.vehicle || halt.sortie);
+  const give = (event) => {
+    const { name, vehicle, type } = others[Number(event.target.value)];
+    event.target.value = '';
+    const time = halt?.serviceStart ?? 0;
+    move(index, id, vehicle ? placeAt(vehicle, time, halt) : { vehicle: name, type });
+  };
+  return html`<select aria-label=${`Give ${id} to`} value="" onChange=${give}>
+    <option value="" disabled hidden>To vehicle\u2026</option>
+    ${others.map(({ name, vehicle }, position) => html`<option key=${name}
+      value=${position}>${name}${vehicle ? '' : ' (unused)'}</option>`)}</select>`;
+}

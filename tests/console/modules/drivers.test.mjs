@@ -1,0 +1,106 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+
+import { goOnAsTold, linksByVehicle, standingText, withMade } from '../../../app/console/static/js/core/dispatches.js';
+import { pointText } from '../../../app/console/static/js/core/format.js';
+import { clock, windowText } from '../../../app/dispatches/static/js/clocks.js';
+import { linkOf, tokenOf } from '../../../app/dispatches/static/js/link.js';
+import { chosenNavigator, NAVIGATORS, navigation } from '../../../app/dispatches/static/js/navigators.js';
+import { isOther, nextStep, standings, telephone } from '../../../app/dispatches/static/js/steps.js';
+
+const PLACE = { latitude: 48.1, longitude: 11.5 };
+
+function storage(entries = {}) {
+  const kept = new Map(Object.entries(entries));
+  return {
+    getItem: (key) => kept.get(key) ?? null,
+    setItem: (key, value) => kept.set(key, value),
+  };
+}
+
+test('times are those of the zone of the plan, on the day that clocks change too', () => {
+  const summer = { plan_start: '2026-03-29T00:00:00+01:00', time_zone: 'Europe/Berlin' };
+  assert.equal(clock(summer, 3600), '1:00');
+  assert.equal(clock(summer, 2 * 3600), '3:00');
+  const offset = { plan_start: '2026-03-29T00:00:00-05:30', time_zone: null };
+  assert.equal(clock(offset, 8 * 3600 + 300), '8:05');
+  assert.equal(clock({ plan_start: '2026-03-29T00:00:00Z', time_zone: null }, 60), '0:01');
+  assert.equal(windowText(offset, { earliest: 0, latest: 3600 }), 'until 1:00');
+  assert.equal(windowText(offset, { earliest: 3600, latest: null }), 'from 1:00');
+});
+
+test('navigators are told latitude before longitude', () => {
+  for (const name of Object.keys(NAVIGATORS)) {
+    const address = decodeURIComponent(navigation(name, PLACE));
+    assert.match(address, /48\.1,11\.5/, name);
+    assert.doesNotMatch(address, /11\.5,48\.1/, name);
+  }
+  assert.equal(chosenNavigator(storage(), 'Mozilla (iPhone)'), 'apple');
+  assert.equal(chosenNavigator(storage(), 'Mozilla (Android)'), 'geo');
+  const kept = storage({ 'tandem-drive-navigator': 'osm' });
+  assert.equal(chosenNavigator(kept, 'Mozilla (iPhone)'), 'osm');
+});
+
+test('sheets say latitude before longitude, and which is which', () => {
+  assert.equal(pointText([11.5, 48.1], { isGeographic: true }), 'Latitude, longitude: 48.1, 11.5');
+  assert.equal(pointText([3, 4], { isGeographic: false }), 'x, y: 3, 4');
+});
+
+test('what was told last of a step holds, sent or not', () => {
+  const steps = [{ id: 'a' }, { id: 'b' }, { id: 'c' }];
+  const found = standings(
+    [{ id: 'a', state: 'done' }, { id: 'b', state: 'failed', reason: 'x' }],
+    [{ step: 'a', kind: 'undone' }, { step: 'c', kind: 'failed', reason: 'y' }],
+  );
+  assert.deepEqual(found.get('b'), { state: 'failed', reason: 'x', isSent: true });
+  assert.deepEqual(found.get('c'), { state: 'failed', reason: 'y', isSent: false });
+  assert.equal(nextStep(steps, found).id, 'a');
+  assert.equal(isOther(steps, [...steps]), false);
+  assert.equal(isOther(steps, [...steps].reverse()), true);
+});
+
+test('the last link is opened again without its token', () => {
+  const kept = storage();
+  assert.equal(tokenOf('', kept), null);
+  assert.equal(tokenOf('#tdm_drive_0123456789ab_ff', kept), 'tdm_drive_0123456789ab_ff');
+  assert.equal(tokenOf('', kept), 'tdm_drive_0123456789ab_ff');
+  assert.equal(linkOf('tdm_drive_0123456789ab_ff'), '0123456789ab');
+});
+
+test('numbers are dialled as they are written', () => {
+  assert.equal(telephone('+49 (0)89 123-45'), 'tel:+498912345');
+  assert.equal(telephone('089/12345'), 'tel:08912345');
+});
+
+test('links stay known by what was told when they were made', () => {
+  const made = withMade({}, { links: [{ id: 'x', url: 'u', qr: 'q' }, { id: 'y', url: null }] });
+  const reply = { links: [{ id: 'x', vehicle: 'van-1', url: null, qr: null, done: 1 }] };
+  const link = linksByVehicle({ reply, made }).get('van-1');
+  assert.deepEqual([link.url, link.qr, link.done], ['u', 'q', 1]);
+  assert.deepEqual(linksByVehicle(null), new Map());
+});
+
+test('how far a driver is stands in words', () => {
+  const link = { state: 'open', opened_at: null, done: 0, failed: 0, steps: 4, standing: [] };
+  assert.equal(standingText(link), 'not opened yet');
+  assert.equal(standingText({ ...link, opened_at: 'x' }), 'opened');
+  const standing = [{ time: 29000 }, { time: 30000 }];
+  const far = { ...link, done: 1, failed: 1, standing };
+  assert.equal(standingText(far), '2 of 4, at 8:20, 1 failure');
+  assert.equal(standingText({ ...far, state: 'revoked' }), 'revoked');
+});
+
+test('a parcel that comes back is released when it is back', () => {
+  const customers = [{ id: 'A', release_time: 99999 }, { id: 'B' }, { id: 'C' }];
+  const plan = { routes: [] };
+  const failed = [
+    { customer: 'A', is_open: true, parcel_back: 500.5 },
+    { customer: 'B', is_open: true, parcel_back: 500.5 },
+    { customer: 'C', is_open: false, parcel_back: 500.5 },
+  ];
+  const asked = goOnAsTold({ customers }, { replan: { plan, freeze_before: 60 }, failed });
+  assert.deepEqual(asked.customers, [
+    { id: 'A', release_time: 99999 }, { id: 'B', release_time: 501 }, { id: 'C' },
+  ]);
+  assert.deepEqual(asked.replan, { plan, freeze_before: 60 });
+});

@@ -1,0 +1,65 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import {
+  changeDrones,
+  droneCount,
+  dronesOfSortie,
+} from '../../../app/console/static/js/core/drones.js';
+import { applyRemedy } from '../../../app/console/static/js/core/remedies.js';
+import { launchDurations } from '../../../app/console/static/js/core/launches.js';
+
+const small = { id: 'small', count: 2, capacity: [1], launch_duration: 10 };
+const large = {
+  id: 'large',
+  count: 1,
+  capacity: [9],
+  launch_duration: 30,
+  turnaround: { swap_duration: 60 },
+};
+const truck = { drones: [small, { id: 'none', count: 0 }, large] };
+
+test('the number of a drone tells its type, over a list of them', () => {
+  const type = (number) => dronesOfSortie(truck, { drone: `truck-1/drone-${number}` })?.id;
+  assert.deepEqual([1, 2, 3, 4].map(type), ['small', 'small', 'large', 'large']);
+  assert.equal(dronesOfSortie({ drones: small }, { drone: 'a/drone-1' }), small);
+  assert.equal(dronesOfSortie({ drones: null }, { drone: 'a/drone-1' }), null);
+});
+
+test('drones of all types are counted', () => {
+  assert.equal(droneCount(truck), 3);
+  assert.equal(droneCount({ drones: large }), 1);
+  assert.equal(droneCount({}), 0);
+});
+
+test('a list of drones stays one when they are changed', () => {
+  const empty = (drones) => ({ ...drones, capacity: [] });
+  assert.deepEqual(changeDrones({ drones: [small, large] }, empty).map(({ id }) => id), [
+    'small',
+    'large',
+  ]);
+  assert.deepEqual(changeDrones({ drones: large }, empty).capacity, []);
+  assert.equal(changeDrones({ drones: null }, empty), null);
+});
+
+test('launches take the time of their type, a swap but for the first', () => {
+  const sorties = [
+    { drone: 'truck-1/drone-3', launch_stop: 1, launch_time: 90 },
+    { drone: 'truck-1/drone-3', launch_stop: 0, launch_time: 30 },
+    { drone: 'truck-1/drone-1', launch_stop: 0, launch_time: 40 },
+  ];
+  assert.deepEqual(launchDurations(truck, sorties), [90, 30, 10]);
+});
+
+test('a remedy changes the drones that it names', () => {
+  const request = {
+    fleet: [{ id: 'truck', drones: [small, { ...large, endurance: 600 }] }],
+    customers: [{ id: 'a', demand: [12] }],
+  };
+  const drones = (remedy) =>
+    applyRemedy(request, 'a', { vehicle_type: 'truck', remedy }).fleet[0].drones;
+  assert.deepEqual(drones('fits if the drone capacity of large were at least 12')[1].capacity, [12]);
+  assert.equal(drones('fits if endurance of large were 2 minutes longer')[1].endurance, 720);
+  assert.equal(drones('fits if truck carried 1 battery of large')[1].turnaround.batteries, 1);
+  assert.deepEqual(drones('fits if endurance of large were 2 minutes longer')[0], small);
+});

@@ -1,0 +1,198 @@
+"""Drivers: their page on a phone, with and without network, and what the console makes of it."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, expect
+from sqlalchemy import text
+
+from app.database.connections import make_engine
+from app.settings import Settings
+from tests.app.conftest import FirstFitPlanner, ready, serving
+from tests.app.dispatches.days import (
+    DEPART, FIRST, LAUNCH, PLAN, PROBLEM, dispatched, event, holding,
+)
+from tests.console.steps import open_example, open_tab
+from tests.console.test_everyone import findings
+
+Data = dict[str, Any]
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "locale": "de-DE"}
+STATIC = Path(__file__).parents[2] / "app" / "dispatches" / "static"
+
+
+@pytest.fixture(scope="module")
+def settings(tmp_path_factory: pytest.TempPathFactory) -> Settings:
+    """Return settings of a service that plans nothing."""
+    return Settings(data_dir=tmp_path_factory.mktemp("drivers"), role="api", drain_seconds=0)
+
+
+@pytest.fixture(scope="module")
+def client(settings: Settings) -> Iterator[httpx.Client]:
+    """Return a client of that service."""
+    with serving(FirstFitPlanner(), settings) as client:
+        yield ready(client)
+
+
+@pytest.fixture
+def phone(browser: Browser) -> Iterator[BrowserContext]:
+    """Return a phone's browser."""
+    context = browser.new_context(**PHONE)
+    yield context
+    context.close()
+
+
+def opened(phone: BrowserContext, link: Data) -> Page:
+    """Open a link as a page that was not open before."""
+    page = phone.new_page()
+    page.goto(link["url"])
+    expect(page.get_by_role("heading", name=link["vehicle"])).to_be_visible()
+    return page
+
+
+def mark(page: Page, step: str, button: str) -> None:
+    """Mark the step that is next."""
+    row = page.locator("li[aria-current=step]")
+    expect(row).to_contain_text(step)
+    row.get_by_role("button", name=button, exact=True).click()
+
+
+def test_day_is_driven_without_network_and_caught_up(
+        client: httpx.Client, settings: Settings, phone: BrowserContext) -> None:
+    sent = dispatched(client, time_zone="Europe/Berlin")
+    link = sent["links"][0]
+    page = opened(phone, link)
+    expect(page.get_by_role("status")).to_have_text("All is sent.")
+    page.evaluate("navigator.serviceWorker.ready.then(() => true)")
+    phone.set_offline(True)
+    mark(page, "Leave hub", "Left")
+    mark(page, "Launch drone-1 to C", "Launched")
+    expect(page.get_by_role("status")).to_contain_text("2 not sent yet")
+    page.close()
+    page = opened(phone, link)
+    expect(page.get_by_role("status")).to_contain_text("2 not sent yet")
+    mark(page, "A", "Failed")
+    page.get_by_role("button", name="Nobody there").click()
+    page.get_by_role("button", name="It failed").click()
+    expect(page.get_by_role("status")).to_contain_text("3 not sent yet")
+    other = opened(phone, link)
+    phone.set_offline(False)
+    # Both may send, and both do when they hear of the network.
+    for tab in (page, other):
+        tab.evaluate("dispatchEvent(new Event('online'))")
+        expect(tab.get_by_role("status")).to_have_text("All is sent.")
+    standing = client.get(f"/dispatches/{sent['id']}").json()["links"][0]["standing"]
+    assert [(step["id"], step["state"], step["reason"]) for step in standing] == [
+        (DEPART, "done", None), (LAUNCH, "done", None),
+        (FIRST, "failed", "Nobody there")]
+    with make_engine(settings).connect() as connection:
+        rows = connection.execute(text(
+            "SELECT step FROM driver_events WHERE dispatch = :id ORDER BY number"), sent).all()
+    assert [step for step, in rows] == [DEPART, LAUNCH, FIRST]
+
+
+def test_change_of_the_day_reaches_the_phone(client: httpx.Client, phone: BrowserContext) -> None:
+    sent = dispatched(client)
+    page = opened(phone, sent["links"][0])
+    expect(page.locator("li.step")).to_have_count(6)
+    client.post(f"/dispatches/{sent['id']}/plan", json={
+        "problem": PROBLEM, "plan": {"routes": PLAN["routes"][1:]}}).raise_for_status()
+    page.evaluate("dispatchEvent(new Event('online'))")
+    expect(page.get_by_role("alert")).to_contain_text("Your day was changed")
+    expect(page.get_by_text("Nothing is planned for you any more.")).to_be_visible()
+    page.get_by_role("button", name="I have seen it").click()
+    expect(page.get_by_role("alert")).to_have_count(0)
+
+
+def test_page_shows_all_that_a_driver_needs_to_everyone(
+        client: httpx.Client, phone: BrowserContext) -> None:
+    link = dispatched(client, time_zone="Asia/Tokyo")["links"][0]
+    page = opened(phone, link)
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    page.locator("li.launch .head").click()
+    page.locator("li.stop .head").first.click()
+    card = page.locator("li.stop").first
+    expect(card).to_contain_text("Ring twice")
+    expect(card).to_contain_text("Tal 1, München")
+    expect(card).to_contain_text("4711")
+    expect(card).to_contain_text("8:20 to 11:06")
+    expect(card.get_by_role("link", name="Call")).to_have_attribute("href", "tel:+498912345")
+    navigate = card.get_by_role("link", name="Navigate")
+    expect(navigate).to_have_attribute("href", "geo:48.1,11.51?q=48.1,11.51")
+    page.get_by_label("Navigate with").select_option("google")
+    expect(navigate).to_have_attribute(
+        "href", "https://www.google.com/maps/dir/?api=1&destination=48.1%2C11.51")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    small = page.evaluate("""[...document.querySelectorAll('button, a, select')]
+        .filter((part) => part.getBoundingClientRect().height < 44).length""")
+    assert small == 0
+    seen = findings(page)
+    page.emulate_media(color_scheme="dark")
+    assert seen + findings(page) == []
+    assert all(address.startswith(str(client.base_url)) for address in asked)
+
+
+def test_link_that_is_over_leaves_nothing_on_the_phone(
+        client: httpx.Client, phone: BrowserContext) -> None:
+    sent = dispatched(client)
+    link = sent["links"][0]
+    page = opened(phone, link)
+    client.delete(f"/dispatches/{sent['id']}/links/{link['id']}")
+    page.reload()
+    expect(page.get_by_role("alert")).to_contain_text("revoked")
+    kept = page.evaluate("""async () => {
+        const days = await import(`${location.origin}/drive/js/days.js`);
+        return (await days.keptDay(location.hash.split('_')[2])) ?? null;
+    }""")
+    assert kept is None
+    expect(page.get_by_text("Tal 1")).to_have_count(0)
+
+
+def test_page_is_small_and_is_kept_whole() -> None:
+    files = [path for path in STATIC.rglob("*") if path.is_file()]
+    library = STATIC.parents[1] / "console" / "static" / "vendor" / "htm-3.1.1"
+    size = sum(path.stat().st_size for path in [*files, library / "standalone.module.js"])
+    assert size < 100_000
+    worker = (STATIC / "sw.js").read_text("utf-8")
+    left_out = {"sw.js", "index.html"}
+    assert [path.name for path in files
+            if path.name not in left_out
+            and f"'{path.relative_to(STATIC).as_posix()}'" not in worker] == []
+
+
+def test_plan_is_sent_out_followed_and_planned_on_from(page: Page) -> None:
+    open_example(page, "drones")
+    open_tab(page, "drivers")
+    page.get_by_role("button", name="Send to drivers").click()
+    card = page.locator(".links li").first
+    expect(card).to_contain_text("not opened yet")
+    address = card.get_by_role("link", name="Open the day").get_attribute("href") or ""
+    token = address.partition("#")[2]
+    with httpx.Client(base_url=page.url, trust_env=False, headers=holding(token)) as driver:
+        day = driver.get("drive/day").json()
+        reply = driver.post("drive/events", json={"now": "2026-11-23T00:00:00Z", "events": []})
+        assert reply.status_code == 200
+        now = page.evaluate("new Date().toISOString()")
+        driver.post("drive/events", json={"now": now, "events": [
+            event("1", day["steps"][0]["id"], now)]})
+    expect(card).to_contain_text(f"1 of {len(day['steps'])}")
+    assert findings(page, ".panel") == []
+    page.evaluate("window.print = () => {}")
+    page.get_by_role("button", name="Print sheets with links").click()
+    assert page.locator(".sheet-page .qr img").count() == page.locator(".sheet-page").count()
+    page.reload()
+    open_tab(page, "drivers")
+    expect(card).to_contain_text(f"1 of {len(day['steps'])}")
+    open_example(page, "drones")
+    open_tab(page, "drivers")
+    page.get_by_role("button", name="to their phones").click()
+    expect(page.get_by_role("button", name="to their phones")).to_have_count(0)
+    page.get_by_role("button", name="Replan from what drivers told").click()
+    expect(page.get_by_role("heading", name="Go on from the plan that came")).to_be_visible()
+    open_tab(page, "drivers")
+    card.get_by_role("button", name="Revoke").click()
+    expect(card).to_contain_text("revoked")

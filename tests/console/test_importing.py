@@ -1,0 +1,210 @@
+"""Sheets of customers, looked over cell by cell and planned in place of what was open."""
+
+import re
+from collections.abc import Callable
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Locator, Page, expect
+
+from tests.app.sheets import makes
+from tests.console.steps import open_example, open_file, open_tab, planned, state
+
+SHEET = """name,lat,lon,kg,duration,open time,closes,notes
+Anna,47.38,8.54,5,3,8.30,10.00,ring twice
+Ben,47.39,8.51,7,3,,12.15,
+"""
+
+
+def dialog(page: Page) -> Locator:
+    """Return the dialog, once the file has been read."""
+    expect(page.locator("#use-import")).to_be_visible()
+    return page.get_by_role("dialog")
+
+
+def read_anew(page: Page) -> Locator:
+    """Return the dialog, once the file has been read with what was changed."""
+    expect(page.locator(".import")).to_have_attribute("aria-busy", "false")
+    return page.get_by_role("dialog")
+
+
+def state_field(page: Page, name: str, value: str) -> None:
+    """State a depot or part of a fleet."""
+    page.locator(f"#import-{name}").fill(value)
+    page.locator(f"#import-{name}").press("Tab")
+    read_anew(page)
+
+
+def use(page: Page) -> None:
+    """Plan what was imported."""
+    button = page.locator("#use-import")
+    expect(button).to_be_enabled()
+    button.click()
+    expect(button).to_have_count(0)
+
+
+def test_times_are_read_as_they_are_meant_beside_their_cells(page: Page) -> None:
+    open_file(page, "today.csv", SHEET)
+    shown = dialog(page)
+    for reading in ("8.30 \u2192 8:30", "12.15 \u2192 12:15", "3 \u2192 3 min", "ring twice"):
+        expect(shown.get_by_text(reading, exact=True).first).to_be_visible()
+    use(page)
+    planned(page, "2 of 2 served")
+    customer = state(page, "state.request.customers.0")
+    assert customer["time_window"] == {"earliest": 30600, "latest": 36000}
+    assert customer["service_duration"] == 180
+    assert customer["info"] == {"notes": "ring twice"}
+
+
+def test_an_import_takes_nothing_from_what_was_open(page: Page) -> None:
+    open_example(page, "city_day")
+    open_file(page, "today.csv", SHEET)
+    dialog(page)
+    state_field(page, "depot", "47.37, 8.53")
+    state_field(page, "vehicles", "2")
+    state_field(page, "capacity", "20")
+    state_field(page, "shift", "7:00-18:00")
+    use(page)
+    planned(page, "2 of 2 served")
+    request = state(page, "state.request")
+    assert request["depots"] == [{"id": "depot", "location": [8.53, 47.37]}]
+    assert request["fleet"] == [{"id": "vehicle", "count": 2, "capacity": [20],
+                                 "shift": {"earliest": 25200, "latest": 64800}}]
+    assert "airspace" not in request
+
+
+def test_what_is_assumed_is_told(page: Page) -> None:
+    open_file(page, "today.csv", SHEET)
+    shown = dialog(page)
+    expect(shown.get_by_text("No depot is stated")).to_be_visible()
+    expect(shown.locator("#import-depot")).to_have_attribute("placeholder", "47.385, 8.525")
+    expect(shown.locator("#import-vehicles")).to_have_attribute("placeholder", "1")
+
+
+def test_a_wrong_cell_is_named_and_its_row_left_out(page: Page) -> None:
+    open_file(page, "today.csv", SHEET.replace("47.39", "47.x"))
+    shown = dialog(page)
+    expect(shown.get_by_role("alert")).to_contain_text("B3: '47.x' is no number")
+    expect(page.locator("#use-import")).to_be_disabled()
+    shown.get_by_label("Leave out the rows with errors").check()
+    use(page)
+    planned(page, "1 of 1 served")
+
+
+def test_a_guess_is_corrected_by_a_choice_and_remembered(page: Page) -> None:
+    open_file(page, "today.csv", SHEET)
+    shown = dialog(page)
+    shown.get_by_label("Unit of duration").select_option("seconds")
+    expect(read_anew(page).get_by_text("3 \u2192 0 min 3 s").first).to_be_visible()
+    shown.get_by_label("Meaning of notes").select_option("ignored")
+    read_anew(page)
+    use(page)
+    planned(page, "2 of 2 served")
+    assert state(page, "state.request.customers.0.service_duration") == 3
+    assert "info" not in state(page, "state.request.customers.0")
+    open_file(page, "tomorrow.csv", SHEET.replace("Ben", "Cleo"))
+    shown = dialog(page)
+    expect(shown.get_by_text("Read as the last file like it")).to_be_visible()
+    expect(shown.get_by_label("Unit of duration")).to_have_value("seconds")
+    expect(shown.get_by_label("Meaning of notes")).to_have_value("ignored")
+
+
+def test_cells_are_pasted_from_a_sheet(page: Page) -> None:
+    page.evaluate("""(text) => {
+      const data = new DataTransfer();
+      data.setData('text/plain', text);
+      const event = new ClipboardEvent('paste', { clipboardData: data, bubbles: true });
+      document.body.dispatchEvent(event);
+    }""", SHEET.replace(",", "\t"))
+    expect(dialog(page)).to_contain_text("Import what was pasted")
+    use(page)
+    planned(page, "2 of 2 served")
+
+
+def test_drivers_are_told_where_and_whom_to_call(page: Page) -> None:
+    open_file(page, "german.csv", makes.GERMAN.encode("cp1252"))
+    dialog(page)
+    use(page)
+    planned(page, "3 of 3 served")
+    page.evaluate("window.print = () => {}")
+    open_tab(page, "export")
+    page.get_by_role("button", name="Print all driver sheets").click()
+    sheet = page.locator(".sheet-page").first
+    for text in ("Am Bach 5, 81369 M\u00fcnchen", "48.1102, 11.5454", "089 77", "2x klingeln"):
+        expect(sheet).to_contain_text(text)
+
+
+def test_what_drivers_are_told_is_edited_line_by_line(page: Page) -> None:
+    open_file(page, "today.csv", SHEET)
+    dialog(page)
+    use(page)
+    planned(page, "2 of 2 served")
+    page.get_by_role("button", name="Anna", exact=True).first.click()
+    field = page.locator("#field-customers-0-info")
+    expect(field).to_have_value("notes: ring twice")
+    field.fill("notes: ring once\nphone: 044 123")
+    field.blur()
+    assert state(page, "state.request.customers.0.info") == {"notes": "ring once",
+                                                             "phone": "044 123"}
+    field.fill("no name")
+    expect(page.get_by_text("Write lines such as")).to_be_visible()
+
+
+def test_a_file_that_is_no_sheet_is_refused_in_words(open_page: Callable[..., Page],
+                                                     service: str) -> None:
+    page = open_page(service, allow=("422",))
+    expect(page.locator("#total-cost")).to_be_visible()
+    open_file(page, "scan.pdf", b"%PDF-1.7")
+    expect(page.get_by_role("alert")).to_contain_text("The file is a PDF")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+
+
+@pytest.mark.parametrize(("name", "content", "served"), [
+    ("german.csv", makes.GERMAN.encode("cp1252"), 3), ("french.csv", makes.FRENCH.encode(), 3),
+    ("american.csv", makes.AMERICAN.encode(), 3), ("tabs.txt", makes.TABS.encode("utf-16"), 3),
+    ("italian.csv", makes.ITALIAN.encode("cp1252"), 3), ("swapped.csv", makes.SWAPPED.encode(), 3),
+    ("minutes.csv", makes.MINUTES.encode(), 3), ("windows.csv", makes.WINDOWS.encode("cp1250"), 4),
+    ("rows.csv", makes.SEVERAL_ROWS.encode(), 4), ("merged.xlsx", makes.merged_headings(), 3),
+    ("fractions.xlsx", makes.fractions(), 3), ("dates.xlsx", makes.dates(), 2),
+], ids=lambda value: value if isinstance(value, str) else "")
+def test_sheets_of_all_makes_are_planned_in_one_click(console: Page, name: str, content: bytes,
+                                                      served: int) -> None:
+    open_file(console, name, content)
+    expect(dialog(console)).to_contain_text(f"{served} customers of")
+    use(console)
+    expect(console.locator(".result-line")).to_contain_text(
+        re.compile(f"of {served} served"), timeout=60_000)
+
+
+@pytest.mark.parametrize("options", [
+    {}, {"color_scheme": "dark"}, {"viewport": {"width": 390, "height": 844}},
+    {"viewport": {"width": 1024, "height": 768}}], ids=["light", "dark", "phone", "small"])
+def test_everyone_can_import(open_page: Callable[..., Page], service: str,
+                             options: dict[str, object]) -> None:
+    page = open_page(service, **options)
+    expect(page.locator("#total-cost")).to_be_visible()
+    open_file(page, "today.csv", SHEET.replace("47.39", "47.x"))
+    expect(dialog(page).get_by_role("alert")).to_be_visible()
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
+    widths = page.evaluate("""() => {
+      const { scrollWidth, clientWidth } = document.querySelector('dialog');
+      return [scrollWidth, clientWidth];
+    }""")
+    assert widths[0] <= widths[1]
+
+
+def test_an_import_needs_no_mouse(page: Page) -> None:
+    open_file(page, "today.csv", SHEET)
+    dialog(page)
+    for _ in range(40):
+        if page.evaluate("document.activeElement.id") == "use-import":
+            break
+        page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    planned(page, "2 of 2 served")
+    open_file(page, "today.csv", SHEET)
+    dialog(page)
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)

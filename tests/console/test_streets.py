@@ -1,0 +1,117 @@
+"""Streets under a plan, and the road of a leg that is clicked."""
+
+import json
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from app.roads.building import build_roads
+from app.roads.setting import Extract
+from app.roads.tools import Tools
+from tests.app.roads.conftest import HELSINKI
+from tests.app.roads.wheels import WHEELS, pinned, unpacked
+from tests.console.serving import serving
+from tests.console.steps import idle, open_file, place_of, planned, state
+
+HUB = [24.9497, 60.1787]
+PLACES = {"station": [24.9425, 60.1704], "market": [24.9480, 60.1679], "park": [24.9437, 60.1664],
+          "theatre": [24.9465, 60.1714]}
+
+COLOURS = """async () => {
+  const seen = new Set();
+  for (const canvas of document.querySelectorAll('.leaflet-tile-pane canvas')) {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    for (let at = 0; at < data.length; at += 4) {
+      if (data[at + 3] === 255) seen.add((data[at] << 16) + (data[at + 1] << 8) + data[at + 2]);
+    }
+  }
+  return [...seen];
+}"""
+
+LEGS = """async () => {
+  const load = (path) => import(`${location.origin}/console/js/${path}.js`);
+  const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
+  return indexOf(shownPlan(store.get())).vehicles[0].trips[0].stops.map(({ line }) => line);
+}"""
+
+
+@pytest.fixture(scope="module")
+def city(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Return the address of a service with the roads and streets of Helsinki's centre."""
+    unpacked(pinned("osrm-bindings"))
+    osrm = WHEELS / "osrm"
+    folder = tmp_path_factory.mktemp("streets")
+    extract = Path(shutil.copy(HELSINKI, folder / "helsinki.osm.pbf"))
+    build_roads(Extract(extract, "car"), Tools(osrm / "bin", osrm / "share" / "profiles"))
+    with serving(folder, TANDEM_ROADS=f"truck=car:{extract}",
+                 PATH=f"{osrm / 'bin'}{os.pathsep}{os.environ['PATH']}") as address:
+        yield address
+
+
+def opened(open_page: Callable[..., Page], address: str, **options: Any) -> Page:
+    """Return a console that shows a plan for the places."""
+    page = open_page(address, allow=("willReadFrequently",), **options)
+    idle(page)
+    request = {
+        "coordinate_system": "geographic", "depots": [{"id": "hub", "location": HUB}],
+        "customers": [{"id": name, "location": place, "demand": [1]}
+                      for name, place in PLACES.items()],
+        "fleet": [{"id": "truck", "count": 1, "capacity": [9], "costs": {"per_km": 1}}],
+        "options": {"time_limit": 0.5}}
+    open_file(page, "city.json", json.dumps(request))
+    planned(page, "4 of 4 served")
+    return page
+
+
+def on_screen(page: Page) -> Callable[[list[float]], tuple[float, float]]:
+    """Return a function from a place in the city to where the map shows it."""
+    (x, y), (other_x, other_y) = (place_of(page, f"c:{name}") for name in ("station", "market"))
+    (lon, lat), (other_lon, other_lat) = PLACES["station"], PLACES["market"]
+
+    def position(place: list[float]) -> tuple[float, float]:
+        return (x + (place[0] - lon) / (other_lon - lon) * (other_x - x),
+                y + (place[1] - lat) / (other_lat - lat) * (other_y - y))
+
+    return position
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_map_has_streets_and_thanks_their_makers(
+        open_page: Callable[..., Page], city: str, scheme: str) -> None:
+    page = opened(open_page, city, color_scheme=scheme)
+    expect(page.get_by_text("© OpenStreetMap contributors")).to_be_visible()
+    expect(page.locator(".leaflet-tile-pane canvas.leaflet-tile-loaded").first).to_be_visible()
+    water = 0xC5DCEC if scheme == "light" else 0x14324A
+    page.wait_for_function(f"async () => (await ({COLOURS})()).includes({water})")
+    assert len(page.evaluate(COLOURS)) > 6
+
+
+def test_streets_weigh_little(open_page: Callable[..., Page], city: str) -> None:
+    page = opened(open_page, city)
+    page.wait_for_load_state("networkidle")
+    sizes = page.evaluate("performance.getEntriesByType('resource').map(entry => "
+                          "[entry.name, entry.encodedBodySize])")
+    streets = [size for name, size in sizes if "/map/" in name]
+    assert streets
+    assert sum(streets) < 300_000
+
+
+def test_leg_that_is_clicked_shows_its_road(open_page: Callable[..., Page], city: str) -> None:
+    page = opened(open_page, city)
+    lines = page.evaluate(LEGS)
+    number = max(range(len(lines)), key=lambda stop: len(lines[stop]))
+    assert len(lines[number]) > 4
+    middle = len(lines[number]) // 2
+    (start, end), position = lines[number][middle - 1:middle + 1], on_screen(page)
+    page.mouse.click(*position([(start[0] + end[0]) / 2, (start[1] + end[1]) / 2]))
+    selection = state(page, "state.selection")
+    assert selection.startswith("l:0/0/")
+    tip = page.locator(".leaflet-tooltip")
+    for term in ("Road", "Takes", "Departure", "→"):
+        expect(tip).to_contain_text(term)
+    assert len(lines[int(selection.rpartition("/")[2])]) > 2
