@@ -2,7 +2,8 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, ClassVar, Literal
+from difflib import get_close_matches
+from typing import Any, ClassVar, Literal, cast, get_args
 
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
@@ -16,7 +17,12 @@ MAX_LISTED_ERRORS = 1000
 Refusal = Literal["overload", "rate_limit", "access", "starting"]
 """Why a request is turned away without a look at its content, as metrics count it."""
 
+_NUMBER = re.compile(r"-?\d{1,15}(?:\.\d{1,15})?")
+
 _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_NUMBER = re.compile(r"-?\d{1,12}(\.\d{1,9})?")
+_WORD = re.compile(r"[\w -]{1,40}")
+_QUOTED = re.compile(r"'([^']*)'")
 
 ErrorCode = Literal[
     "MISSING_FIELD",
@@ -47,6 +53,12 @@ ErrorCode = Literal[
     "MISSING_LOCATION_INDEX",
     "LOCATION_OFF_GLOBE",
     "LOCATION_TOO_FAR",
+    "PLACE_OFF_ROADS",
+    "NO_GEOCODER",
+    "ADDRESS_ON_PLANE",
+    "ADDRESS_NOT_FOUND",
+    "ADDRESS_AMBIGUOUS",
+    "ADDRESS_INEXACT",
     "ROUNDED_ON_GLOBE",
     "MATRIX_SIZE",
     "MATRIX_NEGATIVE",
@@ -85,7 +97,12 @@ ErrorCode = Literal[
     "TOO_MANY_SCENARIOS",
     "WEBHOOK",
     "IDEMPOTENCY_KEY_REUSED",
+    "MISSING_PLAN_START",
+    "BEFORE_PLAN_START",
+    "UNKNOWN_TIME_ZONE",
 ]
+
+_STATED_CODES = frozenset(get_args(ErrorCode))
 
 _CODES: dict[str, ErrorCode] = {
     "missing": "MISSING_FIELD",
@@ -101,9 +118,10 @@ _CODES: dict[str, ErrorCode] = {
 }
 
 IN_WORDS, IN_PLACE, ALONE, LISTED = "(word)", "(place)", "(one)", "(list)"
+AS_NUMBER, AS_TEXT = "(number)", "(text)"
 """Tags of values that may be one or the other; no part of a path."""
 
-TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED})
+TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED, AS_NUMBER, AS_TEXT})
 
 _TYPE_NAMES = {
     "float_type": "a JSON number",
@@ -134,7 +152,7 @@ _REMEDIES = {
     "finite_number": "The number is too large: state a finite one, or null where that is allowed.",
     "greater_than_equal": "The number must be at least {ge}: raise it.",
     "less_than_equal": "The number must be at most {le}: lower it, or check its unit.",
-    "too_short": "There are fewer than {min_length} entries: add some.",
+    "too_short": "There are {actual_length} entries and at least {min_length} needed: add some.",
     "too_long": "There are more than {max_length} entries: remove some.",
     "string_too_short": "The text is empty: state at least {min_length} character.",
     "string_too_long": "The text has more than {max_length} characters: shorten it.",
@@ -204,6 +222,22 @@ class InvalidRequestError(RequestError):
                          errors[:MAX_LISTED_ERRORS])
 
 
+class NoRoadsError(RequestError):
+    """Where roads come from doesn't answer, or not what can be right."""
+
+    status = 503
+    name = "roads-unavailable"
+    title = "The roads are unavailable"
+
+
+class NoGeocoderError(RequestError):
+    """Where addresses are looked up doesn't answer, or not in time."""
+
+    status = 503
+    name = "geocoder-unavailable"
+    title = "The geocoder is unavailable"
+
+
 class NotReadyError(RequestError):
     """The planner is still warming up."""
 
@@ -235,21 +269,84 @@ def json_path(location: Iterable[str | int]) -> str:
     return path
 
 
+def schema_errors(found: Sequence[ErrorDetails]) -> list[InputError]:
+    """Return all that pydantic found, in our words.
+
+    What may be a number or a text is one error, of that which it was meant to be.
+    """
+    texts = {details["loc"][:-1] for details in found if _is_of_text(details)}
+    kept = [details for details in found
+            if details["loc"][-1:] != (AS_TEXT,) or _is_of_text(details)]
+    return [schema_error(details) for details in kept
+            if details["loc"][-1:] != (AS_NUMBER,) or details["loc"][:-1] not in texts]
+
+
+def _is_of_text(details: ErrorDetails) -> bool:
+    """Tell whether an error is of what was meant as a text: it is one, and no number in quotes."""
+    if details["loc"][-1:] != (AS_TEXT,) or details["type"] == "string_type":
+        return False
+    given = details.get("input")
+    return not (isinstance(given, str) and _NUMBER.fullmatch(given))
+
+
 def schema_error(details: ErrorDetails) -> InputError:
     """Return what pydantic found, in our words."""
     kind = details["type"]
     location = tuple(key for key in details["loc"] if key not in TAGS)
     context: dict[str, Any] = details.get("ctx", {})
-    if kind in _TYPE_NAMES:
-        message = f"The value must be {_TYPE_NAMES[kind]}: state one, not {_shown(details)}."
+    if kind in _STATED_CODES:
+        message = details["msg"]
+    elif kind in _TYPE_NAMES:
+        message = f"The value must be {_TYPE_NAMES[kind]}: {_instead(details)}."
     elif kind in _REMEDIES:
-        message = _REMEDIES[kind].format_map(context)
+        message = _REMEDIES[kind].format_map(_rounded(context)) + _closest(details)
     else:
         message = f"{details['msg']}: correct the value."
-    code = _CODES.get(kind, "WRONG_TYPE")
+    code = cast(ErrorCode, kind) if kind in _STATED_CODES else _CODES.get(kind, "WRONG_TYPE")
     if location[:1] == ("matrices",) and len(location) > 3:
         code = "MATRIX_VALUE"
     return InputError(code=code, path=json_path(location), message=message)
+
+
+def _instead(details: ErrorDetails) -> str:
+    """Say what to write, if that can be told from what was sent."""
+    sent, kind = details.get("input", ...), details["type"]
+    number = _number_in(sent)
+    if kind == "list_type" and number is not None:
+        return f"write [{number}]"
+    if kind == "list_type" and isinstance(sent, str) and _WORD.fullmatch(sent):
+        return f'write ["{sent}"]'
+    if kind in ("list_type", "tuple_type") and isinstance(sent, dict):
+        return "put what it lists between [ and ], not an object"
+    if kind in ("float_type", "int_type") and isinstance(sent, str) and number is not None:
+        return f"write {number} without quotes"
+    if kind in ("int_type", "int_from_float") and isinstance(sent, float):
+        return f"write {int(sent)}" if sent.is_integer() else f"state one, not {sent:.6g}"
+    if kind == "string_type" and number is not None:
+        return f'write "{number}"'
+    return f"state one, not {_shown(details)}"
+
+
+def _number_in(sent: object) -> str | None:
+    """Return a number that was sent, or stands in a text that was."""
+    text = str(sent) if isinstance(sent, int | float) and not isinstance(sent, bool) else sent
+    return text if isinstance(text, str) and _NUMBER.fullmatch(text) else None
+
+
+def _rounded(context: Mapping[str, Any]) -> dict[str, Any]:
+    """Return bounds without decimals that tell nothing."""
+    return {name: int(bound) if isinstance(bound, float) and bound.is_integer() else bound
+            for name, bound in context.items()}
+
+
+def _closest(details: ErrorDetails) -> str:
+    """Say which of some words was meant, if one is like what was sent."""
+    sent = details.get("input")
+    if details["type"] != "literal_error" or not isinstance(sent, str) or len(sent) > 40:
+        return ""
+    words = _QUOTED.findall(str(details.get("ctx", {}).get("expected", "")))
+    close = get_close_matches(sent.lower(), words, 1)
+    return f" Did you mean {close[0]!r}?" if close else ""
 
 
 def _shown(details: ErrorDetails) -> str:

@@ -1,8 +1,8 @@
 """The web application: loads the planner, maps errors to replies."""
 
 import logging
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from http import HTTPStatus
 
 from fastapi import FastAPI, Request, Response
@@ -13,20 +13,31 @@ from starlette.requests import ClientDisconnect
 
 from app.access.gate import KeyScrubber
 from app.access.setup import control_access, guarding
+from app.addresses.routes import new_lookups
+from app.addresses.routes import router as addresses_router
 from app.console.routes import mount_console
+from app.dispatches.pages import mount_drivers_page
+from app.dispatches.routes import router as dispatches_router
+from app.dispatches.store import delete_expired
 from app.errors import InvalidRequestError, RequestError, problem_response, schema_error
 from app.health import router as health_router
 from app.jobs.gate import WorkerGate
 from app.jobs.routes import router as jobs_router
 from app.jobs.setup import running_jobs
+from app.kept.desk import keeping_plans
+from app.kept.routes import router as kept_router
 from app.load.setup import prepare_for_load
 from app.observe.observer import Observer
 from app.observe.routes import metrics_router
 from app.plans.routes import router as plans_router
 from app.plans.service import PlanService
 from app.requests.bounds import Bounds
+from app.roads.opening import extracts_of, opened_roads
 from app.schemas.openapi import TAGS, allowed_methods, describe, operation_id
 from app.settings import Settings
+from app.sheets.routes import router as sheets_router
+from app.streets.gallery import Gallery
+from app.streets.routes import router as streets_router
 from app.vroom.routes import router as vroom_router
 from model.planner import PlanCheckError, Planner, load_planner
 
@@ -52,16 +63,8 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         loaded = planner or load_planner(settings.weights_dir, settings.policies)
-        service = PlanService(loaded, settings.search_threads, observer.record_plan,
-                              Bounds.of_plans(settings))
-        service.start()
-        app.state.service = service
-        jobs = running_jobs(settings, loaded, lambda: service.readiness().is_ready,
-                            observer.metrics, observer.record_plan)
-        with (guarding(settings) as app.state.guard, jobs as app.state.jobs,
-              shutdown.listening(settings.drain_seconds)):
+        with _running(app, settings, loaded, observer), shutdown.listening(settings.drain_seconds):
             yield
-        service.stop()
         observer.stop()
 
     observer = Observer(settings, VERSION)
@@ -70,14 +73,17 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
                          generate_unique_id_function=operation_id,
                          description="Plans deliveries for trucks that carry drones.")
     app.state.settings = settings
+    drawn = [] if settings.role == "worker" else extracts_of(settings)
+    app.state.gallery = Gallery(drawn, settings.data_dir / "streets")
+    app.state.lookups = new_lookups()
     observer.enter(app)
     shutdown = prepare_for_load(app, settings)
-    app.include_router(plans_router)
-    app.include_router(health_router)
-    app.include_router(jobs_router)
-    app.include_router(vroom_router)
-    app.include_router(metrics_router(settings))
+    for router in (plans_router, health_router, jobs_router, dispatches_router, kept_router,
+                   vroom_router, sheets_router, addresses_router, streets_router,
+                   metrics_router(settings)):
+        app.include_router(router)
     _map_errors(app)
+    mount_drivers_page(app)
     mount_console(app)
     app.openapi = describe(app)  # type: ignore[method-assign]
     control_access(app, settings)
@@ -86,6 +92,25 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     observer.surround(app)
     app.add_middleware(KeyScrubber)
     return app
+
+
+@contextmanager
+def _running(app: FastAPI, settings: Settings, planner: Planner,
+             observer: Observer) -> Iterator[None]:
+    """Have all run that answers requests: its state has what they turn to."""
+    with opened_roads(settings) as roads, guarding(settings) as app.state.guard:
+        roads.start()
+        service = PlanService(planner, settings.search_threads, observer.record_plan,
+                              Bounds.of_plans(settings), roads)
+        service.start()
+        app.state.service, app.state.addresses = service, roads.addresses
+        jobs = running_jobs(settings, planner, lambda: service.readiness().is_ready,
+                            observer.metrics, observer.record_plan, roads, [delete_expired])
+        app.state.gallery.start()
+        with keeping_plans(settings) as app.state.kept, jobs as app.state.jobs:
+            yield
+        app.state.gallery.stop()
+        service.stop()
 
 
 def _map_errors(app: FastAPI) -> None:

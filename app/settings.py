@@ -86,6 +86,24 @@ class Settings(BaseSettings):
         description="Threads of a search when the request states none; no more than this machine "
         "has cores are ever used.",
     )
+    roads: SecretStr | None = Field(
+        None,
+        description="Where legs between places on the globe come from, by the `profile` of vehicle "
+        "types: an extract of OpenStreetMap that `tandem roads build` has prepared, or a server, "
+        "such as `truck=berlin.osm.pbf,car=osrm:http://localhost:5000`. None: great circles.",
+    )
+    roads_cache_bytes: int = Field(
+        2**30, ge=0, description="Most bytes of road legs kept in `TANDEM_DATA_DIR`, so that plans "
+        "for the same places needn't ask for them again. 0: none there."
+    )
+    geocoder: SecretStr | None = Field(
+        None,
+        description="Where addresses are looked up, in this order, each asked for what those "
+        "before it don't know exactly: extracts of OpenStreetMap that `tandem roads build` or "
+        "`tandem addresses build` has prepared, or servers, such as `extract:berlin.osm.pbf,"
+        "nominatim:https://nominatim.example.org` (also `photon:` and `pelias:`). None: "
+        "addresses are not looked up.",
+    )
     tile_url: str | None = Field(
         None,
         pattern=r"^https?://[^/]+/.*\{z\}.*",
@@ -118,8 +136,8 @@ class Settings(BaseSettings):
     )
     database_url: SecretStr | None = Field(
         None,
-        description="Database for keys and jobs, such as `postgresql://user:password@host/tandem`. "
-        "None: an SQLite file in `TANDEM_DATA_DIR`.",
+        description="Database for keys, jobs and kept plans, such as "
+        "`postgresql://user:password@host/tandem`. None: an SQLite file in `TANDEM_DATA_DIR`.",
     )
     access: Literal["keys", "open"] | None = Field(
         None,
@@ -136,6 +154,10 @@ class Settings(BaseSettings):
     wrong_keys_per_minute: int = Field(
         60, ge=0, description="Wrong keys a minute from one address, in each process, before they "
         "are answered with 429. 0: no limit.",
+    )
+    driver_requests_per_minute: int = Field(
+        120, ge=0, description="Requests a minute with one driver's link, in each process. 0: no "
+        "limit.",
     )
     trusted_hosts: tuple[Annotated[str, Field(pattern=HOST_NAME)], ...] = Field(
         (), description="Names by which the service is called where no keys are needed, besides "
@@ -228,6 +250,36 @@ class Settings(BaseSettings):
     )
     job_expiry_hours: float = Field(
         72.0, gt=0, description="Hours after their end when jobs and their results are deleted."
+    )
+    max_kept_plans: int = Field(
+        1000, ge=0, description="Plans that may be kept by name for each key, or for all who ask "
+        "where access is open; beyond that keeping is refused with 409. 0: none may be kept."
+    )
+    max_kept_bytes: int = Field(
+        2**30, ge=0, description="Most bytes of all kept plans of a key, as JSON; the database "
+        "holds about a fifth of that. Beyond that keeping is refused with 409.",
+    )
+    kept_plan_days: float | None = Field(
+        None, gt=0, le=36_500, description="Days after their last change when kept plans are "
+        "deleted, and the links to them with them. None: they stay until somebody deletes them.",
+    )
+    public_url: str | None = Field(
+        None, pattern=r"^https?://[^/?#]+[^?#]*$",
+        description="Address under which drivers reach the service, such as "
+        "`https://tandem.example.org`, of which their links are made. None: the one by which the "
+        "service was asked for them.",
+    )
+    dispatch_hours: float = Field(
+        24.0, gt=0, le=24 * 366, description="Hours after which drivers' links end where no start "
+        "of the plan is stated; else they end at the midnight after the plan."
+    )
+    dispatch_expiry_hours: float = Field(
+        72.0, gt=0, le=24 * 366, description="Hours after the end of drivers' links when all that "
+        "is kept of the plan is deleted."
+    )
+    max_dispatches_per_client: int = Field(
+        200, ge=1, description="Plans on the road at a time, for each key, or for each address "
+        "where access is open; what comes beyond is refused with 429."
     )
     webhook_secret: Annotated[SecretStr, AfterValidator(_webhook_secret)] | None = Field(
         None,

@@ -8,7 +8,7 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.access.hosts import TrustedHosts, is_same_host
-from app.access.keys import PREFIX
+from app.access.tokens import PREFIX
 from app.errors import Refusal, problem_response
 
 KEY_IN_URL = "key_in_url"

@@ -29,6 +29,9 @@ STALE_SECONDS = 60.0
 PATIENCE = 0.5
 """Seconds that requests wait for keys to be read, before they make do with those in memory."""
 
+_COUNTED = frozenset({"POST", "PUT", "PATCH"})
+"""Methods whose requests have a rate."""
+
 BEARER = HTTPBearer(auto_error=False, description="An API key: `Authorization: Bearer tdm_...`.")
 KEY_HEADER = APIKeyHeader(name="X-API-Key", auto_error=False,
                           description="An API key, for clients that can't set `Authorization`.")
@@ -92,7 +95,7 @@ class Guard:
 
     def __init__(self, store: KeyStore | None, limits: Limits) -> None:
         self._store = store
-        self._limits = limits
+        self.limits = limits
         self._keys: Keys = {}
         self._read_at = -float("inf")
         self._tried_at = -float("inf")
@@ -130,9 +133,13 @@ class Guard:
                                  "key that was created with it.")
         # Logs name the key by its id.
         request.state.key_id = principal.key_id
-        if request.method == "POST":
-            self._limits.take(request, principal.client, needed)
+        if request.method in _COUNTED:
+            self.limits.take(request, principal.client, needed)
         return principal
+
+    def count_wrong_token(self, request: Request) -> None:
+        """Count a token that opens nothing as a wrong key; raises if there were too many."""
+        self.limits.count_failure(client_address(request))
 
     async def trouble(self) -> str | None:
         """Return why keys can't be checked now; None: they can, or none are needed."""
@@ -164,7 +171,7 @@ class Guard:
         if key is None:
             # Only wrong keys are slowed down: whoever shares the address of somebody who guesses
             # is let in all the same, and 256 random bits can't be guessed anyway.
-            self._limits.count_failure(client_address(request))
+            self.limits.count_failure(client_address(request))
             raise UnauthorizedError
         await self._note_use(store, key)
         return Principal(key.id, key.scopes, key.id)

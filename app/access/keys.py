@@ -1,9 +1,5 @@
 """API keys: made at random, shown once, kept as hashes."""
 
-import hashlib
-import hmac
-import re
-import secrets
 import time
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -11,21 +7,17 @@ from typing import Literal
 
 from sqlalchemy import Engine, insert, select, update
 
+from app.access.tokens import NO_DIGEST, TokenKind, is_token
 from app.database.migrations.running import upgrade
 from app.database.tables import KEYS
 
 Scope = Literal["plan", "jobs", "admin"]
 SCOPES: tuple[Scope, ...] = ("plan", "jobs", "admin")
 
-PREFIX = "tdm_"
-"""What every key begins with, so that people and scanners for secrets know it."""
-
-ID_BYTES, SECRET_BYTES = 6, 32
+KEY = TokenKind()
 
 LAST_USED_STEP = 600
 """Seconds by which the time of the last use may be too old; noting each use would cost a write."""
-
-_KEY = re.compile(rf"{PREFIX}([0-9a-f]{{{2 * ID_BYTES}}})_[0-9a-f]{{{2 * SECRET_BYTES}}}")
 
 
 @dataclass(frozen=True)
@@ -34,7 +26,7 @@ class StoredKey:
 
     id: str
     name: str
-    digest: bytes  # SHA-256 of the whole key; 256 random bits need no slow hash
+    digest: bytes  # see `app.access.tokens`
     scopes: frozenset[Scope]
     created_at: int
     revoked_at: int | None = None
@@ -44,7 +36,7 @@ class StoredKey:
 Keys = Mapping[str, StoredKey]
 """Keys by id."""
 
-_NOBODY = StoredKey("", "", bytes(32), frozenset(), 0, revoked_at=0)
+_NOBODY = StoredKey("", "", NO_DIGEST, frozenset(), 0, revoked_at=0)
 """Compared with where there is no key of the id presented."""
 
 
@@ -65,13 +57,12 @@ class KeyStore:
         """
         if not scopes:
             raise ValueError("scopes: a key needs at least one")
-        key_id = secrets.token_hex(ID_BYTES)
-        key = f"{PREFIX}{key_id}_{secrets.token_hex(SECRET_BYTES)}"
-        row = {"id": key_id, "name": name, "digest": _digest(key), "created_at": int(time.time()),
+        key = KEY.make()
+        row = {"id": key.id, "name": name, "digest": key.digest, "created_at": int(time.time()),
                "scopes": " ".join(scope for scope in SCOPES if scope in scopes)}
         with self._prepared().begin() as connection:
             connection.execute(insert(KEYS).values(row))
-        return key
+        return key.text
 
     def load(self) -> Keys:
         """Return all keys, the oldest first, revoked ones included."""
@@ -111,14 +102,7 @@ class KeyStore:
 def find_key(keys: Keys, presented: str) -> StoredKey | None:
     """Return the valid key that was presented, or None.
 
-    Whatever is presented is hashed whole and compared with one digest in constant time, so how
-    long this takes tells neither how much of a key is right nor whether its id exists.
+    How long this takes tells nothing, see `is_token`.
     """
-    matched = _KEY.fullmatch(presented)
-    stored = keys.get(matched[1] if matched else "", _NOBODY)
-    is_right = hmac.compare_digest(_digest(presented), stored.digest)
-    return stored if is_right and stored.revoked_at is None else None
-
-
-def _digest(key: str) -> bytes:
-    return hashlib.sha256(key.encode()).digest()
+    stored = keys.get(KEY.id_of(presented), _NOBODY)
+    return stored if is_token(presented, stored.digest) and stored.revoked_at is None else None

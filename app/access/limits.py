@@ -38,6 +38,7 @@ class Rates:
     plans: int = 0
     jobs: int = 0
     failures: int = 0  # wrong keys from one address
+    drivers: int = 0  # of one driver's link
 
 
 class Limits:
@@ -54,6 +55,8 @@ class Limits:
             for scope, rate in stated.items() if rate}
         self._failures = (RateLimitItemPerMinute(rates.failures, namespace="failures")
                           if rates.failures else None)
+        self._drivers = (RateLimitItemPerMinute(rates.drivers, namespace="drivers")
+                         if rates.drivers else None)
 
     def take(self, request: Request, client: str, scopes: frozenset[Scope]) -> None:
         """Count a request, and have its reply tell what is left.
@@ -71,13 +74,12 @@ class Limits:
             If the limit is used up.
         """
         for scope in scopes & self._by_scope.keys():
-            item = self._by_scope[scope]
-            taken = self._limiter.hit(item, client)
-            headers = self._headers(item, client)
-            if not taken:
-                self._refuse(f"No more than {item.amount} requests a minute are allowed here",
-                             headers)
-            setattr(request.state, RATE_LIMIT_HEADERS, headers)
+            self._take(request, self._by_scope[scope], client)
+
+    def take_of_driver(self, request: Request, link: str) -> None:
+        """Count a request that comes with a driver's link; raises as `take` does."""
+        if self._drivers is not None:
+            self._take(request, self._drivers, link)
 
     def count_failure(self, address: str) -> None:
         """Count a wrong key.
@@ -90,6 +92,13 @@ class Limits:
         if self._failures is not None and not self._limiter.hit(self._failures, address):
             self._refuse("Too many wrong keys came from this address",
                          self._headers(self._failures, address))
+
+    def _take(self, request: Request, item: RateLimitItem, client: str) -> None:
+        taken = self._limiter.hit(item, client)
+        headers = self._headers(item, client)
+        if not taken:
+            self._refuse(f"No more than {item.amount} requests a minute are allowed here", headers)
+        setattr(request.state, RATE_LIMIT_HEADERS, headers)
 
     def _refuse(self, what: str, headers: dict[str, str]) -> None:
         # Where a minute's count has just slid into the next, it still weighs in full.

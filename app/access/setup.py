@@ -16,10 +16,11 @@ from app.access.limits import Limits, Rates
 from app.database.connections import make_engine
 from app.settings import Settings
 
-REQUEST_HEADERS = ("Authorization", "Content-Type", "Idempotency-Key", "Last-Event-ID", "X-API-Key",
-                   "X-Request-ID")
-REPLY_HEADERS = ("Location", "RateLimit-Limit", "RateLimit-Remaining", "RateLimit-Reset",
-                 "Retry-After", "X-Request-ID")
+METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
+REQUEST_HEADERS = ("Authorization", "Content-Type", "Idempotency-Key", "If-Match", "If-None-Match",
+                   "Last-Event-ID", "X-API-Key", "X-Request-ID", "X-Share-Token")
+REPLY_HEADERS = ("ETag", "Location", "RateLimit-Limit", "RateLimit-Remaining",
+                 "RateLimit-Reset", "Retry-After", "X-Request-ID")
 
 
 class ExposedError(ValueError):
@@ -44,7 +45,8 @@ def check_exposure(settings: Settings, host: str) -> None:
 def guarding(settings: Settings) -> Iterator[Guard]:
     """Yield the guard that the settings ask for; its database is open until the block ends."""
     limits = Limits(Rates(settings.plans_per_minute, settings.jobs_per_minute,
-                          settings.wrong_keys_per_minute))
+                          settings.wrong_keys_per_minute,
+                          settings.driver_requests_per_minute))
     if settings.access != "keys":
         yield Guard(None, limits)
         return
@@ -65,7 +67,7 @@ def control_access(app: FastAPI, settings: Settings) -> None:
     if settings.cors_origins:
         app.add_middleware(
             CORSMiddleware, allow_origins=settings.cors_origins,
-            allow_methods=("GET", "POST", "DELETE"), allow_headers=REQUEST_HEADERS,
+            allow_methods=METHODS, allow_headers=REQUEST_HEADERS,
             expose_headers=REPLY_HEADERS)
     tiles = urlsplit(settings.tile_url or "")
     app.add_middleware(SecurityHeaders,

@@ -7,17 +7,20 @@ from typing import Annotated
 import typer
 
 from app.access.setup import ExposedError, check_exposure
+from app.cli.addresses import addresses_cli
 from app.cli.database import database_cli
 from app.cli.file_errors import EXIT_BAD_INPUT, refuse
+from app.cli.importing import import_sheet
 from app.cli.keys import keys_cli
 from app.cli.plot import plot
+from app.cli.roads import roads_cli, roads_of
 from app.cli.serving import run_server
 from app.cli.settings_page import settings_page
 from app.errors import RequestError
 from app.files.importers import FileFormat, convert_file
 from app.load.bodies import ReceivedBody
 from app.plans.service import answer
-from app.plans.task import task_of
+from app.plans.task import Task, task_of
 from app.plans.warming import showing
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
@@ -34,7 +37,10 @@ cli = typer.Typer(help="Plan deliveries for trucks that carry drones.", no_args_
                   add_completion=False)
 cli.add_typer(keys_cli, name="keys")
 cli.add_typer(database_cli, name="database")
+cli.add_typer(roads_cli, name="roads")
+cli.add_typer(addresses_cli, name="addresses")
 cli.command()(plot)
+cli.command("import")(import_sheet)
 
 ProblemFile = Annotated[Path, typer.Argument(help="Request of POST /plan as JSON.", exists=True,
                                              dir_okay=False)]
@@ -63,6 +69,9 @@ def serve(
     except ExposedError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(EXIT_BAD_INPUT) from error
+    with roads_of(settings):
+        # What is wrong with them is told here, in words and once.
+        pass
     run_server(settings, host, port, workers)
 
 
@@ -85,10 +94,12 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
     settings = Settings()
     content = problem_file.read_bytes()
     try:
-        problem = task_of(read_request(content, policies=None)).problem
-        planner = _warm_planner(settings, problem)
-        body = ReceivedBody(content, time.perf_counter())
-        reply = answer(planner, body, settings.search_threads)
+        with roads_of(settings) as roads:
+            task = task_of(read_request(content, policies=None), roads=roads)
+            _print_warnings(task)
+            planner = _warm_planner(settings, task.problem)
+            body = ReceivedBody(content, time.perf_counter())
+            reply = answer(planner, body, settings.search_threads, roads=roads)
     except RequestError as error:
         refuse(problem_file, error)
     if output is None:
@@ -101,13 +112,15 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
 def check_plan(problem_file: ProblemFile, plan_file: PlanFile) -> None:
     """Judge a plan: print the rules it breaks and its cost. Exits with 1 if it breaks any."""
     try:
-        task = task_of(read_request(problem_file.read_bytes(), policies=None))
+        with roads_of(Settings()) as roads:
+            task = task_of(read_request(problem_file.read_bytes(), policies=None), roads=roads)
     except RequestError as error:
         refuse(problem_file, error)
     try:
         solution = plan_to_solution(plan_file.read_bytes(), task.problem)
     except RequestError as error:
         refuse(plan_file, error)
+    _print_warnings(task)
     evaluation = task.check(solution)
     _print_evaluation(evaluation)
     if not evaluation.is_feasible:
@@ -145,6 +158,11 @@ def _warm_planner(settings: Settings, problem: Problem | None = None) -> Planner
     with showing(lambda line: typer.echo(line, err=True)) as show:
         planner.warm(show, problem)
     return planner
+
+
+def _print_warnings(task: Task) -> None:
+    for warning in task.warnings:
+        typer.echo(f"warning {warning.code} {warning.path}: {warning.message}", err=True)
 
 
 def _print_evaluation(evaluation: Evaluation) -> None:

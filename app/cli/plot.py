@@ -6,10 +6,12 @@ from typing import Annotated
 import typer
 
 from app.cli.file_errors import EXIT_BAD_INPUT, refuse
+from app.cli.roads import roads_of
 from app.errors import RequestError
 from app.pictures.scene import Scene
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_request
+from app.settings import Settings
 
 FORMATS = (".png", ".svg", ".html")
 
@@ -33,7 +35,8 @@ def plot(
     except RequestError as error:
         refuse(problem_file, error)
     try:
-        scene = Scene.judged(request, parse_plan(plan_file.read_bytes()))
+        with roads_of(Settings()) as roads:
+            scene = Scene.judged(request, parse_plan(plan_file.read_bytes()), roads)
     except RequestError as error:
         refuse(plan_file, error)
     output.write_bytes(_content(scene, ending))

@@ -7,7 +7,9 @@ from contextlib import contextmanager
 from typing import Any
 
 import uvicorn
+from fastapi import FastAPI
 
+from app.load.memory import keep_memory
 from app.load.protocol import HttpProtocol
 from app.main import create_app
 from app.observe.logs import log_config
@@ -31,11 +33,18 @@ def run_server(settings: Settings, host: str, port: int, workers: int) -> None:
                                  traced=settings.otlp_endpoint is not None),
     }
     if workers == 1:
+        keep_memory()
         uvicorn.run(create_app(settings), **options)
         return
     with _shared_by_workers(settings, workers):
-        uvicorn.run("app.main:create_app", factory=True, workers=workers,
+        uvicorn.run("app.cli.serving:worker_app", factory=True, workers=workers,
                     timeout_worker_healthcheck=HEALTHCHECK_SECONDS, **options)
+
+
+def worker_app() -> FastAPI:
+    """Return the application of one of several processes, which reads the environment."""
+    keep_memory()
+    return create_app()
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from contextlib import suppress
 from typing import TypeVar
 
 from anyio import CapacityLimiter, to_thread
+from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.connections import is_misfit, is_outage
@@ -82,20 +83,24 @@ class JobDesk:
         return self._misfit
 
     async def ask(self, question: Callable[[JobService], Result]) -> Result:
-        """Ask in a thread, as the database has to be waited for.
+        """Ask about jobs in a thread; raises as `reach` does."""
+        return await self.reach(lambda _: question(self._service))
+
+    async def reach(self, work: Callable[[Engine], Result]) -> Result:
+        """Do `work` in a thread, as the database has to be waited for.
 
         Raises
         ------
         JobsUnavailableError
             If it can't be reached.
         RequestError
-            If the question has no answer.
+            If the work can't be done.
         """
         if not self._is_prepared:
             raise JobsUnavailableError(self._misfit or "The database is being prepared: try again "
                                        "soon.")
         try:
-            return await to_thread.run_sync(question, self._service, limiter=self._threads)
+            return await to_thread.run_sync(work, self._queues.engine, limiter=self._threads)
         except SQLAlchemyError as error:
             if is_misfit(error):
                 await to_thread.run_sync(self._look_at_tables, limiter=self._threads)

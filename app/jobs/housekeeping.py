@@ -3,10 +3,11 @@
 import logging
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
+from sqlalchemy import Engine
 from sqlalchemy.exc import DBAPIError
 
 from app.jobs.queues import Queues
@@ -51,11 +52,15 @@ class Housekeeper:
         Where jobs are kept.
     queues
         Where they wait.
+    also_expire
+        What else is to be done whenever jobs are deleted that expired.
     """
 
-    def __init__(self, store: JobStore, queues: Queues) -> None:
+    def __init__(self, store: JobStore, queues: Queues,
+                 also_expire: Sequence[Callable[[Engine], None]] = ()) -> None:
         self._store = store
         self._queues = queues
+        self._also_expire = also_expire
         self._sightings: Mapping[str, Sighting] = {}
 
     def look_until(self, stopping: threading.Event) -> None:
@@ -93,7 +98,9 @@ class Housekeeper:
         self._sightings = sightings
 
     def expire(self) -> None:
-        """Delete jobs that expired, and what the queues remember of old ones. In place."""
+        """Delete what expired, and what the queues remember of old jobs. In place."""
+        for expire in self._also_expire:
+            expire(self._queues.engine)
         while ids := self._store.expired(now_ms(), BATCH):
             self._store.forget(ids)
         while ids := self._queues.finished_before(datetime.now(UTC) - KEPT, BATCH):

@@ -9,15 +9,17 @@ from dataclasses import dataclass, replace
 from pydantic_core import from_json, to_json
 
 from app.conversion.preparing import StoppedError
-from app.errors import RequestError
+from app.errors import NoRoadsError, RequestError
 from app.jobs.rows import JobRow, Standing
+from app.jobs.running import Returning, Running
 from app.jobs.schemas import State
-from app.jobs.search import EarlierWork, Find, Search
+from app.jobs.search import EarlierWork, Search
 from app.jobs.store import JobStore, now_ms
 from app.plans.replies import Data
 from app.plans.service import plan_options, preparing
 from app.plans.task import task_of
 from app.requests.bounds import Bounds
+from app.roads.roads import NO_ROADS, Roads
 from app.schemas.request import PlanRequest
 from model.planner import PlanCheckError, Planner
 
@@ -34,8 +36,18 @@ NOT_COMPUTED = "The plan could not be computed."
 POISONOUS = f"The process that planned ended unexpectedly, {MAX_CRASHES} times in a row."
 
 
-LEAST_PREPARING = 10.0
-"""Seconds that may pass before the search of any job: nobody waits for it, and it would be lost."""
+LEAST_PREPARING = 300.0
+"""Seconds that may pass before the search of any job: nobody waits for it, and it would be lost.
+Roads take minutes for ten thousand places."""
+
+ROADS_RETRY = 10.0
+"""Seconds until roads that didn't answer are asked again for a job."""
+
+REST_POLLING = 0.1
+"""Seconds between two looks whether a job that waits is to go on waiting."""
+
+MOST_WAITING = 6 * 3600.0
+"""Seconds after which a job whose roads don't answer is given up."""
 
 JOB_BOUNDS = Bounds(time_setting="TANDEM_MAX_JOB_SECONDS")
 """What a job may take; it was within the settings when it came."""
@@ -60,18 +72,6 @@ class Slice:
 OVER = Slice(True)
 
 
-@dataclass
-class Running:
-    """A search under way in this process."""
-
-    row: JobRow
-    search: Search
-    validated: float  # seconds
-    noted: Find | None = None
-    best: Data | None = None  # reply to the best plan written down
-    is_cancelled: bool = False
-
-
 class PlanWork:
     """The plan jobs that this process works on.
 
@@ -85,21 +85,24 @@ class PlanWork:
         Returns the request of a job.
     search_threads
         Threads where a request states none.
-    put_back
-        Has a job begun again by any process.
+    returning
+        How jobs get back to their queue.
     on_plan
         Is told the reply of each job that is done.
+    roads
+        Those to plan on.
     """
 
     def __init__(self, planner: Planner, store: JobStore, read: Callable[[JobRow], PlanRequest],
-                 search_threads: int, put_back: Callable[[str], None],
-                 on_plan: Callable[[Data], None]) -> None:
+                 search_threads: int, returning: Returning,
+                 on_plan: Callable[[Data], None], roads: Roads = NO_ROADS) -> None:
         self._planner = planner
         self._store = store
         self._read = read
         self._search_threads = search_threads
-        self._put_back = put_back
+        self._returning = returning
         self._on_plan = on_plan
+        self._roads = roads
         self._running: dict[str, Running] = {}
         self._beginning: dict[str, threading.Event] = {}  # set: cancelled
         self._stopping = threading.Event()
@@ -155,23 +158,21 @@ class PlanWork:
 
     def _begin(self, job_id: str) -> Running | None:
         """Take a job and start its search; None if there is nothing to search. In place."""
-        row = self._store.claim(job_id)
+        has_waited = self._has_waited(job_id)
+        row = self._taken(job_id, has_waited)
         if row is None:
-            return None
-        if row.crashes > MAX_CRASHES:
-            self._fail(row, POISONOUS)
-            return None
-        if row.cancel_requested:
-            self._store.finish(job_id, row.attempt, "cancelled")
             return None
         began = time.perf_counter()
         self._beginning[job_id] = threading.Event()
         try:
             request = self._read(row)
-            work = preparing(request.options, JOB_BOUNDS, self._stopper(job_id))
-            task = task_of(request, replace(work, least_time=LEAST_PREPARING))
+            work = preparing(request.options, JOB_BOUNDS, self._stopper(row))
+            task = task_of(request, replace(work, least_time=LEAST_PREPARING), roads=self._roads)
         except StoppedError:
             self._give_up(row)
+            return None
+        except NoRoadsError as error:
+            self._put_off(row, error)
             return None
         except (RequestError, KeyError) as error:
             # It was valid when it came: a policy may have been removed since.
@@ -180,6 +181,9 @@ class PlanWork:
             return None
         finally:
             del self._beginning[job_id]
+        if has_waited:
+            # Its legs are there, and known the next time: it is planned where the plans are.
+            self._release(row)
         options = plan_options(request.options, self._search_threads)
         kept = self._store.result(job_id)
         earlier = EarlierWork(row.searched, row.search_iterations,
@@ -188,16 +192,34 @@ class PlanWork:
         return Running(row, Search(self._planner, task, options, earlier), validated,
                        best=earlier.reply)
 
-    def _stopper(self, job_id: str) -> Callable[[], bool]:
-        """Return what tells whether a job that begins is to end, by this process or another."""
-        cancelled, looked_at = self._beginning[job_id], time.monotonic()
+    def _taken(self, job_id: str, has_waited: bool) -> JobRow | None:
+        """Take a job, and return it unless it is over then. In place."""
+        row = self._store.claim(job_id)
+        if row is None:
+            if has_waited:
+                # Cancelled meanwhile, and with it the workflow, which so has no outcome.
+                raise Stopping
+            return None
+        if row.crashes > MAX_CRASHES:
+            self._fail(row, POISONOUS)
+            return None
+        if row.cancel_requested:
+            self._store.finish(job_id, row.attempt, "cancelled")
+            return None
+        return row
+
+    def _stopper(self, row: JobRow) -> Callable[[], bool]:
+        """Return what tells whether a job that begins is to end, by this process or another.
+
+        It gives signs of life, too.
+        """
+        cancelled, looked_at = self._beginning[row.id], time.monotonic()
 
         def should_stop() -> bool:
             nonlocal looked_at
             if time.monotonic() - looked_at > SLICE:
                 looked_at = time.monotonic()
-                row = self._store.find(job_id)
-                if row is None or row.cancel_requested:
+                if self._store.keep_alive(row.id, row.attempt) is not False:
                     cancelled.set()
             return cancelled.is_set() or self._stopping.is_set()
 
@@ -214,9 +236,65 @@ class PlanWork:
         if not self._stopping.is_set():
             self._store.finish(row.id, row.attempt, "cancelled")
             return
+        self._release(row)
+
+    def _release(self, row: JobRow) -> None:
+        """Leave a job to others, or to this process at its turn. In place.
+
+        Raises
+        ------
+        Stopping
+            Always.
+        """
         if self._store.release(row.id, row.attempt):
-            self._put_back(row.id)
+            self._returning.put_back(row.id)
         raise Stopping
+
+    def _put_off(self, row: JobRow, error: NoRoadsError) -> None:
+        """Have a job wait for its roads, or fail if it did for too long. In place.
+
+        Raises
+        ------
+        Stopping
+            If it waits, which others may do as well.
+        """
+        now = now_ms()
+        waited = 0 if row.waiting_since is None else now - row.waiting_since
+        if waited >= 1000 * MOST_WAITING:
+            self._fail(row, f"{error} They were asked for {MOST_WAITING / 3600:.0f} hours.")
+            return
+        logger.warning("job %s waits: %s", row.id, error)
+        cancel = self._store.put_off(row.id, row.attempt, str(error),
+                                     now + int(1000 * ROADS_RETRY))
+        if cancel is None:
+            return
+        if cancel:
+            self._store.finish(row.id, None, "cancelled")
+        self._returning.put_off(row.id)
+        raise Stopping
+
+    def _has_waited(self, job_id: str) -> bool:
+        """Let time pass if a job was put off, and tell whether it was. In place.
+
+        Raises
+        ------
+        Stopping
+            If this process ends, or the job is cancelled meanwhile.
+        """
+        row = self._store.find(job_id)
+        if row is None or row.retry_at is None:
+            return False
+        cancelled = self._beginning[job_id] = threading.Event()
+        try:
+            while now_ms() < row.retry_at and not self._stopping.is_set():
+                if cancelled.wait(REST_POLLING):
+                    raise Stopping
+        finally:
+            del self._beginning[job_id]
+        if self._stopping.is_set():
+            self._returning.put_off(job_id)
+            raise Stopping
+        return True
 
     def _note(self, running: Running) -> Slice:
         """Write down what a search found. In place."""
@@ -245,6 +323,10 @@ class PlanWork:
         except PlanCheckError as error:
             logger.error("plan of job %s withheld: %s", row.id, error)
             ended = self._fail(row, WITHHELD)
+        except NoRoadsError as error:
+            del self._running[row.id]
+            self._put_off(row, error)
+            return OVER
         except Exception:  # whatever planning raised is this job's end, not the process's
             logger.exception("job %s failed", row.id)
             ended = self._fail(row, NOT_COMPUTED)
@@ -273,7 +355,7 @@ class PlanWork:
             self._store.note(row.id, row.attempt,
                              self._standing(running, search.progress, reply))
             if self._store.release(row.id, row.attempt):
-                self._put_back(row.id)
+                self._returning.put_back(row.id)
         except Exception:  # the process ends: the job is begun anew from what is written down
             logger.exception("job %s was not handed back", row.id)
         del self._running[row.id]

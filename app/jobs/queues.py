@@ -15,9 +15,9 @@ APPLICATION = "tandem"
 APPLICATION_VERSION = "1"
 """Jobs are taken by processes of this version only: raise it when the steps of workflows change."""
 
-PLANS, STUDIES, WEBHOOKS = "plans", "studies", "webhooks-by-host"
-"""Queues. Comparisons and sweeps wait for their scenarios, so they must not take the plans' slots.
-"""
+PLANS, STUDIES, WEBHOOKS, WAITING = "plans", "studies", "webhooks-by-host", "waiting"
+"""Queues. Comparisons and sweeps wait for their scenarios, and some plans for what they need before
+they can begin, so they must not take the plans' slots."""
 
 FORMER_WEBHOOKS = "webhooks"
 """Where earlier versions enqueued calls, which may wait for hours until they are repeated."""
@@ -70,6 +70,10 @@ class Queues:
     def put_back(self, job_id: str, is_plan: bool) -> None:
         """Have a job that some process took begun again by any. In place."""
         self.client.resume_workflow(job_id, queue_name=PLANS if is_plan else STUDIES)
+
+    def put_off(self, job_id: str) -> None:
+        """Have a plan job wait in some process, aside from those that can begin. In place."""
+        self.client.resume_workflow(job_id, queue_name=WAITING)
 
     def drop(self, ids: Collection[str]) -> None:
         """Take jobs out of their queues. In place."""

@@ -10,6 +10,7 @@ from app.jobs.schemas import Kind
 from app.jobs.store import JobStore
 from app.requests.bounds import Bounds
 from app.requests.reading import read_request
+from app.roads.roads import NO_ROADS, Roads
 from app.schemas.request import PlanRequest
 from app.settings import Settings
 
@@ -31,14 +32,18 @@ class JobReader:
         Those that may be asked for.
     settings
         How large requests may be.
+    roads
+        Those that plans are made on.
     """
 
-    def __init__(self, policies: Sequence[str], settings: Settings) -> None:
+    def __init__(self, policies: Sequence[str], settings: Settings,
+                 roads: Roads = NO_ROADS) -> None:
         self._policies = policies
+        self._roads = roads
         self._most_scenarios = settings.max_scenarios
         self._bounds = Bounds(settings.max_customers, settings.max_num_samples,
                               settings.max_job_seconds, "TANDEM_MAX_JOB_SECONDS",
-                              settings.max_legs)
+                              settings.max_legs, settings.roads is not None)
 
     def validate(self, kind: Kind, body: bytes,
                  should_stop: Callable[[], bool] = lambda: False) -> int:
@@ -52,7 +57,8 @@ class JobReader:
         preparing = Preparing(should_stop, VALIDATION_SECONDS, f"the {VALIDATION_SECONDS:g} s that "
                               "a job's request may be checked for")
         if kind == "plan":
-            check_replan(read_request(body, self._policies, self._bounds), preparing)
+            check_replan(read_request(body, self._policies, self._bounds), preparing,
+                         roads=self._roads)
             return 1
         base, scenarios = read_study(kind, body, self._policies, self._bounds)
         count = len(scenarios)
@@ -65,7 +71,7 @@ class JobReader:
             raise TooManyScenariosError(
                 "$.grid", f"{scenarios.writes} values would be put into all scenarios together, "
                 f"{MAX_WRITES} at most may be", "vary fewer places or leave values out")
-        validate(base, scenarios, self._policies, self._bounds, preparing)
+        validate(base, scenarios, self._policies, self._bounds, preparing, self._roads)
         return count
 
     def plan_request(self, store: JobStore, row: JobRow) -> PlanRequest:

@@ -1,9 +1,8 @@
 """Jobs -> replies, as plain data (see `app.jobs.schemas`)."""
 
-from datetime import UTC, datetime
-
 from app.jobs.rows import JobRow
 from app.jobs.schemas import Data
+from app.schemas.instants import instant_of
 
 
 def summary(row: JobRow) -> Data:
@@ -20,6 +19,7 @@ def summary(row: JobRow) -> Data:
         "cost": row.cost,
         "search_iterations": row.search_iterations,
         "error": row.error,
+        "waiting_for": row.waiting_for,
     }
 
 
@@ -27,11 +27,8 @@ def progress(row: JobRow, seen: int) -> Data:
     """Return the data of an event `progress`, `seen` being the revision of the one before."""
     return {"cost": row.cost, "search_iterations": row.search_iterations,
             "progress": row.progress, "state": row.state,
-            "improved": row.improved_revision > seen}
+            "waiting_for": row.waiting_for, "improved": row.improved_revision > seen}
 
 
 def _instant(milliseconds: int | None) -> str | None:
-    if milliseconds is None:
-        return None
-    instant = datetime.fromtimestamp(milliseconds / 1000, UTC)
-    return instant.isoformat(timespec="milliseconds").replace("+00:00", "Z")
+    return None if milliseconds is None else instant_of(milliseconds)

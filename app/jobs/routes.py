@@ -1,8 +1,5 @@
 """Endpoints of jobs."""
 
-import binascii
-import re
-from base64 import urlsafe_b64decode, urlsafe_b64encode
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
@@ -10,7 +7,6 @@ from pydantic_core import to_json
 from sse_starlette import EventSourceResponse
 
 from app.access.guard import Guard, Jobs, Principal
-from app.errors import InputError, InvalidRequestError
 from app.jobs.desk import JobDesk
 from app.jobs.events import events, while_admitted
 from app.jobs.replies import summary
@@ -26,8 +22,9 @@ from app.load.bodies import Body, ReceivedBody
 from app.plans.explaining import explain_job
 from app.plans.routes import Service
 from app.requests.bounds import Bounds
+from app.requests.paging import cursor_of, read_cursor
 from app.schemas.explain import ExplainOptions, ExplainReply
-from app.schemas.openapi import ERROR_RESPONSES, EXAMPLES, event_stream, json_body
+from app.schemas.openapi import EXAMPLES, event_stream, json_body, problems
 from app.schemas.request import PlanRequest
 from app.settings import MAX_TIME_LIMIT
 
@@ -38,21 +35,6 @@ HEARTBEAT = 10
 
 MAX_PAGE = 500
 
-MAX_INSTANT = 2**63 - 1
-"""Latest `created_at` that the database can be asked for."""
-
-_CURSOR = re.compile("([0-9]{1,19}) (.*)")
-
-
-def _problems(*statuses: int, **described: str) -> dict[int | str, dict[str, Any]]:
-    """Return the problems that an endpoint may answer with, by status."""
-    content = ERROR_RESPONSES[422]["content"]
-    own: dict[int | str, dict[str, Any]] = {
-        int(status[1:]): {"description": text, "content": content}
-        for status, text in described.items()}
-    return {status: ERROR_RESPONSES[status] for status in statuses} | own
-
-
 UNAVAILABLE = "The database can't be reached, or too many jobs wait: try again soon."
 UNKNOWN = "There is no such job, or it is another's."
 PARAMETERS = "A parameter is not valid."
@@ -62,18 +44,18 @@ KEY_OR_BODY = "The request is not valid, every error is listed; or the `Idempote
 SUBMITTED: dict[int | str, dict[str, Any]] = {
     200: {"model": JobReply, "description": "The job that this request had made before, "
           "by its `Idempotency-Key`."},
-    **_problems(400, 413, _422=KEY_OR_BODY, _503=UNAVAILABLE),
+    **problems(400, 413, _422=KEY_OR_BODY, _503=UNAVAILABLE),
 }
-FOUND = _problems(_404=UNKNOWN, _422=PARAMETERS, _503=UNAVAILABLE)
+FOUND = problems(_404=UNKNOWN, _422=PARAMETERS, _503=UNAVAILABLE)
 
 PICTURE: dict[int | str, dict[str, Any]] = {
     200: {"description": "The plan as a picture: a map, and a timeline under it.",
           "content": {"image/svg+xml": {"schema": {"type": "string"}}}},
-    **FOUND, **_problems(_409="The job has no plan, or none yet, or several."),
+    **FOUND, **problems(_409="The job has no plan, or none yet, or several."),
 }
 
 EXPLAINED: dict[int | str, dict[str, Any]] = {
-    **FOUND, **_problems(500, _409="The job has no plan, or none yet, or several.")}
+    **FOUND, **problems(500, _409="The job has no plan, or none yet, or several.")}
 
 JobId = Annotated[str, Path(max_length=36, description="Id of the job.")]
 IdempotencyKey = Annotated[str | None, Header(
@@ -122,7 +104,7 @@ async def submit_sweep(request: Request, principal: Jobs, desk: Desk, body: Body
 
 
 @router.get("/jobs", summary="List jobs", response_model=JobListReply,
-            responses=_problems(_422=PARAMETERS, _503=UNAVAILABLE))
+            responses=problems(_422=PARAMETERS, _503=UNAVAILABLE))
 async def list_jobs(
     principal: Jobs, desk: Desk,
     limit: Annotated[int, Query(ge=1, le=MAX_PAGE, description="Most jobs of a page.")] = 50,
@@ -131,11 +113,12 @@ async def list_jobs(
     state: Annotated[State | None, Query(description="Only jobs in this state.")] = None,
 ) -> Response:
     """Return the caller's jobs without their results, the youngest first."""
-    before = None if cursor is None else _read_cursor(cursor)
+    before = None if cursor is None else read_cursor(cursor, is_job_id)
     rows = await desk.ask(
         lambda service: service.page(principal.key_id, limit + 1, before, state))
     page = {"jobs": [summary(row) for row in rows[:limit]],
-            "next": _cursor(rows[limit - 1]) if len(rows) > limit else None}
+            "next": (cursor_of(rows[limit - 1].created_at, rows[limit - 1].id)
+                     if len(rows) > limit else None)}
     return Response(to_json(page), media_type="application/json")
 
 
@@ -193,7 +176,7 @@ async def explain_plan(
     bounds = Bounds.of_plans(request.app.state.settings)
     reply = await planning.run(request, lambda should_stop: explain_job(
         wanted, plan, customer, drones, ExplainOptions(time_limit=time_limit), bounds,
-        service.warm_planner, should_stop))
+        service.warm_planner, should_stop, service.roads))
     return Response(reply, media_type="application/json")
 
 
@@ -225,26 +208,3 @@ async def _submit(request: Request, desk: JobDesk, submission: Submission) -> Re
         request.app.state.metrics.count_submitted_job(submission.kind)
     return Response(content, 202 if is_new else 200, {"Location": f"/jobs/{row.id}"},
                     media_type="application/json")
-
-
-def _cursor(row: JobRow) -> str:
-    return urlsafe_b64encode(f"{row.created_at} {row.id}".encode()).decode()
-
-
-def _read_cursor(cursor: str) -> tuple[int, str]:
-    """Return what a cursor stands for.
-
-    Raises
-    ------
-    InvalidRequestError
-        If it is none.
-    """
-    try:
-        match = _CURSOR.fullmatch(urlsafe_b64decode(cursor).decode())
-    except (binascii.Error, ValueError):
-        match = None
-    if match is None or int(match[1]) > MAX_INSTANT or not is_job_id(match[2]):
-        message = "This is no cursor: send `next` of a page as it is."
-        raise InvalidRequestError([InputError(code="WRONG_PARAMETER", path="query.cursor",
-                                              message=message)])
-    return int(match[1]), match[2]

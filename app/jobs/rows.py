@@ -36,6 +36,9 @@ class JobRow:
     client: str | None = None
     plans: int = 1
     key: str | None = None
+    waiting_for: str | None = None
+    waiting_since: int | None = None
+    retry_at: int | None = None
 
     @property
     def is_over(self) -> bool:

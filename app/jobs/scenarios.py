@@ -1,6 +1,7 @@
 """Comparisons and sweeps: one request, several scenarios, each a valid request of its own."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
 from math import prod
@@ -11,14 +12,20 @@ from pydantic_core import from_json, to_json
 
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.travels import Ground
-from app.errors import MAX_LISTED_ERRORS, InputError, InvalidRequestError, json_path, schema_error
+from app.errors import (
+    MAX_LISTED_ERRORS, InputError, InvalidRequestError, NoRoadsError, json_path, schema_errors,
+)
 from app.jobs.grid import GridPath, Place, places, put, read_path
 from app.jobs.schemas import CompareRequest, Kind, SweepRequest
 from app.plans.task import task_of
 from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.reading import read_json, read_request, request_errors
 from app.requests.refusal import require_readable
+from app.roads.roads import NO_ROADS, Roads
+from app.schemas.day import DayOfBody
+from app.schemas.hints import with_hints
 from app.schemas.request import PlanRequest
+from app.schemas.times import read_body
 
 Sections = Mapping[str, Any]
 """Fields of a request as JSON."""
@@ -130,16 +137,17 @@ def read_study(kind: Kind, body: bytes, policies: Collection[str] | None,
     try:
         # The base is checked above, with more than the schema.
         small = raw | {"base": _SMALLEST} if isinstance(raw, dict) and "base" in raw else raw
-        schema.model_validate_json(to_json(small))
+        read_body(schema, to_json(small), DayOfBody(body))
     except ValidationError as error:
-        errors += [schema_error(item) for item in error.errors(include_url=False)]
+        errors += with_hints(schema_errors(error.errors(include_url=False)), schema)
     if errors:
         raise InvalidRequestError(errors)
     return base, Comparison(raw["fleets"]) if kind == "compare" else Sweep(base, raw["grid"])
 
 
 def validate(base: PlanRequest, scenarios: Scenarios, policies: Collection[str],
-             bounds: Bounds, preparing: Preparing = UNHURRIED) -> None:
+             bounds: Bounds, preparing: Preparing = UNHURRIED,
+             roads: Roads = NO_ROADS) -> None:
     """Check each scenario as a whole request, unless the work on them is to end.
 
     Raises
@@ -158,7 +166,7 @@ def validate(base: PlanRequest, scenarios: Scenarios, policies: Collection[str],
             request = apply(base, scenario, policies, bounds)
             if not ground.is_that_of(request):
                 ground = Ground(request, preparing)
-            check_replan(request, preparing, ground)
+            check_replan(request, preparing, ground, roads)
         except InvalidRequestError as error:
             errors += [_named(item, scenario) for item in error.errors]
         if len(errors) >= MAX_LISTED_ERRORS:
@@ -177,10 +185,11 @@ def apply(base: PlanRequest, scenario: Scenario, policies: Collection[str] | Non
         If it is not valid.
     """
     try:
-        changed = PlanRequest.model_validate_json(to_json({**_SMALLEST, **scenario.sections}))
+        changed = read_body(
+            PlanRequest, to_json({**_SMALLEST, **_day_of(base), **scenario.sections}))
     except ValidationError as error:
-        raise InvalidRequestError(
-            [schema_error(item) for item in error.errors(include_url=False)]) from error
+        found = schema_errors(error.errors(include_url=False))
+        raise InvalidRequestError(with_hints(found, PlanRequest)) from error
     request = base.model_copy(
         update={name: getattr(changed, name) for name in scenario.sections})
     errors = request_errors(request, policies, bounds)
@@ -189,9 +198,19 @@ def apply(base: PlanRequest, scenario: Scenario, policies: Collection[str] | Non
     return request
 
 
+_DAY = ("plan_start", "time_zone")
+"""Fields by which instants are read."""
+
+
+def _day_of(base: PlanRequest) -> Sections:
+    return {name: getattr(base, name) for name in _DAY}
+
+
 def check_replan(request: PlanRequest, preparing: Preparing,
-                 ground: Ground | None = None) -> None:
+                 ground: Ground | None = None, roads: Roads = NO_ROADS) -> None:
     """Check what can be told of a plan to go on from only when the problem is made.
+
+    Roads that don't answer hinder nobody: the job waits for them.
 
     Raises
     ------
@@ -199,7 +218,8 @@ def check_replan(request: PlanRequest, preparing: Preparing,
         If what has happened by then doesn't fit.
     """
     if request.replan is not None:
-        task_of(request, preparing, ground)
+        with suppress(NoRoadsError):
+            task_of(request, preparing, ground, roads)
 
 
 _SMALLEST: dict[str, Any] = {"depots": [], "customers": [], "fleet": []}
@@ -218,6 +238,8 @@ def _axes(sections: Sections, grid: Mapping[str, Sequence[Any]]) -> tuple[list[A
     for text, values in grid.items():
         try:
             path = read_path(text)
+            if path.section in _DAY:
+                raise ValueError("other instants are told by it: vary these")
             axes.append(Axis(path, values, places(sections, path)))
         except ValueError as error:
             errors.append(InputError(code="UNKNOWN_PATH", path=json_path(("grid", text)),

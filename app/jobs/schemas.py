@@ -135,6 +135,10 @@ class JobSummaryReply(_Reply):
     )
     search_iterations: int = Field(description="Iterations of the search so far.")
     error: str | None = Field(description="Why it failed. Null: it didn't.")
+    waiting_for: str | None = Field(
+        description="Why it can't begin yet, though its turn has come: roads that don't answer. It "
+        "is tried again by itself. Null: nothing hinders it."
+    )
 
 
 class JobReply(JobSummaryReply):
@@ -160,6 +164,7 @@ class ProgressEvent(_Reply):
     search_iterations: int = Field(description="Iterations of the search so far.")
     progress: float = Field(description="Share of its time or iterations that is over, 0 to 1.")
     state: State = Field(description="Where the job stands.")
+    waiting_for: str | None = Field(description="Why it can't begin yet. Null: nothing hinders it.")
     improved: bool = Field(description="Whether the cost fell since the event before.")
 
 

@@ -106,7 +106,12 @@ class Search:
         return self._find
 
     def reply_so_far(self, find: Find) -> Data | None:
-        """Return the reply to a plan on the way; None if it breaks a rule, which the end tells."""
+        """Return the reply to a plan on the way; None if it breaks a rule, which the end tells.
+
+        None, too, if some of its legs are estimated so far.
+        """
+        if self._task.far is not None:
+            return None
         began = time.perf_counter()
         evaluation = self._task.check(find.solution)
         if evaluation.violations or self._first is None:

@@ -2,9 +2,10 @@
 
 import logging
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
+from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.durable import connect
@@ -13,6 +14,7 @@ from app.jobs.housekeeping import Housekeeper
 from app.jobs.planning import PlanWork
 from app.jobs.queues import Queues
 from app.jobs.reading import JobReader
+from app.jobs.running import Returning
 from app.jobs.schemas import Data
 from app.jobs.service import JobService, OpenLimits
 from app.jobs.store import JobStore
@@ -20,6 +22,7 @@ from app.jobs.studies import StudyWork
 from app.jobs.webhook import Caller, may_call_private
 from app.jobs.worker import Worker
 from app.observe.metrics import Metrics
+from app.roads.roads import NO_ROADS, Roads
 from app.settings import Settings
 from model.planner import Planner
 
@@ -36,7 +39,9 @@ WARMTH_POLLING = 0.1
 
 @contextmanager
 def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], bool],
-                 metrics: Metrics, on_plan: Callable[[Data], None]) -> Iterator[JobDesk]:
+                 metrics: Metrics, on_plan: Callable[[Data], None],
+                 roads: Roads = NO_ROADS,
+                 also_expire: Sequence[Callable[[Engine], None]] = ()) -> Iterator[JobDesk]:
     """Yield where endpoints turn to; jobs are worked on until the block ends.
 
     Parameters
@@ -51,19 +56,25 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
         Where jobs are counted.
     on_plan
         Is told of each plan made.
+    roads
+        Those to plan on.
+    also_expire
+        What else deletes what has expired, besides jobs.
     """
     queues = Queues(connect(settings))
     store = JobStore(queues.engine, int(settings.job_expiry_hours * HOUR_MS), queues.add_webhook,
                      metrics.count_finished_job)
-    reader = JobReader(planner.policies, settings)
+    reader = JobReader(planner.policies, settings, roads)
+    returning = Returning(lambda job_id: queues.put_back(job_id, True), queues.put_off)
     plans = PlanWork(planner, store, lambda row: reader.plan_request(store, row),
-                     settings.search_threads, lambda job_id: queues.put_back(job_id, True), on_plan)
+                     settings.search_threads, returning, on_plan, roads)
     limits = OpenLimits(settings.max_open_jobs, settings.max_open_jobs_per_client)
     service = JobService(store, queues, reader, limits, plans.cancel)
     studies = StudyWork(store, lambda row: reader.scenarios(store, row),
                         lambda jobs: store.add(jobs, queues.add_job), service.stop_jobs,
                         lambda job_id: queues.put_back(job_id, False))
-    worker = Worker(settings, store, plans, studies, Housekeeper(store, queues), _caller(settings))
+    housekeeper = Housekeeper(store, queues, also_expire)
+    worker = Worker(settings, store, plans, studies, housekeeper, _caller(settings))
     desk = JobDesk(store, queues, service)
     metrics.watch_jobs(desk.count)
     stopping = threading.Event()

@@ -20,6 +20,8 @@ from app.database.tables import JOBS, REQUESTS, RESULTS
 from app.jobs.rows import OPEN, JobRow, NewJob, OpenPlans, Standing
 from app.jobs.schemas import Kind, State
 
+_WAITING_NO_MORE: dict[str, None] = dict.fromkeys(("waiting_for", "waiting_since", "retry_at"))
+
 FAST = 1
 """zlib's level: plans are written each second."""
 
@@ -179,12 +181,24 @@ class JobStore:
                 update(JOBS).where(_held(job_id, attempt))
                 .values(progress=standing.progress, searched=standing.searched, crashes=0,
                         search_iterations=standing.search_iterations,
-                        revision=JOBS.c.revision + 1)
+                        revision=JOBS.c.revision + 1, **_WAITING_NO_MORE)
                 .returning(JOBS.c.cancel_requested)).first()
             if row is None:
                 return None
             self._keep(connection, job_id, standing)
         return bool(row[0])
+
+    def keep_alive(self, job_id: str, attempt: int) -> bool | None:
+        """Give a sign of life of a job that isn't searched yet; returns as `note` does. In place.
+        """
+        return self._changed(_held(job_id, attempt), revision=JOBS.c.revision + 1)
+
+    def put_off(self, job_id: str, attempt: int, why: str, retry_at: int) -> bool | None:
+        """Have a job wait that can't begin; returns as `note` does. In place."""
+        return self._changed(
+            _held(job_id, attempt), state="queued", attempt=JOBS.c.attempt + 1, crashes=0,
+            revision=JOBS.c.revision + 1, waiting_for=why, retry_at=retry_at,
+            waiting_since=func.coalesce(JOBS.c.waiting_since, now_ms()))
 
     def finish(self, job_id: str, attempt: int | None, state: State,
                standing: Standing | None = None, error: str | None = None) -> bool:
@@ -210,7 +224,7 @@ class JobStore:
         at = now_ms()
         values: dict[str, object] = {
             "state": state, "finished_at": at, "expires_at": at + self._expiry, "error": error,
-            "revision": JOBS.c.revision + 1}
+            "revision": JOBS.c.revision + 1, **_WAITING_NO_MORE}
         if standing is not None:
             values |= {"progress": standing.progress, "searched": standing.searched,
                        "search_iterations": standing.search_iterations}
@@ -237,7 +251,7 @@ class JobStore:
         """Give a job back to its queue; False if it is no longer this attempt's. In place."""
         change = (update(JOBS).where(_held(job_id, attempt))
                   .values(state="queued", attempt=JOBS.c.attempt + 1, crashes=0,
-                          revision=JOBS.c.revision + 1))
+                          revision=JOBS.c.revision + 1, **_WAITING_NO_MORE))
         with self._engine.begin() as connection:
             return connection.execute(change).rowcount == 1
 
@@ -273,6 +287,13 @@ class JobStore:
             for table in (RESULTS, REQUESTS):
                 connection.execute(delete(table).where(table.c.job.in_(ids)))
             connection.execute(delete(JOBS).where(JOBS.c.id.in_(ids)))
+
+    def _changed(self, condition: ColumnElement[bool], **values: object) -> bool | None:
+        """Change a job, and return whether it shall be cancelled; None if there is none."""
+        change = update(JOBS).where(condition).values(**values).returning(JOBS.c.cancel_requested)
+        with self._engine.begin() as connection:
+            cancel = connection.scalar(change)
+        return None if cancel is None else bool(cancel)
 
     def _rows(self, query: Select[tuple[object, ...]]) -> list[JobRow]:
         with self._engine.connect() as connection:

@@ -21,7 +21,7 @@ from app.jobs.identity import Identity, take_identity
 from app.jobs.planning import NOT_COMPUTED, PlanWork, Slice, Stopping
 from app.jobs.queues import (
     APPLICATION, APPLICATION_VERSION, EXPIRY_WORKFLOW, FORMER_WEBHOOKS, PLAN_WORKFLOW, PLANS,
-    SERIALIZER, STUDIES, STUDY_WORKFLOW, WEBHOOK_WORKFLOW, WEBHOOKS, webhook_options,
+    SERIALIZER, STUDIES, STUDY_WORKFLOW, WAITING, WEBHOOK_WORKFLOW, WEBHOOKS, webhook_options,
 )
 from app.jobs.replies import summary
 from app.jobs.store import JobStore
@@ -34,7 +34,7 @@ logger = logging.getLogger(__name__)
 POLLING, FORMER_POLLING = 0.2, 5.0
 """Seconds between two looks into a queue, and into one that nothing is added to any more."""
 
-STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE = 100, 20
+STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE, WAITING_AT_ONCE = 100, 20, 20
 
 CALLS_OF_A_HOST = 2
 """Of all webhooks called at once: a host that is slow to answer keeps the places of no other."""
@@ -135,7 +135,8 @@ class Worker:
         DBOS(config=_config(engine, identity))
         expiry = self._register()
         DBOS.launch()
-        for queue, limit in ((PLANS, self._settings.job_slots), (STUDIES, STUDIES_AT_ONCE)):
+        for queue, limit in ((PLANS, self._settings.job_slots), (STUDIES, STUDIES_AT_ONCE),
+                             (WAITING, WAITING_AT_ONCE)):
             DBOS.register_queue(queue, worker_concurrency=limit, polling_interval_sec=POLLING)
         DBOS.register_queue(WEBHOOKS, worker_concurrency=WEBHOOKS_AT_ONCE,
                             partition_worker_concurrency=CALLS_OF_A_HOST,

@@ -33,12 +33,16 @@ class Admission:
         How many may wait meanwhile.
     longest_wait
         Seconds after which whoever waits is refused.
+    work
+        What is going on in taken slots, in words.
     """
 
-    def __init__(self, slots: int, queue: int, longest_wait: float) -> None:
+    def __init__(self, slots: int, queue: int, longest_wait: float,
+                 work: str = "plans are being computed") -> None:
         self.slots = slots
         self.queue = queue
         self.longest_wait = longest_wait
+        self.work = work
         self._free = slots
         self._waiting: deque[asyncio.Future[None]] = deque()
 
@@ -61,8 +65,8 @@ class Admission:
             If slots and queue are full.
         """
         if self._free == 0 and self.waiting >= self.queue:
-            raise OverloadedError(f"{self.slots} plans are being computed and {self.queue} are "
-                                  "waiting: try again soon.")
+            raise OverloadedError(f"{self.slots} {self.work} and {self.queue} are waiting: "
+                                  "try again soon.")
 
     async def acquire(self) -> None:
         """Take a slot; waits for one, in order. In place.

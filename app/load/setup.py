@@ -8,6 +8,7 @@ from fastapi import FastAPI
 from app.load.abandoned import Turns
 from app.load.admission import Admission
 from app.load.bodies import Bodies
+from app.load.readings import new_readings
 from app.load.shutdown import Shutdown, ShutdownGate
 from app.settings import Settings
 
@@ -15,7 +16,7 @@ from app.settings import Settings
 def prepare_for_load(app: FastAPI, settings: Settings) -> Shutdown:
     """Give an application its queue, its reader of bodies and its gate; return how it ends.
 
-    In place: they are `turns` and `bodies` of its state.
+    In place: they are `turns`, `readings` and `bodies` of its state.
     """
     state = app.state
     state.shutdown = Shutdown()
@@ -27,5 +28,6 @@ def prepare_for_load(app: FastAPI, settings: Settings) -> Shutdown:
     state.turns = Turns(admission, CapacityLimiter(settings.max_concurrent_plans),
                         state.shutdown, state.metrics,
                         shares_port=multiprocessing.parent_process() is not None)
+    state.readings = new_readings()
     app.add_middleware(ShutdownGate, shutdown=state.shutdown)
     return state.shutdown

@@ -17,7 +17,7 @@ from opentelemetry.sdk.trace import Span, SpanProcessor, TracerProvider
 from opentelemetry.sdk.trace.export import BatchSpanProcessor
 from structlog.typing import EventDict, WrappedLogger
 
-from app.access.keys import PREFIX
+from app.access.tokens import PREFIX
 
 REDACTED = "REDACTED"
 

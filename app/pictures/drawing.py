@@ -87,7 +87,7 @@ def _figure(scene: Scene) -> Figure:
         draw_map(axes, scene, layout)
     axes = figure.add_axes((LEFT / WIDTH, FOOTER / height, (WIDTH - LEFT - RIGHT) / WIDTH,
                             below / height))
-    draw_timeline(axes, rows)
+    draw_timeline(axes, rows, scene)
     return figure
 
 

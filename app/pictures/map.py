@@ -1,7 +1,6 @@
-"""The map of a plan: places, routes by vehicle and trip, sorties as arcs, no-fly areas."""
+"""The map of a plan: places, routes by vehicle and trip, flights, no-fly areas."""
 
-from collections.abc import Sequence
-from itertools import pairwise
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,7 +9,8 @@ from matplotlib.patches import Patch, PathPatch, Polygon
 from matplotlib.path import Path
 
 from app.pictures.colours import BLACK, GREY, INK, VERMILLION, trip_colour, vehicle_marker
-from app.pictures.scene import Layout, Place, Point, Scene, all_trips, counted, flown_places, label
+from app.pictures.lines import driven_lines, flown_lines
+from app.pictures.scene import Layout, Place, Point, Scene, all_trips, counted, label
 
 MAX_LABELLED = 150
 """With more customers than this their ids would cover each other."""
@@ -76,13 +76,16 @@ def _draw_no_fly(axes: Axes, layout: Layout) -> None:
 def _draw_trips(axes: Axes, scene: Scene, layout: Layout, thin: bool) -> None:
     for index, number, _, trip in all_trips(scene.plan.routes):
         colour = trip_colour(index, number)
-        points = [layout.points[stop.kind, stop.id] for stop in trip.stops]
+        legs = list(driven_lines(layout, trip))
+        points = [point for leg in legs for point in leg] or [
+            layout.points[stop.kind, stop.id] for stop in trip.stops]
         xs, ys = zip(*points, strict=True)
         axes.plot(xs, ys, color=colour, linewidth=1.0 if thin else 1.6, zorder=3,
                   solid_joinstyle="round", gid=f"trip-{index}-{number}")
-        if not thin and len(points) > 1:
-            for start, end in ((points[0], points[1]), (points[-2], points[-1])):
-                _draw_arrow(axes, start, end, colour)
+        if not thin and legs:
+            for leg in (legs[0], legs[-1]):
+                middle = (len(leg) - 1) // 2
+                _draw_arrow(axes, leg[middle], leg[middle + 1], colour)
 
 
 def _draw_arrow(axes: Axes, start: Point, end: Point, colour: str) -> None:
@@ -102,21 +105,28 @@ def _between(start: Point, end: Point, share: float) -> Point:
 def _draw_sorties(axes: Axes, scene: Scene, layout: Layout, thin: bool) -> None:
     for index, number, _, trip in all_trips(scene.plan.routes):
         for flight, sortie in enumerate(trip.sorties):
-            path = _arcs([layout.points[place] for place in flown_places(trip, sortie)])
+            path = _flight(flown_lines(layout, trip, sortie))
             arc = PathPatch(path, fill=False, edgecolor=trip_colour(index, number),
                             linestyle=DASHES, linewidth=0.9 if thin else 1.3, zorder=4)
             arc.set_gid(f"sortie-{index}-{number}-{flight}")
             axes.add_patch(arc)
 
 
-def _arcs(points: Sequence[Point]) -> Path:
-    """Return a curve over all points; there and back make a leaf, not one line."""
-    vertices: list[Point] = [points[0]]
-    codes = [int(Path.MOVETO)]
-    for (x, y), (to_x, to_y) in pairwise(points):
-        bend = ((x + to_x) / 2 - (to_y - y) * BULGE, (y + to_y) / 2 + (to_x - x) * BULGE)
-        vertices += [bend, (to_x, to_y)]
-        codes += [int(Path.CURVE3)] * 2
+def _flight(lines: Iterable[Sequence[Point]]) -> Path:
+    """Return a line over all places: of a straight flight an arc, so that there and back differ."""
+    vertices: list[Point] = []
+    codes: list[int] = []
+    for line in lines:
+        if not vertices:
+            vertices, codes = [line[0]], [int(Path.MOVETO)]
+        if len(line) > 2:
+            vertices += line[1:]
+            codes += [int(Path.LINETO)] * (len(line) - 1)
+        else:
+            (x, y), (to_x, to_y) = line
+            bend = ((x + to_x) / 2 - (to_y - y) * BULGE, (y + to_y) / 2 + (to_x - x) * BULGE)
+            vertices += [bend, (to_x, to_y)]
+            codes += [int(Path.CURVE3)] * 2
     return Path(vertices, codes)
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
 from app.pictures.drawing import draw_svg
-from app.pictures.scene import Scene, clock
+from app.pictures.scene import Scene
 from app.schemas.customer import CustomerInput, TimeWindowInput
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
 
@@ -70,20 +70,20 @@ def _trip_rows(scene: Scene, number: int, trip: TripInput) -> Iterator[Sequence[
 
 def _stop_row(scene: Scene, number: int, stop: StopInput) -> Sequence[str]:
     if stop.kind == "depot":
-        return (str(number), stop.id, clock(stop.arrival), "", clock(stop.departure), "", "", "",
-                "truck")
-    return (str(number), stop.id, clock(stop.arrival), clock(stop.service_start),
-            clock(stop.departure), *_order(scene, stop.id, stop.ready), "truck")
+        return (str(number), stop.id, scene.clock(stop.arrival), "", scene.clock(stop.departure),
+                "", "", "", "truck")
+    return (str(number), stop.id, scene.clock(stop.arrival), scene.clock(stop.service_start),
+            scene.clock(stop.departure), *_order(scene, stop.id, stop.ready), "truck")
 
 
 def _sortie_rows(scene: Scene, number: int, trip: TripInput,
                  sortie: SortieInput) -> Iterator[Sequence[str]]:
     drone = sortie.drone.rpartition("/")[2]
-    back = f"back at {trip.stops[sortie.recovery_stop].id} by {clock(sortie.recovery_time)}"
+    back = f"back at {trip.stops[sortie.recovery_stop].id} by {scene.clock(sortie.recovery_time)}"
     for visit in sortie.customers:
-        yield (str(number), visit.id, clock(visit.arrival), clock(visit.service_start),
-               clock(visit.departure), *_order(scene, visit.id, visit.ready),
-               f"{drone}, off at {clock(sortie.launch_time)}, {back}")
+        yield (str(number), visit.id, scene.clock(visit.arrival), scene.clock(visit.service_start),
+               scene.clock(visit.departure), *_order(scene, visit.id, visit.ready),
+               f"{drone}, off at {scene.clock(sortie.launch_time)}, {back}")
 
 
 def _order(scene: Scene, name: str, ready: float) -> tuple[str, str, str]:
@@ -91,7 +91,7 @@ def _order(scene: Scene, name: str, ready: float) -> tuple[str, str, str]:
     customer = scene.customers[name]
     latest = customer.windows[-1].latest
     late = 0.0 if latest is None else max(0.0, ready - latest)
-    return (", ".join(filter(None, map(_window, customer.windows))),
+    return (", ".join(filter(None, [_window(scene, each) for each in customer.windows])),
             f"{late / 60:.1f}" if late else "",
             _handed(customer))
 
@@ -106,9 +106,11 @@ def _amounts(amounts: Sequence[float]) -> str:
     return ", ".join(f"{amount:g}" for amount in amounts)
 
 
-def _window(window: TimeWindowInput) -> str:
-    latest = "" if window.latest is None else clock(window.latest)
-    return f"{clock(window.earliest)} to {latest}".strip() if window.earliest or latest else ""
+def _window(scene: Scene, window: TimeWindowInput) -> str:
+    latest = "" if window.latest is None else scene.clock(window.latest)
+    if not (window.earliest or latest):
+        return ""
+    return f"{scene.clock(window.earliest)} to {latest}".strip()
 
 
 def _unassigned(scene: Scene) -> str:

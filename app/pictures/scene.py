@@ -1,6 +1,6 @@
 """What a picture shows: a request and a plan for it, with its cost and where everything is."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -8,14 +8,19 @@ from typing import Any
 import numpy as np
 from pydantic_core import from_json
 
+from app.conversion.locating import at_addresses
 from app.conversion.places import depots_of, places_of
 from app.errors import InputError, InvalidRequestError, json_path
 from app.plans.replies import cost_reply, summary_reply
 from app.plans.task import task_of
 from app.requests.plan_reading import read_plan
+from app.roads.roads import NO_ROADS, Roads
 from app.schemas.customer import CustomerInput
+from app.schemas.day import Day
+from app.schemas.fields import point_of
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, TripInput
 from app.schemas.request import PlanRequest
+from app.schemas.times import read_body
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray
 from model.travel.matrices import LocalProjection
@@ -36,6 +41,7 @@ class Layout:
 
     points: Mapping[Place, Point]
     no_fly: tuple[FloatArray, ...]  # (corner, 2) each
+    project: Callable[[FloatArray], FloatArray]  # of (place, 2) places as the request states them
 
 
 @dataclass(frozen=True)
@@ -49,7 +55,8 @@ class Scene:
     num_violations: int = 0
 
     @classmethod
-    def judged(cls, request: PlanRequest, plan: PlanInput) -> "Scene":
+    def judged(cls, request: PlanRequest, plan: PlanInput,
+               roads: Roads = NO_ROADS) -> "Scene":
         """Return a plan of a file with what it truly costs; it may break rules.
 
         Raises
@@ -57,7 +64,9 @@ class Scene:
         InvalidRequestError
             If it names what the request doesn't have, or a trip or sortie has no beginning or end.
         """
-        task = task_of(request)
+        task = task_of(request, roads=roads)
+        if task.places is not None:
+            request = task.places.request
         solution = read_plan(plan, task.problem)
         shapeless = list(_shape_errors(request, plan))
         if shapeless:
@@ -71,7 +80,8 @@ class Scene:
     def replied(cls, request: PlanRequest, reply: bytes) -> "Scene":
         """Return a plan as the service replied it, which has been checked."""
         stated = from_json(reply)
-        return cls(request, PlanInput.model_validate_json(reply), stated["cost"],
+        plan = read_body(PlanInput, reply)
+        return cls(at_addresses(request, plan), plan, stated["cost"],
                    stated["summary"])
 
     @cached_property
@@ -88,7 +98,8 @@ class Scene:
     def layout(self) -> Layout | None:
         """Where things are; None if some place has no location."""
         places = places_of(self.request)
-        located = [place.location for place in places if place.location is not None]
+        located = [point for place in places
+                  if (point := point_of(place.location)) is not None]
         if len(located) < len(places):
             return None
         degrees_or_units = np.array(located, dtype=np.float64)
@@ -107,14 +118,15 @@ class Scene:
         return Layout(
             {name: (float(x), float(y)) for name, (x, y) in zip(names, points, strict=True)},
             tuple(planar(np.array(ring, dtype=np.float64))
-                  for ring in self.request.airspace.no_fly))
+                  for ring in self.request.airspace.no_fly),
+            planar)
 
     @property
     def headline(self) -> str:
         """The plan in one line."""
         summary = self.summary
         return " · ".join((
-            f"Cost {self.cost['total']:,.2f}",
+            f"Cost {self.cost['total']:,.2f} {self.request.currency or ''}".rstrip(),
             f"{summary['served']:,} of {counted(summary['customers'], 'customer')} served",
             counted(summary["vehicles"], "vehicle"), counted(summary["trips"], "trip"),
             counted(summary["sorties"], "sortie")))
@@ -137,8 +149,23 @@ class Scene:
         driven = f"{summary['distance'] / METRES_PER_KM:,.1f} km driven"
         flown = (f"{summary['drone_distance'] / METRES_PER_KM:,.1f} km flown"
                  if summary["sorties"] else "")
-        end = f"last return at {clock(summary['makespan'])}"
+        end = f"last return at {self.clock(self.end)}"
         return " · ".join(part for part in (driven, flown, end, self.note) if part)
+
+    @property
+    def end(self) -> float:
+        """When the last vehicle is back."""
+        return max((route.trips[-1].stops[-1].departure for route in self.plan.routes
+                    if route.trips), default=0.0)
+
+    @cached_property
+    def day(self) -> Day | None:
+        """The plan's day; None if it is not stated."""
+        return self.request.day
+
+    def clock(self, seconds: float) -> str:
+        """Return an instant as h:mm, rounded to the minute: of the day, or since plan start."""
+        return clock(seconds) if self.day is None else self.day.to_the_minute(seconds)
 
 
 def counted(number: int, noun: str) -> str:

@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter, MultipleLocator
 
 from app.pictures.activities import Activity, Row
 from app.pictures.colours import BLACK, GREY, INK, PALE, VERMILLION, YELLOW, trip_colour
-from app.pictures.scene import Point, clock, label
+from app.pictures.scene import Point, Scene, label
 
 STEPS = (60, 120, 300, 600, 900, 1800, 3600, 7200, 10_800, 14_400, 21_600, 43_200, 86_400)
 """Seconds between two ticks: the first that needs no more than MAX_TICKS."""
@@ -55,13 +55,13 @@ def timeline_height(rows: Sequence[Row]) -> float:
     return min(max(row_tops(rows)[-1], 2 * (BAR + SPACE)), MAX_HEIGHT)
 
 
-def draw_timeline(axes: Axes, rows: Sequence[Row]) -> None:
+def draw_timeline(axes: Axes, rows: Sequence[Row], scene: Scene) -> None:
     """Draw onto empty axes. In place."""
     tops = row_tops(rows)
     span = _span(rows)
     _draw_bars(axes, rows, tops)
     _draw_windows(axes, rows, tops, span)
-    _set_hours(axes, span)
+    _set_hours(axes, span, scene)
     step = -(-len(rows) // MAX_NAMED_ROWS) or 1
     named = range(0, len(rows), step)
     axes.set_yticks([tops[index] + BAR / 2 for index in named],
@@ -85,14 +85,17 @@ def _span(rows: Sequence[Row]) -> tuple[float, float]:
     return start, max(max((bar.end for bar in bars), default=0.0), start + 60.0)
 
 
-def _set_hours(axes: Axes, span: tuple[float, float]) -> None:
+def _set_hours(axes: Axes, span: tuple[float, float], scene: Scene) -> None:
     start, end = span
     margin = 0.01 * (end - start)
     axes.set_xlim(start - margin, end + margin)
     ticks = [step for step in STEPS if (end - start) / step <= MAX_TICKS]
-    axes.xaxis.set_major_locator(MultipleLocator(ticks[0] if ticks else (end - start) / MAX_TICKS))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: clock(seconds)))
-    axes.set_xlabel("Time since the plan's start, h:mm")
+    midnight = 0.0 if scene.day is None else -scene.day.since_midnight
+    axes.xaxis.set_major_locator(
+        MultipleLocator(ticks[0] if ticks else (end - start) / MAX_TICKS, midnight))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: scene.clock(seconds)))
+    axes.set_xlabel("Time since the plan's start, h:mm" if scene.day is None else
+                    f"Time of day, {scene.day.start:%Y-%m-%d}")
     axes.grid(axis="x", color="#E4E4E4", linewidth=0.6)
     axes.set_axisbelow(True)
 

@@ -9,11 +9,13 @@ from pydantic_core import to_json
 from app.conversion.preparing import Preparing
 from app.errors import InvalidRequestError
 from app.load.bodies import ReceivedBody
+from app.roads.roads import NO_ROADS, Roads
 from app.settings import Settings
 from app.vroom.errors import TOO_LARGE, VroomError, input_error, refused
-from app.vroom.places import find_places
+from app.vroom.places import StatedPlaces, find_places
 from app.vroom.reading import read_request
 from app.vroom.reply import Writer
+from app.vroom.roads import add_lines
 from app.vroom.schemas import VroomOptionsInput, VroomRequest
 from app.vroom.translate import translate
 from model.dialects.vroom.checking import drive, route_faults
@@ -33,6 +35,9 @@ from model.solution import Solution
 EXPLORATION_SECONDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
 """How long to search by `options.x`."""
 
+LINES = 2.0
+"""Seconds in which roads have to tell the lines of all routes, where they are asked for."""
+
 LEAST_PREPARING = 0.25
 """Seconds by which the work before the search is judged at least: `x` 0 asks for the least search,
 whatever the request's size."""
@@ -43,7 +48,8 @@ SECONDS_PER_JOB = 2e-4
 
 def answer(planner: Planner, body: ReceivedBody, settings: Settings,
            should_stop: Callable[[], bool],
-           on_plan: Callable[[Mapping[str, Any]], None] = lambda _: None) -> bytes:
+           on_plan: Callable[[Mapping[str, Any]], None] = lambda _: None,
+           roads: Roads = NO_ROADS) -> bytes:
     """Return the reply to a VROOM request as JSON; `on_plan` is told it.
 
     The search ends as soon as `should_stop` says so, with the best plan so far.
@@ -60,11 +66,18 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
     request = read_request(body.content, settings.max_customers, settings.max_customers)
     preparing = preparing_of(request.options, began, settings, should_stop)
     try:
-        return _answer(planner, request, body, settings, preparing, on_plan)
+        places = find_places(request, settings.vroom_speeds, settings.max_legs, preparing, roads)
+        reply = _answer(planner, request, places, body, settings, preparing)
+        if request.options.g and places.on_roads:
+            add_lines(reply, {vehicle.id: vehicle.profile for vehicle in request.vehicles
+                              if vehicle.profile in places.on_roads}, roads,
+                      time.perf_counter() + LINES)
     except InvalidRequestError as error:
         raise VroomError(TOO_LARGE, error.errors[0].message) from error
     except RefusedError as error:
         raise refused(error) from error
+    on_plan(reply)
+    return to_json(reply)
 
 
 def preparing_of(stated: VroomOptionsInput, began: float, settings: Settings,
@@ -79,9 +92,8 @@ def preparing_of(stated: VroomOptionsInput, began: float, settings: Settings,
         advice="send fewer jobs, or fewer vehicles that drive unlike each other")
 
 
-def _answer(planner: Planner, stated: VroomRequest, body: ReceivedBody, settings: Settings,
-            preparing: Preparing, on_plan: Callable[[Mapping[str, Any]], None]) -> bytes:
-    places = find_places(stated, settings.vroom_speeds, settings.max_legs, preparing)
+def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: ReceivedBody,
+            settings: Settings, preparing: Preparing) -> Mapping[str, Any]:
     request = translate(stated)
     options = PlanOptions(
         planner.policies[0],
@@ -100,11 +112,9 @@ def _answer(planner: Planner, stated: VroomRequest, body: ReceivedBody, settings
     found = planning.find(body.received_at + seconds, start)
     routes = name_vehicles(request, places, planning.kinds, found.routes)
     solved = time.perf_counter()
-    reply = Writer(stated, places, request.is_timed).reply(
+    return Writer(stated, places, request.is_timed).reply(
         routes, loading=int(1000 * (loaded - body.received_at)),
         solving=int(1000 * (solved - loaded)))
-    on_plan(reply)
-    return to_json(reply)
 
 
 def search_seconds(options: VroomOptionsInput, settings: Settings) -> float:

@@ -8,11 +8,12 @@ import numpy as np
 
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.work import legs_seconds
+from app.roads.roads import NO_ROADS, Roads
 from app.settings import MAX_LEGS
 from app.vroom.errors import INPUT, TOO_LARGE, VroomError
+from app.vroom.roads import ask_roads
 from app.vroom.schemas import Coordinates, Table, VroomMatricesInput, VroomRequest
 from model.dialects.vroom.places import NOWHERE, Legs, Places
-from model.kernel.pausing import Pause
 from model.problem import FloatArray, IntArray
 from model.travel.matrices import great_circle_distances, local_coordinates
 
@@ -27,13 +28,15 @@ class StatedPlaces(Places):
     coordinates: tuple[Coordinates | None, ...]  # (site,)
     indices: tuple[int | None, ...]  # (site,) row in the request's matrices
     tells_distances: bool  # whether the reply does
+    on_roads: frozenset[str] = frozenset()  # profiles whose legs are drives on the service's roads
 
 
 Place = tuple[Coordinates | None, int | None]
 
 
 def find_places(request: VroomRequest, speeds: Mapping[str, float],
-                max_legs: int = MAX_LEGS, preparing: Preparing = UNHURRIED) -> StatedPlaces:
+                max_legs: int = MAX_LEGS, preparing: Preparing = UNHURRIED,
+                roads: Roads = NO_ROADS) -> StatedPlaces:
     """Number the places of a request and find the legs between them.
 
     Parameters
@@ -46,11 +49,13 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float],
         Most legs of all profiles together.
     preparing
         May end the work.
+    roads
+        Where legs come from that no matrix states, for profiles that have any.
 
     Raises
     ------
     VroomError
-        If a place or a matrix is missing or wrong, or there are too many legs.
+        If a place or a matrix is missing or wrong, there are too many legs, or no way.
     RequestError
         If the work is to end.
     """
@@ -77,11 +82,12 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float],
         raise VroomError(TOO_LARGE, f"Too many legs: {len(profiles)} profiles and {len(known)} "
                                     f"places, maximum is {max_legs} legs (TANDEM_MAX_LEGS)")
     preparing.expect(legs_seconds(len(known), len(profiles), 0, len(matrices) < len(profiles)))
-    finder = _LegFinder(request, matrices, known, speeds, preparing.pause)
+    finder = _LegFinder(request, matrices, known, speeds, preparing, roads)
     legs = {profile: finder.find(profile) for profile in profiles}
     points = [coordinates for coordinates, _ in known]
     return StatedPlaces(jobs, starts, ends, _on_map(points), legs, tuple(points),
-                        tuple(index for _, index in known), finder.tells_distances)
+                        tuple(index for _, index in known), finder.tells_distances,
+                        frozenset(filter(finder.is_on_roads, profiles)))
 
 
 def _on_map(points: Sequence[Coordinates | None]) -> FloatArray | None:
@@ -120,10 +126,12 @@ class _LegFinder:
     """Finds the legs of profiles."""
 
     def __init__(self, request: VroomRequest, matrices: Mapping[str, VroomMatricesInput],
-                 known: list[Place], speeds: Mapping[str, float], pause: Pause) -> None:
+                 known: list[Place], speeds: Mapping[str, float], preparing: Preparing,
+                 roads: Roads) -> None:
         self._matrices = matrices
         self._speeds = speeds
-        self._pause = pause
+        self._preparing = preparing
+        self._roads = roads
         self._known = known
         self._per_km = {v.profile for v in request.vehicles if v.costs.per_km > 0}
         self._geometry = request.options.g
@@ -143,6 +151,9 @@ class _LegFinder:
             if stated.distances is not None:
                 raise VroomError(INPUT, "Custom matrix provided for distances but not for "
                                         f"durations for {profile} profile.")
+            if self.is_on_roads(profile):
+                table = ask_roads(self._roads, profile, self._lon_lat, self._preparing)
+                return Legs(_whole(table.durations_s), _whole(table.distances_m), costs, True)
             metres = self._great_circles
             speed = self._speed(profile) / _METRES_PER_SECOND
             return Legs(_whole(metres / speed), _whole(metres), costs, True)
@@ -153,6 +164,10 @@ class _LegFinder:
         if self._geometry or profile in self._per_km:
             return Legs(durations, _whole(self._great_circles), costs, True)
         return Legs(durations, np.zeros_like(durations), costs, False)
+
+    def is_on_roads(self, profile: str) -> bool:
+        """Tell whether the service's roads tell the legs of a profile."""
+        return profile in self._roads.profiles and self._stated(profile).durations is None
 
     def _stated(self, profile: str) -> VroomMatricesInput:
         return self._matrices.get(profile, VroomMatricesInput())
@@ -166,13 +181,17 @@ class _LegFinder:
 
     @cached_property
     def _great_circles(self) -> FloatArray:
+        return great_circle_distances(self._lon_lat, self._preparing.pause)
+
+    @cached_property
+    def _lon_lat(self) -> FloatArray:
         points = [point for point, _ in self._known if point is not None]
         if len(points) < len(self._known):
             raise VroomError(INPUT, "Missing coordinates for routing engine.")
         if not _on_globe(points):
             raise VroomError(INPUT, "Coordinates are [longitude, latitude] within 180 and 90 "
                                     "degrees: correct them, or swap the two.")
-        return great_circle_distances(np.array(points, np.float64), self._pause)
+        return np.array(points, np.float64)
 
     def _table(self, profile: str, name: str, table: Table) -> IntArray:
         """Return a matrix with a row and a column for each site."""

@@ -36,8 +36,8 @@ ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {
               "document if it was refused unread."),
         (413, "Code 4: there are too many jobs or vehicles. A problem document if the body is too "
               "large."),
-        (500, "Code 1: the solution found broke a rule, so it is withheld. A problem document if "
-              "anything else failed."),
+        (500, "Code 1: the solution found broke a rule, so it is withheld. Code 3: roads lead to "
+              "no place, or don't answer. A problem document if anything else failed."),
     )
 }
 
@@ -53,7 +53,8 @@ async def vroom(request: Request, principal: Plan, planning: Planning, body: Bod
         reply = await planning.run(
             request,
             lambda should_stop: answer(service.warm_planner(), body, settings, should_stop,
-                                       request.app.state.metrics.count_vroom_plan))
+                                       request.app.state.metrics.count_vroom_plan,
+                                       service.roads))
     except VroomError as error:
         return error.response()
     except PlanCheckError as error:

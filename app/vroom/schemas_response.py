@@ -53,8 +53,8 @@ class VroomRouteReply(_Reply):
     steps: list[VroomStepReply] = Field(description="Places in order.")
     violations: list[Any] = Field(description=NO_VIOLATIONS)
     geometry: str | None = Field(
-        None, description="Straight lines between the steps as an encoded polyline, with "
-        "`options.g`.")
+        None, description="The drives on roads, or straight lines between the steps where the "
+        "service has none, as an encoded polyline, with `options.g`.")
 
 
 class VroomComputingTimesReply(_Reply):

@@ -4,7 +4,6 @@ import json
 import logging
 import socket
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -21,10 +20,11 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.kernel.warming import Tell, Warmth
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
-from model.problem import Problem
+from model.problem import Problem, VehicleType
 from model.search.compiling import compile_search, parts_for
 from model.solution import Route, Solution
 from model.travel.airspace import compile_ways
+from tests.conftest import eventually
 
 READY_SECONDS = 600.0
 """How long a service may take until it plans: the search may have to be compiled."""
@@ -70,23 +70,25 @@ class FirstFitPlanner:
 def _candidates(problem: Problem, routes: list[RouteDecision],
                 node: int) -> Iterator[list[RouteDecision]]:
     for index, route in enumerate(routes):
-        for trip in _with_customer(route.trips[-1], node):
+        kind = problem.vehicle_types[route.vehicle_type]
+        for trip in _with_customer(kind, route.trips[-1], node):
             longer = RouteDecision(route.vehicle_type, route.vehicle, (*route.trips[:-1], trip))
             yield [*routes[:index], longer, *routes[index + 1:]]
     for index, kind in enumerate(problem.vehicle_types):
         used = sum(route.vehicle_type == index for route in routes)
-        for trip in _with_customer(TripDecision((kind.begins_at, kind.ends_at)), node):
+        for trip in _with_customer(kind, TripDecision((kind.begins_at, kind.ends_at)), node):
             yield [*routes, RouteDecision(index, used, (trip,))]
 
 
-def _with_customer(trip: TripDecision, node: int) -> Iterator[TripDecision]:
+def _with_customer(kind: VehicleType, trip: TripDecision, node: int) -> Iterator[TripDecision]:
     """Yield the trip with one more customer: by truck at the end, by drone from the depot."""
     shifted = tuple(
         SortieDecision(sortie.nodes, sortie.launch_stop, sortie.recovery_stop, sortie.drone)
         for sortie in trip.sorties
     )
     yield TripDecision((*trip.nodes[:-1], node, trip.nodes[-1]), shifted)
-    yield TripDecision(trip.nodes, (*trip.sorties, SortieDecision((node,), 0, 0)))
+    for drone in range(kind.num_drones):
+        yield TripDecision(trip.nodes, (*trip.sorties, SortieDecision((node,), 0, 0, drone)))
 
 
 def _is_legal(problem: Problem, routes: list[RouteDecision]) -> bool:
@@ -134,14 +136,12 @@ def planner() -> FirstFitPlanner:
 
 def ready(client: httpx.Client) -> httpx.Client:
     """Return a client once its service plans."""
-    give_up = time.monotonic() + READY_SECONDS
-    while client.get("/health/ready").status_code != 200:
-        assert time.monotonic() < give_up, client.get("/health/ready").text
+    eventually(lambda: client.get("/health/ready").status_code == 200, READY_SECONDS)
     return client
 
 
 @contextmanager
-def _serving(planner: Planner, settings: Settings | None = None) -> Iterator[httpx.Client]:
+def serving(planner: Planner, settings: Settings | None = None) -> Iterator[httpx.Client]:
     """Serve on loopback."""
     app = create_app(settings or Settings(max_body_bytes=2**20), planner)
     # With its protocol stated, asyncio sends small packets at once.
@@ -163,13 +163,13 @@ def _serving(planner: Planner, settings: Settings | None = None) -> Iterator[htt
 def serve() -> Iterator[Callable[..., httpx.Client]]:
     """Return a function that serves a planner, until the test ends, and returns a client."""
     with ExitStack() as stack:
-        yield lambda planner, settings=None: stack.enter_context(_serving(planner, settings))
+        yield lambda planner, settings=None: stack.enter_context(serving(planner, settings))
 
 
 @pytest.fixture(scope="session")
 def client() -> Iterator[httpx.Client]:
     """Return a client of a warm service."""
-    with _serving(FirstFitPlanner()) as client:
+    with serving(FirstFitPlanner()) as client:
         yield ready(client)
 
 
@@ -188,7 +188,7 @@ class SearchingPlanner(Planner):
 @pytest.fixture(scope="session")
 def searching() -> Iterator[httpx.Client]:
     """Return a client of a warm service that searches."""
-    with _serving(SearchingPlanner(), Settings(vroom_seconds=0.3)) as client:
+    with serving(SearchingPlanner(), Settings(vroom_seconds=0.3)) as client:
         client.timeout = 300
         yield ready(client)
 

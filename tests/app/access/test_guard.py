@@ -16,6 +16,7 @@ from app.access.keys import KeyStore, Scope
 from app.database.connections import make_engine
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner, ready
+from tests.conftest import soon
 
 Request = dict[str, Any]
 Serve = Callable[..., httpx.Client]
@@ -47,13 +48,6 @@ def status(client: httpx.Client, request: Request, **headers: str) -> int:
     return client.post("/plan", json=request, headers=named).status_code
 
 
-def until(condition: Callable[[], bool], seconds: float = 10.0) -> None:
-    """Wait until a condition holds."""
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline
-
-
 def refusals(client: httpx.Client) -> float:
     """Return how many refusals for want of a key metrics tell."""
     families = text_string_to_metric_families(client.get("/metrics").text)
@@ -65,7 +59,7 @@ def refusals(client: httpx.Client) -> float:
 def test_key_lets_in_by_either_header(
         guarded: httpx.Client, store: KeyStore, smallest: Request) -> None:
     key = store.create("ann", ["plan"])
-    until(lambda: status(guarded, smallest, authorization=f"Bearer {key}") == 200)
+    soon(lambda: status(guarded, smallest, authorization=f"Bearer {key}") == 200)
     assert status(guarded, smallest, x_api_key=key) == 200
     assert status(guarded, smallest, authorization=f"bearer {key}", x_api_key=key) == 200
 
@@ -73,9 +67,9 @@ def test_key_lets_in_by_either_header(
 def test_all_invalid_keys_get_the_same_reply(
         guarded: httpx.Client, store: KeyStore, smallest: Request) -> None:
     key, revoked = (store.create(name, ["plan"]) for name in "ab")
-    until(lambda: status(guarded, smallest, x_api_key=revoked) == 200)
+    soon(lambda: status(guarded, smallest, x_api_key=revoked) == 200)
     store.revoke(revoked.split("_")[1])
-    until(lambda: status(guarded, smallest, x_api_key=revoked) == 401)
+    soon(lambda: status(guarded, smallest, x_api_key=revoked) == 401)
     wrong = key[:-1] + ("0" if key[-1] != "0" else "1")
     before = time.monotonic()
     replies = [guarded.post("/plan", json=smallest, headers=headers) for headers in (
@@ -100,7 +94,7 @@ def test_refusals_are_counted(guarded: httpx.Client, smallest: Request) -> None:
 def test_key_without_the_scope_is_forbidden(
         guarded: httpx.Client, store: KeyStore, smallest: Request, scope: Scope) -> None:
     key = store.create("ann", [scope])
-    until(lambda: status(guarded, smallest, x_api_key=key) == 403)
+    soon(lambda: status(guarded, smallest, x_api_key=key) == 403)
     reply = guarded.post("/plan", json=smallest, headers={"X-API-Key": key})
     assert reply.json()["type"] == "urn:tandem:error:forbidden"
     assert "plan" in reply.json()["detail"]
@@ -110,16 +104,16 @@ def test_key_without_the_scope_is_forbidden(
 def test_revoked_key_works_no_longer_than_promised(
         guarded: httpx.Client, store: KeyStore, smallest: Request) -> None:
     key = store.create("ann", ["plan"])
-    until(lambda: status(guarded, smallest, x_api_key=key) == 200)
+    soon(lambda: status(guarded, smallest, x_api_key=key) == 200)
     store.revoke(key.split("_")[1])
     revoked_at = time.monotonic()
-    until(lambda: status(guarded, smallest, x_api_key=key) == 401)
+    soon(lambda: status(guarded, smallest, x_api_key=key) == 401)
     assert time.monotonic() - revoked_at < REFRESH_SECONDS + 1
 
 
 def test_last_use_is_noted(guarded: httpx.Client, store: KeyStore, smallest: Request) -> None:
     key = store.create("ann", ["plan"])
-    until(lambda: status(guarded, smallest, x_api_key=key) == 200)
+    soon(lambda: status(guarded, smallest, x_api_key=key) == 200)
     (stored,) = store.load().values()
     assert stored.last_used_at is not None
     assert abs(stored.last_used_at - time.time()) < 60
@@ -134,7 +128,7 @@ def test_keys_in_memory_serve_while_the_database_is_away(
         guarded: httpx.Client, store: KeyStore, smallest: Request,
         monkeypatch: pytest.MonkeyPatch) -> None:
     key = store.create("ann", ["plan"])
-    until(lambda: status(guarded, smallest, x_api_key=key) == 200)
+    soon(lambda: status(guarded, smallest, x_api_key=key) == 200)
     tried: list[bool] = []
 
     def fail(_: object) -> None:
@@ -142,7 +136,7 @@ def test_keys_in_memory_serve_while_the_database_is_away(
         raise OperationalError("SELECT", {}, OSError())
 
     monkeypatch.setattr(KeyStore, "load", fail)
-    until(lambda: status(guarded, smallest, x_api_key=key) == 200 and bool(tried))
+    soon(lambda: status(guarded, smallest, x_api_key=key) == 200 and bool(tried))
     assert status(guarded, smallest, x_api_key=key + "0") == 401
     monkeypatch.setattr("app.access.guard.STALE_SECONDS", 0.0)
     reply = guarded.post("/plan", json=smallest, headers={"X-API-Key": key})
@@ -167,7 +161,7 @@ def test_key_in_an_address_is_refused_and_not_logged(
     assert reply.status_code == 400
     assert reply.json()["type"] == "urn:tandem:error:key-in-url"
     # A request's line is written when its reply has left.
-    until(lambda: any(record.name == "tandem.access" for record in caplog.records))
+    soon(lambda: any(record.name == "tandem.access" for record in caplog.records))
     assert key not in caplog.text
     assert "tdm_" not in caplog.text
     assert "%74dm" not in caplog.text
@@ -178,7 +172,12 @@ def test_openapi_tells_how_to_send_keys(guarded: httpx.Client) -> None:
     schemes = description["components"]["securitySchemes"]
     assert {scheme["type"] for scheme in schemes.values()} == {"http", "apiKey"}
     plan = description["paths"]["/plan"]["post"]
-    assert {name for option in plan["security"] for name in option} == set(schemes)
+    assert {name for option in plan["security"] for name in option} == {"HTTPBearer",
+                                                                        "APIKeyHeader"}
+    shared = description["paths"]["/shared-plan"]["get"]
+    assert shared["security"] == [{"ShareToken": []}]
+    assert description["paths"]["/drive/day"]["get"]["security"] == [{"DriverLink": []}]
+    assert set(schemes) == {"HTTPBearer", "APIKeyHeader", "ShareToken", "DriverLink"}
     assert {"401", "403", "408", "429", "503"} <= set(plan["responses"])
 
 

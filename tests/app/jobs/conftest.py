@@ -17,8 +17,8 @@ from sqlalchemy import create_engine, text
 
 from app.main import create_app
 from app.settings import Settings
-from tests.app.jobs.stepping import SteppingPlanner, eventually
-from tests.conftest import free_port
+from tests.app.jobs.stepping import SteppingPlanner
+from tests.conftest import eventually, free_port
 
 
 class Postgres:

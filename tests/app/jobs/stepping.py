@@ -5,7 +5,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,7 @@ from model.planner import ALONE, Elapsed, Listener, PlanCheckError, PlanOptions,
 from model.problem import Problem
 from model.search.improve import Progress
 from model.solution import Solution
-from tests.conftest import free_port
+from tests.conftest import PATIENCE, eventually, free_port
 
 ROOT = Path(__file__).parents[3]
 
@@ -30,9 +30,6 @@ PAUSE = 0.02
 """Seconds between two improvements at least."""
 
 BROKEN_SEED, RAISING_SEED = 666, 667
-
-PATIENCE = 60.0
-"""Seconds to wait for anything."""
 
 NUM_CUSTOMERS = 10
 
@@ -152,15 +149,6 @@ class Served:
             return self.client.get("/health/ready").status_code == 200
         except httpx.TransportError:
             return False
-
-
-def eventually(happens: Callable[[], Any], seconds: float = PATIENCE) -> Any:
-    """Wait until something is true, and return it."""
-    deadline = time.monotonic() + seconds
-    while not (seen := happens()):
-        assert time.monotonic() < deadline, "it did not happen"
-        threading.Event().wait(0.02)
-    return seen
 
 
 def submit(client: httpx.Client, request: Mapping[str, Any], path: str = "/jobs",

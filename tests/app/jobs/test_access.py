@@ -10,7 +10,8 @@ import pytest
 from app.access.keys import KeyStore
 from app.database.connections import make_engine
 from app.settings import Settings
-from tests.app.jobs.stepping import SteppingPlanner, eventually, request_of, submit
+from tests.app.jobs.stepping import SteppingPlanner, request_of, submit
+from tests.conftest import eventually
 
 Headers = dict[str, str]
 Serve = Callable[..., httpx.Client]

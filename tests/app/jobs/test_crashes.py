@@ -12,8 +12,9 @@ from sqlalchemy import create_engine, text
 from app.settings import Settings
 from tests.app.jobs.conftest import Postgres
 from tests.app.jobs.stepping import (
-    NUM_CUSTOMERS, Served, ended, eventually, read, request_of, submit,
+    NUM_CUSTOMERS, Served, ended, read, request_of, submit,
 )
+from tests.conftest import eventually
 
 FULL_COST = 2.0 * NUM_CUSTOMERS
 

@@ -99,7 +99,8 @@ def test_odd_names_in_a_job_are_planned_and_told(service: httpx.Client) -> None:
 
 
 def test_half_a_character_is_no_json(service: httpx.Client) -> None:
-    for path in ("/jobs", "/compare", "/sweep", "/plan", "/check", "/explain", "/vroom"):
+    for path in ("/jobs", "/compare", "/sweep", "/plan", "/check", "/explain", "/fit",
+                 "/vroom"):
         reply = service.post(path, content=rb'{"depots": [{"id": "\ud800"}], "customers": []}')
         assert reply.status_code == 400, (path, reply.text)
 

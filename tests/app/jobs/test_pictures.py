@@ -6,8 +6,9 @@ import xml.etree.ElementTree as ElementTree
 import httpx
 
 from tests.app.jobs.stepping import (
-    NUM_CUSTOMERS, RAISING_SEED, ended, eventually, read, request_of, submit,
+    NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit,
 )
+from tests.conftest import eventually
 
 
 def test_plan_of_a_job_is_drawn(jobs: httpx.Client) -> None:

@@ -13,8 +13,10 @@ from app.jobs import planning
 from app.jobs.planning import MAX_CRASHES, POISONOUS, PlanWork, Slice, Stopping
 from app.jobs.reading import JobReader
 from app.jobs.rows import JobRow, NewJob, Standing
+from app.jobs.running import Returning
 from app.jobs.store import JobStore
 from app.plans.task import Task, task_of
+from app.roads.roads import Roads
 from app.schemas.request import PlanRequest
 from app.settings import Settings
 from tests.app.jobs.stepping import NUM_CUSTOMERS, SteppingPlanner, request_of
@@ -31,6 +33,7 @@ class Desk:
     store: JobStore
     settings: Settings
     put_back: list[str] = field(default_factory=list)
+    put_off: list[str] = field(default_factory=list)
     count: int = 0
 
     def job(self, seconds: float, replan: object = None, **options: object) -> str:
@@ -45,7 +48,7 @@ class Desk:
         """Return the work of a process."""
         reader = JobReader(planner.policies, self.settings)
         return PlanWork(planner, self.store, lambda row: reader.plan_request(self.store, row), 1,
-                        self.put_back.append, lambda _: None)
+                        Returning(self.put_back.append, self.put_off.append), lambda _: None)
 
     def row(self, job: str) -> JobRow:
         """Return a job."""
@@ -88,15 +91,17 @@ def test_slices_tell_how_far_a_job_has_come(desk: Desk) -> None:
 
 
 def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
-    job, crashed = desk.job(1.0), desk.process()
-    until(lambda: crashed.advance(job), lambda now: now.cost is not None and now.cost < 800)
+    # Long enough that a process which is kept waiting doesn't end it by itself.
+    job, crashed = desk.job(3.0), desk.process()
+    until(lambda: crashed.advance(job), lambda now: now.cost is not None and now.cost < 900)
     before = desk.row(job)
+    assert before.state == "running"
     work = desk.process()
     slices = until(lambda: work.advance(job), lambda now: now.over)
     assert before.cost is not None
     assert all(now.cost is not None and now.cost <= before.cost for now in slices)
     done = desk.row(job)
-    assert done.searched == pytest.approx(1.0, abs=0.4)
+    assert done.searched == pytest.approx(3.0, abs=0.4)
     assert done.search_iterations > before.search_iterations
     result = desk.store.result(job)
     assert result is not None
@@ -210,7 +215,7 @@ def test_job_cancelled_before_its_search_ends(desk: Desk, monkeypatch: pytest.Mo
     process, job = desk.process(), desk.job(seconds=60.0)
     monkeypatch.setattr(planning, "SLICE", 0.0)
 
-    def cancel_meanwhile(request: PlanRequest, preparing: Preparing) -> None:
+    def cancel_meanwhile(request: PlanRequest, preparing: Preparing, roads: Roads) -> None:
         assert not preparing.should_stop()
         if where == "here":
             process.cancel(job)
@@ -228,8 +233,8 @@ def test_short_job_is_planned_though_the_machine_was_busy(
         desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     process, job = desk.process(), desk.job(seconds=0.1)
 
-    def begin_late(request: PlanRequest, preparing: Preparing) -> Task:
-        return task_of(request, replace(preparing, began=preparing.began - 5.0))
+    def begin_late(request: PlanRequest, preparing: Preparing, roads: Roads) -> Task:
+        return task_of(request, replace(preparing, began=preparing.began - 5.0), roads=roads)
 
     monkeypatch.setattr(planning, "task_of", begin_late)
     until(lambda: process.advance(job), lambda now: now.over)
@@ -240,7 +245,7 @@ def test_job_that_has_not_begun_to_search_is_left_to_others(
         desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     process, job = desk.process(), desk.job(seconds=60.0)
 
-    def stop_meanwhile(request: PlanRequest, preparing: Preparing) -> None:
+    def stop_meanwhile(request: PlanRequest, preparing: Preparing, roads: Roads) -> None:
         process.stop()
         replace(preparing, began=-1e9).pause()
 

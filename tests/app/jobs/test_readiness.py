@@ -16,8 +16,8 @@ from app.database.migrations.running import newest, upgrade
 from app.database.migrations.version import VERSION_TABLE
 from app.settings import Settings
 from tests.app.jobs.conftest import Postgres
-from tests.app.jobs.stepping import SteppingPlanner, eventually, request_of
-from tests.conftest import free_port
+from tests.app.jobs.stepping import SteppingPlanner, request_of
+from tests.conftest import eventually, free_port
 
 Serve = Callable[..., httpx.Client]
 

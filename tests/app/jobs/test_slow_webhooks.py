@@ -7,7 +7,8 @@ import httpx
 
 from app.jobs.worker import CALLS_OF_A_HOST, WEBHOOKS_AT_ONCE
 from tests.app.jobs.receiving import Receiver, drip
-from tests.app.jobs.stepping import eventually, request_of, submit
+from tests.app.jobs.stepping import request_of, submit
+from tests.conftest import eventually
 
 
 def test_slow_receivers_of_one_host_hold_up_no_other(jobs: httpx.Client) -> None:
@@ -23,7 +24,7 @@ def test_slow_receivers_of_one_host_hold_up_no_other(jobs: httpx.Client) -> None
             """Say nothing."""
 
     with Receiver(drip) as slow, HTTPServer(("127.0.0.1", 0), Quick) as quick:
-        thread = threading.Thread(target=quick.serve_forever)
+        thread = threading.Thread(target=quick.serve_forever, daemon=True)
         thread.start()
         for _ in range(WEBHOOKS_AT_ONCE + 1):
             submit(jobs, request_of(0), params={"webhook": f"http://127.0.0.1:{slow.port}/slow"})

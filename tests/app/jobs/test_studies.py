@@ -7,9 +7,10 @@ import pytest
 
 from app.jobs.schemas import CompareReply, JobReply, SweepReply
 from tests.app.jobs.stepping import (
-    NUM_CUSTOMERS, RAISING_SEED, ended, eventually, read, request_of, submit,
+    NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit,
 )
 from tests.app.jobs.test_routes import errors_of
+from tests.conftest import eventually
 
 Request = dict[str, Any]
 
@@ -99,7 +100,7 @@ def test_errors_of_scenarios_name_them(jobs: httpx.Client) -> None:
     assert errors_of(reply) == {("OUT_OF_RANGE", "$.grid")}
     assert [error["message"] for error in reply.json()["errors"]] == [
         f"With fleet[0].count = 0, options.seed = {seed} at $.fleet[0].count: The number must be "
-        "at least 1: raise it." for seed in (1, 2)]
+        "at least 1: raise it. count: Vehicles of this type." for seed in (1, 2)]
 
 
 @pytest.mark.parametrize(("path", "body", "error"), [

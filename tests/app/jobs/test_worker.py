@@ -7,7 +7,8 @@ from sqlalchemy import text
 from app.database.durable import connect
 from app.settings import Settings
 from tests.app.jobs.conftest import serving
-from tests.app.jobs.stepping import ended, eventually, request_of, submit
+from tests.app.jobs.stepping import ended, request_of, submit
+from tests.conftest import eventually
 
 SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 

@@ -12,7 +12,8 @@ import pytest
 
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
-from tests.app.load.waiting import WaitingPlanner, until
+from tests.app.load.waiting import WaitingPlanner
+from tests.conftest import soon
 
 Request = dict[str, Any]
 Serve = Callable[..., httpx.Client]
@@ -20,7 +21,7 @@ Serve = Callable[..., httpx.Client]
 
 def warmed(client: httpx.Client) -> httpx.Client:
     """Return a client once its service plans."""
-    until(lambda: client.get("/health/ready").status_code == 200)
+    soon(lambda: client.get("/health/ready").status_code == 200)
     return client
 
 
@@ -49,7 +50,7 @@ def test_what_slots_and_queue_cannot_hold_is_refused_at_once_and_the_rest_is_pla
                                             max_queue_seconds=60)))
     with ThreadPoolExecutor(5) as pool:
         accepted = [pool.submit(client.post, "/plan", json=smallest) for _ in range(5)]
-        until(lambda: planner_gauge(client, "waiting") == 3)
+        soon(lambda: planner_gauge(client, "waiting") == 3)
         assert planner_gauge(client, "running") == planner.started == 2
         began = time.perf_counter()
         refused = [client.post("/plan", json=smallest) for _ in range(20)]
@@ -70,7 +71,7 @@ def test_refusal_comes_before_the_body(serve: Serve, smallest: Request) -> None:
     client = warmed(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))
     with ThreadPoolExecutor(1) as pool, connect(client) as connection:
         running = pool.submit(client.post, "/plan", json=smallest)
-        until(lambda: planner.started == 1)
+        soon(lambda: planner.started == 1)
         connection.sendall(head(10**6))
         assert connection.recv(1000).startswith(b"HTTP/1.1 503")
         planner.go_on.set()
@@ -86,7 +87,7 @@ def test_refused_clients_connect_anew_where_another_process_may_be_free(
     client = warmed(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))
     with ThreadPoolExecutor(1) as pool:
         running = pool.submit(client.post, "/plan", json=smallest)
-        until(lambda: planner.started == 1)
+        soon(lambda: planner.started == 1)
         small = client.post("/plan", json=smallest)
         large = client.post("/plan", content=b" " * 10**6)
         planner.go_on.set()
@@ -102,7 +103,7 @@ def test_whoever_waits_too_long_is_refused(serve: Serve, smallest: Request) -> N
                                             max_queue_seconds=0.05)))
     with ThreadPoolExecutor(1) as pool:
         running = pool.submit(client.post, "/plan", json=smallest)
-        until(lambda: planner.started == 1)
+        soon(lambda: planner.started == 1)
         late = client.post("/plan", json=smallest)
         planner.go_on.set()
         assert running.result().status_code == 200
@@ -116,13 +117,13 @@ def test_abandoned_plan_stops_and_frees_its_slot(serve: Serve, smallest: Request
     body = json.dumps(smallest).encode()
     with connect(client) as connection:
         connection.sendall(head(len(body)) + body)
-        until(lambda: planner.started == 1)
+        soon(lambda: planner.started == 1)
     looks = planner.looks
-    until(lambda: planner.has_stopped)
+    soon(lambda: planner.has_stopped)
     # Each after two milliseconds; the clock would count how long a busy machine sleeps.
     assert planner.looks - looks < 50
     planner.go_on.set()
-    until(lambda: client.post("/plan", json=smallest).status_code == 200)
+    soon(lambda: client.post("/plan", json=smallest).status_code == 200)
 
 
 def test_whoever_leaves_the_queue_makes_room(serve: Serve, smallest: Request) -> None:
@@ -132,14 +133,14 @@ def test_whoever_leaves_the_queue_makes_room(serve: Serve, smallest: Request) ->
     body = json.dumps(smallest).encode()
     with ThreadPoolExecutor(2) as pool:
         accepted: list[Future[httpx.Response]] = [pool.submit(client.post, "/plan", json=smallest)]
-        until(lambda: planner.started == 1)
+        soon(lambda: planner.started == 1)
         with connect(client) as connection:
             connection.sendall(head(len(body)) + body)
-            until(lambda: planner_gauge(client, "waiting") == 1)
+            soon(lambda: planner_gauge(client, "waiting") == 1)
             assert client.post("/plan", json=smallest).status_code == 503
-        until(lambda: planner_gauge(client, "waiting") == 0)
+        soon(lambda: planner_gauge(client, "waiting") == 0)
         accepted.append(pool.submit(client.post, "/plan", json=smallest))
-        until(lambda: planner_gauge(client, "waiting") == 1)
+        soon(lambda: planner_gauge(client, "waiting") == 1)
         planner.go_on.set()
         assert [future.result().status_code for future in accepted] == [200, 200]
     assert planner.started == 2
@@ -177,7 +178,7 @@ def test_bodies_together_are_bounded(serve: Serve, smallest: Request) -> None:
             # Whichever comes second is refused.
             return refused and first.recv(1000).startswith(b"HTTP/1.1 400")
 
-    until(second_is_refused)
+    soon(second_is_refused)
     assert client.post("/plan", content=body).status_code == 200
 
 
@@ -187,7 +188,7 @@ def test_clients_that_leave_while_sending_are_forgotten(serve: Serve, smallest: 
     for _ in range(5):
         with connect(client) as connection:
             connection.sendall(head(900) + b" " * 800)
-    until(lambda: client.post("/plan", content=body).status_code == 200)
+    soon(lambda: client.post("/plan", content=body).status_code == 200)
 
 
 @pytest.mark.parametrize(("change", "path", "code", "setting"), [

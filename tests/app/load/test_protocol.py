@@ -13,7 +13,7 @@ from app.load import protocol
 from app.main import create_app
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
-from tests.app.load.waiting import until
+from tests.conftest import soon
 
 pytestmark = pytest.mark.by_clock
 
@@ -45,7 +45,7 @@ def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Listening]:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         address = listener.getsockname()
         thread.start()
-        until(lambda: server.started)
+        soon(lambda: server.started)
         yield Listening(server, address)
         server.should_exit = True
         thread.join()
@@ -82,7 +82,7 @@ def test_unfinished_heads_are_given_up(server: Listening, said: bytes) -> None:
         connection.sendall(said)
         reply = read_to_end(connection)
     assert reply.count(b"HTTP/1.1 200") == said.count(GET)
-    until(lambda: not server.connections())
+    soon(lambda: not server.connections())
 
 
 def test_heads_that_drip_are_given_up(server: Listening) -> None:

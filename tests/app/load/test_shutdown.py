@@ -16,8 +16,8 @@ import pytest
 
 from app.cli.serving import run_server
 from app.settings import Settings
-from tests.app.load.waiting import ROOT, process_of_its_own, status_of, until
-from tests.conftest import free_port
+from tests.app.load.waiting import ROOT, process_of_its_own, status_of
+from tests.conftest import eventually, free_port, soon
 
 Request = dict[str, Any]
 
@@ -29,7 +29,7 @@ def test_running_plans_are_returned_and_new_requests_sent_elsewhere(smallest: Re
     with (process_of_its_own(TANDEM_DRAIN_SECONDS=f"{DRAIN:g}") as (process, client),
           ThreadPoolExecutor(1) as pool):
         running = pool.submit(client.post, "/plan", json=smallest)
-        until(lambda: "tandem_planner_running 1.0" in client.get("/metrics").text)
+        soon(lambda: "tandem_planner_running 1.0" in client.get("/metrics").text)
         began = time.perf_counter()
         process.send_signal(signal.SIGTERM)
         reply = running.result()
@@ -56,8 +56,8 @@ def test_impatient_signals_end_the_process_at_once(signals: list[signal.Signals]
     with process_of_its_own(TANDEM_DRAIN_SECONDS="60") as (process, client):
         for number in signals:
             process.send_signal(number)
-            until(lambda: process.poll() is not None
-                  or status_of(client, "/health/ready") in (503, None))
+            soon(lambda: process.poll() is not None
+                 or status_of(client, "/health/ready") in (503, None))
         process.wait(10)
 
 
@@ -87,7 +87,7 @@ def serving(data_dir: Path) -> Iterator[subprocess.Popen[bytes]]:
                 "TMPDIR": str(data_dir), "NUMBA_DISABLE_JIT": "1"}) as process,
           httpx.Client(base_url=f"http://127.0.0.1:{port}", trust_env=False) as client):
         try:
-            until(lambda: status_of(client, "/health/live") == 200, 120)
+            eventually(lambda: status_of(client, "/health/live") == 200, 120)
             yield process
         finally:
             process.kill()
@@ -100,18 +100,19 @@ def test_processes_that_share_a_port_are_replaced_and_end_with_the_one_that_star
         first = children(process)
         assert len(first) == 2
         os.kill(min(first), signal.SIGKILL)
-        until(lambda: len(children(process) - first) == 1, 60)
+        eventually(lambda: len(children(process) - first) == 1)
         workers = children(process)
         process.kill()
         process.wait(60)
-        until(lambda: not any(command_of(pid) for pid in workers), 60)
+        eventually(lambda: not any(command_of(pid) for pid in workers))
 
 
 def test_processes_share_the_cores(monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[tuple[str | None, str | None]] = []
 
     def run(app: object, **options: Any) -> None:
-        assert (app, options["workers"], options["factory"]) == ("app.main:create_app", 3, True)
+        assert (app, options["workers"], options["factory"]) == (
+            "app.cli.serving:worker_app", 3, True)
         folder = os.environ["PROMETHEUS_MULTIPROC_DIR"]
         assert Path(folder).is_dir()
         seen.append((os.environ.get("TANDEM_MAX_CONCURRENT_PLANS"), folder))

@@ -3,8 +3,7 @@
 import os
 import sys
 import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from subprocess import Popen
@@ -19,7 +18,7 @@ from app.settings import Settings
 from model.planner import ALONE, Listener, PlanOptions, PlanResult
 from model.problem import Problem
 from tests.app.conftest import FirstFitPlanner
-from tests.conftest import free_port
+from tests.conftest import eventually, free_port
 
 ROOT = Path(__file__).parents[3]
 
@@ -43,13 +42,6 @@ class WaitingPlanner(FirstFitPlanner):
         return super().plan(problem, options, received_at)
 
 
-def until(condition: Callable[[], bool], seconds: float = 10.0) -> None:
-    """Wait until a condition holds."""
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline
-
-
 @contextmanager
 def process_of_its_own(**settings: str) -> Iterator[tuple[Popen[bytes], httpx.Client]]:
     """Serve a `WaitingPlanner`, whose plans last until they are told to stop."""
@@ -60,7 +52,7 @@ def process_of_its_own(**settings: str) -> Iterator[tuple[Popen[bytes], httpx.Cl
           httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=20,
                        trust_env=False) as client):
         try:
-            until(lambda: process.poll() is None and status_of(client, "/health/ready") == 200, 60)
+            eventually(lambda: process.poll() is None and status_of(client, "/health/ready") == 200)
             yield process, client
         finally:
             process.kill()

@@ -19,13 +19,13 @@ from app.settings import Settings
 from model.planner import PlanOptions, PlanResult
 from model.problem import Problem
 from tests.app.conftest import FirstFitPlanner
-from tests.conftest import free_port
+from tests.conftest import eventually, free_port
 
 ROOT = Path(__file__).parents[3]
 
 logger = logging.getLogger(__name__)
 
-CRASHING_SEED = 666
+CRASHING_SEED, START_SECONDS = 666, 300.0
 
 
 class CrashingPlanner(FirstFitPlanner):
@@ -75,22 +75,20 @@ def running(**settings: str) -> Iterator[Server]:
                        trust_env=False) as client):
         server = Server(client, process)
         try:
-            await_ready(client, process)
+            eventually(lambda: is_ready(client, process), START_SECONDS)
             yield server
         finally:
             process.kill()
             server.finish()
 
 
-def await_ready(client: httpx.Client, process: Popen[str]) -> None:
-    """Wait until a server plans."""
-    while process.poll() is None:
-        try:
-            if client.get("/health/ready").status_code == 200:
-                return
-        except httpx.TransportError:
-            continue
-    raise AssertionError("the server ended")
+def is_ready(client: httpx.Client, process: Popen[str]) -> bool:
+    """Tell whether a server plans."""
+    assert process.poll() is None, "the server ended"
+    try:
+        return client.get("/health/ready").status_code == 200
+    except httpx.TransportError:
+        return False
 
 
 def main() -> None:

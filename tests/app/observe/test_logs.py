@@ -10,6 +10,7 @@ import pytest
 
 from app.observe.logs import log_config, make_formatter
 from tests.app.observe.server import CRASHING_SEED, Server, running
+from tests.conftest import eventually
 
 SECRET = "tdm_not_for_logs"
 
@@ -23,12 +24,13 @@ def server() -> Iterator[Server]:
 
 def lines_of(server: Server, request_id: str) -> list[dict[str, Any]]:
     """Return the lines of one request; waits for its last, the access line."""
-    while True:
-        lines = [json.loads(line) for line in list(server.lines)]
-        mine = [line for line in lines if line.get("request_id") == request_id]
-        if any(line["logger"] == "tandem.access" for line in mine):
-            return mine
+    def mine() -> list[dict[str, Any]]:
         assert server.process.poll() is None
+        lines = [json.loads(line) for line in list(server.lines)]
+        lines = [line for line in lines if line.get("request_id") == request_id]
+        return lines if any(line["logger"] == "tandem.access" for line in lines) else []
+
+    return list(eventually(mine))
 
 
 def test_every_line_is_json_and_every_request_has_one(

@@ -15,12 +15,14 @@ from typing import Any
 
 import matplotlib
 import numpy as np
+import polyline
 import pytest
 from matplotlib.image import imread
 
 from app.errors import InvalidRequestError
 from app.pictures.activities import rows_of
 from app.pictures.drawing import draw_png, draw_svg
+from app.pictures.lines import driven_lines, flown_lines
 from app.pictures.page import draw_page
 from app.pictures.scene import clock, label
 from tests.app.pictures.conftest import scene_of
@@ -126,9 +128,9 @@ def test_geographic_plan_is_drawn_in_kilometres(example: Callable[[str], Request
     scene = scene_of(example("city_day"))
     assert scene.layout is not None
     points = np.array(list(scene.layout.points.values()))
-    assert 5 < np.ptp(points[:, 0]) < 30
+    assert 0.5 < np.ptp(points[:, 0]) < 1.5
     texts, groups = shown(draw_svg(scene))
-    assert "hub-west" in texts
+    assert "hub-north" in texts
     assert len(named(groups, "trip")) == scene.summary["trips"] > 0
     assert len(named(groups, "sortie")) == scene.summary["sorties"] > 0
 
@@ -291,3 +293,34 @@ def test_no_more_of_matplotlib_is_loaded_than_is_needed(imports: str, unwanted: 
     done = subprocess.run([sys.executable, "-c", script], cwd=root, check=True, text=True,
                           stdout=subprocess.PIPE, env={**os.environ, "PYTHONPATH": str(root)})
     assert done.stdout == "False\n"
+
+
+@pytest.mark.parametrize(("line", "points"), [
+    ([(3.0, 3.0)], 3), (None, 2), ("no line at all", 2), ([], 2)])
+def test_legs_are_drawn_as_the_plan_states_them(
+        line: Any, points: int, rich: Request, two_trips: Request) -> None:
+    stop = two_trips["routes"][0]["trips"][0]["stops"][1]
+    scene = scene_of(rich, two_trips)
+    assert scene.layout is not None
+    x, y = next(customer["location"] for customer in rich["customers"]
+                if customer["id"] == stop["id"])
+    if isinstance(line, list):
+        line = polyline.encode([(0, 0), *line, (y, x)] if line else [(0, 0), (9, 9)], 6)
+    stop["geometry"] = line
+    scene = scene_of(rich, two_trips)
+    assert scene.layout is not None
+    first, *_ = driven_lines(scene.layout, scene.plan.routes[0].trips[0])
+    assert len(first) == points
+    assert first[-1] == (x, y)
+    assert b"trip-0-0" in draw_svg(scene)
+
+
+def test_flights_around_areas_are_drawn_as_they_are_flown(rich: Request) -> None:
+    rich["airspace"] = {"no_fly": [[[0.5, -3], [1.5, -3], [1.5, 1], [0.5, 1]]]}
+    rich["options"] = {"geometry": True}
+    scene = scene_of(rich)
+    assert scene.layout is not None
+    lengths = [len(line) for route in scene.plan.routes for trip in route.trips
+               for sortie in trip.sorties for line in flown_lines(scene.layout, trip, sortie)]
+    assert max(lengths) > 2
+    assert b"sortie-" in draw_svg(scene)

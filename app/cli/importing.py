@@ -1,0 +1,148 @@
+"""`tandem import`: a spreadsheet of customers becomes a request."""
+
+from collections.abc import Mapping as Stated
+from contextlib import closing
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from pydantic import ValidationError
+from pydantic_core import to_json
+
+from app.addresses.addresses import Addresses
+from app.addresses.opening import opened_addresses
+from app.addresses.setting import GeocoderSettingError
+from app.cli.file_errors import EXIT_BAD_INPUT, refuse
+from app.errors import RequestError
+from app.settings import Settings
+from app.sheets.addresses import Finder
+from app.sheets.importing import import_file
+from app.sheets.meanings import MEANINGS
+from app.sheets.schemas import ColumnReply, ImportReply, ImportSettings, Mapping
+
+EXAMPLES = 3
+
+LOOKING_UP = 24 * 3600.0
+"""Seconds in which addresses are looked up: who runs a command can end it."""
+
+TOLD_EACH = 100
+
+
+def import_sheet(
+    sheet_file: Annotated[Path, typer.Argument(
+        metavar="INPUT", help="CSV or other text with delimiters, xlsx, xls or ods.", exists=True,
+        dir_okay=False)],
+    output: Annotated[Path | None, typer.Option(
+        "--output", "-o", help="File to write the request to.")] = None,
+    mapping: Annotated[Path | None, typer.Option(
+        help="How columns are read, as --save-mapping wrote it.", exists=True,
+        dir_okay=False)] = None,
+    save_mapping: Annotated[Path | None, typer.Option(
+        help="File to write how columns were read to, for the next file like it.")] = None,
+    depot: Annotated[str | None, typer.Option(
+        help="Where trips begin and end, latitude first: \"48.137,11.575\", or an "
+             "address.")] = None,
+    vehicles: Annotated[int | None, typer.Option(help="Number of vehicles.")] = None,
+    capacity: Annotated[str | None, typer.Option(
+        help="What a vehicle holds, with blanks between for several amounts: \"800 4.5\".")] = None,
+    shift: Annotated[str | None, typer.Option(help="When vehicles work: 8:00-17:00.")] = None,
+    speed: Annotated[float | None, typer.Option(help="Speed in km/h.")] = None,
+    drones: Annotated[int, typer.Option(help="Drones on each vehicle.")] = 0,
+    drone_capacity: Annotated[str | None, typer.Option(help="What a drone carries.")] = None,
+    service_minutes: Annotated[float | None, typer.Option(
+        help="Minutes at each stop whose row states none.")] = None,
+    day: Annotated[str | None, typer.Option(help="Day that is planned: 2026-11-23.")] = None,
+    sheet: Annotated[str | None, typer.Option(help="Name of the workbook's sheet.")] = None,
+    leave_out_errors: Annotated[bool, typer.Option(
+        help="Leave out rows with errors.")] = False,
+) -> None:
+    """Turn a spreadsheet of customers into a request of POST /plan, and tell what was guessed."""
+    stated = {
+        "depot": depot, "vehicles": vehicles, "capacity": _numbers(capacity), "shift": shift,
+        "speed_kmh": speed, "drones": drones, "drone_capacity": _numbers(drone_capacity),
+        "service_minutes": service_minutes, "day": day, "leave_out_errors": leave_out_errors,
+    }
+    settings = _settings(stated, _mapping(mapping, sheet))
+    try:
+        with closing(_geocoders()) as addresses:
+            finder = Finder(addresses, LOOKING_UP, _show_progress)
+            reply = import_file(sheet_file.read_bytes(), settings, finder)
+    except RequestError as error:
+        refuse(sheet_file, error)
+    _tell(reply)
+    if save_mapping is not None:
+        save_mapping.write_text(reply.mapping.model_dump_json(indent=2) + "\n", "utf-8")
+    if reply.request is None:
+        raise typer.Exit(EXIT_BAD_INPUT)
+    content = to_json(reply.request)
+    if output is None:
+        typer.echo(content)
+    else:
+        output.write_bytes(content)
+
+
+def _geocoders() -> Addresses:
+    try:
+        return opened_addresses(Settings())
+    except GeocoderSettingError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
+
+
+def _show_progress(known: int, asked: int) -> None:
+    """Tell from time to time how many addresses are looked up."""
+    if known % TOLD_EACH == 0 or known == asked:
+        typer.echo(f"{known} of {asked} addresses are looked up", err=True)
+
+
+def _settings(stated: Stated[str, Any], mapping: Mapping) -> ImportSettings:
+    try:
+        return ImportSettings.model_validate({**stated, "mapping": mapping})
+    except ValidationError as error:
+        for details in error.errors():
+            option = "--" + str(details["loc"][0]).replace("_", "-")
+            typer.echo(f"{option}: {details['msg']}", err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
+
+
+def _mapping(file: Path | None, sheet: str | None) -> Mapping:
+    try:
+        mapping = Mapping() if file is None else Mapping.model_validate_json(file.read_bytes())
+    except ValidationError as error:
+        typer.echo(f"{file}: {error}", err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
+    return mapping if sheet is None else mapping.model_copy(update={"sheet": sheet})
+
+
+def _numbers(text: str | None) -> list[float] | None:
+    if text is None:
+        return None
+    try:
+        return [float(part) for part in text.split()]
+    except ValueError as error:
+        raise typer.BadParameter(f"{text!r} are no numbers with blanks between") from error
+
+
+def _tell(reply: ImportReply) -> None:
+    """Print what was guessed, and what is doubtful or wrong."""
+    for column in reply.columns:
+        typer.echo(_line(column), err=True)
+    for doubt in [*(doubt for column in reply.columns for doubt in column.doubts), *reply.doubts]:
+        typer.echo(f"? {doubt.message}", err=True)
+    for error in reply.errors:
+        typer.echo(f"! {error.cell + ': ' if error.cell else ''}{error.message}", err=True)
+    if reply.num_errors > len(reply.errors):
+        typer.echo(f"! and {reply.num_errors - len(reply.errors)} more", err=True)
+    told = "" if reply.request else ", no request"
+    typer.echo(f"{reply.rows} rows, {reply.customers} customers, {reply.num_errors} errors{told}",
+               err=True)
+
+
+def _line(column: ColumnReply) -> str:
+    heading = f" {column.heading!r}" if column.heading else ""
+    if column.meaning == "ignored":
+        return f"{column.column}{heading}: not used"
+    unit = f" in {column.unit}" if column.unit else ""
+    examples = ", ".join(f"{example.raw} \u2192 {example.read or 'no reading'}"
+                         for example in column.examples[:EXAMPLES])
+    return f"{column.column}{heading}: {MEANINGS[column.meaning].title}{unit}: {examples}"
