@@ -1,4 +1,4 @@
-FROM python:3.11-slim AS builder
+FROM python:3.13-slim AS builder
 
 ENV PIP_DISABLE_PIP_VERSION_CHECK=1 \
     PIP_NO_CACHE_DIR=1
@@ -8,11 +8,11 @@ WORKDIR /src
 COPY pyproject.toml README.md LICENSE ./
 COPY app ./app
 COPY model ./model
-RUN /opt/tandem/bin/pip install '.[trace]' \
+RUN /opt/tandem/bin/pip install '.[trace,roads]' \
     && /opt/tandem/bin/pip uninstall --yes setuptools pip
 
 
-FROM python:3.11-slim
+FROM python:3.13-slim
 
 RUN useradd --system --uid 10001 --user-group --no-create-home --home-dir /nonexistent \
         --shell /usr/sbin/nologin tandem \

@@ -105,6 +105,7 @@ clean: ## Remove caches, compiled code and plan.json; keep .venv and training ru
 .venv/testing: pyproject.toml | .venv/created
 	@echo "Installing Tandem and all that its tests need into .venv; PyTorch is large."
 	@$(PIP) install --quiet --editable '.[test,train]'
+	@$(BIN)/python -m tests.app.roads.wheels
 	@touch $@ .venv/serving
 
 .venv/benching: pyproject.toml | .venv/created

@@ -120,7 +120,7 @@ def _of_one_type(customer: Data, kind: Data) -> Data:
     """Return a customer who names vehicles of one type alone; whoever may serve it still may."""
     durations = {name: duration
                  for name, duration in customer.get("service_duration_by_type", {}).items()
-                 if name in (kind["id"], f"{kind['id']}/drone")}
+                 if name == kind["id"] or name.startswith(f"{kind['id']}/")}
     customer = customer | {"service_duration_by_type": durations}
     vehicles = customer.get("vehicles") or {}
     listed = [name for name in vehicles.values() if name is not None]

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.truck_drone_rules import CROSSINGS, LOOPS, MIXED_LOADS, TruckDroneInstance
+from benchmarks.truck_drone_rules import CROSSINGS, LOOPS, TruckDroneInstance
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, FloatArray,
     IntArray, Problem, ServedBy, Travel, VehicleType,
@@ -282,10 +282,6 @@ def load_hvdrp_karak(folder: Path) -> list[TruckDroneInstance]:
     stations only and need not visit all: a variant holds those that it visits as customers
     without demand, the first one all of them. Drones serve all others, from stations only, within
     their range; times and waiting do not matter.
-
-    Differs by the rule "mixed loads" alone: demand is (delivery, pick-up), and `Problem` limits
-    each by itself. A plan that breaks the rule may cost less than the optimum (A-2: 43.16, not
-    48.07); that its sorties may be flown the other way round is heeded.
     """
     return [_karak_instance(folder, row) for row in _rows(folder / "reference_values.csv")]
 
@@ -298,8 +294,7 @@ def _karak_instance(folder: Path, row: dict[str, str]) -> TruckDroneInstance:
                      for count in range(len(stations), 0, -1)
                      for chosen in combinations(stations, count))
     return TruckDroneInstance(row["instance"], "hvdrp_karak", len(clients), variants[0],
-                              float(row["reference_value"]), "optimal", frozenset({MIXED_LOADS}),
-                              variants)
+                              float(row["reference_value"]), "optimal", frozenset(), variants)
 
 
 def _karak_problem(data: dict[str, Any], stations: list[dict[str, Any]]) -> Problem:
@@ -324,19 +319,19 @@ def _karak_problem(data: dict[str, Any], stations: list[dict[str, Any]]) -> Prob
                    for place in clients))
     weight = round(specification["weight"] * UNIT)
     drones = DroneType(
-        1 + len(others), (weight, weight), travel=1, endurance=round(specification["range"] * UNIT),
+        1 + len(others), (weight,), travel=1, endurance=round(specification["range"] * UNIT),
         endurance_includes_waiting=False, max_customers_per_sortie=len(clients),
         cost_per_km=specification["cost"] * PER_LENGTH)
-    load = tuple(map(sum, zip(*(customer.demand for customer in customers), strict=True)))
-    truck = VehicleType("truck", 1, load, travel=0, cost_per_km=data["vehicleCost"] * PER_LENGTH,
+    load = sum(sum(customer.demand) + sum(customer.pickup) for customer in customers)
+    truck = VehicleType("truck", 1, (load,), travel=0, cost_per_km=data["vehicleCost"] * PER_LENGTH,
                         drones=drones)
     return _problem(points, customers, truck, (Travel(length, length), Travel(flight, flight)))
 
 
 def _karak_customer(place: dict[str, Any], served_by: ServedBy, delivery: float,
                     pickup: float) -> Customer:
-    return Customer(str(place["label"]), (round(delivery * UNIT), round(pickup * UNIT)),
-                    served_by=served_by)
+    return Customer(str(place["label"]), (round(delivery * UNIT),), served_by=served_by,
+                    pickup=(round(pickup * UNIT),))
 
 
 LOADERS: Mapping[str, Callable[[Path], list[TruckDroneInstance]]] = {

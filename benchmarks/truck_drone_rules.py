@@ -3,10 +3,10 @@
 A search that is told these rules obeys them; whether a plan does is judged here.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from model.judge.rules import Violation, decimal
+from model.judge.rules import Violation
 from model.problem import Problem
 from model.solution import Solution, Trip
 
@@ -15,10 +15,6 @@ LOOPS = "loops"
 
 CROSSINGS = "crossings"
 """A sortie may be recovered at the stop where it was launched only."""
-
-MIXED_LOADS = "mixed loads"
-"""What a drone has yet to deliver (dimension 0) and what it has picked up (dimension 1) may not
-exceed its capacity together, at any time. `Problem` limits deliveries and pick-ups one by one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +38,7 @@ def broken_rules(problem: Problem, solution: Solution, forbids: Iterable[str]) -
     Raises
     ------
     ValueError
-        If `forbids` holds anything but `LOOPS`, `CROSSINGS` and `MIXED_LOADS`.
+        If `forbids` holds anything but `LOOPS` and `CROSSINGS`.
     """
     rules = sorted(forbids)
     for rule in rules:
@@ -71,31 +67,7 @@ def _crossings(problem: Problem, vehicle_type: int, trip: Trip) -> Iterator[tupl
                           f"{sortie.recovery_stop}")
 
 
-def _mixed_loads(problem: Problem, vehicle_type: int, trip: Trip) -> Iterator[tuple[int, str]]:
-    drones = problem.vehicle_types[vehicle_type].drones
-    if drones is None:
-        return
-    for index, sortie in enumerate(trip.sorties):
-        demands = [problem.customer_at(visit.node).demand for visit in sortie.visits]
-        peaks = [_most_carried(demands)]
-        if sortie.recovery_stop == sortie.launch_stop:
-            # Flown the other way round it costs as much, and no times matter in that set.
-            peaks.append(_most_carried(demands[::-1]))
-        most = min(peaks)
-        if most > drones.capacity[0]:
-            yield index, (f"carries {decimal(most)}, capacity is {decimal(drones.capacity[0])}")
-
-
-def _most_carried(demands: Sequence[tuple[int, ...]]) -> int:
-    """Return the most that a drone carries which delivers and picks up in this order."""
-    load = most = sum(delivery for delivery, _ in demands)
-    for delivery, pickup in demands:
-        load += pickup - delivery
-        most = max(most, load)
-    return most
-
-
 RULES: Mapping[str, Callable[[Problem, int, Trip], Iterator[tuple[int, str]]]] = {
-    LOOPS: _loops, CROSSINGS: _crossings, MIXED_LOADS: _mixed_loads,
+    LOOPS: _loops, CROSSINGS: _crossings,
 }
 """Each yields the sortie that breaks a rule and how, for a trip of a vehicle type."""

@@ -235,10 +235,11 @@ def rows(planner: Planner, sizes: list[int], repeats: int) -> Iterator[list[str]
             done = [compare(planner, request, None) for request in requests]
             stopped = [compare(planner, request, STOPPED) for request in requests]
             seconds = statistics.mean(run.vroom_seconds for run in done)
-            yield [make.__name__, str(size), f"{seconds:.2f}", *_cells(done), *_cells(stopped)]
+            yield [make.__name__, str(size), f"{seconds:.2f}", *cells(done), *cells(stopped)]
 
 
-def _cells(runs: list[Compared]) -> list[str]:
+def cells(runs: list[Compared]) -> list[str]:
+    """Return the mean ratio of costs, and how often Tandem serves more and less."""
     ratios = [run.ratio for run in runs if not math.isnan(run.ratio)]
     mean = f"{statistics.geometric_mean(ratios):.3f}" if ratios else "-"
     more = sum(run.tandem_value > run.vroom_value for run in runs)

@@ -149,7 +149,7 @@ def _vehicle_type(rng: random.Random, dimensions: int) -> Data:
         **_maybe(rng, 0.4, max_trips=rng.choice((1, 2, 3, 1000)),
                  reload_duration=rng.choice((0, 0, 600, LONGEST))),
         **_maybe(rng, 0.2, skills=rng.sample(SKILLS[:3], rng.randint(1, 3))),
-        **_maybe(rng, 0.5, drones=_drones(rng, dimensions))}
+        **_maybe(rng, 0.5, drones=_drones_aboard(rng, dimensions))}
 
 
 def _shift(rng: random.Random) -> Data:
@@ -168,6 +168,15 @@ def _speed_profile(rng: random.Random) -> list[Data]:
     return [{"from": time, **rng.choice(({"factor": rng.choice((0.05, 0.5, 1, 20))},
                                          {"speed_kmh": rng.choice((1, 17, 1000))}))}
             for time in times]
+
+
+def _drones_aboard(rng: random.Random, dimensions: int) -> Data | list[Data]:
+    """Return drones of one type, or a list of one to three types."""
+    drones = _drones(rng, dimensions)
+    if rng.random() < 0.7:
+        return drones
+    types = [drones, *(_drones(rng, dimensions) for _ in range(rng.randint(0, 2)))]
+    return [each | {"id": f"kind {number}"} for number, each in enumerate(types)]
 
 
 def _drones(rng: random.Random, dimensions: int) -> Data:
@@ -248,8 +257,9 @@ def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
                      "max_stops"):
             if rng.random() < 0.6:
                 kind.pop(name, None)
-        if kind.get("drones") is not None:
-            kind["drones"]["capacity"] = [4] * dimensions
+        drones = kind.get("drones") or []
+        for each in drones if isinstance(drones, list) else [drones]:
+            each["capacity"] = [4] * dimensions
 
 
 def _choose_vehicles(rng: random.Random, request: Data) -> None:
@@ -278,7 +288,10 @@ def _keep_apart(rng: random.Random, request: Data) -> None:
 def _serve_by_type(rng: random.Random, request: Data) -> None:
     """Let service take some vehicles longer than others, now and then unknown ones. In place."""
     names = [kind["id"] for kind in request["fleet"]]
-    names += [f"{name}/drone" for name in names]
+    for kind in request["fleet"]:
+        drones = kind.get("drones")
+        types = drones if isinstance(drones, list) else [{"id": "drone"}]
+        names += [f"{kind['id']}/{each['id']}" for each in types]
     if rng.random() < 0.02:
         names.append("nobody")
     for customer in request["customers"]:

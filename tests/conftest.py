@@ -2,6 +2,7 @@
 
 import asyncio
 import socket
+import threading
 import time
 from collections.abc import Callable, Coroutine, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -16,6 +17,9 @@ from model.kernel.cores import num_cores
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 
 MINUTE = 60_000
+
+PATIENCE, SOON, PAUSE = 60.0, 10.0, 0.01
+"""Seconds to wait for anything, for what takes not long, and between two looks at it."""
 
 Result = TypeVar("Result")
 
@@ -41,8 +45,11 @@ MOST_WORKERS = 8
 
 
 def pytest_xdist_auto_num_workers() -> int:
-    """Return how many processes run tests: as many as there are cores, within the quota on them."""
-    return min(num_cores(), MOST_WORKERS)
+    """Return how many processes run tests: one more than there are cores, within the quota on them.
+
+    Who waits for a service, a browser or the end of some time leaves a core to another.
+    """
+    return min(num_cores() + 1, MOST_WORKERS)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -86,6 +93,20 @@ def own_data_dir(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TANDEM_DATA_DIR", str(tmp_path_factory.mktemp("data")))
         yield
+
+
+def eventually(happens: Callable[[], Any], seconds: float = PATIENCE) -> Any:
+    """Wait until something is true, and return it. Others have the processor meanwhile."""
+    deadline = time.monotonic() + seconds
+    while not (seen := happens()):
+        assert time.monotonic() < deadline, "it did not happen"
+        threading.Event().wait(PAUSE)
+    return seen
+
+
+def soon(happens: Callable[[], Any]) -> Any:
+    """Wait like `eventually` for what doesn't take long."""
+    return eventually(happens, SOON)
 
 
 def free_port() -> int:

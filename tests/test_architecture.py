@@ -4,7 +4,8 @@ import ast
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -22,8 +23,9 @@ FORBIDDEN = {
     "benchmarks": ("tests",),
 }
 APP_ORDER = (
-    "settings", "errors", "schemas", "database", "access", "observe", "load", "conversion",
-    "requests", "plans", "files", "pictures", "jobs", "vroom", "console", "health", "main", "cli",
+    "settings", "errors", "schemas", "database", "access", "observe", "load", "streets", "remote",
+    "addresses", "roads", "conversion", "requests", "warnings", "plans", "files", "sheets",
+    "pictures", "jobs", "kept", "dispatches", "vroom", "console", "health", "main", "cli",
     "__main__",
 )
 """Each folder or file of `app` imports only those to the left of its name."""
@@ -75,6 +77,7 @@ DESCRIBING = {
     "kernel/instance": set.union(*HOMES.values()),
     "kernel/battery_rows": HOMES["kernel/energy"],
     "kernel/asked": {".demand", ".setup_duration", ".site"},
+    "kernel/drone_types": {".capacity", ".endurance", ".max_sorties", ".recovery_duration"},
     "kernel/variants": {".service_duration", ".setup_duration", ".site"},
     "policy/tokens": set.union(*HOMES.values()),
     "policy/features": {".capacity", ".demand", ".endurance"},
@@ -110,15 +113,17 @@ def name_of(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
 
 
-def imported_modules(path: Path) -> Iterator[str]:
-    """Yield the dotted names that a file imports anywhere, `from a import b` as `a` and `a.b`."""
+@cache
+def imported_modules(path: Path) -> frozenset[str]:
+    """Return the dotted names that a file imports anywhere, `from a import b` as `a` and `a.b`."""
+    found = set[str]()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{name_of(path)} has a relative import"
-            yield node.module or ""
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+            found |= {node.module or "", *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return frozenset(found)
 
 
 def imported_packages(path: Path) -> set[str]:
@@ -126,6 +131,7 @@ def imported_packages(path: Path) -> set[str]:
     return {module.split(".")[0] for module in imported_modules(path)}
 
 
+@cache
 def imported_files(package: str) -> dict[str, set[str]]:
     """Return the files of a package that each of them imports, by path without suffix.
 
@@ -237,6 +243,12 @@ def names_in(tree: ast.AST) -> set[str]:
     return found | fields | {f".{field}" for field in fields}
 
 
+@cache
+def names_in_file(path: Path) -> set[str]:
+    """Return what `names_in` does of a file."""
+    return names_in(ast.parse(path.read_text()))
+
+
 def tables_read(tree: ast.AST) -> set[str]:
     """Return the names of the tables of legs of which a file takes elements or parts."""
     read = [node.value for node in ast.walk(tree) if isinstance(node, ast.Subscript)]
@@ -248,8 +260,7 @@ def tables_read(tree: ast.AST) -> set[str]:
 def test_compiled_rule_has_one_home(home: str) -> None:
     elsewhere = {name: applied for name, path in files_of_compiled_folders().items()
                  if name != home and (applied := (
-                     names_in(ast.parse(path.read_text())) & HOMES[home]
-                     - DESCRIBING.get(name, set())))}
+                     names_in_file(path) & HOMES[home] - DESCRIBING.get(name, set())))}
     assert elsewhere == {}
 
 
