@@ -1,0 +1,100 @@
+"""A region of a plan as a problem of its own, whose costs are the region's share of the whole's."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from model.problem import IntArray, Problem, Travel
+from model.regions.region import Region, Vehicle, customers_of
+from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+
+
+@dataclass(frozen=True)
+class Part:
+    """A region as a problem: all depots, its customers and its vehicles."""
+
+    problem: Problem
+    nodes: tuple[int, ...]  # (node,) those of the whole problem
+    vehicles: tuple[tuple[Vehicle, ...], ...]  # (type, number) those of the whole problem
+
+    def outward(self, plan: Solution) -> Solution:
+        """Return a plan of this part in the numbers of the whole problem."""
+        return _renumbered(plan, self.nodes.__getitem__,
+                           lambda kind, number: self.vehicles[kind][number])
+
+    def inward(self, plan: Solution) -> Solution:
+        """Return a plan of the region in the numbers of this part; raises `KeyError` if it isn't.
+        """
+        return _renumbered(plan, self._number.__getitem__,
+                           lambda kind, number: self._vehicle[kind, number])
+
+    @cached_property
+    def _number(self) -> dict[int, int]:
+        return {node: number for number, node in enumerate(self.nodes)}
+
+    @cached_property
+    def _vehicle(self) -> dict[Vehicle, Vehicle]:
+        return {vehicle: (kind, number) for kind, all_of_it in enumerate(self.vehicles)
+                for number, vehicle in enumerate(all_of_it)}
+
+
+def part_of(problem: Problem, region: Region) -> Part:
+    """Return a region of a plan as a problem of its own.
+
+    Raises
+    ------
+    ValueError
+        If it has no customers or no vehicles.
+    """
+    first = problem.num_depots
+    served = [node for route in region.plan.routes for node in customers_of(route)]
+    customers = sorted((*served, *region.plan.unassigned))
+    if not customers or not region.vehicles:
+        raise ValueError(f"region: {len(customers)} customers and {len(region.vehicles)} vehicles "
+                         "are not allowed")
+    kinds = sorted({kind for kind, _ in region.vehicles})
+    vehicles = tuple(tuple(vehicle for vehicle in region.vehicles if vehicle[0] == kind)
+                     for kind in kinds)
+    nodes = (*range(first), *customers)
+    chosen = np.array(nodes)
+    may_serve = problem.may_serve
+    if may_serve is not None:
+        may_serve = may_serve[np.ix_(np.array(kinds), chosen[first:] - first)]
+    return Part(replace(
+        problem,
+        customers=tuple(problem.customers[node - first] for node in customers),
+        vehicle_types=tuple(replace(problem.vehicle_types[kind], count=len(all_of_it), numbers=())
+                            for kind, all_of_it in zip(kinds, vehicles, strict=True)),
+        travel=tuple(_between(legs, chosen) for legs in problem.travel),
+        coordinates=problem.coordinates[chosen],
+        may_serve=may_serve,
+    ), nodes, vehicles)
+
+
+def _between(legs: Travel, nodes: IntArray) -> Travel:
+    """Return the legs between some nodes."""
+    grid = np.ix_(nodes, nodes)
+    return Travel(legs.duration[grid], legs.distance[grid])
+
+
+def _renumbered(plan: Solution, node: Callable[[int], int],
+                vehicle: Callable[[int, int], Vehicle]) -> Solution:
+    """Return a plan with other numbers for its nodes and vehicles."""
+    return Solution(
+        tuple(Route(*vehicle(route.vehicle_type, route.vehicle),
+                    tuple(_trip(trip, node) for trip in route.trips)) for route in plan.routes),
+        tuple(sorted(map(node, plan.unassigned))))
+
+
+def _trip(trip: Trip, node: Callable[[int], int]) -> Trip:
+    return Trip(tuple(Stop(node(stop.node), stop.arrival, stop.service_start, stop.departure,
+                           stop.setup) for stop in trip.stops),
+                tuple(_sortie(sortie, node) for sortie in trip.sorties))
+
+
+def _sortie(sortie: Sortie, node: Callable[[int], int]) -> Sortie:
+    visits: Sequence[Visit] = [Visit(node(visit.node), visit.arrival, visit.service_start,
+                                     visit.departure, visit.setup) for visit in sortie.visits]
+    return replace(sortie, visits=tuple(visits))

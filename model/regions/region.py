@@ -1,0 +1,64 @@
+"""Regions of a plan, and what comes back of them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from model.solution import Route, Solution
+
+Vehicle = tuple[int, int]
+"""Type, an index into `Problem.vehicle_types`, and number within it."""
+
+
+@dataclass(frozen=True)
+class Region:
+    """Some vehicles' routes with all their customers, in the numbers of the whole problem."""
+
+    plan: Solution  # `unassigned`: those of the whole plan's that this region may serve
+    spare: tuple[Vehicle, ...] = ()  # without a route, for this region to use
+
+    @property
+    def vehicles(self) -> tuple[Vehicle, ...]:
+        """All vehicles that it may use."""
+        return (*map(vehicle_of, self.plan.routes), *self.spare)
+
+
+def vehicle_of(route: Route) -> Vehicle:
+    """Return the vehicle that drives a route."""
+    return route.vehicle_type, route.vehicle
+
+
+def customers_of(route: Route) -> Iterator[int]:
+    """Yield the customers that a route serves."""
+    for trip in route.trips:
+        for stop in trip.stops[1:-1]:
+            yield stop.node
+        for sortie in trip.sorties:
+            for visit in sortie.visits:
+                yield visit.node
+
+
+def put_back(whole: Solution, region: Region, found: Solution) -> Solution | None:
+    """Return a plan with what was found for a region of an earlier one; None if that is stale.
+
+    It is once any of the region's routes has changed, one of its spare vehicles that is needed has
+    a route or somebody is served by now whom the region left out. Nothing is judged.
+    """
+    routes = {vehicle_of(route): route for route in whole.routes}
+    own = {vehicle_of(route) for route in region.plan.routes}
+    used = {vehicle_of(route) for route in found.routes}
+    left_out = set(whole.unassigned)
+    if any(routes.get(vehicle_of(route)) != route for route in region.plan.routes):
+        return None
+    if not left_out.issuperset(region.plan.unassigned):
+        return None
+    if not used <= own | (set(region.spare) - set(routes)):
+        return None
+    kept = [route for vehicle, route in routes.items() if vehicle not in own]
+    left_out = left_out.difference(region.plan.unassigned).union(found.unassigned)
+    return in_order(Solution((*kept, *found.routes), tuple(left_out)))
+
+
+def in_order(plan: Solution) -> Solution:
+    """Return the same plan by vehicles, so that sums over it are the same in every process."""
+    return replace(plan, routes=tuple(sorted(plan.routes, key=vehicle_of)),
+                   unassigned=tuple(sorted(plan.unassigned)))
