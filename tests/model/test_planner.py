@@ -29,9 +29,10 @@ from training.variants import InstanceConfig
 
 WEIGHTS = Path(__file__).parents[2] / "model" / "weights"
 POLICIES = sorted(folder.name for folder in WEIGHTS.iterdir())
-NUM_DECODED = 500
-NUM_IMPROVED = 400
-TIME_LIMIT = 0.03
+NUM_DECODED = 300
+NUM_IMPROVED = 160
+NUM_ENDED = 60
+TIME_LIMIT = 0.02
 SPOILED = InstanceConfig(spoiled=1.0, max_spoiled=0.5)
 
 
@@ -79,31 +80,42 @@ def test_every_decoded_plan_of_random_problems_passes_the_checker(planner: Plann
     assert unassigned > 25
 
 
-@pytest.mark.by_clock
 def test_every_improved_plan_of_random_problems_is_legal_and_no_dearer(planner: Planner) -> None:
     rng = np.random.default_rng(18)
     unassigned = cheaper = 0
     for index in range(NUM_IMPROVED):
+        options = PlanOptions(POLICIES[index % len(POLICIES)], seed=index, time_limit=60.0,
+                              search_iterations=100, threads=1 + (index % 10 == 0))
+        result = plan_checked(planner, mixed_problem(rng, index), options)
+        assert result.final_cost <= result.decoded_cost
+        assert result.deterministic
+        cheaper += result.final_cost < result.decoded_cost * (1 - 1e-9)
+        unassigned += len(result.solution.unassigned)
+    assert unassigned > 8
+    assert cheaper > NUM_IMPROVED / 2
+
+
+def test_every_plan_that_the_clock_ends_is_legal_and_no_dearer(planner: Planner) -> None:
+    rng = np.random.default_rng(19)
+    for index in range(NUM_ENDED):
         options = PlanOptions(POLICIES[index % len(POLICIES)], seed=index, time_limit=TIME_LIMIT,
                               threads=1 + (index % 10 == 0))
         result = plan_checked(planner, mixed_problem(rng, index), options)
         assert result.final_cost <= result.decoded_cost
         assert not result.deterministic
-        cheaper += result.final_cost < result.decoded_cost * (1 - 1e-9)
-        unassigned += len(result.solution.unassigned)
-    assert unassigned > 20
-    assert cheaper > NUM_IMPROVED / 2
 
 
 @pytest.mark.by_clock
 @pytest.mark.parametrize("num_customers", [30, 100, 300])
-@pytest.mark.parametrize("time_limit", [0.1, 0.3])
-def test_plans_come_in_time(planner: Planner, num_customers: int, time_limit: float) -> None:
+def test_plans_come_in_time(planner: Planner, num_customers: int) -> None:
     for variant in ("vrptw", "mixed"):
         problem = generate(np.random.default_rng(num_customers), num_customers, variant)
-        began = time.perf_counter()
+        began = time.process_time()
+        planner.plan(problem, PlanOptions(POLICIES[0], time_limit=60.0, search_iterations=1))
+        time_limit = max(0.1, 4 * (time.process_time() - began))
+        began = time.process_time()
         result = planner.plan(problem, PlanOptions(POLICIES[0], time_limit=time_limit))
-        assert time.perf_counter() - began <= time_limit + 0.2
+        assert time.process_time() - began <= time_limit + 0.2
         assert result.search_iterations > 0
 
 
@@ -182,12 +194,14 @@ def test_without_time_or_iterations_the_plan_is_the_policys(planner: Planner) ->
         assert result.deterministic
 
 
-@pytest.mark.by_clock
 @pytest.mark.parametrize(("variant", "customers", "start"), [
     ("vrptw", 40, "policy"), ("vrptw", 100, "insertion"), ("hetero", 100, "policy"),
     ("table1", 100, "policy"), ("table1", 300, "insertion")])
-def test_policy_begins_where_that_is_worth_its_time(variant: str, customers: int, start: str,
-                                                    planner: Planner) -> None:
+def test_policy_begins_where_that_is_worth_its_time(
+        variant: str, customers: int, start: str, planner: Planner,
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    # It is not given up, however slow the machine.
+    monkeypatch.setattr("model.planner.GIVE_UP_SHARE", 1e9)
     problem = generate(np.random.default_rng(7), customers, variant)
     result = plan_checked(planner, problem, PlanOptions(POLICIES[0], time_limit=0.1))
     assert result.start == start
@@ -305,7 +319,7 @@ def test_a_policy_that_takes_too_long_is_given_up(planner: Planner,
                                                   monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("model.planner.GRACE", 0.0)
     problem = generate(np.random.default_rng(4), 400, "vrptw")
-    options = PlanOptions("pointer", search_iterations=0, time_limit=0.01)
+    options = PlanOptions("pointer", search_iterations=0, time_limit=0.001)
     result = planner.plan(problem, options)
     assert check(problem, result.solution).violations == ()
     assert result.solution.unassigned == ()
