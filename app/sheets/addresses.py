@@ -60,6 +60,7 @@ class Located:
     """Where rows with addresses are, and what is to be said of that."""
 
     places: dict[int, Pair] = field(default_factory=dict)  # by row
+    unplaced: dict[int, str] = field(default_factory=dict)  # addresses that are kept, by row
     doubts: list[Doubt] = field(default_factory=list)
     errors: list[CellError] = field(default_factory=list)
     reply: LookUpReply | None = None
@@ -89,8 +90,15 @@ def with_depot(settings: ImportSettings, finder: Finder) -> tuple[ImportSettings
                    + (f": {doubt}." if doubt else "."))])
 
 
-def locate(rows: Sequence[Row], ground: Ground, finder: Finder) -> Located:
-    """Look up the rows that state no coordinates; refuse those that aren't found. In place."""
+def locate(rows: Sequence[Row], ground: Ground, finder: Finder, *,
+           keeps: bool = False) -> Located:
+    """Look up the rows that state no coordinates. In place.
+
+    Parameters
+    ----------
+    keeps
+        Whether rows that aren't found keep their addresses; else they are refused.
+    """
     lacking = {row.number: row for row in rows
                if ground.pair(row) is None and not row.errors and address_of(row)}
     if not finder.finds or not ground.is_geographic or not lacking:
@@ -107,7 +115,7 @@ def locate(rows: Sequence[Row], ground: Ground, finder: Finder) -> Located:
     for number, found in known.items():
         row, best = lacking[number], _nearest(found, middle)
         if best is None:
-            _refuse(row, asked[number], found)
+            _leave(located, row, asked[number], found, keeps and not row.is_depot)
         else:
             chosen[number] = best
             located.places[number] = best[0].lon, best[0].lat
@@ -153,14 +161,24 @@ def _nearest(found: Candidates, middle: Pair | None) -> Candidates | None:
     return (by_distance[0],) if first * NEARER < second else None
 
 
-def _refuse(row: Row, address: str, found: Candidates) -> None:
-    """Refuse a row whose address isn't found, or may be several places. In place."""
-    if found:
-        row.refuse("ADDRESS_AMBIGUOUS", f"{address!r} may mean {listed(found)}: add the town or "
-                   "the postcode, or latitude and longitude.", *CELLS)
+def _leave(located: Located, row: Row, address: str, found: Candidates, keeps: bool) -> None:
+    """Keep the address of a row that isn't found, or refuse the row. In place."""
+    code, message = _not_found(address, found)
+    if keeps:
+        cell = row.cell(*CELLS)
+        located.unplaced[row.number] = address
+        located.doubts.append(Doubt(code, f"{cell}: {message}", cell=cell))
     else:
-        row.refuse("ADDRESS_NOT_FOUND", f"{address!r} is not found: correct it, or add latitude "
-                   "and longitude.", *CELLS)
+        row.refuse(code, message, *CELLS)
+
+
+def _not_found(address: str, found: Candidates) -> tuple[str, str]:
+    """Return the code and words of an address that isn't found, or may be several places."""
+    if found:
+        return ("ADDRESS_AMBIGUOUS", f"{address!r} may mean {listed(found)}: add the town or "
+                "the postcode, or latitude and longitude.")
+    return ("ADDRESS_NOT_FOUND", f"{address!r} is not found: correct it, or add latitude "
+            "and longitude.")
 
 
 def _doubt(address: str, chosen: Candidates, known: Candidates,

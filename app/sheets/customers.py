@@ -38,13 +38,13 @@ def entries_of(rows: Sequence[Row], columns: Sequence[Column], ground: Ground,
     counts = any(column.meaning == "demand" for column in columns)
     entries = []
     for row in rows:
-        place = _place(row, ground)
+        place = _location(row, ground)
         window = _windows(row)
         if place is None or row.errors:
             continue
         customer: Data = {
             "id": _name(row),
-            "location": list(place),
+            "location": place,
             "demand": [amount or 0.0 for amount in row.get("demand")] if counts else [1.0],
         }
         service = row.get("service")
@@ -67,7 +67,7 @@ def together(entries: Sequence[Entry],
         customer = entry.customer
         alike = [repr(customer.get(field)) for field in SAME]
         apart = number if same_place == "apart" else -1
-        groups[customer["id"].casefold(), *customer["location"], apart, *alike].append(entry)
+        groups[customer["id"].casefold(), repr(customer["location"]), apart, *alike].append(entry)
     stops = [_joined(group) for group in groups.values()]
     doubts = []
     if joined := [stop for stop in stops if len(stop.rows) > 1]:
@@ -78,6 +78,20 @@ def together(entries: Sequence[Entry],
             f"such as {first.customer['id']} ({cells}): amounts are added up, the longest time at "
             "the stop counts once."))
     return stops, [*doubts, *_renamed(stops)]
+
+
+def placed(stops: Iterable[Entry]) -> list[tuple[Row, Pair]]:
+    """Return first rows and coordinates of the stops whose place is known."""
+    return [(stop.rows[0], (location[0], location[1])) for stop in stops
+            if isinstance(location := stop.customer["location"], list)]
+
+
+def _location(row: Row, ground: Ground) -> list[float] | Data | None:
+    """Return a location of a request, perhaps an address; None: refused or pending. In place."""
+    if row.number in ground.unplaced:
+        return {"address": ground.unplaced[row.number]}
+    place = _place(row, ground)
+    return None if place is None else list(place)
 
 
 def _place(row: Row, ground: Ground) -> Pair | None:

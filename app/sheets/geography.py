@@ -33,6 +33,7 @@ class Ground:
     doubts: tuple[Doubt, ...] = ()
     looks_up: bool = False  # addresses, of rows that state no coordinates
     found: Mapping[int, Pair] = field(default_factory=dict)  # longitude and latitude, by row
+    unplaced: Mapping[int, str] = field(default_factory=dict)  # addresses kept as such, by row
     pending: frozenset[int] = frozenset()  # rows whose addresses aren't looked up yet
 
     def pair(self, row: Row) -> Pair | None:

@@ -11,7 +11,7 @@ from app.sheets.addresses import NO_FINDER, Finder, locate, with_depot
 from app.sheets.cells import CellError, Doubt, MisreadError, Raw, cell_name, letters, shown
 from app.sheets.clocks import Style, date_parts, states_zone
 from app.sheets.columns import Column, columns_of, language_of, with_begin
-from app.sheets.customers import Entry, address_of, entries_of, together
+from app.sheets.customers import Entry, address_of, entries_of, placed, together
 from app.sheets.fleet import Incomplete
 from app.sheets.geography import Ground, far_off, ground_of
 from app.sheets.layout import Table, table_of
@@ -162,7 +162,7 @@ def _understand(work: Import, settings: ImportSettings, finder: Finder) -> None:
     except Incomplete as incomplete:
         work.errors.append(incomplete.error)
         return
-    ground = _with_addresses(work, rows, ground, finder)
+    ground = _with_addresses(work, rows, ground, finder, settings.not_found == "address")
     depots = [row for row in rows if row.is_depot]
     customers = [row for row in rows if not row.is_depot]
     entries = entries_of(customers, work.columns, ground, settings.service_minutes)
@@ -171,8 +171,7 @@ def _understand(work: Import, settings: ImportSettings, finder: Finder) -> None:
     work.stops, doubts = together(entries, settings.mapping.same_place)
     work.doubts += doubts
     if ground.is_geographic:
-        work.doubts += far_off([(stop.rows[0], tuple(stop.customer["location"]))
-                                for stop in work.stops])
+        work.doubts += far_off(placed(work.stops))
     if not work.stops:
         if not work.errors:
             work.errors.append(CellError("NO_CUSTOMERS", "There is no customer in the file."))
@@ -265,14 +264,15 @@ def _ground(work: Import, rows: Sequence[Row], settings: ImportSettings,
     return ground
 
 
-def _with_addresses(work: Import, rows: Sequence[Row], ground: Ground,
-                    finder: Finder) -> Ground:
+def _with_addresses(work: Import, rows: Sequence[Row], ground: Ground, finder: Finder,
+                    keeps: bool) -> Ground:
     """Return a ground that knows where addresses are; note what is doubtful. In place."""
-    located = locate(rows, ground, finder)
+    located = locate(rows, ground, finder, keeps=keeps)
     work.doubts += located.doubts
     work.errors += located.errors
     work.looked_up = located.reply
-    return replace(ground, found=located.places, pending=located.pending)
+    return replace(ground, found=located.places, unplaced=located.unplaced,
+                   pending=located.pending)
 
 
 def _note_amounts(work: Import, rows: Sequence[Row]) -> None:

@@ -10,7 +10,7 @@ from app.errors import InputError, InvalidRequestError
 from app.requests.reading import read_request
 from app.sheets.cells import CellError, Doubt, MisreadError
 from app.sheets.columns import Column
-from app.sheets.customers import Entry
+from app.sheets.customers import Entry, placed
 from app.sheets.fleet import Incomplete, fleet_of
 from app.sheets.geography import Ground, Pair, depot_pair, on_globe
 from app.sheets.rows import Row
@@ -93,15 +93,19 @@ def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: Ground,
             raise Incomplete("DEPOT", f"The depot {settings.depot!r} is not on the globe: write "
                              "its latitude first, as maps show it.")
         return [{"id": "depot", "location": list(place)}], []
-    placed = [(row, pair) for row in rows if (pair := ground.pair(row)) is not None]
-    if placed:
-        names = ", ".join(row.cell("name", "kind") for row, _ in placed)
-        single = len(placed) == 1
+    known = [(row, pair) for row in rows if (pair := ground.pair(row)) is not None]
+    if known:
+        names = ", ".join(row.cell("name", "kind") for row, _ in known)
+        single = len(known) == 1
         return ([{"id": "depot" if single else f"depot-{number}", "location": list(pair)}
-                 for number, (_, pair) in enumerate(placed, 1)],
+                 for number, (_, pair) in enumerate(known, 1)],
                 [Doubt("DEPOT_IN_FILE", f"{names} {'is' if single else 'are'} taken for the depot"
                        f"{'' if single else 's'}, not for customers.")])
-    middle = [round(sum(stop.customer["location"][axis] for stop in stops) / max(len(stops), 1), 6)
+    places = [pair for _, pair in placed(stops)]
+    if stops and not places:
+        raise Incomplete("DEPOT", "No depot is stated, and no customer's place is known: state "
+                         "the depot, latitude first.")
+    middle = [round(sum(pair[axis] for pair in places) / max(len(places), 1), 6)
               for axis in (0, 1)]
     shown = ", ".join(f"{number:.10g}"
                       for number in (middle[::-1] if ground.is_geographic else middle))

@@ -72,6 +72,10 @@ class ImportSettings(Input):
         None, description="Minutes at each stop whose row states none. Null: none.")
     leave_out_errors: bool = Field(
         False, description="Whether rows with errors are left out, and the rest makes a request.")
+    not_found: Literal["error", "address"] = Field(
+        "error", description="Rows whose address isn't found, or may be several places: `error` "
+        "refuses them; with `address` they are doubts, and the request has the address itself as "
+        "such a customer's `location`, to be placed by whoever knows better.")
 
 
 class _Reply(BaseModel):

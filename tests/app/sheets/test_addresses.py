@@ -93,6 +93,19 @@ def test_rows_that_are_not_found_are_refused_by_their_cells() -> None:
     assert len(kept.request["customers"]) == 4
 
 
+def test_rows_that_are_not_found_may_keep_their_addresses() -> None:
+    several = place("Weg 1, Adorf", 10.0, 50.01), place("Weg 1, Bedorf", 10.0, 49.99)
+    reply = read(*ROWS, "Eva,Weg 1,,,1", "Finn,Nowhere 1,,,1", "Gina,,,,1",
+                 known={"Weg 1": several}, not_found="address", leave_out_errors=True)
+    assert [(error.code, error.cell) for error in reply.errors] == [("NO_COORDINATES", "B8")]
+    assert doubts(reply) == [("ADDRESS_AMBIGUOUS", "B6"), ("ADDRESS_NOT_FOUND", "B7")]
+    assert reply.request is not None
+    assert [customer["location"] for customer in reply.request["customers"]][3:] == [
+        [10.004, 50.0], {"address": "Weg 1"}, {"address": "Nowhere 1"}]
+    alone = read("Eva,Nowhere 1,,,1", "Finn,Nowhere 2,,,1", not_found="address")
+    assert [error.code for error in alone.errors] == ["DEPOT"]
+
+
 def test_what_is_not_looked_up_in_time_is_told_with_how_much_is_known() -> None:
     reply = read(*ROWS, "Eva,Weg 1,,,1", "Finn,Weg 2,,,1",
                  error=GeocoderUnavailableError("The geocoder didn't answer in time."))

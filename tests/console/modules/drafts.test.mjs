@@ -50,6 +50,15 @@ test('what was open comes back, and what is the same object is it again', () => 
   assert.equal(back.cut, null);
 });
 
+test('how times were written when it was opened comes back', () => {
+  const stated = { customers: [{ id: 'A', time_window: { earliest: '7:30' } }] };
+  assert.deepEqual(unpack(...kept({ ...state, stated }), identify).stated, stated);
+  const { head, parts } = pack(state, identify);
+  const { doubts, ...older } = head; // as a former version kept it
+  assert.equal('stated' in unpack(older, parts, identify), false);
+  assert.equal('doubts' in unpack(older, parts, identify), false);
+});
+
 test('what was being planned is known again by its job', () => {
   const run = { state: 'improving', number: 2, job: 'x', request: second, points: [] };
   const back = unpack(...kept({ ...state, run }), identify);

@@ -68,6 +68,7 @@ export function openRequest(stated, { name = 'Untitled', isSafe = false, ...othe
     steps: [],
     undone: [],
     locks: [],
+    doubts: {},
     fit: null,
     sweepAxes: null,
     run: { state: 'idle', points: [], message: '' },

@@ -120,6 +120,10 @@ function aboutPlan({ problem, ...question }) {
 /** Return what looks wrong with a request, without planning it. */
 export const postWarnings = (request) => json('warnings', { method: 'POST', body: request });
 
+/** Look addresses up, as far as there is time. */
+export const postAddresses = (addresses) =>
+  json('addresses', { method: 'POST', body: { addresses } });
+
 /** Have a sheet of customers read and return what it is taken for. */
 export function postImport(file, settings) {
   const form = new FormData();

@@ -3,6 +3,7 @@
 import { openRequest, showFailure } from './actions.js';
 import * as api from './api.js';
 import { withoutEnding } from './core/format.js';
+import { doubtsOfImport } from './core/places.js';
 import { readFields, remember, signatureOf, withColumn } from './core/importing.js';
 import { plan } from './planning.js';
 import { store } from './store.js';
@@ -63,7 +64,7 @@ export async function useImport() {
     // A browser that keeps nothing asks again next time.
   }
   store.set({ importing: null });
-  openRequest(reply.request, { name: withoutEnding(name) });
+  openRequest(reply.request, { name: withoutEnding(name), doubts: doubtsOfImport(reply) });
   await plan();
 }
 
@@ -73,6 +74,8 @@ let asked = 0;
 async function ask() {
   const { file, mapping, texts, choices } = store.get().importing;
   const { stated } = readFields(texts);
+  // Who isn't found is placed by hand, on the map.
+  if (store.get().config.finds_addresses) stated.not_found = 'address';
   asked += 1;
   const number = asked;
   const isNewest = () => number === asked && store.get().importing?.file === file;

@@ -1,9 +1,11 @@
 /** Plans: the policy's at once, then what a job improves, until it ends or is stopped. */
 
+import { placeAddresses } from './addressing.js';
 import * as api from './api.js';
 import { showFailure, shownPlan } from './actions.js';
 import { entryAfter } from './core/entries.js';
 import { planName, unlike } from './core/naming.js';
+import { soughtIn } from './core/places.js';
 import { furtherFrom } from './core/replanning.js';
 import { store } from './store.js';
 
@@ -19,9 +21,29 @@ function note(patch) {
 }
 
 /** Plan the problem as it stands, in place of any planning under way. */
-export function plan() {
+export async function plan() {
+  if (await isPlaced()) {
+    const { request } = store.get();
+    await run(request, request);
+  }
+}
+
+/** Look up what the problem states by addresses; return whether it can be planned now. */
+async function isPlaced() {
   const { request } = store.get();
-  return run(request, request);
+  if (!soughtIn(request).length) return true;
+  if (current) await stop();
+  try {
+    await placeAddresses((known, all) =>
+      note({ state: 'decoding', waiting: `Looking up addresses: ${known} of ${all}` }),
+    );
+  } catch (error) {
+    showFailure(error);
+    return false;
+  } finally {
+    note({ state: 'idle', waiting: null });
+  }
+  return true;
 }
 
 /** Search on from the plan that is looked at; settled, pinned, locked and broken stays so. */
@@ -178,7 +200,11 @@ async function follow(task) {
     task.job,
     (progress) => {
       if (current !== task) return;
-      note({ share: progress.progress, iterations: progress.search_iterations });
+      note({
+        share: progress.progress,
+        iterations: progress.search_iterations,
+        waiting: progress.waiting_for ? `Waiting: ${progress.waiting_for}` : null,
+      });
       if (progress.cost !== null && progress.cost !== undefined) addPoint(task, progress.cost);
       if (progress.improved) fetching();
     },

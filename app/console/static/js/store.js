@@ -72,6 +72,7 @@ export const store = createStore({
   sweepAxes: null, // `[{path, text}]` as chosen; null: around the fleet at hand
   dispatch: null, // a plan on the road: its reply, links by id as made, its plan if known
   keeping: null, // a dialog about kept plans, see keeping/kept.js
+  doubts: {}, // of where customers are, by key, see core/places.js
   importing: null, // a sheet that is looked over, see importing.js
 });
 

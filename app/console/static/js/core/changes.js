@@ -72,7 +72,7 @@ export function customersWithin(request, [west, south, east, north]) {
   return request.customers
     .filter(
       ({ location }) =>
-        location &&
+        Array.isArray(location) &&
         location[0] >= west &&
         location[0] <= east &&
         location[1] >= south &&

@@ -17,10 +17,12 @@ const PLAIN = [
   'scenarioSeconds',
   'keptFleets',
   'sweepAxes',
+  'doubts',
+  'locks',
 ];
 
 /** What of the state has to be kept anew when it is another. */
-const KEPT = [...PLAIN, 'request', 'past', 'plans', 'saved', 'scenario'];
+const KEPT = [...PLAIN, 'request', 'stated', 'past', 'plans', 'saved', 'scenario'];
 
 /** Return a function that names objects: the same while they live. */
 export function identifier(makeId) {
@@ -71,6 +73,7 @@ export function pack(state, identify) {
   const head = {
     ...Object.fromEntries(PLAIN.map((field) => [field, state[field]])),
     request: keepRequest(state.request),
+    stated: keepRequest(state.stated),
     past: state.past.slice(-MOST_PAST).map(keepRequest),
     plans: state.plans.map((entry) => ({
       ...entry,
@@ -116,8 +119,11 @@ export function unpack(head, parts, identify) {
   whole.forEach((value, id) => identify.note(value, id));
   const part = (id) => (id ? whole.get(id) : null);
   return {
-    ...Object.fromEntries(PLAIN.map((field) => [field, head[field]])),
+    ...Object.fromEntries(
+      PLAIN.filter((field) => field in head).map((field) => [field, head[field]]),
+    ),
     request: part(head.request),
+    ...(head.stated && { stated: part(head.stated) }),
     past: head.past.map(part),
     plans: head.plans.map((entry) => ({
       ...entry,
@@ -136,9 +142,10 @@ export function unpack(head, parts, identify) {
 
 /** Return the ids of all parts that a head needs. */
 export function partsOf(head) {
-  const { request, past, plans, saved, run, scenario, bases } = head;
+  const { request, stated, past, plans, saved, run, scenario, bases } = head;
   const ids = [
     request,
+    stated,
     ...past,
     ...plans.flatMap((entry) => [entry.request, entry.plan]),
     saved?.request,

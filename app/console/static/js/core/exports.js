@@ -1,6 +1,7 @@
 /** A plan as CSV, GeoJSON and GPX. */
 
 import { clock } from './format.js';
+import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
 
 const COLUMNS = [
@@ -111,7 +112,8 @@ function feature(type, coordinates, properties) {
   return { type: 'Feature', geometry: { type, coordinates }, properties };
 }
 
-function point({ location }, properties) {
+function point(place, properties) {
+  const location = placeOf(place);
   return location ? [feature('Point', location, properties)] : [];
 }
 

@@ -1,6 +1,7 @@
 /** Points `[x, y]` on a plane in metres, lines of them, and arcs for flights. */
 
 import { standsOf } from './stands.js';
+import { placeOf } from './places.js';
 
 const EARTH_RADIUS_M = 6371008.8;
 const RADIANS = Math.PI / 180;
@@ -23,7 +24,7 @@ export function planeOf(request) {
     };
   }
   const all = [...request.depots, ...standsOf(request), ...request.customers];
-  const places = all.flatMap(({ location }) => (location ? [location] : []));
+  const places = all.map(placeOf).filter(Boolean);
   const [west, south, east, north] = boundsOf(places) ?? [0, 0, 0, 0];
   const origin = [(west + east) / 2, (south + north) / 2];
   const perDegree = EARTH_RADIUS_M * RADIANS;

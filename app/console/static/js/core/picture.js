@@ -7,6 +7,7 @@ import { spanOf } from './plan.js';
 import { standsOf } from './stands.js';
 import { rowWindows, tickStep, timelineRows } from './timeline.js';
 import { escaped } from './exports.js';
+import { placeOf } from './places.js';
 
 const WIDTH = 1200;
 const MAP_HEIGHT = 760;
@@ -40,7 +41,7 @@ function mapShapes(index, legsOf) {
   const { request } = index;
   const { toPlane } = planeOf(request);
   const places = [...request.depots, ...standsOf(request), ...request.customers];
-  const known = places.flatMap(({ location }) => (location ? [location] : []));
+  const known = places.map(placeOf).filter(Boolean);
   const rings = request.airspace?.no_fly ?? [];
   const bounds = boundsOf([...known, ...rings.flat()].map(toPlane));
   if (!bounds) return [];
@@ -51,14 +52,10 @@ function mapShapes(index, legsOf) {
       vehicle.trips.flatMap((trip) => tripShapes(trip, legsOf, at)),
     ),
     ...request.customers.flatMap((customer) => customerShapes(index, customer, at)),
-    ...[...request.depots, ...standsOf(request)].flatMap(({ id, location }) =>
-      location
-        ? [
-            { kind: 'box', at: move(at(location), -6, -6), size: [12, 12], colour: INK },
-            { kind: 'text', at: move(at(location), 9, 4), text: id, size: 12, colour: INK },
-          ]
-        : [],
-    ),
+    ...[...request.depots, ...standsOf(request)].filter(placeOf).flatMap(({ id, location }) => [
+      { kind: 'box', at: move(at(location), -6, -6), size: [12, 12], colour: INK },
+      { kind: 'text', at: move(at(location), 9, 4), text: id, size: 12, colour: INK },
+    ]),
   ];
 }
 
@@ -103,8 +100,10 @@ function tripShapes(trip, legsOf, at) {
   ];
 }
 
-function customerShapes(index, { id, location }, at) {
+function customerShapes(index, customer, at) {
+  const location = placeOf(customer);
   if (!location) return [];
+  const { id } = customer;
   const halt = index.halts.get(`c:${id}`);
   const centre = at(location);
   if (!halt)

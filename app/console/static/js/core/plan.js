@@ -7,6 +7,7 @@
  */
 
 import { decodeLine } from './polyline.js';
+import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
 import { windowAt } from './windows.js';
 
@@ -156,7 +157,7 @@ function haltOf(key, reply, trip, source) {
     trip,
     vehicle: trip.vehicle,
     source,
-    location: source?.location ?? null,
+    location: placeOf(source ?? {}),
     window: windowAt(source, reply.service_start),
     arrival: reply.arrival,
     serviceStart: reply.service_start,

@@ -22,7 +22,8 @@ export function DrawBar() {
     setWanted(!open);
   };
   const isPlanned = useStore((state) => shownPlan(state) !== null);
-  const hidden = { pin: !replans, fit: !isPlanned };
+  const isChosen = useStore(({ selection }) => Boolean(selection?.startsWith('c:')));
+  const hidden = { pin: !replans, fit: !isPlanned, place: !isChosen };
   const tools = Object.entries(TOOLS).filter(([key]) => !hidden[key]);
   return html`<div class="draw-bar">
     <button type="button" aria-expanded=${open} onClick=${toggle}>Draw</button>

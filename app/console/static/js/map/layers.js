@@ -2,6 +2,7 @@
 
 import { flightLines } from '../core/flights.js';
 import { tripDash, vehicleColour } from '../core/palette.js';
+import { doubtedPlaces, placeOf } from '../core/places.js';
 import { standingIn } from '../core/replanning.js';
 import { standsOf } from '../core/stands.js';
 import { leaflet } from '../libraries.js';
@@ -113,7 +114,7 @@ export function customerMarks(request, index, parts, dark) {
   const crowded = request.customers.length > 600;
   const radius = crowded ? 3.2 : 5;
   return request.customers
-    .filter(({ location }) => location)
+    .filter(placeOf)
     .map((customer) => {
       const key = `c:${customer.id}`;
       const [Kind, base] = customerStyle(index, customer, parts, dark, radius);
@@ -143,7 +144,7 @@ function customerStyle(index, customer, parts, dark, radius) {
 /** Return the marks of depots, and of where vehicles start and end elsewhere. */
 export function depotMarks(request) {
   return [...request.depots, ...standsOf(request)]
-    .filter(({ location }) => location)
+    .filter(placeOf)
     .map((depot) =>
       L.marker(latLng(depot.location), {
         interactive: false,
@@ -220,13 +221,28 @@ export function stopNumbers(trip) {
 export function pinMarks(request) {
   const pinned = new Set(request.replan?.pinned ?? []);
   return request.customers
-    .filter(({ id, location }) => location && pinned.has(id))
+    .filter((customer) => placeOf(customer) && pinned.has(customer.id))
     .map(({ location }) =>
       L.marker(latLng(location), {
         interactive: false,
         keyboard: false,
         zIndexOffset: 400,
         icon: labelIcon('pin-mark', '\u25be'),
+      }),
+    );
+}
+
+/** Return marks of the customers whose place is doubtful. */
+export function doubtMarks(request, doubts) {
+  const doubted = new Set(doubtedPlaces(request, doubts).map(({ id }) => id));
+  return request.customers
+    .filter((customer) => placeOf(customer) && doubted.has(customer.id))
+    .map(({ location }) =>
+      L.marker(latLng(location), {
+        interactive: false,
+        keyboard: false,
+        zIndexOffset: 450,
+        icon: labelIcon('doubt-mark', '?'),
       }),
     );
 }

@@ -3,6 +3,7 @@
 import { besidePlan, hover, indexOf, select, settledOf, shownPlan } from '../actions.js';
 import { describe } from '../core/describe.js';
 import { flightLines } from '../core/flights.js';
+import { placeOf } from '../core/places.js';
 import { playback } from '../core/playback.js';
 import { Facts } from '../views/parts.js';
 import {
@@ -72,7 +73,7 @@ function groundOf({ coordinate_system: system = 'planar', planar_unit: unit = 1 
 }
 
 function hasLocations(request) {
-  return [...request.depots, ...request.customers].some(({ location }) => location);
+  return [...request.depots, ...request.customers].some(placeOf);
 }
 
 function Map({ request, entry, onView, isMain = false }) {
@@ -107,11 +108,15 @@ function Map({ request, entry, onView, isMain = false }) {
       onView(null);
     };
   }, []);
-  useEffect(() => view?.draw(request, index, parts, dark), [view, request, index, parts, dark]);
+  const doubts = useStore((state) => state.doubts);
+  useEffect(
+    () => view?.draw(request, index, parts, dark, doubts),
+    [view, request, index, parts, dark, doubts],
+  );
   useEffect(() => view?.fit(), [view, firstPlace(request)]);
   useEffect(
     () => (view ? followMarks(view, request, index) : undefined),
-    [view, request, index, parts, dark],
+    [view, request, index, parts, dark, doubts],
   );
   useEffect(() => (view && index ? followClock(view, index) : undefined), [view, index, dark]);
   return html`<div class="map" ref=${element} data-geographic=${geographic}></div>`;

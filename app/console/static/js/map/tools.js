@@ -1,6 +1,7 @@
 /** Drawing on the map: customers, depots, windows and no-fly areas. */
 
 import { edit, select } from '../actions.js';
+import { putAt } from '../addressing.js';
 import {
   addCustomer,
   addDepot,
@@ -9,6 +10,7 @@ import {
   giveWindows,
   moveCustomer,
   removeCustomer,
+  rounded,
   setArea,
 } from '../core/changes.js';
 import { askFit, askFitAt } from '../hands.js';
@@ -33,6 +35,7 @@ export const TOOLS = {
     hint: 'Click where somebody is to be served, or a customer: the three best places, with costs.',
   },
   change: { name: 'Move', hint: 'Drag customers, and corners of no-fly areas.' },
+  place: { name: 'Place', hint: 'Click where the selected customer is.' },
   pin: { name: 'Pin', hint: 'Click customers to keep them with their vehicles.' },
   erase: { name: 'Erase', hint: 'Click customers or no-fly areas to remove them.' },
 };
@@ -100,6 +103,14 @@ const BEGIN = {
   change(view) {
     view.onPress = (key, layer, event) => isCustomer(key) && drag(view, key, layer, event);
     return changeAreas(view);
+  },
+  place(view) {
+    view.onGround = (point) => {
+      const { selection, request } = store.get();
+      if (isCustomer(selection)) putAt(idOf(selection), rounded(request, point));
+      store.set({ tool: null });
+    };
+    view.onSelect = (key, point) => view.onGround(point);
   },
   pin(view) {
     view.onSelect = (key) => {

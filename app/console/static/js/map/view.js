@@ -3,11 +3,13 @@
 import { contains, partsOf } from '../core/plan.js';
 import { boundsOf } from '../core/geometry.js';
 import { vehicleColour } from '../core/palette.js';
+import { placeOf } from '../core/places.js';
 import { standsOf } from '../core/stands.js';
 import { leaflet } from '../libraries.js';
 import {
   customerMarks,
   depotMarks,
+  doubtMarks,
   labelIcon,
   latLng,
   noFlyShapes,
@@ -81,7 +83,7 @@ export class MapView {
   }
 
   /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
-  draw(request, index, parts, dark) {
+  draw(request, index, parts, dark, doubts = {}) {
     Object.assign(this, { request, index, dark });
     this.grounds.forEach((ground) => ground.setDark?.(dark));
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
@@ -92,6 +94,7 @@ export class MapView {
     for (const { layer, key } of this.entries) this.#addEntry(layer, key);
     depotMarks(request).forEach((mark) => this.labels.addLayer(mark));
     pinMarks(request).forEach((mark) => this.labels.addLayer(mark));
+    doubtMarks(request, doubts).forEach((mark) => this.labels.addLayer(mark));
     if (index) tripLabels(index, dark).forEach((mark) => this.labels.addLayer(mark));
     this.marked = '';
     this.map.fire('drawn');
@@ -114,9 +117,7 @@ export class MapView {
       ...this.request.depots,
       ...standsOf(this.request),
       ...this.request.customers,
-    ].flatMap(({ location }) =>
-      location ? [location] : [],
-    );
+    ].map(placeOf).filter(Boolean);
     const bounds = boundsOf([...places, ...(this.request.airspace?.no_fly ?? []).flat()]);
     if (!bounds) return;
     const [west, south, east, north] = bounds;

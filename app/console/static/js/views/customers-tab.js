@@ -4,9 +4,11 @@ import { edit, hover, indexOf, openTab, select, shownPlan } from '../actions.js'
 import { amounts, clock, count } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
 import { freeName, removeCustomer } from '../core/changes.js';
+import { doubtedPlaces, placeOf } from '../core/places.js';
 import { windowsInWords, windowsOf } from '../core/windows.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { AddressSearch, DoubtedPlaces, PlaceOf } from './address-search.js';
 import { DayFields } from './day-fields.js';
 import { Field, Fields } from './form.js';
 import { LongTable } from './long-table.js';
@@ -16,7 +18,8 @@ import { WhyHere } from './why-here.js';
 /** The tab. */
 export function CustomersTab() {
   const request = useStore((state) => state.request);
-  return html`<${CustomerTable} request=${request} /><${SelectedCustomer} request=${request} />
+  return html`<${CustomerTable} request=${request} /><${AddressSearch} request=${request} />
+    <${DoubtedPlaces} request=${request} /><${SelectedCustomer} request=${request} />
     <${Places} request=${request} /><${DayFields} request=${request} />`;
 }
 
@@ -35,6 +38,11 @@ function CustomerTable({ request }) {
     [request.customers, wanted],
   );
   const broken = useMemo(() => brokenCells(errors), [errors]);
+  const doubts = useStore((state) => state.doubts);
+  const doubted = useMemo(
+    () => new Set(doubtedPlaces(request, doubts).map(({ id }) => id)),
+    [request.customers, doubts],
+  );
   const head = html`<tr><th scope="col">Name</th><th scope="col" class="number">Demand</th>
     <th scope="col">Window</th><th scope="col"
       class="roomy">For</th><th scope="col">Arrival</th></tr>`;
@@ -51,7 +59,7 @@ function CustomerTable({ request }) {
         position,
       }, place) => html`<${CustomerRow} key=${position} place=${place} customer=${customer}
         halt=${index?.halts.get(`c:${customer.id}`)} index=${index} errors=${broken.get(position)}
-        selected=${selection === `c:${customer.id}`}
+        doubted=${doubted.has(customer.id)} selected=${selection === `c:${customer.id}`}
           marked=${hovered === `c:${customer.id}`} />`} />
     ${!request.customers.length && html`<p class="help">None yet: open a file, paste from a sheet,
       draw them on the map or add them one by one.</p>`}
@@ -73,7 +81,7 @@ function brokenCells(errors) {
   return cells;
 }
 
-function CustomerRow({ customer, place, halt, index, selected, marked, errors }) {
+function CustomerRow({ customer, place, halt, index, selected, marked, errors, doubted }) {
   const key = `c:${customer.id}`;
   const cell = (field) =>
     errors?.has(field) ? { class: 'invalid', title: errors.get(field) } : {};
@@ -84,7 +92,8 @@ function CustomerRow({ customer, place, halt, index, selected, marked, errors })
     <th scope="row" ...${cell('id')}><button type="button" class="link" aria-pressed=${selected}
       title=${customer.id}
       onClick=${() => select(selected ? null : key)}><${Name}>${customer.id}</${Name}>
-      </button></th>
+      </button>${doubted && html` <span class="late-text" role="img" aria-label="doubtful place"
+      title="Its place is doubtful">?</span>`}</th>
     <td ...${cell('demand')} class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
       ${amounts(customer.demand ?? [])}</td>
     <td ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
@@ -98,7 +107,7 @@ function addCustomer(request) {
   const dimensions = request.fleet[0]?.capacity.length ?? 1;
   const customer = {
     id: freeName(request.customers, 'customer'),
-    location: request.depots[0]?.location ?? [0, 0],
+    location: placeOf(request.depots[0]) ?? [0, 0],
     demand: Array(dimensions).fill(1),
   };
   edit({ ...request, customers: [...request.customers, customer] });
@@ -123,7 +132,8 @@ function SelectedCustomer({ request }) {
   };
   return html`<details class="card" open><summary>Customer ${request.customers[position].id}
       <span class="right"></span></summary>
-    <div class="inside"><${WhyHere} id=${request.customers[position].id} />
+    <div class="inside"><${PlaceOf} request=${request} id=${request.customers[position].id} />
+      <${WhyHere} id=${request.customers[position].id} />
       <${Fields} schema=${schemas.CustomerInput} keys=${['customers', position]} request=${request}
         onChange=${change} skip=${request.matrices ? [] : ['location_index']} />
       <div class="buttons"><button type="button" onClick=${() => {
@@ -140,7 +150,7 @@ function Places({ request }) {
     edit(
       setIn(request, ['depots', request.depots.length], {
         id: freeName(request.depots, 'depot'),
-        location: [...(request.depots[0]?.location ?? [0, 0])],
+        location: [...(placeOf(request.depots[0]) ?? [0, 0])],
       }),
     );
   return html`<details class="card"><summary>Coordinates and depots

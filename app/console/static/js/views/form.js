@@ -134,6 +134,7 @@ const LIST = /[,;]\s*/;
 function textOf(kind, value) {
   if (value === null || value === undefined) return '';
   if (TIMES[kind] && typeof value === 'number') return TIMES[kind].show(value);
+  if (kind === 'numbers' && !Array.isArray(value)) return value.address ?? '';
   return kind === 'numbers' || kind === 'texts' ? value.join(', ') : String(value);
 }
 

@@ -75,7 +75,8 @@ function Result() {
   const waits = useStore(isWaiting) && run.state !== 'stopping';
   return html`<div class="result-line" aria-live="polite">
     ${entry && html`<${Totals} plan=${entry.plan} />`}
-    ${run.state !== 'idle' && html`<span>${STATES[waits ? 'decoding' : run.state]}</span>`}
+    ${run.state !== 'idle' && html`<span>${
+      run.waiting ?? STATES[waits ? 'decoding' : run.state]}</span>`}
     ${waits && entry && html`<span class="stale">The plan before is shown meanwhile.</span>`}
     ${
       run.state === 'improving' &&
