@@ -18,10 +18,11 @@ from app.cli.serving import run_server
 from app.cli.settings_page import settings_page
 from app.errors import RequestError
 from app.files.importers import FileFormat, convert_file
-from app.load.bodies import ReceivedBody
-from app.plans.service import answer
+from app.load.memory import collect_seldom
+from app.plans.service import plan_options, preparing, reply_of
 from app.plans.task import Task, task_of
 from app.plans.warming import showing
+from app.requests.bounds import UNBOUNDED
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
 from app.schemas.fields import Rounding
@@ -92,14 +93,18 @@ def warm() -> None:
 def plan(problem_file: ProblemFile, output: Output = None) -> None:
     """Plan one problem."""
     settings = Settings()
-    content = problem_file.read_bytes()
     try:
         with roads_of(settings) as roads:
-            task = task_of(read_request(content, policies=None), roads=roads)
+            started = time.perf_counter()
+            request = read_request(problem_file.read_bytes(), settings.policies)
+            hurried = preparing(request.options, UNBOUNDED, lambda: False)
+            task = task_of(request, hurried, roads=roads)
+            prepared = time.perf_counter() - started
             _print_warnings(task)
             planner = _warm_planner(settings, task.problem)
-            body = ReceivedBody(content, time.perf_counter())
-            reply = answer(planner, body, settings.search_threads, roads=roads)
+            # What loading and compiling take is no part of the time limit.
+            reply = reply_of(planner, task, plan_options(request.options, settings.search_threads),
+                             time.perf_counter() - prepared)
     except RequestError as error:
         refuse(problem_file, error)
     if output is None:
@@ -150,6 +155,7 @@ def convert(
 
 def main() -> None:
     """Run the command line."""
+    collect_seldom()
     cli()
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import uvicorn
 from fastapi import FastAPI
 
-from app.load.memory import keep_memory
+from app.load.memory import collect_seldom, keep_memory
 from app.load.protocol import HttpProtocol
 from app.main import create_app
 from app.observe.logs import log_config
@@ -44,6 +44,7 @@ def run_server(settings: Settings, host: str, port: int, workers: int) -> None:
 def worker_app() -> FastAPI:
     """Return the application of one of several processes, which reads the environment."""
     keep_memory()
+    collect_seldom()
     return create_app()
 
 

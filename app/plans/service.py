@@ -12,7 +12,7 @@ from app.conversion.preparing import Preparing
 from app.errors import NotReadyError
 from app.load.bodies import ReceivedBody
 from app.plans.replies import Data
-from app.plans.task import task_of, warning_replies
+from app.plans.task import Task, task_of, warning_replies
 from app.plans.warming import showing, words
 from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.reading import read_request
@@ -141,25 +141,22 @@ def _only_decodes(request: PlanRequest) -> bool:
     return request.replan is None and 0 in (options.time_limit, options.search_iterations)
 
 
-def answer(planner: Planner, body: ReceivedBody, search_threads: int = 1,
-           on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
-           bounds: Bounds = UNBOUNDED, roads: Roads = NO_ROADS) -> bytes:
-    """Return the reply to a planning request as JSON; raises as `PlanService.plan` does.
+def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_threads: int = 1,
+             on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
+             bounds: Bounds = UNBOUNDED, roads: Roads = NO_ROADS) -> bytes:
+    """Return the reply to a planning request that was read as JSON; raises as `PlanService.plan`.
 
     A request that states no number of threads gets `search_threads`; `on_plan` is told the reply.
     """
-    request = read_request(body.content, planner.policies, bounds)
-    return reply_to(planner, request, body.received_at, search_threads, on_plan, listener, bounds,
-                    roads)
-
-
-def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_threads: int,
-             on_plan: Callable[[Data], None], listener: Listener, bounds: Bounds,
-             roads: Roads) -> bytes:
-    """Return the reply to a planning request that was read, as `answer` does."""
     task = task_of(request, preparing(request.options, bounds, listener.should_stop), roads=roads)
+    return reply_of(planner, task, plan_options(request.options, search_threads), received_at,
+                    on_plan, listener)
+
+
+def reply_of(planner: Planner, task: Task, options: PlanOptions, received_at: float,
+             on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE) -> bytes:
+    """Return the reply to a planning request that was converted as JSON, as `reply_to` does."""
     validated = time.perf_counter() - received_at
-    options = plan_options(request.options, search_threads)
     result = task.plan(planner, options, received_at, listener)
     reply = task.reply(options, result)
     elapsed = reply["solver"]["elapsed"]

@@ -3,12 +3,14 @@
 import json
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 from typer.testing import CliRunner
 
 from app.cli import commands
 from app.cli.file_errors import EXIT_BAD_INPUT
+from app.schemas.request import PlanRequest
 from model.planner import Planner
 
 Request = dict[str, Any]
@@ -32,6 +34,15 @@ def test_plan_is_written_and_passes_the_check(tmp_path: Path, with_drones: Reque
     assert checked.exit_code == 0, checked.output
     total = json.loads(Path(plan).read_text("utf-8"))["cost"]["total"]
     assert f"total      {total:.6f}\nfeasible\n" in checked.output
+
+
+def test_a_request_is_read_once(
+        tmp_path: Path, smallest: Request, monkeypatch: pytest.MonkeyPatch) -> None:
+    reading = Mock(wraps=PlanRequest.model_validate_json)
+    monkeypatch.setattr(PlanRequest, "model_validate_json", reading)
+    planned = CliRunner().invoke(commands.cli, ["plan", _write(tmp_path / "a.json", smallest)])
+    assert planned.exit_code == 0, planned.output
+    assert reading.call_count == 1
 
 
 def test_plan_goes_to_standard_output_by_default(tmp_path: Path, smallest: Request) -> None:

@@ -7,9 +7,8 @@ from typing import Any
 import pytest
 from pydantic_core import to_json
 
-from app.load.bodies import ReceivedBody
 from app.pictures.scene import Scene
-from app.plans.service import answer
+from app.plans.service import reply_to
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_request
 from app.schemas.openapi import EXAMPLES_DIR
@@ -21,7 +20,7 @@ Drawn = Callable[..., Scene]
 
 def planned(request: Request) -> Request:
     """Return the reply to a request."""
-    return dict(json.loads(answer(FirstFitPlanner(), ReceivedBody(to_json(request), 0.0))))
+    return dict(json.loads(reply_to(FirstFitPlanner(), read_request(to_json(request), None), 0.0)))
 
 
 def scene_of(request: Request, plan: Request | None = None) -> Scene:

@@ -11,7 +11,8 @@ import pytest
 
 from app.load.bodies import ReceivedBody
 from app.main import create_app
-from app.plans.service import PlanService, answer, plan_options
+from app.plans.service import PlanService, plan_options, reply_to
+from app.requests.reading import read_request
 from app.schemas.request import OptionsInput
 from app.settings import DEFAULT_POLICY, Settings
 from model.kernel.warming import Tell, Warmth
@@ -183,7 +184,7 @@ def test_time_limit_runs_from_the_end_of_the_request(
         return plan(problem, options, received_at)
 
     monkeypatch.setattr(planner, "plan", listening)
-    answer(planner, ReceivedBody(json.dumps(smallest).encode(), 12.5))
+    reply_to(planner, read_request(json.dumps(smallest).encode(), None), 12.5)
     assert told == [12.5]
 
 
