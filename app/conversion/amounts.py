@@ -7,10 +7,12 @@ fit a capacity of 0.001.
 
 from collections.abc import Iterable, Iterator, Sequence
 
+import numpy as np
+
 from app.errors import InputError, json_path
 from app.schemas.customer import CustomerInput
 from app.schemas.vehicle import VehicleTypeInput
-from model.problem import MAX_QUANTITY, USUAL_DECIMALS
+from model.problem import MAX_QUANTITY, USUAL_DECIMALS, BoolArray, FloatArray
 
 MAX_DECIMALS = 9
 """Most decimals that are counted, of amounts up to a thousand; fewer of larger ones."""
@@ -29,21 +31,21 @@ def amount_errors(customers: Customers, fleet: Fleet) -> Iterator[InputError]:
     for dimension in range(max([len(amounts) for _, amounts in stated], default=0)):
         column = [(path, amounts[dimension]) for path, amounts in stated
                   if len(amounts) > dimension]
-        values = [amount for _, amount in column]
+        values = np.array([amount for _, amount in column])
         decimals = _decimals_for(values)
-        for path, amount in column:
-            if not _fits(amount, decimals):
-                yield InputError(
-                    code="TOO_FINE", path=json_path((*path, dimension)),
-                    message=f"Beside an amount of {max(values):g}, amounts are counted in steps of "
-                    f"{10.0**-decimals:g}, and {amount!r} lies between two: round it, or state "
-                    "amounts of this dimension in a smaller unit.")
+        for index in np.flatnonzero(~_fits(values, decimals)).tolist():
+            path, amount = column[index]
+            yield InputError(
+                code="TOO_FINE", path=json_path((*path, dimension)),
+                message=f"Beside an amount of {values.max():g}, amounts are counted in steps of "
+                f"{10.0**-decimals:g}, and {amount!r} lies between two: round it, or state "
+                "amounts of this dimension in a smaller unit.")
 
 
 def decimals_of(customers: Customers, fleet: Fleet) -> tuple[int, ...]:
     """Return how many decimals are counted of each dimension of a valid request."""
     columns = zip(*(amounts for _, amounts in _stated(customers, fleet)), strict=True)
-    return tuple([_decimals_for(column) for column in columns])
+    return tuple([_decimals_for(np.array(column)) for column in columns])
 
 
 def counted(amounts: Iterable[float], decimals: Iterable[int]) -> tuple[int, ...]:
@@ -66,19 +68,18 @@ def _stated(customers: Customers, fleet: Fleet) -> Iterator[tuple[Path, Sequence
                 yield ("customers", index, "pickup"), customer.pickup
 
 
-def _decimals_for(amounts: Sequence[float]) -> int:
+def _decimals_for(amounts: FloatArray) -> int:
     """Return how many decimals hold all amounts, or as many as can be counted."""
-    odd = [amount for amount in amounts if not _fits(amount, USUAL_DECIMALS)]
-    if not odd:
+    odd = amounts[~_fits(amounts, USUAL_DECIMALS)]
+    if not len(odd):
         return USUAL_DECIMALS
-    largest = max(amounts)
     countable = [decimals for decimals in range(USUAL_DECIMALS, MAX_DECIMALS + 1)
-                 if largest * 10**decimals <= MAX_QUANTITY]
-    return next((decimals for decimals in countable
-                 if all(_fits(amount, decimals) for amount in odd)), countable[-1])
+                 if amounts.max() * 10**decimals <= MAX_QUANTITY]
+    return next((decimals for decimals in countable if _fits(odd, decimals).all()), countable[-1])
 
 
-def _fits(amount: float, decimals: int) -> bool:
-    """Tell whether an amount has no more than so many decimals, but for a float's own noise."""
-    parts = amount * 10**decimals
-    return abs(parts - round(parts)) <= NOISE * parts
+def _fits(amounts: FloatArray, decimals: int) -> BoolArray:
+    """Tell which amounts have no more than so many decimals, but for a float's own noise."""
+    parts = amounts * 10**decimals
+    fits: BoolArray = np.abs(parts - np.rint(parts)) <= NOISE * parts
+    return fits

@@ -27,8 +27,9 @@ def to_customer(stated: CustomerInput, decimals: Sequence[int],
         skills=frozenset(stated.skills),
         release_time=thousandths(stated.release_time),
         unassigned_cost=stated.unassigned_cost,
-        gaps=tuple([(thousandths(window.latest or 0.0), thousandths(following.earliest))
-                    for window, following in pairwise(windows)]),
+        gaps=() if first is last else tuple(
+            [(thousandths(window.latest or 0.0), thousandths(following.earliest))
+             for window, following in pairwise(windows)]),
         max_time_aboard=optional_thousandths(stated.max_time_aboard),
         goods=frozenset(stated.goods),
         setup_duration=thousandths(stated.setup_duration),

@@ -20,7 +20,8 @@ def window_errors(draft: Draft) -> Errors:
     """Say which windows end before they start, or aren't one after another."""
     for path, customer in draft.known_customers():
         if customer.time_windows is None:
-            yield from _order_errors((*path, "time_window"), customer.time_window)
+            if _ends_early(customer.time_window):
+                yield from _order_errors((*path, "time_window"), customer.time_window)
             continue
         if customer.time_window != TimeWindowInput():
             yield error_at("TWO_KINDS_OF_WINDOWS", (*path, "time_windows"),
@@ -67,8 +68,12 @@ def _whole(entries: Sequence[Entry | None] | None) -> list[Entry] | None:
     return known if entries is not None and len(known) == len(entries) else None
 
 
+def _ends_early(window: TimeWindowInput) -> bool:
+    return window.latest is not None and window.latest < window.earliest
+
+
 def _order_errors(path: Path, window: TimeWindowInput) -> Errors:
-    if window.latest is not None and window.latest < window.earliest:
+    if _ends_early(window):
         yield error_at("WINDOW_ENDS_BEFORE_START", (*path, "latest"),
                        f"The window ends at {window.latest:g} s, before it starts at "
                        f"{window.earliest:g} s: raise latest or lower earliest.")

@@ -4,6 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from app.conversion.places import Place, stands_of
 from app.errors import ErrorCode, InputError, json_path
 from app.schemas.customer import CustomerInput
@@ -14,6 +16,7 @@ from app.schemas.request import (
     OptionsInput, ReplanInput,
 )
 from app.schemas.vehicle import VehicleTypeInput
+from model.problem import FloatArray
 
 MAX_COORDINATE_M = 1e7
 """Farthest planar coordinate from the origin in metres, a quarter of the way round the earth."""
@@ -52,9 +55,11 @@ class Draft:
     has_day: bool = False
     incompatible_goods: Sequence[IncompatibleGoodsInput] = ()
 
-    def places(self) -> Iterator[Placed]:
-        """Yield depots, customers, and where vehicles start and end."""
-        for name, entries in (("depots", self.depots), ("customers", self.customers)):
+    def places(self, customers: bool = True) -> Iterator[Placed]:
+        """Yield depots, customers unless they are not asked for, and where vehicles start and end.
+        """
+        asked = self.customers if customers else ()
+        for name, entries in (("depots", self.depots), ("customers", asked)):
             for index, entry in enumerate(entries or ()):
                 if entry is not None:
                     yield Placed(entry, (name, index, "location"), (name, index, "location_index"))
@@ -84,6 +89,14 @@ class Draft:
 def error_at(code: ErrorCode, path: Path, message: str) -> InputError:
     """Return an error of a part of a request."""
     return InputError(code=code, path=json_path(path), message=message)
+
+
+def are_right(draft: Draft, points: FloatArray) -> bool:
+    """Tell whether nothing is wrong with any of some (point, 2), as `point_errors` would say it."""
+    if draft.coordinate_system == "geographic":
+        return bool((np.abs(points) <= (180.0, 90.0)).all())
+    return (draft.coordinate_system != "planar"
+            or bool((np.abs(points) * draft.planar_unit <= MAX_COORDINATE_M).all()))
 
 
 def point_errors(draft: Draft, path: Path, point: Location) -> Errors:

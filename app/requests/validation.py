@@ -2,13 +2,15 @@
 
 from collections.abc import Collection, Sequence
 
+import numpy as np
+
 from app.conversion.amounts import amount_errors
 from app.errors import InputError, json_path
 from app.requests.airspace_validation import airspace_errors
 from app.requests.customer_validation import (
     group_errors, service_errors, vehicle_errors, window_errors,
 )
-from app.requests.draft import Draft, Errors, Path, error_at, point_errors
+from app.requests.draft import Draft, Errors, Path, are_right, error_at, point_errors
 from app.requests.fleet_validation import (
     depot_errors, drone_errors, energy_errors, shift_errors, speed_errors, turnaround_errors,
 )
@@ -141,7 +143,7 @@ def _table_errors(path: Path, table: list[list[float]]) -> Errors:
 
 def _location_errors(draft: Draft) -> Errors:
     needed_for = _profile_without_matrix(draft) if draft.matrices_known else None
-    for place, path, _ in draft.places():
+    for place, path, _ in draft.places(customers=not _are_customers_right(draft)):
         point = point_of(place.location)
         if point is not None:
             yield from point_errors(draft, path, point)
@@ -152,6 +154,14 @@ def _location_errors(draft: Draft) -> Errors:
         elif needed_for is not None:
             yield error_at("MISSING_LOCATION", path,
                            f"{needed_for}: add a location, or the matrix.")
+
+
+def _are_customers_right(draft: Draft) -> bool:
+    """Tell whether all customers state points, and right ones: quicker than one by one."""
+    locations = [customer.location for customer in draft.customers or () if customer is not None]
+    if {type(location) for location in locations} != {tuple}:
+        return False
+    return are_right(draft, np.array(locations))
 
 
 def _rounding_errors(draft: Draft) -> Errors:

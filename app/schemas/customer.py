@@ -69,6 +69,8 @@ Windows = Annotated[list[TimeWindowInput], Field(min_length=1, max_length=8)]
 class CustomerInput(Input):
     """A place with a demand, served once by a truck or a drone."""
 
+    # Pydantic would copy lists and objects deeply for each customer: factories are quicker.
+
     id: Name = Field(description="Name of the customer, unique among customers.")
     location: PlaceLocation | None = Field(None, description=LOCATION_TEXT)
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
@@ -84,7 +86,8 @@ class CustomerInput(Input):
     )
     service_duration: Duration = Field(0.0, description="Time spent at the customer in seconds.")
     service_duration_by_type: DurationsByType = Field(
-        {},
+        default_factory=dict,
+        json_schema_extra={"default": {}},
         description="Seconds instead of `service_duration` by vehicle type, such as `van`, and by "
         "the drones of one, such as `van/drone`, or `van/small` by the `id` of drones, before the "
         "drones' own `service_duration`.",
@@ -106,14 +109,20 @@ class CustomerInput(Input):
     served_by: Literal["truck", "drone", "either"] = Field(
         "either", description="Kind of vehicle that may serve the customer."
     )
-    skills: Skills = Field([], description="Skills that the serving vehicle type must have, all.")
+    skills: Skills = Field(
+        default_factory=list,
+        json_schema_extra={"default": []},
+        description="Skills that the serving vehicle type must have, all.",
+    )
     max_time_aboard: Duration | None = Field(
         None,
         description="Longest time in seconds from the departure of its trip from the depot to the "
         "start of service. Null: no limit.",
     )
     goods: Goods = Field(
-        [], description="What is delivered, by the names that `incompatible_goods` uses."
+        default_factory=list,
+        json_schema_extra={"default": []},
+        description="What is delivered, by the names that `incompatible_goods` uses.",
     )
     release_time: Opening = Field(
         0.0,
@@ -131,7 +140,8 @@ class CustomerInput(Input):
         "type's and a vehicle's means the type."
     )
     info: Info = Field(
-        {},
+        default_factory=dict,
+        json_schema_extra={"default": {}},
         description="What drivers are to know, in words: `address`, `phone`, `notes` and the like. "
         "It stands at the customer's stop in the plan; planning doesn't look at it.",
     )
