@@ -1,6 +1,7 @@
 """A plan: routes of trips, with the sorties flown from them. Times in ms, nodes as in `Problem`."""
 
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields, replace
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,32 @@ class Solution:
 
     routes: tuple[Route, ...]
     unassigned: tuple[int, ...] = ()  # customer nodes
+
+
+def _as_it_is(vehicle_type: int, vehicle: int) -> tuple[int, int]:
+    return vehicle_type, vehicle
+
+
+def renumbered(plan: Solution, node: Callable[[int], int],
+               vehicle: Callable[[int, int], tuple[int, int]] = _as_it_is) -> Solution:
+    """Return a plan with other numbers for its nodes and, if asked for, its vehicles.
+
+    Errors of `node` and `vehicle` (a `KeyError`, say, for what has no number) come through.
+    """
+    def trip(old: Trip) -> Trip:
+        return Trip(tuple(Stop(node(stop.node), stop.arrival, stop.service_start, stop.departure,
+                               stop.setup) for stop in old.stops),
+                    tuple(sortie(each) for each in old.sorties))
+
+    def sortie(old: Sortie) -> Sortie:
+        return replace(old, visits=tuple([
+            Visit(node(visit.node), visit.arrival, visit.service_start, visit.departure,
+                  visit.setup) for visit in old.visits]))
+
+    return Solution(
+        tuple(Route(*vehicle(route.vehicle_type, route.vehicle), tuple(map(trip, route.trips)))
+              for route in plan.routes),
+        tuple(sorted(map(node, plan.unassigned))))
 
 
 @dataclass(frozen=True)

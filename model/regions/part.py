@@ -1,6 +1,5 @@
 """A region of a plan as a problem of its own, whose costs are the region's share of the whole's."""
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -8,7 +7,7 @@ import numpy as np
 
 from model.problem import IntArray, Problem, Travel
 from model.regions.region import Region, Vehicle, customers_of
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from model.solution import Solution, renumbered
 
 
 @dataclass(frozen=True)
@@ -21,13 +20,13 @@ class Part:
 
     def outward(self, plan: Solution) -> Solution:
         """Return a plan of this part in the numbers of the whole problem."""
-        return _renumbered(plan, self.nodes.__getitem__,
+        return renumbered(plan, self.nodes.__getitem__,
                            lambda kind, number: self.vehicles[kind][number])
 
     def inward(self, plan: Solution) -> Solution:
         """Return a plan of the region in the numbers of this part; raises `KeyError` if it isn't.
         """
-        return _renumbered(plan, self._number.__getitem__,
+        return renumbered(plan, self._number.__getitem__,
                            lambda kind, number: self._vehicle[kind, number])
 
     @cached_property
@@ -77,24 +76,3 @@ def _between(legs: Travel, nodes: IntArray) -> Travel:
     """Return the legs between some nodes."""
     grid = np.ix_(nodes, nodes)
     return Travel(legs.duration[grid], legs.distance[grid])
-
-
-def _renumbered(plan: Solution, node: Callable[[int], int],
-                vehicle: Callable[[int, int], Vehicle]) -> Solution:
-    """Return a plan with other numbers for its nodes and vehicles."""
-    return Solution(
-        tuple(Route(*vehicle(route.vehicle_type, route.vehicle),
-                    tuple(_trip(trip, node) for trip in route.trips)) for route in plan.routes),
-        tuple(sorted(map(node, plan.unassigned))))
-
-
-def _trip(trip: Trip, node: Callable[[int], int]) -> Trip:
-    return Trip(tuple(Stop(node(stop.node), stop.arrival, stop.service_start, stop.departure,
-                           stop.setup) for stop in trip.stops),
-                tuple(_sortie(sortie, node) for sortie in trip.sorties))
-
-
-def _sortie(sortie: Sortie, node: Callable[[int], int]) -> Sortie:
-    visits: Sequence[Visit] = [Visit(node(visit.node), visit.arrival, visit.service_start,
-                                     visit.departure, visit.setup) for visit in sortie.visits]
-    return replace(sortie, visits=tuple(visits))

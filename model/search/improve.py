@@ -16,14 +16,13 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import first_plan, make_searcher, read_plan
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.moves.anneal import ANY, anneal
-from model.search.numbering import plan_in
 from model.search.route.layout import World
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.temperature import Heat
 from model.search.world import ALL_MOVES, Ground, Moves, lay_ground, make_world
-from model.solution import Solution
+from model.solution import Solution, renumbered
 
 SLICE = 0.003
 """Seconds between two looks at the clock."""
@@ -259,7 +258,8 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     problem, config, limits = task.problem, task.config, task.limits
     world = make_world(problem, task.instance, config.moves, task.ground, task.alarm.flag)
     numbering, fresh = task.ground.numbering, not solution.routes
-    plan = first_plan(problem, world) if fresh else plan_in(numbering.number, solution)
+    plan = (first_plan(problem, world) if fresh
+            else renumbered(solution, numbering.number.tolist().__getitem__))
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, world, plan, seeds[0])
     _begin(world, whole, fresh, limits)
@@ -268,8 +268,10 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     first_cost = float(whole.value.cost)
     workers = [_Worker(world, whole, limits, heat) for _ in range(config.threads)]
 
+    node = numbering.node.tolist()
+
     def best() -> Solution:
-        return plan_in(numbering.node, read_plan(world, whole))
+        return renumbered(read_plan(world, whole), node.__getitem__)
 
     def after_round(turns: int) -> None:
         limits.reading = task.reading(*_size(whole))

@@ -1,14 +1,12 @@
 """The search's own numbers for customers: those near each other are so in memory, too."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from model.kernel.instance import Instance
 from model.problem import IntArray
-from model.solution import Route, Solution, Stop, Trip, Visit
 
 
 class Numbering(NamedTuple):
@@ -59,27 +57,3 @@ def renumbered(instance: Instance, numbering: Numbering) -> Instance:
                 for name in ("goods", "setup", "fresh_for")
                 if (table := getattr(instance, name)).shape[1]}
     return instance._replace(**by_node)
-
-
-def plan_in(numbers: IntArray, plan: Solution) -> Solution:
-    """Return a plan with other numbers for its nodes."""
-    number = numbers.tolist()
-    return Solution(tuple(_route_in(number, route) for route in plan.routes),
-                    tuple(sorted(number[node] for node in plan.unassigned)))
-
-
-def _route_in(number: list[int], route: Route) -> Route:
-    return Route(route.vehicle_type, route.vehicle,
-                 tuple(_trip_in(number, trip) for trip in route.trips))
-
-
-def _trip_in(number: list[int], trip: Trip) -> Trip:
-    stops = tuple(Stop(number[stop.node], stop.arrival, stop.service_start, stop.departure,
-                       stop.setup) for stop in trip.stops)
-    if not trip.sorties:
-        return Trip(stops)
-    return Trip(stops, tuple(
-        replace(sortie, visits=tuple(
-            Visit(number[visit.node], visit.arrival, visit.service_start, visit.departure,
-                  visit.setup) for visit in sortie.visits))
-        for sortie in trip.sorties))

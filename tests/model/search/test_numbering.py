@@ -1,14 +1,12 @@
 """The search's own numbers for customers."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.search.improve import SearchConfig, improve
-from model.search.numbering import along_neighbours, plan_in
+from model.search.numbering import along_neighbours
 from model.search.world import lay_ground, make_world
 from model.solution import Solution
 from tests.model.rollouts import random_problems
@@ -64,13 +62,3 @@ def test_what_is_begun_with_and_what_is_found_have_the_numbers_of_the_problem() 
         assert check(problem, found.solution).violations == ()
         again = improve(problem, pack([problem]), found.solution, SearchConfig(number, turns=20))
         assert check(problem, again.solution).violations == ()
-
-
-def test_plan_in_other_numbers_is_the_same_plan() -> None:
-    problem = generate(np.random.default_rng(5), 30, "drone")
-    found = improve(problem, pack([problem]),
-                    Solution((), tuple(range(1, problem.num_nodes))), SearchConfig(turns=50))
-    plan = replace(found.solution, unassigned=(3, 1))
-    node = np.random.default_rng(1).permutation(problem.num_nodes)
-    assert plan_in(np.argsort(node), plan_in(node, plan)) == replace(plan, unassigned=(1, 3))
-    assert plan_in(node, plan).unassigned == tuple(sorted((int(node[1]), int(node[3]))))
