@@ -1,0 +1,152 @@
+"""Labels say what is true, come back as they were written, and are replayed as they were made."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from model.policy.attention import AttentionConfig, AttentionPolicy
+from training.completion import (
+    Setting, complete, cost_of, open_type, to_actions, to_routes, what_is_left,
+)
+from training.deviations import go_on
+from training.examples import make_lesson
+from training.judge import LEAST_RISE, PATH
+from training.judged import Buffer
+from training.labels import (
+    Labelled, Origin, Pair, draw_origin, label, main, read, write, Actor, NONE,
+)
+from training.rollout import Simulation, make_batch
+
+ORIGIN = Origin("uniform", 10, 3)
+
+
+@pytest.fixture(scope="module")
+def actor(tmp_path_factory: pytest.TempPathFactory) -> Actor:
+    """Knows nothing, so that it errs often."""
+    torch.manual_seed(1)
+    path = tmp_path_factory.mktemp("weights") / "weights.pt"
+    torch.save(AttentionPolicy(AttentionConfig()).state_dict(), path)
+    return Actor(path)
+
+
+@pytest.fixture(scope="module")
+def labelled(actor: Actor) -> Labelled:
+    return label(actor, ORIGIN)[0]
+
+
+def completed(setting: Setting, actions: np.ndarray) -> float:
+    """Return what a beginning is worth by a longer search from nothing."""
+    rest = what_is_left(setting, actions)
+    if rest is None:
+        return cost_of(setting, actions)
+    begun = open_type(actions)
+    routes = complete(rest, [] if begun is None else to_routes(actions[:0], begun), 2000, 99)
+    return cost_of(setting, np.concatenate([
+        actions, to_actions(setting.problem, routes, begun is not None)]))
+
+
+def test_better_choice_is_better(labelled: Labelled) -> None:
+    setting = Setting.of(ORIGIN.problem())
+    total = cost_of(setting, labelled.actions)
+    assert len(labelled.pairs) > 2
+    for pair in labelled.pairs:
+        assert pair.rise > LEAST_RISE
+        before = labelled.actions[:pair.step]
+        assert pair.path[0] != labelled.actions[pair.step]
+        better = completed(setting, np.append(before, pair.path[0]))
+        chosen = completed(setting, labelled.actions[:pair.step + 1])
+        assert chosen - better == pytest.approx(pair.rise * total, abs=0.01 * total)
+        assert better < chosen
+
+
+def test_lesson_sees_what_the_plan_saw(labelled: Labelled) -> None:
+    lesson = make_lesson([labelled], np.random.default_rng(0), symmetric=False)
+    assert lesson is not None
+    batch = make_batch([ORIGIN.problem()], [""])
+    simulation = Simulation(batch, range(1), 1, 1)
+    choice, seen = np.zeros(1, np.int64), []
+    for code in [*labelled.actions.tolist(), NONE]:
+        count = simulation.step(choice)
+        if code == NONE:
+            break
+        legal = simulation.seen.action[0, :count].tolist()
+        choice[0] = legal.index(code)
+        seen.append((simulation.seen.feature[0, :count].copy(), int(choice[0])))
+    simulation.close()
+    _, _, feature, allowed, _ = (tensor.numpy() for tensor in lesson.inputs)
+    first = {pair.step: pair for pair in labelled.pairs}
+    found = set[int]()
+    for place in np.flatnonzero((lesson.weight[0] > 0).numpy()).tolist():
+        count = int(allowed[0, place].sum())
+        steps = [step for step in first if len(seen[step][0]) == count
+                 and np.array_equal(seen[step][0], feature[0, place, :count])
+                 and seen[step][1] == int(lesson.wrong[0, place])]
+        assert len(steps) == 1
+        found |= set(steps)
+    assert found <= set(first)
+    assert len(found) == int((lesson.weight[0] > 0).sum())
+
+
+def test_plans_are_read_as_they_were_written(labelled: Labelled, tmp_path: Path) -> None:
+    bare = Labelled(Origin("soft", 7, 8), labelled.actions[:3], labelled.fine[:3], [])
+    write(tmp_path / "a.npz", [labelled, bare, labelled])
+    plans = read(tmp_path / "a.npz")
+    assert [plan.origin for plan in plans] == [ORIGIN, bare.origin, ORIGIN]
+    for plan, other in zip(plans, (labelled, bare, labelled), strict=True):
+        assert np.array_equal(plan.actions, other.actions)
+        assert np.array_equal(plan.fine, other.fine)
+        for mine, theirs in zip(plan.pairs, other.pairs, strict=True):
+            assert mine.step == theirs.step
+            assert np.array_equal(mine.path, theirs.path)
+            assert mine.rise == pytest.approx(theirs.rise)
+
+
+def test_damaged_file_is_passed_over(labelled: Labelled, tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        write(tmp_path / f"{name}.npz", [labelled])
+    whole = (tmp_path / "a.npz").read_bytes()
+    (tmp_path / "a.npz").write_bytes(whole[:len(whole) // 2])
+    (tmp_path / "c.part").write_bytes(whole)
+    buffer = Buffer(tmp_path, 10)
+    buffer.refresh()
+    assert len(buffer.plans) + len(buffer.held_out) == 1
+
+
+def test_maker_goes_on_behind_what_is_there(tmp_path: Path) -> None:
+    for _ in range(2):
+        main(tmp_path, minutes=5.0, effort=0.1, max_plans=2)
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["001-00000.npz", "001-00001.npz"]
+    first, second = (read(tmp_path / name) for name in names)
+    assert {plan.origin for plan in first}.isdisjoint(plan.origin for plan in second)
+
+
+def test_problems_are_of_all_sizes_and_classes() -> None:
+    rng = np.random.default_rng(4)
+    drawn = [draw_origin(rng) for _ in range(300)]
+    assert {20 <= origin.size <= 100 for origin in drawn} == {True}
+    assert len({origin.variant for origin in drawn}) == 13
+    assert drawn[0].problem().num_customers == drawn[0].size
+
+
+def test_path_ends_with_its_route(labelled: Labelled) -> None:
+    pair: Pair = max(labelled.pairs, key=lambda pair: int((pair.path == NONE).sum()))
+    codes = pair.path[pair.path != NONE]
+    assert pair.path.shape == (PATH,)
+    assert len(codes) > 0
+    assert np.all(pair.path[len(codes):] == NONE)
+
+
+def test_deviation_by_the_policy_is_better(actor: Actor) -> None:
+    origin = Origin("drone", 8, 4)
+    labelled = label(actor, origin)[0]
+    problem = origin.problem()
+    batch = make_batch([problem], [""])
+    assert labelled.pairs
+    for pair in labelled.pairs:
+        before = labelled.actions[:pair.step]
+        paths = [np.append(before, code) for code in (labelled.actions[pair.step], pair.path[0])]
+        _, (chosen, better), _ = go_on(actor, batch, paths)
+        assert better < chosen

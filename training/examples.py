@@ -1,0 +1,167 @@
+"""Decisions to learn from, seen again by replaying judged plans in the simulator."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from model.policy.features import step
+from model.policy.observation import Observation, empty_observation
+from model.problem import IntArray, Problem
+from model.simulation.simulator import apply_route, reset
+from model.simulation.transition import State
+from training.labels import NONE, Labelled, Origin
+from training.rollout import Batch, make_batch
+
+MOST_PAIRS = 6
+"""Mistakes of one plan that a step learns from."""
+
+CALM_ROWS, CALM_DECISIONS = 2, 4
+"""Stretches of decisions that cost nothing, of one plan, and their length."""
+
+REMEMBERED = 3000
+"""Problems that aren't drawn anew."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Some decisions of a plan, or of a better one, in a row."""
+
+    plan: int  # in the batch
+    before: IntArray  # actions
+    path: IntArray  # codes
+    wrong: int = NONE  # code of what the plan chose instead of the first
+    weight: float = 0.0  # of that pair
+
+
+@dataclass(frozen=True, eq=False)
+class Lesson:
+    """Decisions of a batch of plans, padded to the most decisions and candidates."""
+
+    batch: Batch
+    inputs: tuple[Tensor, ...]  # of `score`, but for memory and hidden
+    right: Tensor  # (plan, decision) index of the code in the path
+    wrong: Tensor  # (plan, decision) index of the plan's choice where there is a pair
+    weight: Tensor  # (plan, decision) of the pair, 0 for none
+    shown: Tensor  # (plan, decision) True = the search decided so
+    calm: Tensor  # (plan, decision) True = the plan did, and it costs nothing
+
+
+@lru_cache(maxsize=REMEMBERED)
+def problem_of(origin: Origin) -> Problem:
+    """Draw a problem, or remember it."""
+    return origin.problem()
+
+
+def pair_weight(rise: float) -> float:
+    """Return how much a pair counts by what the mistake costs, a share of the plan's cost."""
+    return min(rise / 0.005, 4.0)
+
+
+def stretches(plans: Sequence[Labelled], rng: np.random.Generator) -> Iterator[Stretch]:
+    """Yield what to learn of each plan: its mistakes, and some of what costs nothing."""
+    for index, plan in enumerate(plans):
+        chosen = rng.permutation(len(plan.pairs))[:MOST_PAIRS]
+        for pair in (plan.pairs[number] for number in chosen.tolist()):
+            yield Stretch(index, plan.actions[:pair.step], pair.path[pair.path != NONE],
+                          int(plan.actions[pair.step]), pair_weight(pair.rise))
+        fine = np.flatnonzero(plan.fine)
+        for first in rng.choice(fine, min(CALM_ROWS, len(fine)), replace=False).tolist():
+            behind = first + CALM_DECISIONS
+            run = plan.actions[first:behind][np.logical_and.accumulate(plan.fine[first:behind])]
+            yield Stretch(index, plan.actions[:first], run)
+
+
+def make_lesson(plans: Sequence[Labelled], rng: np.random.Generator,
+                symmetric: bool = True) -> Lesson | None:
+    """Replay some decisions of plans, each plan's problem laid out in a random symmetry.
+
+    None if no plan has any.
+    """
+    batch = make_batch([problem_of(plan.origin) for plan in plans],
+                       [plan.origin.variant for plan in plans], rng if symmetric else None)
+    rows = sorted(stretches(plans, rng), key=lambda row: -len(row.path))
+    if not rows:
+        return None
+    state = reset(batch.instance, np.array([row.plan for row in rows]))
+    for r, row in enumerate(rows):
+        done = 0
+        while done < len(row.before):
+            done = apply_route(batch.instance, state, r, row.before, done)
+    seen = list(_replay(batch, rows, state))
+    return _padded(batch, len(plans), seen) if seen else None
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """One decision as it was seen."""
+
+    plan: int
+    here: int
+    token: IntArray
+    feature: np.ndarray
+    glob: np.ndarray
+    right: int
+    wrong: int
+    weight: float
+    calm: bool
+
+
+def _replay(batch: Batch, rows: Sequence[Stretch], state: State) -> Iterator[_Seen]:
+    """Yield all decisions of stretches, the longest of which come first."""
+    number = len(rows)
+    seen = empty_observation(number, batch.instance.node.shape[2], batch.instance.type.shape[1])
+    choice, left = np.zeros(number, np.int64), np.ones(number, np.bool_)
+    for index in range(len(rows[0].path)):
+        going = sum(index < len(row.path) for row in rows)
+        step(batch.instance, batch.scale, state, batch.tokens.type, 0, going, number, choice, seen)
+        for r in np.flatnonzero(left[:going]).tolist():
+            found = _decision(seen, r, rows[r], index)
+            if found is None:
+                left[r], seen.count[r] = False, 0
+                continue
+            choice[r] = found.right
+            yield found
+
+
+def _decision(seen: Observation, r: int, row: Stretch, index: int) -> _Seen | None:
+    """Return one decision of a stretch; None if what follows isn't legal."""
+    count = int(seen.count[r])
+    legal = seen.action[r, :count].tolist()
+    is_pair = index == 0 and row.wrong != NONE
+    if int(row.path[index]) not in legal or (is_pair and row.wrong not in legal):
+        return None
+    return _Seen(row.plan, int(seen.here[r]), seen.token[r, :count].copy(),
+                 seen.feature[r, :count].copy(), seen.glob[r].copy(),
+                 legal.index(int(row.path[index])), legal.index(row.wrong) if is_pair else 0,
+                 row.weight if is_pair else 0.0, row.wrong == NONE)
+
+
+def _padded(batch: Batch, plans: int, seen: Sequence[_Seen]) -> Lesson:
+    """Lay decisions side by side; those with one candidate alone are left out."""
+    of_plan: list[list[_Seen]] = [[] for _ in range(plans)]
+    for each in seen:
+        if len(each.token) > 1:
+            of_plan[each.plan].append(each)
+    shape = plans, max(1, *map(len, of_plan))
+    most = max((len(each.token) for each in seen), default=1)
+    here, right, wrong = (np.zeros(shape, np.int64) for _ in range(3))
+    weight, allowed = np.zeros(shape, np.float32), np.zeros((*shape, most), np.bool_)
+    shown, calm = np.zeros(shape, np.bool_), np.zeros(shape, np.bool_)
+    candidate = np.zeros((*shape, most), np.int64)
+    feature = np.zeros((*shape, most, seen[0].feature.shape[1]), np.float32)
+    glob = np.zeros((*shape, len(seen[0].glob)), np.float32)
+    allowed[..., 0] = True
+    for plan, decisions in enumerate(of_plan):
+        for place, each in enumerate(decisions):
+            at, count = (plan, place), len(each.token)
+            here[at], glob[at], right[at], wrong[at] = each.here, each.glob, each.right, each.wrong
+            candidate[plan, place, :count], feature[plan, place, :count] = each.token, each.feature
+            allowed[plan, place, :count], weight[at] = True, each.weight
+            calm[at], shown[at] = each.calm, not each.calm
+    tensors = [torch.from_numpy(array) for array in (
+        here, candidate, feature, allowed, glob, right, wrong, weight, shown, calm)]
+    return Lesson(batch, tuple(tensors[:5]), *tensors[5:])

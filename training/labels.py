@@ -1,0 +1,247 @@
+"""Make labels: plans of a policy whose dear decisions the search has found. Read top to bottom.
+
+Run with `python -m training.labels --folder runs/labels`. Each plan is drawn by the newest weights,
+half of them greedily; `training.judged` learns from what is there. A file holds some plans, is
+written whole or not at all, and states each problem by the numbers it is drawn from.
+"""
+
+import time
+import zipfile
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import torch
+import typer
+from tqdm import tqdm
+
+from model.policy.attention import AttentionConfig, AttentionPolicy
+from model.policy.features import step
+from model.policy.observation import Observation, empty_observation
+from model.policy.rollouts import StepWeights, candidate_scores, roll_out
+from model.policy.tokens import Float32Array
+from model.problem import IntArray, Problem
+from model.simulation.simulator import apply_route, reset
+from training.completion import Setting, can_complete
+from training.deviations import judge_by_policy
+from training.export import WEIGHTS
+from training.instances import DEFAULT_CONFIG, generate
+from training.judge import PATH, Judge, Judgement, Mistake
+from training.rollout import Batch, make_batch
+from training.variants import uniform_vrptw
+
+HOT = 1.3
+"""Temperature of every second plan."""
+
+SHARES = {"uniform": 0.3, "vrptw": 0.15, "appointed": 0.08, "soft": 0.06, "hetero": 0.08,
+          "cvrp": 0.05, "multitrip": 0.06, "drone": 0.06, "table1": 0.04, "mixed": 0.06,
+          "pickups": 0.02, "various": 0.02, "particular": 0.02}
+"""How often each class of problems is drawn. `uniform` is a half of `vrptw`."""
+
+SIZES = (20, 100)
+"""Fewest and most customers; their logarithm is uniform."""
+
+PLANS_A_FILE = 40
+
+NEWEST = "newest.pt"
+"""File in the folder of labels with weights of the policy, newer than those it began with."""
+
+NONE = -1
+
+
+@dataclass(frozen=True)
+class Origin:
+    """What a problem is drawn from."""
+
+    variant: str
+    size: int
+    seed: int
+
+    def problem(self) -> Problem:
+        """Draw it."""
+        rng = np.random.default_rng(self.seed)
+        if self.variant == "uniform":
+            return uniform_vrptw(rng, self.size, DEFAULT_CONFIG)
+        return generate(rng, self.size, self.variant)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A decision that was wrong, and a better one."""
+
+    step: int  # number of the action
+    rise: float  # of the plan's cost, a share of it
+    path: IntArray  # (PATH,) codes from the better choice on, NONE behind the last
+
+
+@dataclass(frozen=True)
+class Labelled:
+    """A judged plan."""
+
+    origin: Origin
+    actions: IntArray
+    fine: np.ndarray  # (action,) no decision nearby costs anything
+    pairs: list[Pair]
+
+
+class Actor:
+    """A policy that plans and scores, by weights that may change."""
+
+    def __init__(self, weights: Path) -> None:
+        policy = AttentionPolicy(AttentionConfig())
+        policy.load_state_dict(torch.load(weights, map_location="cpu", weights_only=True))
+        self.use(policy)
+
+    def use(self, policy: AttentionPolicy) -> None:
+        """Plan by a policy from now on. In place."""
+        self._policy = policy
+        self._encoded: tuple[Batch, np.ndarray] | None = None
+        self._weights = StepWeights(**{
+            name: np.ascontiguousarray(weight.detach().numpy())
+            for name, weight in policy.decision_weights().items()})
+
+    @torch.no_grad()
+    def memory(self, batch: Batch) -> np.ndarray:
+        """Return what the encoder makes of the only problem of a batch."""
+        encoded = self._policy.encode(*batch.encoder_inputs(torch.device("cpu")))
+        return np.ascontiguousarray(encoded[0].numpy())
+
+    def plan(self, batch: Batch, temperature: float, rng: np.random.Generator) -> IntArray:
+        """Return the actions of a plan, greedy at temperature 0."""
+        self._encoded = batch, self.memory(batch)
+        return roll_out(self._weights, self._encoded[1], batch.instance, batch.scale,
+                        batch.tokens.type, [temperature], rng).actions
+
+    def scores(self, batch: Batch, seen: Observation, r: int) -> Float32Array:
+        """Return the scores of what a rollout of the only problem of a batch sees."""
+        if self._encoded is None or self._encoded[0] is not batch:
+            self._encoded = batch, self.memory(batch)
+        scores: Float32Array = candidate_scores(self._weights, self._encoded[1], seen, r)
+        return scores
+
+    def preferred(self, batch: Batch, actions: IntArray, choices: Sequence[int]) -> int | None:
+        """Return which of some codes the policy prefers after actions; None if none is legal."""
+        state = reset(batch.instance, np.zeros(1, np.int64))
+        seen = empty_observation(1, batch.instance.node.shape[2], batch.instance.type.shape[1])
+        done = 0
+        while done < len(actions):
+            done = apply_route(batch.instance, state, 0, actions, done)
+        count = step(batch.instance, batch.scale, state, batch.tokens.type, 0, 1, 1,
+                     np.zeros(1, np.int64), seen)
+        legal = seen.action[0, :count].tolist()
+        if not set(choices) & set(legal):
+            return None
+        scores = self.scores(batch, seen, 0)
+        return max(set(choices) & set(legal), key=lambda code: float(scores[legal.index(code)]))
+
+
+def to_pair(actor: Actor, batch: Batch, actions: IntArray, mistake: Mistake) -> Pair | None:
+    """Return a mistake with the better choice that the policy likes best; None if it isn't legal.
+    """
+    chosen = actor.preferred(batch, actions[:mistake.step],
+                             [int(path[0]) for path in mistake.better])
+    if chosen is None or chosen == actions[mistake.step]:
+        return None
+    path = next(path for path in mistake.better if path[0] == chosen)[:PATH]
+    padded = np.full(PATH, NONE)
+    padded[:len(path)] = path
+    return Pair(mistake.step, mistake.rise, padded)
+
+
+def label(actor: Actor, origin: Origin, effort: float = 1.0) -> tuple[Labelled, Judgement]:
+    """Plan a problem and judge the plan, by the policy alone where the search can't complete it."""
+    rng = np.random.default_rng((origin.seed, 1))
+    problem = origin.problem()
+    batch = make_batch([problem], [origin.variant])
+    actions = actor.plan(batch, HOT * float(rng.random() < 0.5), rng)
+    if can_complete(problem):
+        judgement = Judge(Setting(problem, batch.instance), actions, effort).judge()
+    else:
+        layouts = [batch, make_batch([problem], [origin.variant], rng)]
+        judgement = judge_by_policy(actor, layouts, actions, rng)
+    pairs = [to_pair(actor, batch, actions, mistake) for mistake in judgement.mistakes]
+    return Labelled(origin, actions, judgement.fine,
+                    [pair for pair in pairs if pair is not None]), judgement
+
+
+def draw_origin(rng: np.random.Generator) -> Origin:
+    """Draw where a problem comes from."""
+    names = tuple(SHARES)
+    variant = names[int(rng.choice(len(names), p=np.array(list(SHARES.values()))))]
+    size = int(np.exp(rng.uniform(np.log(SIZES[0]), np.log(SIZES[1] + 1))))
+    return Origin(variant, min(size, SIZES[1]), int(rng.integers(2**62)))
+
+
+def write(path: Path, plans: Sequence[Labelled]) -> None:
+    """Write plans whole or not at all."""
+    pairs = [(index, pair) for index, plan in enumerate(plans) for pair in plan.pairs]
+    part = path.with_suffix(".part")
+    with part.open("wb") as file:
+        np.savez_compressed(
+            file, variant=np.array([plan.origin.variant for plan in plans]),
+            size=np.array([plan.origin.size for plan in plans]),
+            seed=np.array([plan.origin.seed for plan in plans]),
+            length=np.array([len(plan.actions) for plan in plans]),
+            action=np.concatenate([plan.actions for plan in plans]).astype(np.int32),
+            fine=np.concatenate([plan.fine for plan in plans]),
+            plan=np.array([index for index, _ in pairs], np.int32),
+            step=np.array([pair.step for _, pair in pairs], np.int32),
+            rise=np.array([pair.rise for _, pair in pairs], np.float32),
+            path=np.array([pair.path for _, pair in pairs], np.int32).reshape(-1, PATH))
+    part.replace(path)
+
+
+def read(path: Path) -> list[Labelled]:
+    """Return the plans of a file; none if it is damaged."""
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
+            rows = {name: stored[name] for name in stored.files}
+        ends = np.cumsum(rows["length"])
+        pairs: list[list[Pair]] = [[] for _ in ends]
+        for plan, number, rise, codes in zip(rows["plan"], rows["step"], rows["rise"],
+                                             rows["path"], strict=True):
+            pairs[plan].append(Pair(int(number), float(rise), codes.astype(np.int64)))
+        return [Labelled(Origin(str(rows["variant"][index]), int(rows["size"][index]),
+                                int(rows["seed"][index])),
+                         rows["action"][end - length:end].astype(np.int64),
+                         rows["fine"][end - length:end], pairs[index])
+                for index, (end, length) in enumerate(zip(ends, rows["length"], strict=True))]
+    except (OSError, ValueError, KeyError, EOFError, IndexError, zipfile.BadZipFile, zlib.error):
+        return []
+
+
+def main(
+    folder: Annotated[Path, typer.Option(help="receives the labels")],
+    weights: Annotated[Path, typer.Option(help="folder of an exported policy")]
+    = Path("model/weights/attention"),
+    minutes: float = 60.0, seed: int = 1,
+    effort: Annotated[float, typer.Option(help="times the usual turns of the search")] = 1.0,
+    max_plans: Annotated[int | None, typer.Option(help="stop after so many plans")] = None,
+) -> None:
+    """Make labels until the time is over; goes on behind the files that are there."""
+    folder.mkdir(parents=True, exist_ok=True)
+    actor, newest, read_at = Actor(weights / WEIGHTS), folder / NEWEST, 0.0
+    number = len(list(folder.glob(f"{seed:03d}-*.npz")))
+    plans: list[Labelled] = []
+    end, made = time.monotonic() + 60 * minutes, 0
+    bar = tqdm(desc="labels", unit="plan")
+    while time.monotonic() < end and made != max_plans:
+        if newest.exists() and newest.stat().st_mtime > read_at:
+            read_at = newest.stat().st_mtime
+            actor = Actor(newest)
+        rng = np.random.default_rng((seed, number, len(plans)))
+        plans.append(label(actor, draw_origin(rng), effort)[0])
+        made += 1
+        bar.update()
+        if len(plans) == PLANS_A_FILE:
+            write(folder / f"{seed:03d}-{number:05d}.npz", plans)
+            number, plans = number + 1, []
+    if plans:
+        write(folder / f"{seed:03d}-{number:05d}.npz", plans)
+
+
+if __name__ == "__main__":
+    typer.run(main)
