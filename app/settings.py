@@ -228,6 +228,20 @@ class Settings(BaseSettings):
         description="Jobs' plans computed at once in each process; the same for all workers. "
         "Usually as many as `TANDEM_MAX_CONCURRENT_PLANS`.",
     )
+    region_from: int = Field(
+        10_000, ge=2,
+        description="Jobs of at least so many customers are planned by regions once there is a "
+        "first plan: several at a time, by all workers.",
+    )
+    region_customers: int = Field(
+        2500, ge=1, description="Customers of a region, about; usually 2,000 to 5,000."
+    )
+    region_seconds: float = Field(
+        10.0, ge=0.1, le=MAX_TIME_LIMIT,
+        description="Seconds of search for each region, usually 5 to 30, before what was found is "
+        "put together and other borders are drawn. Jobs with less than three times as long are "
+        "planned whole.",
+    )
     max_job_seconds: float = Field(
         MAX_TIME_LIMIT, gt=0, le=MAX_TIME_LIMIT,
         description="Largest `options.time_limit` of a job in seconds.",

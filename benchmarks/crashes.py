@@ -21,8 +21,10 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import httpx
@@ -70,13 +72,14 @@ class Followed:
 class Service:
     """The real service in a process of its own."""
 
-    def __init__(self, folder: Path, database_url: str | None) -> None:
+    def __init__(self, folder: Path, database_url: str | None,
+                 settings: Mapping[str, str] = MappingProxyType({})) -> None:
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
         self._port = port
         self._environment = {**os.environ, "TANDEM_DATA_DIR": str(folder),
-                             "TANDEM_LOG_LEVEL": "warning"}
+                             "TANDEM_LOG_LEVEL": "warning", **settings}
         if database_url is not None:
             self._environment["TANDEM_DATABASE_URL"] = database_url
         self._log = (folder / "log.txt").open("a")

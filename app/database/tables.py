@@ -5,6 +5,7 @@
 
 from sqlalchemy import (
     BigInteger, Boolean, Column, Float, Index, Integer, LargeBinary, MetaData, String, Table, Text,
+    false,
 )
 
 TABLES = MetaData()
@@ -58,6 +59,8 @@ JOBS = Table(
     Column("waiting_for", Text),
     Column("waiting_since", BigInteger),
     Column("retry_at", BigInteger),
+    # A plan that goes on by regions, which are jobs with it for a parent.
+    Column("divided", Boolean, nullable=False, server_default=false()),
     Index("jobs_by_owner", "owner", "created_at", "id"),
     Index("jobs_by_client", "state", "parent", "client", "plans"),
     Index("jobs_by_key", "key", unique=True),

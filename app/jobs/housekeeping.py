@@ -10,7 +10,7 @@ from datetime import UTC, datetime, timedelta
 from sqlalchemy import Engine
 from sqlalchemy.exc import DBAPIError
 
-from app.jobs.queues import Queues
+from app.jobs.queues import Queues, queue_of
 from app.jobs.rows import JobRow
 from app.jobs.store import JobStore, now_ms
 
@@ -54,13 +54,17 @@ class Housekeeper:
         Where they wait.
     also_expire
         What else is to be done whenever jobs are deleted that expired.
+    also_forget
+        What else is to be done at each look, told of its time.
     """
 
     def __init__(self, store: JobStore, queues: Queues,
-                 also_expire: Sequence[Callable[[Engine], None]] = ()) -> None:
+                 also_expire: Sequence[Callable[[Engine], None]] = (),
+                 also_forget: Callable[[float], None] = lambda _: None) -> None:
         self._store = store
         self._queues = queues
         self._also_expire = also_expire
+        self._also_forget = also_forget
         self._sightings: Mapping[str, Sighting] = {}
 
     def look_until(self, stopping: threading.Event) -> None:
@@ -82,6 +86,7 @@ class Housekeeper:
         now
             The time on `time.monotonic`.
         """
+        self._also_forget(now)
         taken = self._queues.taken()
         rows = {row.id: row for row in self._store.find_all(taken)}
         sightings = {}
@@ -121,4 +126,4 @@ class Housekeeper:
             self._queues.drop([job_id])
         elif row.is_over or self._store.take_over(row):
             logger.warning("job %s is taken from a process that is gone", job_id)
-            self._queues.put_back(job_id, row.kind == "plan")
+            self._queues.put(job_id, queue_of(row))

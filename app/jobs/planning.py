@@ -4,41 +4,26 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from pydantic_core import from_json, to_json
 
 from app.conversion.preparing import StoppedError
 from app.errors import NoRoadsError, RequestError
+from app.jobs.asked import Asking
+from app.jobs.region_task import ERRANDS, RegionTask
 from app.jobs.rows import JobRow, Standing
-from app.jobs.running import Returning, Running
+from app.jobs.running import Begun, RegionTerms, Returning, Running, sign_of_life
 from app.jobs.schemas import State
 from app.jobs.search import EarlierWork, Search
+from app.jobs.slices import (
+    MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice, Stopping,
+)
 from app.jobs.store import JobStore, now_ms
 from app.plans.replies import Data
-from app.plans.service import plan_options, preparing
-from app.plans.task import task_of
-from app.requests.bounds import Bounds
-from app.roads.roads import NO_ROADS, Roads
-from app.schemas.request import PlanRequest
 from model.planner import PlanCheckError, Planner
 
 logger = logging.getLogger(__name__)
-
-SLICE = 1.0
-"""Seconds after which a search's finds are written down."""
-
-MAX_CRASHES = 5
-"""Attempts in a row that may end without any progress before a job is given up."""
-
-WITHHELD = "The plan found breaks a rule, so it is withheld."
-NOT_COMPUTED = "The plan could not be computed."
-POISONOUS = f"The process that planned ended unexpectedly, {MAX_CRASHES} times in a row."
-
-
-LEAST_PREPARING = 300.0
-"""Seconds that may pass before the search of any job: nobody waits for it, and it would be lost.
-Roads take minutes for ten thousand places."""
 
 ROADS_RETRY = 10.0
 """Seconds until roads that didn't answer are asked again for a job."""
@@ -48,28 +33,6 @@ REST_POLLING = 0.1
 
 MOST_WAITING = 6 * 3600.0
 """Seconds after which a job whose roads don't answer is given up."""
-
-JOB_BOUNDS = Bounds(time_setting="TANDEM_MAX_JOB_SECONDS")
-"""What a job may take; it was within the settings when it came."""
-
-
-class Stopping(BaseException):
-    """This process ends: what it works on stays open, for another to go on with.
-
-    No `Exception`, which DBOS would write down as the outcome of the workflow.
-    """
-
-
-@dataclass(frozen=True)
-class Slice:
-    """What a slice came to."""
-
-    over: bool
-    iterations: int = 0
-    cost: float | None = None
-
-
-OVER = Slice(True)
 
 
 class PlanWork:
@@ -81,28 +44,24 @@ class PlanWork:
         A warm one.
     store
         Where jobs are kept.
-    read
-        Returns the request of a job.
-    search_threads
-        Threads where a request states none.
+    asking
+        What makes tasks of their requests.
     returning
         How jobs get back to their queue.
     on_plan
         Is told the reply of each job that is done.
-    roads
-        Those to plan on.
+    terms
+        Which jobs are planned by regions, after their first plan.
     """
 
-    def __init__(self, planner: Planner, store: JobStore, read: Callable[[JobRow], PlanRequest],
-                 search_threads: int, returning: Returning,
-                 on_plan: Callable[[Data], None], roads: Roads = NO_ROADS) -> None:
+    def __init__(self, planner: Planner, store: JobStore, asking: Asking, returning: Returning,
+                 on_plan: Callable[[Data], None], terms: RegionTerms) -> None:
         self._planner = planner
         self._store = store
-        self._read = read
-        self._search_threads = search_threads
+        self._asking = asking
         self._returning = returning
         self._on_plan = on_plan
-        self._roads = roads
+        self._terms = terms
         self._running: dict[str, Running] = {}
         self._beginning: dict[str, threading.Event] = {}  # set: cancelled
         self._stopping = threading.Event()
@@ -128,6 +87,10 @@ class PlanWork:
             self._hand_back(running)
             raise Stopping
         return self._end(running) if has_ended else self._note(running)
+
+    def holds(self, job_id: str) -> bool:
+        """Tell whether a job is worked on here."""
+        return job_id in self._running
 
     def cancel(self, job_id: str) -> None:
         """Stop a job at once if it runs here. In place."""
@@ -165,9 +128,7 @@ class PlanWork:
         began = time.perf_counter()
         self._beginning[job_id] = threading.Event()
         try:
-            request = self._read(row)
-            work = preparing(request.options, JOB_BOUNDS, self._stopper(row))
-            task = task_of(request, replace(work, least_time=LEAST_PREPARING), roads=self._roads)
+            begun = self._begun(row)
         except StoppedError:
             self._give_up(row)
             return None
@@ -184,13 +145,31 @@ class PlanWork:
         if has_waited:
             # Its legs are there, and known the next time: it is planned where the plans are.
             self._release(row)
-        options = plan_options(request.options, self._search_threads)
         kept = self._store.result(job_id)
         earlier = EarlierWork(row.searched, row.search_iterations,
                               None if kept is None else from_json(kept))
         validated = time.perf_counter() - began
-        return Running(row, Search(self._planner, task, options, earlier), validated,
-                       best=earlier.reply)
+        return Running(row, Search(self._planner, begun.task, begun.options, earlier), validated,
+                       begun.share, best=earlier.reply)
+
+    def _begun(self, row: JobRow) -> Begun:
+        """Return what is to be done for a job; raises as `Asking.make` does."""
+        should_stop = sign_of_life(self._store, row, self._beginning[row.id], self._stopping)
+        if row.kind != "region":
+            asked = self._asking.make(row, should_stop)
+            if not self._terms.divides(asked):
+                return Begun(asked.task, asked.options)
+            self._asking.keep(row.id, asked, time.monotonic())
+            limit = asked.options.time_limit
+            first = replace(asked.options, time_limit=self._terms.seconds)
+            return Begun(asked.task, first, self._terms.seconds / limit)
+        whole = None if row.parent is None else self._store.find(row.parent)
+        if whole is None or whole.is_over:
+            raise StoppedError("The job whose region this is has ended.")
+        asked = self._asking.shared(whole, should_stop, time.monotonic())
+        errand = ERRANDS.validate_json(self._store.request(row.id))
+        return Begun(RegionTask.of(asked.task.problem, errand.region),
+                     replace(asked.options, time_limit=errand.seconds, seed=errand.seed))
 
     def _taken(self, job_id: str, has_waited: bool) -> JobRow | None:
         """Take a job, and return it unless it is over then. In place."""
@@ -207,23 +186,6 @@ class PlanWork:
             self._store.finish(job_id, row.attempt, "cancelled")
             return None
         return row
-
-    def _stopper(self, row: JobRow) -> Callable[[], bool]:
-        """Return what tells whether a job that begins is to end, by this process or another.
-
-        It gives signs of life, too.
-        """
-        cancelled, looked_at = self._beginning[row.id], time.monotonic()
-
-        def should_stop() -> bool:
-            nonlocal looked_at
-            if time.monotonic() - looked_at > SLICE:
-                looked_at = time.monotonic()
-                if self._store.keep_alive(row.id, row.attempt) is not False:
-                    cancelled.set()
-            return cancelled.is_set() or self._stopping.is_set()
-
-        return should_stop
 
     def _give_up(self, row: JobRow) -> None:
         """End a job that was cancelled before its search, or leave it to others. In place.
@@ -334,11 +296,29 @@ class PlanWork:
             state: State = "cancelled" if running.is_cancelled else "done"
             progress = running.search.progress if running.is_cancelled else 1.0
             running.best = reply
+            if running.share < 1.0 and not running.is_cancelled:
+                self._share_out(running, reply)
             ended = self._store.finish(row.id, row.attempt, state,
                                        self._standing(running, progress, reply))
-            self._on_plan(reply)
+            if row.kind == "plan":
+                self._on_plan(reply)
         del self._running[row.id]
         return self._slice(running, is_over=ended)
+
+    def _share_out(self, running: Running, reply: Data) -> None:
+        """Write down a job's first plan, and have it go on by regions. In place.
+
+        Raises
+        ------
+        Stopping
+            Always.
+        """
+        row = running.row
+        self._store.note(row.id, row.attempt, self._standing(running, 1.0, reply))
+        del self._running[row.id]
+        if self._store.divide(row.id, row.attempt):
+            self._returning.share_out(row.id)
+        raise Stopping
 
     def _better(self, running: Running, reply: Data) -> Data:
         """Return a reply, with the best plan written down if that is cheaper by a hair."""
@@ -365,6 +345,7 @@ class PlanWork:
 
     def _standing(self, running: Running, progress: float, reply: Data | None) -> Standing:
         search = running.search
+        progress *= running.share
         if reply is None:
             return Standing(progress, search.iterations, search.searched)
         elapsed = reply["solver"]["elapsed"]

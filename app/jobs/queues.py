@@ -7,7 +7,7 @@ from datetime import datetime
 from dbos import DBOS, DBOSClient, DBOSPortableJSONSerializer, EnqueueOptions
 from sqlalchemy import Connection, Engine
 
-from app.jobs.rows import NewJob
+from app.jobs.rows import JobRow, NewJob
 from app.jobs.webhook import host_of
 
 APPLICATION = "tandem"
@@ -16,18 +16,15 @@ APPLICATION_VERSION = "1"
 """Jobs are taken by processes of this version only: raise it when the steps of workflows change."""
 
 PLANS, STUDIES, WEBHOOKS, WAITING = "plans", "studies", "webhooks-by-host", "waiting"
-"""Queues. Comparisons and sweeps wait for their scenarios, and some plans for what they need before
-they can begin, so they must not take the plans' slots."""
+DIVIDED = "divided"
+"""Queues. Comparisons and sweeps wait for their scenarios, divided plans for their regions and some
+for what they need before they can begin, so they must not take the plans' slots."""
 
 FORMER_WEBHOOKS = "webhooks"
 """Where earlier versions enqueued calls, which may wait for hours until they are repeated."""
 
 PLAN_WORKFLOW, STUDY_WORKFLOW = "plan_job", "study_job"
 WEBHOOK_WORKFLOW, EXPIRY_WORKFLOW = "call_webhook", "expire_jobs"
-
-SINGLE, SCENARIO = 1, 2
-"""Priorities: a single plan need not wait for all scenarios of a sweep."""
-
 
 SERIALIZER = DBOSPortableJSONSerializer()
 """Of what DBOS stores: JSON, not pickled objects."""
@@ -57,9 +54,9 @@ class Queues:
         options: EnqueueOptions = {
             "workflow_name": PLAN_WORKFLOW, "queue_name": PLANS, "workflow_id": job.id,
             "app_version": APPLICATION_VERSION,
-            "priority": SINGLE if job.parent is None else SCENARIO,
+            "priority": job.priority,
         }
-        if job.kind != "plan":
+        if job.kind in ("compare", "sweep"):
             options |= {"workflow_name": STUDY_WORKFLOW, "queue_name": STUDIES}
         self.client.enqueue_in_transaction(connection, options, job.id)
 
@@ -67,13 +64,16 @@ class Queues:
         """Enqueue the call of a job's webhook when the transaction commits. In place."""
         self.client.enqueue_in_transaction(connection, webhook_options(job_id, url, 0), job_id, 0)
 
-    def put_back(self, job_id: str, is_plan: bool) -> None:
-        """Have a job that some process took begun again by any. In place."""
-        self.client.resume_workflow(job_id, queue_name=PLANS if is_plan else STUDIES)
+    def put(self, job_id: str, queue: str) -> None:
+        """Have a job that some process took begun again by any that looks into a queue. In place.
+        """
+        self.client.resume_workflow(job_id, queue_name=queue)
 
-    def put_off(self, job_id: str) -> None:
-        """Have a plan job wait in some process, aside from those that can begin. In place."""
-        self.client.resume_workflow(job_id, queue_name=WAITING)
+    def is_in(self, job_id: str, queue: str) -> bool:
+        """Tell whether a job waits in a queue, or was taken from it."""
+        found = self.client.list_workflows(workflow_ids=[job_id], queue_name=queue,
+                                           load_input=False, load_output=False)
+        return bool(found)
 
     def drop(self, ids: Collection[str]) -> None:
         """Take jobs out of their queues. In place."""
@@ -103,6 +103,13 @@ class Queues:
     def forget(self, ids: Collection[str]) -> None:
         """Delete all that is known of workflows. In place."""
         self.client.delete_workflows(list(ids))
+
+
+def queue_of(row: JobRow) -> str:
+    """Return where a job waits."""
+    if row.kind in ("compare", "sweep"):
+        return STUDIES
+    return DIVIDED if row.divided else PLANS
 
 
 def webhook_options(job_id: str, url: str, failures: int) -> EnqueueOptions:

@@ -1,8 +1,15 @@
 """Jobs as the database has them."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from app.jobs.schemas import Kind, State
+
+RowKind = Kind | Literal["region"]
+"""What is done for a job; a region is one of a plan job's, which no client sees."""
+
+SINGLE, SCENARIO = 1, 2
+"""Priorities: a single plan, or a region of one, need not wait for all scenarios of a sweep."""
 
 OPEN: tuple[State, ...] = ("queued", "running")
 
@@ -12,7 +19,7 @@ class JobRow:
     """A job as the database has it. Times in milliseconds since 1970."""
 
     id: str
-    kind: Kind
+    kind: RowKind
     owner: str
     state: State
     parent: str | None
@@ -39,6 +46,7 @@ class JobRow:
     waiting_for: str | None = None
     waiting_since: int | None = None
     retry_at: int | None = None
+    divided: bool = False  # a plan that goes on by regions
 
     @property
     def is_over(self) -> bool:
@@ -51,7 +59,7 @@ class NewJob:
     """A job to be kept."""
 
     id: str
-    kind: Kind
+    kind: RowKind
     owner: str
     fingerprint: str
     body: bytes | None  # None: that of the parent
@@ -61,6 +69,7 @@ class NewJob:
     client: str | None = None  # whose share it takes; None: a scenario, for which its parent does
     plans: int = 1
     key: str | None = None
+    priority: int = SINGLE
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from app.errors import (
     MAX_LISTED_ERRORS, InputError, InvalidRequestError, NoRoadsError, json_path, schema_errors,
 )
 from app.jobs.grid import GridPath, Place, places, put, read_path
-from app.jobs.schemas import CompareRequest, Kind, SweepRequest
+from app.jobs.schemas import CompareRequest, SweepRequest
 from app.plans.task import task_of
 from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.reading import read_json, read_request, request_errors
@@ -114,7 +114,7 @@ class Sweep:
 Scenarios = Comparison | Sweep
 
 
-def read_study(kind: Kind, body: bytes, policies: Collection[str] | None,
+def read_study(kind: str, body: bytes, policies: Collection[str] | None,
                bounds: Bounds = UNBOUNDED) -> tuple[PlanRequest, Scenarios]:
     """Return the base and the scenarios of a request; the scenarios are not validated yet.
 

@@ -3,12 +3,10 @@
 import threading
 import time
 from dataclasses import dataclass, replace
-
-from pydantic_core import to_json
+from typing import Protocol
 
 from app.plans.replies import Data
-from app.plans.task import Task
-from app.requests.plan_reading import plan_to_solution
+from model.judge.check import Evaluation
 from model.planner import Elapsed, Listener, Planner, PlanOptions, PlanResult, Start
 from model.search.improve import Progress
 from model.solution import Solution
@@ -21,6 +19,31 @@ SHORTEST_REST = 0.05
 
 NEARLY_OVER = 0.999
 """Progress until the end."""
+
+
+class Plannable(Protocol):
+    """A whole task, or a region of one."""
+
+    @property
+    def far(self) -> object | None:
+        """Legs that are estimated so far."""
+
+    @property
+    def replanning(self) -> object | None:
+        """The plan that it goes on from."""
+
+    def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
+             listener: Listener = ..., start: Solution | None = None) -> PlanResult:
+        """Plan."""
+
+    def check(self, solution: Solution) -> Evaluation:
+        """Judge a plan."""
+
+    def reply(self, options: PlanOptions, result: PlanResult) -> Data:
+        """Return what is written down of a plan."""
+
+    def read(self, reply: Data) -> Solution:
+        """Return the plan that was written down."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +78,7 @@ class Search:
         What was done already.
     """
 
-    def __init__(self, planner: Planner, task: Task, options: PlanOptions,
+    def __init__(self, planner: Planner, task: Plannable, options: PlanOptions,
                  earlier: EarlierWork) -> None:
         self._task = task
         self._options = options
@@ -165,7 +188,7 @@ class Search:
     def _start(self) -> Solution | None:
         if self._earlier.reply is None:
             return None
-        return plan_to_solution(to_json(self._earlier.reply), self._task.problem)
+        return self._task.read(self._earlier.reply)
 
     def _hear(self, progress: Progress) -> None:
         if self._first is None:

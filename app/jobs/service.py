@@ -145,7 +145,7 @@ class JobService:
         """
         # Not every text is one that a database takes.
         row = self._store.find(job_id) if is_job_id(job_id) else None
-        if row is None or row.owner != owner:
+        if row is None or row.owner != owner or row.kind == "region":
             raise UnknownJobError(job_id)
         return row
 
@@ -194,9 +194,7 @@ class JobService:
         row = self.find(job_id, owner)
         if row.is_over:
             return row
-        if row.kind != "plan":
-            self.stop_jobs(self._open_children(row))
-        self.stop_jobs([row])
+        self.stop_jobs([*self._open_children(row), row])
         deadline = time.monotonic() + CANCEL_PATIENCE
         while not (row := self._existing(job_id)).is_over and time.monotonic() < deadline:
             time.sleep(CANCEL_POLLING)
@@ -218,9 +216,9 @@ class JobService:
     def _end(self, row: JobRow) -> None:
         """End a job whose process doesn't answer. In place."""
         standing = None
+        for child in self._open_children(row):
+            self._store.finish(child.id, None, "cancelled")
         if row.kind != "plan":
-            for child in self._open_children(row):
-                self._store.finish(child.id, None, "cancelled")
             children = self._store.children(row.id)
             if children:
                 result = study_result(self._store, self._reader.scenarios(self._store, row),

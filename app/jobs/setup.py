@@ -9,12 +9,15 @@ from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.durable import connect
+from app.jobs.asked import Asking
 from app.jobs.desk import JobDesk
+from app.jobs.divided import DividedWork
 from app.jobs.housekeeping import Housekeeper
 from app.jobs.planning import PlanWork
-from app.jobs.queues import Queues
+from app.jobs.queues import DIVIDED, PLANS, STUDIES, WAITING, Queues
 from app.jobs.reading import JobReader
-from app.jobs.running import Returning
+from app.jobs.rows import NewJob
+from app.jobs.running import RegionTerms, Returning
 from app.jobs.schemas import Data
 from app.jobs.service import JobService, OpenLimits
 from app.jobs.store import JobStore
@@ -65,16 +68,29 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
     store = JobStore(queues.engine, int(settings.job_expiry_hours * HOUR_MS), queues.add_webhook,
                      metrics.count_finished_job)
     reader = JobReader(planner.policies, settings, roads)
-    returning = Returning(lambda job_id: queues.put_back(job_id, True), queues.put_off)
-    plans = PlanWork(planner, store, lambda row: reader.plan_request(store, row),
-                     settings.search_threads, returning, on_plan, roads)
+    asking = Asking(lambda row: reader.plan_request(store, row), settings.search_threads, roads)
+    returning = Returning(lambda job_id: queues.put(job_id, PLANS),
+                          lambda job_id: queues.put(job_id, WAITING),
+                          lambda job_id: queues.put(job_id, DIVIDED))
+    terms = RegionTerms(settings.region_from, settings.region_customers, settings.region_seconds)
+    plans = PlanWork(planner, store, asking, returning, on_plan, terms)
     limits = OpenLimits(settings.max_open_jobs, settings.max_open_jobs_per_client)
-    service = JobService(store, queues, reader, limits, plans.cancel)
-    studies = StudyWork(store, lambda row: reader.scenarios(store, row),
-                        lambda jobs: store.add(jobs, queues.add_job), service.stop_jobs,
-                        lambda job_id: queues.put_back(job_id, False))
-    housekeeper = Housekeeper(store, queues, also_expire)
-    worker = Worker(settings, store, plans, studies, housekeeper, _caller(settings))
+    service = JobService(store, queues, reader, limits, lambda job_id: stop_here(job_id))
+
+    def add(jobs: Sequence[NewJob]) -> bool:
+        return store.add(jobs, queues.add_job)
+
+    divided = DividedWork(store, asking, terms, add, service.stop_jobs, returning,
+                          lambda job_id: queues.is_in(job_id, DIVIDED), on_plan)
+    studies = StudyWork(store, lambda row: reader.scenarios(store, row), add, service.stop_jobs,
+                        lambda job_id: queues.put(job_id, STUDIES))
+
+    def stop_here(job_id: str) -> None:
+        plans.cancel(job_id)
+        divided.cancel(job_id)
+
+    housekeeper = Housekeeper(store, queues, also_expire, asking.forget_unused)
+    worker = Worker(settings, store, plans, divided, studies, housekeeper, _caller(settings))
     desk = JobDesk(store, queues, service)
     metrics.watch_jobs(desk.count)
     stopping = threading.Event()

@@ -18,9 +18,13 @@ from app.database.connections import Purpose, alone
 from app.database.migrations.running import find_misfit, upgrade
 from app.database.tables import JOBS, REQUESTS, RESULTS
 from app.jobs.rows import OPEN, JobRow, NewJob, OpenPlans, Standing
-from app.jobs.schemas import Kind, State
+from app.jobs.schemas import State
 
 _WAITING_NO_MORE: dict[str, None] = dict.fromkeys(("waiting_for", "waiting_since", "retry_at"))
+
+_RELEASED: dict[str, object] = {
+    "state": "queued", "attempt": JOBS.c.attempt + 1, "crashes": 0,
+    "revision": JOBS.c.revision + 1, **_WAITING_NO_MORE}
 
 FAST = 1
 """zlib's level: plans are written each second."""
@@ -48,7 +52,7 @@ class JobStore:
 
     def __init__(self, engine: Engine, expiry: int,
                  announce: Callable[[Connection, str, str], None],
-                 count: Callable[[Kind, State, float | None], None]) -> None:
+                 count: Callable[[str, State, float | None], None]) -> None:
         self._engine = engine
         self._expiry = expiry
         self._announce = announce
@@ -103,7 +107,7 @@ class JobStore:
         return self._rows(select(JOBS).where(JOBS.c.id.in_(ids)))
 
     def children(self, parent: str) -> list[JobRow]:
-        """Return the scenarios of a comparison or sweep in order."""
+        """Return the scenarios of a comparison or sweep, or a plan's regions, in order."""
         return self._rows(select(JOBS).where(JOBS.c.parent == parent).order_by(JOBS.c.position))
 
     def page(self, owner: str, limit: int, before: tuple[int, str] | None,
@@ -233,7 +237,7 @@ class JobStore:
         with self._engine.begin() as connection:
             row = connection.execute(
                 update(JOBS).where(held).values(values)
-                .returning(JOBS.c.webhook, JOBS.c.kind, JOBS.c.started_at)).first()
+                .returning(JOBS.c.webhook, JOBS.c.kind, JOBS.c.started_at, JOBS.c.divided)).first()
             if row is None:
                 return False
             if standing is not None:
@@ -243,17 +247,21 @@ class JobStore:
                 connection.execute(delete(RESULTS).where(RESULTS.c.job == job_id))
             if row.webhook is not None:
                 self._announce(connection, job_id, row.webhook)
+            if row.divided:
+                connection.execute(update(JOBS).where(JOBS.c.parent == job_id)
+                                   .values(cancel_requested=True))
         seconds = None if row.started_at is None else (at - row.started_at) / 1000
-        self._count(row.kind, state, seconds)
+        if row.kind != "region":
+            self._count(row.kind, state, seconds)
         return True
 
     def release(self, job_id: str, attempt: int) -> bool:
         """Give a job back to its queue; False if it is no longer this attempt's. In place."""
-        change = (update(JOBS).where(_held(job_id, attempt))
-                  .values(state="queued", attempt=JOBS.c.attempt + 1, crashes=0,
-                          revision=JOBS.c.revision + 1, **_WAITING_NO_MORE))
-        with self._engine.begin() as connection:
-            return connection.execute(change).rowcount == 1
+        return self._changed(_held(job_id, attempt), **_RELEASED) is not None
+
+    def divide(self, job_id: str, attempt: int) -> bool:
+        """Give a job back that goes on by regions; returns as `release` does. In place."""
+        return self._changed(_held(job_id, attempt), divided=True, **_RELEASED) is not None
 
     def request_cancel(self, ids: Collection[str]) -> None:
         """Have jobs stopped by whoever runs them. In place."""
@@ -273,12 +281,15 @@ class JobStore:
             return connection.execute(change).rowcount == 1
 
     def expired(self, at: int, limit: int) -> list[str]:
-        """Return jobs that expired before `at`, and those of their scenarios."""
+        """Return jobs that expired before `at`, and those of their scenarios and regions."""
         query = (select(JOBS.c.id).where(JOBS.c.expires_at < at, JOBS.c.parent.is_(None))
                  .limit(limit))
         with self._engine.connect() as connection:
             ids = list(connection.scalars(query))
-            ids += connection.scalars(select(JOBS.c.id).where(JOBS.c.parent.in_(ids)))
+            below = ids
+            while below:
+                below = list(connection.scalars(select(JOBS.c.id).where(JOBS.c.parent.in_(below))))
+                ids += below
         return ids
 
     def forget(self, ids: Collection[str]) -> None:

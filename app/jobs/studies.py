@@ -8,10 +8,10 @@ from dataclasses import replace
 
 from pydantic_core import from_json, to_json
 
-from app.jobs.planning import MAX_CRASHES, OVER, POISONOUS, SLICE, Slice, Stopping
-from app.jobs.rows import JobRow, NewJob, Standing
+from app.jobs.rows import SCENARIO, JobRow, NewJob, Standing
 from app.jobs.scenarios import Comparison, Scenarios
 from app.jobs.schemas import Data, State
+from app.jobs.slices import MAX_CRASHES, OVER, POISONOUS, SLICE, Slice, Stopping
 from app.jobs.store import JobStore
 
 logger = logging.getLogger(__name__)
@@ -165,7 +165,7 @@ def _child(parent: JobRow, position: int) -> NewJob:
     # The same id each time, so that a scenario is never begun twice.
     child = uuid.uuid5(uuid.UUID(parent.id), str(position))
     return NewJob(str(child), "plan", parent.owner, parent.fingerprint, None,
-                  parent=parent.id, position=position)
+                  parent=parent.id, position=position, priority=SCENARIO)
 
 
 def _searched(children: Sequence[JobRow]) -> float:

@@ -16,14 +16,17 @@ from sqlalchemy import Engine, event
 
 from app.database.connections import database_url, is_misfit, is_outage
 from app.database.durable import connect
+from app.jobs.divided import DividedWork
 from app.jobs.housekeeping import Housekeeper
 from app.jobs.identity import Identity, take_identity
-from app.jobs.planning import NOT_COMPUTED, PlanWork, Slice, Stopping
+from app.jobs.planning import PlanWork
 from app.jobs.queues import (
-    APPLICATION, APPLICATION_VERSION, EXPIRY_WORKFLOW, FORMER_WEBHOOKS, PLAN_WORKFLOW, PLANS,
-    SERIALIZER, STUDIES, STUDY_WORKFLOW, WAITING, WEBHOOK_WORKFLOW, WEBHOOKS, webhook_options,
+    APPLICATION, APPLICATION_VERSION, DIVIDED, EXPIRY_WORKFLOW, FORMER_WEBHOOKS, PLAN_WORKFLOW,
+    PLANS, SERIALIZER, STUDIES, STUDY_WORKFLOW, WAITING, WEBHOOK_WORKFLOW, WEBHOOKS,
+    webhook_options,
 )
 from app.jobs.replies import summary
+from app.jobs.slices import NOT_COMPUTED, Slice, Stopping
 from app.jobs.store import JobStore
 from app.jobs.studies import StudyWork
 from app.jobs.webhook import Caller, UnreachableError, wait_after
@@ -34,7 +37,7 @@ logger = logging.getLogger(__name__)
 POLLING, FORMER_POLLING = 0.2, 5.0
 """Seconds between two looks into a queue, and into one that nothing is added to any more."""
 
-STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE, WAITING_AT_ONCE = 100, 20, 20
+STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE, WAITING_AT_ONCE, DIVIDED_AT_ONCE = 100, 20, 20, 4
 
 CALLS_OF_A_HOST = 2
 """Of all webhooks called at once: a host that is slow to answer keeps the places of no other."""
@@ -69,19 +72,20 @@ class Worker:
         Where the database is, what the process is called, and how many plans it makes at once.
     store
         Where jobs are kept.
-    plans, studies
-        What to do with jobs of each kind.
+    plans, divided, studies
+        What to do with plans, those by regions, and comparisons and sweeps.
     housekeeper
         Who looks after jobs meanwhile.
     caller
         What calls webhooks; None: none are called.
     """
 
-    def __init__(self, settings: Settings, store: JobStore, plans: PlanWork, studies: StudyWork,
-                 housekeeper: Housekeeper, caller: Caller | None) -> None:
+    def __init__(self, settings: Settings, store: JobStore, plans: PlanWork, divided: DividedWork,
+                 studies: StudyWork, housekeeper: Housekeeper, caller: Caller | None) -> None:
         self._settings = settings
         self._store = store
         self._plans = plans
+        self._divided = divided
         self._studies = studies
         self._housekeeper = housekeeper
         self._caller = caller
@@ -122,10 +126,11 @@ class Worker:
     def stop(self) -> None:
         """Hand back what is worked on, and end. In place."""
         self._stopping.set()
-        self._plans.stop()
-        self._studies.stop()
+        kinds = (self._plans, self._divided, self._studies)
+        for kind in kinds:
+            kind.stop()
         deadline = time.monotonic() + STOP_PATIENCE
-        while not (self._plans.is_idle and self._studies.is_idle):
+        while not all(kind.is_idle for kind in kinds):
             if time.monotonic() > deadline:
                 break
             time.sleep(0.01)
@@ -136,7 +141,7 @@ class Worker:
         expiry = self._register()
         DBOS.launch()
         for queue, limit in ((PLANS, self._settings.job_slots), (STUDIES, STUDIES_AT_ONCE),
-                             (WAITING, WAITING_AT_ONCE)):
+                             (WAITING, WAITING_AT_ONCE), (DIVIDED, DIVIDED_AT_ONCE)):
             DBOS.register_queue(queue, worker_concurrency=limit, polling_interval_sec=POLLING)
         DBOS.register_queue(WEBHOOKS, worker_concurrency=WEBHOOKS_AT_ONCE,
                             partition_worker_concurrency=CALLS_OF_A_HOST,
@@ -150,7 +155,7 @@ class Worker:
         # Attempts are counted in the jobs' own rows, where progress sets them back to none.
         @DBOS.workflow(name=PLAN_WORKFLOW, max_recovery_attempts=None)
         def plan_job(job_id: str) -> None:
-            self._work(job_id, self._plans.advance)
+            self._work(job_id, self._advance_plan)
 
         @DBOS.workflow(name=STUDY_WORKFLOW, max_recovery_attempts=None)
         def study_job(job_id: str) -> None:
@@ -182,8 +187,17 @@ class Worker:
                 raise Stopping from error
             logger.exception("job %s failed", job_id)
             self._plans.drop(job_id)
+            self._divided.drop(job_id)
             self._studies.drop(job_id)
             self._store.finish(job_id, None, "failed", error=NOT_COMPUTED)
+
+    def _advance_plan(self, job_id: str) -> Slice:
+        """Work on a plan job for a slice, whole or by regions. In place."""
+        is_divided = self._divided.holds(job_id)
+        if not is_divided and not self._plans.holds(job_id):
+            row = self._store.find(job_id)
+            is_divided = row is not None and row.divided
+        return (self._divided if is_divided else self._plans).advance(job_id)
 
     def _call_webhook(self, job_id: str, failures: int) -> None:
         """Call a job's webhook, or enqueue a later call. In place."""

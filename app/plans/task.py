@@ -4,6 +4,8 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 
+from pydantic_core import to_json
+
 from app.conversion.leg_origins import LegOrigin
 from app.conversion.locating import Located, located
 from app.conversion.names import number_in
@@ -17,7 +19,7 @@ from app.plans.far_plans import FarPlans
 from app.plans.geometry import Geometry
 from app.plans.replies import Data, plan_reply, route_reply, vehicle_name
 from app.plans.telling import IN_SECONDS, Telling
-from app.requests.plan_reading import read_earlier_plan
+from app.requests.plan_reading import plan_to_solution, read_earlier_plan
 from app.roads.roads import NO_ROADS, Roads
 from app.schemas.request import PlanRequest, ReplanInput
 from app.schemas.response import PlanReply
@@ -133,6 +135,10 @@ class Task:
             reply["replan"] = _replan_reply(self.problem, self.replanning)
         self.telling.tell(PlanReply, reply)
         return {**self.telling.stated, **reply}
+
+    def read(self, reply: Data) -> Solution:
+        """Return the plan of an earlier reply to this task."""
+        return plan_to_solution(to_json(reply), self.problem)
 
     def routes_reply(self, solution: Solution, evaluation: Evaluation) -> list[Data | None]:
         """Return a judged plan's routes as `plan_reply` does; None for those that can't be read."""

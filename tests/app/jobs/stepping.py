@@ -13,6 +13,7 @@ from typing import Any
 import httpx
 import uvicorn
 
+from app.jobs.running import RegionTerms
 from app.main import create_app
 from app.settings import DEFAULT_POLICY, Settings
 from model.judge.check import check
@@ -32,6 +33,9 @@ PAUSE = 0.02
 BROKEN_SEED, RAISING_SEED = 666, 667
 
 NUM_CUSTOMERS = 10
+
+WHOLE = RegionTerms(10 * NUM_CUSTOMERS, NUM_CUSTOMERS, 1.0)
+"""By which no job is planned by regions."""
 
 
 def request_of(seconds: float, seed: int = 0, **options: Any) -> dict[str, Any]:

@@ -72,6 +72,23 @@ def test_killed_jobs_go_on_from_their_best_plans(settings: Settings, tmp_path: P
         assert len({cell["job"] for cell in cells}) == 4
 
 
+def test_job_by_regions_goes_on_after_kills(settings: Settings, tmp_path: Path) -> None:
+    regions = {"region_from": 2, "region_customers": 5, "region_seconds": 0.5}
+    with served(tmp_path, **stated(settings), **regions) as process:
+        job = submit(process.client, request_of(3.0))
+        before = progressing(process.client, job, below=900.0)
+        process.kill()
+        process.start()
+        assert read(process.client, job)["cost"] <= before["cost"]
+        done = ended(process.client, job)
+        assert (done["state"], done["progress"]) == ("done", 1)
+        assert done["cost"] <= before["cost"]
+        stops = [stop["id"] for stop in done["result"]["routes"][0]["trips"][0]["stops"][1:-1]]
+        left_out = [entry["id"] for entry in done["result"]["unassigned"]]
+        assert sorted(stops + left_out) == sorted(f"c{number}" for number
+                                                  in range(1, NUM_CUSTOMERS + 1))
+
+
 def test_process_that_is_asked_to_end_hands_its_jobs_to_another(
         postgres: Postgres, tmp_path: Path) -> None:
     common = {"database_url": postgres.create("handover"), "data_dir": tmp_path,

@@ -9,17 +9,19 @@ from pydantic_core import from_json, to_json
 
 from app.conversion.preparing import Preparing
 from app.database.durable import connect
-from app.jobs import planning
-from app.jobs.planning import MAX_CRASHES, POISONOUS, PlanWork, Slice, Stopping
+from app.jobs import asked, planning, running
+from app.jobs.asked import Asking
+from app.jobs.planning import PlanWork
 from app.jobs.reading import JobReader
 from app.jobs.rows import JobRow, NewJob, Standing
 from app.jobs.running import Returning
+from app.jobs.slices import MAX_CRASHES, POISONOUS, Slice, Stopping
 from app.jobs.store import JobStore
 from app.plans.task import Task, task_of
 from app.roads.roads import Roads
 from app.schemas.request import PlanRequest
 from app.settings import Settings
-from tests.app.jobs.stepping import NUM_CUSTOMERS, SteppingPlanner, request_of
+from tests.app.jobs.stepping import NUM_CUSTOMERS, WHOLE, SteppingPlanner, request_of
 
 FULL_COST = 2.0 * NUM_CUSTOMERS
 
@@ -34,6 +36,7 @@ class Desk:
     settings: Settings
     put_back: list[str] = field(default_factory=list)
     put_off: list[str] = field(default_factory=list)
+    shared_out: list[str] = field(default_factory=list)
     count: int = 0
 
     def job(self, seconds: float, replan: object = None, **options: object) -> str:
@@ -47,8 +50,9 @@ class Desk:
     def process(self, planner: SteppingPlanner = PLANNER) -> PlanWork:
         """Return the work of a process."""
         reader = JobReader(planner.policies, self.settings)
-        return PlanWork(planner, self.store, lambda row: reader.plan_request(self.store, row), 1,
-                        Returning(self.put_back.append, self.put_off.append), lambda _: None)
+        asking = Asking(lambda row: reader.plan_request(self.store, row), 1)
+        returning = Returning(self.put_back.append, self.put_off.append, self.shared_out.append)
+        return PlanWork(planner, self.store, asking, returning, lambda _: None, WHOLE)
 
     def row(self, job: str) -> JobRow:
         """Return a job."""
@@ -213,7 +217,7 @@ def test_job_may_go_on_from_a_plan(desk: Desk) -> None:
 def test_job_cancelled_before_its_search_ends(desk: Desk, monkeypatch: pytest.MonkeyPatch,
                                               where: str) -> None:
     process, job = desk.process(), desk.job(seconds=60.0)
-    monkeypatch.setattr(planning, "SLICE", 0.0)
+    monkeypatch.setattr(running, "SLICE", 0.0)
 
     def cancel_meanwhile(request: PlanRequest, preparing: Preparing, roads: Roads) -> None:
         assert not preparing.should_stop()
@@ -223,7 +227,7 @@ def test_job_cancelled_before_its_search_ends(desk: Desk, monkeypatch: pytest.Mo
             desk.store.request_cancel([job])
         replace(preparing, began=-1e9).pause()
 
-    monkeypatch.setattr(planning, "task_of", cancel_meanwhile)
+    monkeypatch.setattr(asked, "task_of", cancel_meanwhile)
     assert process.advance(job).over
     assert process.is_idle
     assert desk.row(job).state == "cancelled"
@@ -236,7 +240,7 @@ def test_short_job_is_planned_though_the_machine_was_busy(
     def begin_late(request: PlanRequest, preparing: Preparing, roads: Roads) -> Task:
         return task_of(request, replace(preparing, began=preparing.began - 5.0), roads=roads)
 
-    monkeypatch.setattr(planning, "task_of", begin_late)
+    monkeypatch.setattr(asked, "task_of", begin_late)
     until(lambda: process.advance(job), lambda now: now.over)
     assert desk.row(job).state == "done"
 
@@ -249,7 +253,7 @@ def test_job_that_has_not_begun_to_search_is_left_to_others(
         process.stop()
         replace(preparing, began=-1e9).pause()
 
-    monkeypatch.setattr(planning, "task_of", stop_meanwhile)
+    monkeypatch.setattr(asked, "task_of", stop_meanwhile)
     with pytest.raises(Stopping):
         process.advance(job)
     assert process.is_idle

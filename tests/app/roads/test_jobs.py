@@ -1,6 +1,7 @@
 """Jobs on stated roads."""
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -8,10 +9,12 @@ from pydantic_core import from_json, to_json
 
 from app.database.durable import connect
 from app.jobs import planning
-from app.jobs.planning import PlanWork, Stopping
+from app.jobs.asked import Asking
+from app.jobs.planning import PlanWork
 from app.jobs.reading import JobReader
 from app.jobs.rows import JobRow, NewJob
 from app.jobs.running import Returning
+from app.jobs.slices import Stopping
 from app.jobs.store import JobStore
 from app.roads.building import Build
 from app.roads.engine import RoadsUnavailableError
@@ -20,7 +23,7 @@ from app.roads.tools import Tools
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.app.jobs.conftest import serving
-from tests.app.jobs.stepping import ended, read, submit
+from tests.app.jobs.stepping import WHOLE, ended, read, submit
 from tests.app.roads import faults
 from tests.app.roads.conftest import served
 from tests.app.roads.fake import StatedRoads, table_of
@@ -43,12 +46,15 @@ class Office:
         self.store.prepare()
         reader = JobReader(planner.policies, settings, roads)
         self.queue: list[str] = []
-        self.work = PlanWork(planner, self.store,
-                             lambda row: reader.plan_request(self.store, row), 1,
-                             Returning(lambda _: self.queue.append("back"),
-                                       lambda _: self.queue.append("off")), lambda _: None, roads)
+        asking = Asking(lambda row: reader.plan_request(self.store, row), 1, roads)
+        returning = Returning(*(partial(self._queued, where) for where in ("back", "off", "out")))
+        self.work = PlanWork(planner, self.store, asking, returning, lambda _: None,
+                             WHOLE)
         stated = to_json(request(options={"time_limit": 5}))
         assert self.store.add([NewJob("j", "plan", "me", "f", stated)], lambda *_: None)
+
+    def _queued(self, where: str, _: str) -> None:
+        self.queue.append(where)
 
     @property
     def row(self) -> JobRow:
