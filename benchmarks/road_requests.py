@@ -2,13 +2,15 @@
 
 Matrices are those of the service's own roads between places by an extract's streets. Otherwise as
 in `benchmarks.vroom_requests`: VROOM explores as it does by default on one thread, once until it is
-done and once stopped after a second, and Tandem gets the wall time of each.
+done, or as long as is stated, and once stopped after a second, and Tandem gets the wall time of
+each; what either refuses for want of time isn't counted.
 """
 
 import math
 import statistics
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -24,8 +26,9 @@ from app.roads.roads import Roads
 from app.roads.setting import Extract
 from app.roads.tools import find_tools
 from app.settings import DEFAULT_POLICY, Settings
+from app.vroom.errors import VroomError
 from benchmarks.roads import PATIENCE, drawn
-from benchmarks.vroom_requests import STOPPED, cells, compare
+from benchmarks.vroom_requests import STOPPED, Compared, cells, compare
 from model.planner import Planner, load_planner
 from model.problem import FloatArray
 
@@ -82,15 +85,22 @@ def matrix_of(roads: Roads, extract: Path, size: int, seed: int) -> Data:
     return {"durations": between(table.durations_s), "distances": between(table.distances_m)}
 
 
-def rows(planner: Planner, roads: Roads, extract: Path, sizes: list[int],
-         repeats: int) -> Iterator[list[str]]:
+def compared(planner: Planner, requests: list[Data], seconds: float | None) -> Iterator[Compared]:
+    """Yield what both make of requests, but those for which there wasn't time enough."""
+    for request in requests:
+        with suppress(VroomError):
+            yield compare(planner, request, seconds)
+
+
+def rows(planner: Planner, roads: Roads, extract: Path, sizes: list[int], repeats: int,
+         most: float | None) -> Iterator[list[str]]:
     """Yield the rows of the table."""
     for make in CLASSES:
         for size in sizes:
             requests = [make(np.random.default_rng(seed), matrix_of(roads, extract, size, seed),
                              size) for seed in range(repeats)]
-            done = [compare(planner, request, None) for request in requests]
-            stopped = [compare(planner, request, STOPPED) for request in requests]
+            done = list(compared(planner, requests, most))
+            stopped = list(compared(planner, requests, STOPPED))
             seconds = statistics.mean(run.vroom_seconds for run in done)
             yield [extract.name.partition(".")[0], make.__name__, str(size), f"{seconds:.2f}",
                    *cells(done), *cells(stopped)]
@@ -100,6 +110,8 @@ def main(
     extracts: list[Path],
     sizes: Annotated[list[int] | None, typer.Option(help="Jobs of a request.")] = None,
     repeats: Annotated[int, typer.Option(help="Requests of each class and size.")] = 3,
+    most: Annotated[float | None, typer.Option(
+        help="Seconds after which VROOM is stopped. Left out: once it is done.")] = None,
 ) -> None:
     """Print the costs of Tandem's solutions divided by those of VROOM's."""
     planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
@@ -115,7 +127,7 @@ def main(
             path.symlink_to(extract.resolve())
             build_roads(Extract(path, "car"), find_tools())
             with opened_roads(Settings(roads=f"car={path}", data_dir=Path(folder))) as roads:
-                for row in rows(planner, roads, path, sizes or [100, 300, 1000], repeats):
+                for row in rows(planner, roads, path, sizes or [100, 300, 1000], repeats, most):
                     table.add_row(*row)
                     Console(stderr=True).print(" ".join(row))
     Console().print(table)

@@ -1,5 +1,6 @@
 """`tandem import`: a spreadsheet of customers becomes a request."""
 
+from collections.abc import Collection
 from collections.abc import Mapping as Stated
 from contextlib import closing
 from pathlib import Path
@@ -14,6 +15,7 @@ from app.addresses.opening import opened_addresses
 from app.addresses.setting import GeocoderSettingError
 from app.cli.file_errors import EXIT_BAD_INPUT, refuse
 from app.errors import RequestError
+from app.roads.setting import SettingError, read_setting
 from app.settings import Settings
 from app.sheets.addresses import Finder
 from app.sheets.importing import import_file
@@ -52,6 +54,8 @@ def import_sheet(
     service_minutes: Annotated[float | None, typer.Option(
         help="Minutes at each stop whose row states none.")] = None,
     day: Annotated[str | None, typer.Option(help="Day that is planned: 2026-11-23.")] = None,
+    time_zone: Annotated[str | None, typer.Option(
+        help="Time zone: Europe/Berlin. Times are then those of the day's clocks.")] = None,
     sheet: Annotated[str | None, typer.Option(help="Name of the workbook's sheet.")] = None,
     leave_out_errors: Annotated[bool, typer.Option(
         help="Leave out rows with errors.")] = False,
@@ -60,15 +64,19 @@ def import_sheet(
     stated = {
         "depot": depot, "vehicles": vehicles, "capacity": _numbers(capacity), "shift": shift,
         "speed_kmh": speed, "drones": drones, "drone_capacity": _numbers(drone_capacity),
-        "service_minutes": service_minutes, "day": day, "leave_out_errors": leave_out_errors,
+        "service_minutes": service_minutes, "day": day, "time_zone": time_zone,
+        "leave_out_errors": leave_out_errors,
     }
     settings = _settings(stated, _mapping(mapping, sheet))
     try:
         with closing(_geocoders()) as addresses:
             finder = Finder(addresses, LOOKING_UP, _show_progress)
-            reply = import_file(sheet_file.read_bytes(), settings, finder)
+            reply = import_file(sheet_file.read_bytes(), settings, finder, _road_profiles())
     except RequestError as error:
         refuse(sheet_file, error)
+    except SettingError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
     _tell(reply)
     if save_mapping is not None:
         save_mapping.write_text(reply.mapping.model_dump_json(indent=2) + "\n", "utf-8")
@@ -79,6 +87,11 @@ def import_sheet(
         typer.echo(content)
     else:
         output.write_bytes(content)
+
+
+def _road_profiles() -> Collection[str]:
+    stated = Settings().roads
+    return read_setting(stated.get_secret_value()) if stated else ()
 
 
 def _geocoders() -> Addresses:
@@ -129,6 +142,8 @@ def _tell(reply: ImportReply) -> None:
         typer.echo(_line(column), err=True)
     for doubt in [*(doubt for column in reply.columns for doubt in column.doubts), *reply.doubts]:
         typer.echo(f"? {doubt.message}", err=True)
+    for warning in reply.warnings:
+        typer.echo(f"warning {warning.code} {warning.path}: {warning.message}", err=True)
     for error in reply.errors:
         typer.echo(f"! {error.cell + ': ' if error.cell else ''}{error.message}", err=True)
     if reply.num_errors > len(reply.errors):

@@ -44,7 +44,7 @@ class UnknownLinkError(RequestError):
     """No link has this token; which of all reasons it is, isn't told."""
 
     status = 401
-    name = "unknown-link"
+    name = "unknown-driver-link"
     title = "The link is not valid"
     refusal = "access"
 

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple, get_args
 from pydantic import BaseModel
 
 from app.plans.replies import Data
+from app.plans.wording import Words, wording
 from app.schemas.request import PlanRequest
-from app.schemas.times import Told
+from app.schemas.times import Told, Worded
 
 STATED = {"plan_start", "time_zone", "currency", "load_dimensions"}
 """Fields of a request that its reply repeats."""
@@ -18,9 +19,10 @@ Tell = Callable[[float], str | float]
 
 
 class _Parts(NamedTuple):
-    """Fields of a reply that are instants, and those that hold some."""
+    """Fields of a reply that are instants, those that speak of times, and those that hold such."""
 
     instants: tuple[str, ...]
+    words: tuple[str, ...]
     inner: tuple[tuple[str, type[BaseModel]], ...]
 
 
@@ -29,6 +31,7 @@ class Telling:
     """How a reply tells instants, None being in seconds, and what it repeats of its request."""
 
     instant: Tell | None = None
+    words: Words | None = None
     stated: Mapping[str, Any] = field(default_factory=dict)
 
     @classmethod
@@ -37,14 +40,14 @@ class Telling:
         stated = request.model_dump(include=STATED, exclude_none=True)
         day = request.day
         if day is None or request.times == "seconds":
-            return cls(None, stated)
-        return cls(day.teller(request.times), stated)
+            return cls(stated=stated)
+        return cls(day.teller(request.times), wording(day.clock), stated)
 
     def tell(self, model: type[BaseModel], reply: Data) -> None:
         """Put instants as they are told in place of seconds; `model` describes the reply. In place.
         """
-        if self.instant is not None:
-            _tell(_parts(model), reply, self.instant)
+        if self.instant is not None and self.words is not None:
+            _tell(_parts(model), reply, self.instant, self.words)
 
 
 IN_SECONDS = Telling()
@@ -52,12 +55,15 @@ IN_SECONDS = Telling()
 
 @cache
 def _parts(model: type[BaseModel]) -> _Parts:
-    instants, inner = [], []
+    marked: dict[type, list[str]] = {Told: [], Worded: []}
+    inner = []
     for name, described in model.model_fields.items():
-        if any(isinstance(note, Told) for note in _notes(described.annotation, described.metadata)):
-            instants.append(name)
+        notes = list(map(type, _notes(described.annotation, described.metadata)))
+        for kind, names in marked.items():
+            if kind in notes:
+                names.append(name)
         inner += [(name, kind) for kind in _models(described.annotation) if any(_parts(kind))]
-    return _Parts(tuple(instants), tuple(inner))
+    return _Parts(tuple(marked[Told]), tuple(marked[Worded]), tuple(inner))
 
 
 def _notes(annotation: Any, notes: list[Any]) -> Iterator[Any]:
@@ -75,12 +81,15 @@ def _models(annotation: Any) -> Iterator[type[BaseModel]]:
         yield from _models(part)
 
 
-def _tell(parts: _Parts, reply: Data, tell: Tell) -> None:
+def _tell(parts: _Parts, reply: Data, tell: Tell, words: Words) -> None:
     for name in parts.instants:
         if reply.get(name) is not None:
             reply[name] = tell(reply[name])
+    for name in parts.words:
+        if reply.get(name) is not None:
+            reply[name] = words(reply[name])
     for name, kind in parts.inner:
         value = reply.get(name)
         for entry in value if isinstance(value, list) else [value]:
             if entry is not None:
-                _tell(_parts(kind), entry, tell)
+                _tell(_parts(kind), entry, tell, words)

@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.check import PlannedProblem
 from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply
-from app.schemas.times import InstantReply
+from app.schemas.times import InstantReply, WordsReply
 from app.settings import MAX_TIME_LIMIT
 
 OTHERS_STAY = "All other customers stay with their vehicles, in their order."
@@ -76,7 +76,7 @@ class RuleReply(_Reply):
     """A rule that forbids an alternative."""
 
     code: str = Field(description="Stable name of the rule, as `POST /check` names it.")
-    message: str = Field(description="How it would be broken.")
+    message: WordsReply = Field(description="How it would be broken.")
 
 
 class AlternativeReply(PlacedReply):

@@ -8,7 +8,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.schemas.times import InstantReply
+from app.schemas.times import InstantReply, WordsReply
 
 LINE = ("as an encoded polyline of six decimals, latitude (of planar places y) first. Null: not "
         "known, or not found in time. Left out unless `options.geometry` asks for it.")
@@ -147,8 +147,9 @@ class ReasonReply(_Reply):
 
     vehicle_type: str = Field(description="Id of the vehicle type.")
     code: str = Field(description="Stable name of the reason.")
-    message: str = Field(description="The reason in words.")
-    remedy: str | None = Field(description="A change that would suffice. Null: none is known.")
+    message: WordsReply = Field(description="The reason in words.")
+    remedy: WordsReply | None = Field(
+        description="A change that would suffice. Null: none is known.")
 
 
 class UnassignedReply(_Reply):
@@ -253,7 +254,7 @@ class ViolationReply(_Reply):
 
     code: str = Field(description="Stable name of the rule.")
     path: str = Field(description="Where it is broken, such as `$.plan.routes[0].trips[1]`.")
-    message: str = Field(description="How it is broken.")
+    message: WordsReply = Field(description="How it is broken.")
 
 
 class SettledReply(_Reply):

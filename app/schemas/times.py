@@ -184,6 +184,13 @@ class Told:
     """Marks instants of replies, which are told as `options.times` says."""
 
 
+@dataclass(frozen=True)
+class Worded:
+    """Marks texts of replies that speak of times, put in words as `options.times` says."""
+
+
+WordsReply = Annotated[str, Worded()]
+
 InstantReply = Annotated[
     Annotated[float, Field(description="Seconds since plan start.")]
     | Annotated[str, Field(description="A date and time, or a time of the plan's day.")],

@@ -1,17 +1,19 @@
 """A file -> what its columns mean, the request that it makes, and every guess on the way."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
 from typing import Any
 
+from app.schemas.response import WarningReply
 from app.settings import MAX_CUSTOMERS
 from app.sheets.addresses import NO_FINDER, Finder, locate, with_depot
 from app.sheets.cells import CellError, Doubt, MisreadError, Raw, cell_name, letters, shown
 from app.sheets.clocks import Style, date_parts, states_zone
 from app.sheets.columns import Column, columns_of, language_of, with_begin
 from app.sheets.customers import Entry, address_of, entries_of, placed, together
+from app.sheets.days import on_day
 from app.sheets.fleet import Incomplete
 from app.sheets.geography import Ground, far_off, ground_of
 from app.sheets.layout import Table, table_of
@@ -19,13 +21,14 @@ from app.sheets.looks import with_looks
 from app.sheets.meanings import MEANINGS
 from app.sheets.numbers import reads_two_ways, uses_comma
 from app.sheets.readers import read, reading_text
-from app.sheets.request import errors_of, request_of, stated_depot
+from app.sheets.request import look_over, request_of, stated_depot
 from app.sheets.rows import Row, days_in, rows_of, without_totals
 from app.sheets.schemas import (
     ColumnMapping, ColumnReply, DoubtReply, ExampleReply, ImportReply, ImportSettings,
     LookUpReply, Mapping, MeaningReply, SheetErrorReply, SheetReply, day_of,
 )
 from app.sheets.table import NotASheetError, Sheet, SheetFile, read_sheets
+from app.warnings.warning import RequestWarning
 
 EXAMPLES = 4
 MOST_LISTED = 1000
@@ -44,14 +47,16 @@ class Import:
     errors: list[CellError] = field(default_factory=list)
     stops: list[Entry] = field(default_factory=list)
     request: dict[str, Any] | None = None
+    warnings: tuple[RequestWarning, ...] = ()
     looked_up: LookUpReply | None = None
 
 
-def import_file(content: bytes, settings: ImportSettings,
-                finder: Finder = NO_FINDER) -> ImportReply:
+def import_file(content: bytes, settings: ImportSettings, finder: Finder = NO_FINDER,
+                road_profiles: Collection[str] = ()) -> ImportReply:
     """Return what a file says and what became of it.
 
-    Addresses of rows without coordinates are looked up by `finder`.
+    Addresses of rows without coordinates are looked up by `finder`; `road_profiles` are those
+    for which there are roads.
 
     Raises
     ------
@@ -73,7 +78,7 @@ def import_file(content: bytes, settings: ImportSettings,
         work.doubts.append(_encoding_doubt(file, table))
     if not table.header_rows:
         work.doubts.append(Doubt("NO_HEADINGS", "There are no headings: say what columns mean."))
-    _understand(work, settings, finder)
+    _understand(work, settings, finder, road_profiles)
     return _reply(work, file, settings)
 
 
@@ -148,7 +153,8 @@ def _encoding_doubt(file: SheetFile, table: Table) -> Doubt:
                  f"taken. Check that {strange[:60]!r} is spelt right.")
 
 
-def _understand(work: Import, settings: ImportSettings, finder: Finder) -> None:
+def _understand(work: Import, settings: ImportSettings, finder: Finder,
+                road_profiles: Collection[str]) -> None:
     """Read the rows and make the request, as far as that goes. In place."""
     rows = list(without_totals(rows_of(work.table, work.columns, work.style)))
     if len(rows) < len(work.table.rows):
@@ -176,11 +182,11 @@ def _understand(work: Import, settings: ImportSettings, finder: Finder) -> None:
         if not work.errors:
             work.errors.append(CellError("NO_CUSTOMERS", "There is no customer in the file."))
         return
-    _complete(work, depots, ground, settings)
+    _complete(work, depots, ground, settings, road_profiles)
 
 
-def _complete(work: Import, depots: Sequence[Row], ground: Ground,
-              settings: ImportSettings) -> None:
+def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: ImportSettings,
+              road_profiles: Collection[str]) -> None:
     """Make the request, unless there are errors. In place."""
     if len(work.stops) > MAX_CUSTOMERS:
         work.errors.append(_too_many(work.stops))
@@ -191,11 +197,16 @@ def _complete(work: Import, depots: Sequence[Row], ground: Ground,
         work.errors.append(incomplete.error)
         return
     work.doubts += doubts
-    work.doubts.append(Doubt("MIDNIGHT", "Times are seconds since midnight"
-                             + (f" of {work.style.day.isoformat()}." if work.style.day else ".")))
+    day = work.style.day
+    if day is not None and settings.time_zone is not None:
+        request = on_day(request, day, settings.time_zone)
+    else:
+        work.doubts.append(Doubt("MIDNIGHT", "Times are seconds since midnight"
+                                 + (f" of {day.isoformat()}." if day else ".")))
     if work.errors and not settings.leave_out_errors:
         return
-    if wrong := errors_of(request, work.stops):
+    wrong, work.warnings = look_over(request, work.stops, road_profiles)
+    if wrong:
         work.errors += wrong
         return
     if work.errors:
@@ -311,6 +322,7 @@ def _reply(work: Import, file: SheetFile, settings: ImportSettings) -> ImportRep
         meanings=[MeaningReply(meaning=name, title=meaning.title, units=list(meaning.units))
                   for name, meaning in MEANINGS.items()],
         request=work.request,
+        warnings=[WarningReply(**warning._asdict()) for warning in work.warnings],
     )
 
 

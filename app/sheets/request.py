@@ -1,7 +1,7 @@
 """Customers, a depot and a fleet -> a request of `POST /plan`; what is assumed is told."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 from pydantic_core import to_json
@@ -15,6 +15,8 @@ from app.sheets.fleet import Incomplete, fleet_of
 from app.sheets.geography import Ground, Pair, depot_pair, on_globe
 from app.sheets.rows import Row
 from app.sheets.schemas import ImportSettings
+from app.warnings.finding import warnings_of
+from app.warnings.warning import RequestWarning
 
 CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "demand": ("demand",),
          "time_window": ("latest", "earliest", "window"), "time_windows": ("window",),
@@ -51,13 +53,14 @@ def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
     return request, [*doubts, *assumed]
 
 
-def errors_of(request: Data, stops: Sequence[Entry]) -> list[CellError]:
-    """Return what a request has that planning doesn't take, at the cells where it comes from."""
+def look_over(request: Data, stops: Sequence[Entry], road_profiles: Collection[str]) -> tuple[
+        list[CellError], tuple[RequestWarning, ...]]:
+    """Return what planning doesn't take, at the cells where it comes from, and what looks wrong."""
     try:
-        read_request(to_json(request), policies=None)
+        read = read_request(to_json(request), policies=None)
     except InvalidRequestError as error:
-        return [_at_cell(item, stops) for item in error.errors]
-    return []
+        return [_at_cell(item, stops) for item in error.errors], ()
+    return [], warnings_of(read, road_profiles)
 
 
 def stated_depot(settings: ImportSettings) -> Pair | None:

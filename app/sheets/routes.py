@@ -12,6 +12,7 @@ from app.access.guard import Plan
 from app.errors import InvalidRequestError, RequestError, schema_error
 from app.load.bodies import Body
 from app.load.readings import Reading
+from app.plans.routes import Service
 from app.schemas.hints import with_hints
 from app.schemas.openapi import ERROR_RESPONSES
 from app.sheets.addresses import Finder
@@ -65,14 +66,15 @@ Settings = Annotated[str | None, Query(
              tags=["planning"], response_model=ImportReply, responses=ERROR_RESPONSES,
              openapi_extra=BODY)
 async def import_sheet(request: Request, principal: Plan, reading: Reading, body: Body,
-                       settings: Settings = None) -> Response:
+                       service: Service, settings: Settings = None) -> Response:
     """Return what the columns mean, how cells are read, and the request that they make."""
     content_type = request.headers.get("content-type", "")
 
     def answer() -> bytes:
         file, stated = _parts(body.content, content_type)
         finder = Finder(request.app.state.addresses, LOOKING_UP)
-        reply = import_file(file, read_settings(stated if stated is not None else settings), finder)
+        reply = import_file(file, read_settings(stated if stated is not None else settings), finder,
+                            service.roads.profiles)
         return reply.model_dump_json().encode()
 
     reply = await reading.run(answer)

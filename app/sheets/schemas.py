@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.addresses.geocoder import Quality
 from app.schemas.fields import Amount, Demand, Input, Speed
+from app.schemas.response import WarningReply
 from app.sheets.meanings import MEANINGS
 
 Text = Annotated[str, Field(max_length=500)]
@@ -53,6 +54,9 @@ class ImportSettings(Input):
     day: Annotated[str, Field(pattern=r"^\d{4}-\d{2}-\d{2}$")] | None = Field(
         None, description="Day that is planned, as `2026-11-23`: rows of other days are left out, "
         "and times with a date count from its midnight. Null: the file's, if it has one.")
+    time_zone: Annotated[str, Field(max_length=64)] | None = Field(
+        None, description="Name of the IANA time zone, such as `Europe/Berlin`. With it, and a "
+        "day, the request has `plan_start` and times of that day. Null: seconds since midnight.")
     depot: Text | None = Field(
         None, description="Where trips begin and end: `48.137, 11.575`, latitude first, as maps "
         "show it, or `x, y`, or an address where the service has a geocoder. Null: a row of the "
@@ -176,8 +180,10 @@ class ImportReply(_Reply):
     mapping: Mapping = Field(description="How it was read: send it with the next file like it.")
     meanings: list[MeaningReply] = Field(description="What columns may mean.")
     request: dict[str, Any] | None = Field(
-        description="The request of `POST /plan`; times are seconds since midnight of the day. "
-        "Null: there are errors.")
+        description="The request of `POST /plan`; times are seconds since midnight of the day, or "
+        "of the wall clock if `time_zone` is stated. Null: there are errors.")
+    warnings: list[WarningReply] = Field(
+        description="What is allowed in the request and is hardly meant, as `POST /warnings` says.")
 
 
 def day_of(settings: ImportSettings) -> date | None:

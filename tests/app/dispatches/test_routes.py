@@ -246,7 +246,8 @@ def test_tokens_are_kept_as_hashes_and_told_to_no_log(
 @pytest.mark.parametrize("token", ["", "x", "tdm_drive_0123456789ab_" + 64 * "0"])
 def test_wrong_token_is_refused_alike(service: httpx.Client, token: str) -> None:
     reply = service.get("/drive/day", headers=holding(token) if token else {})
-    assert (reply.status_code, reply.json()["type"]) == (401, "urn:tandem:error:unknown-link")
+    assert (reply.status_code, reply.json()["type"]) == (
+        401, "urn:tandem:error:unknown-driver-link")
     assert reply.headers["cache-control"] == "no-store"
 
 

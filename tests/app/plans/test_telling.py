@@ -202,3 +202,16 @@ def test_reading_ends_after_many_times_that_cannot_be_read() -> None:
     with pytest.raises(InvalidRequestError) as refused:
         read_request(body, None)
     assert [error.code for error in refused.value.errors] == ["TOO_MANY_ERRORS"]
+
+
+def test_reasons_speak_as_times_are_told(client: httpx.Client, day: Request) -> None:
+    day["customers"][0]["time_window"] = {"earliest": "00:00", "latest": "00:30"}
+    told = {}
+    for times in ("seconds", "iso", "clock"):
+        day["options"] = {**day.get("options", {}), "times": times}
+        left_out = planned(client, day)["unassigned"]
+        told[times] = [left_out[0]["reasons"][0][name] for name in ("message", "remedy")]
+    assert all("minutes" in text for text in told["seconds"])
+    assert told["iso"] == told["clock"]
+    assert not any("minutes" in text for text in told["iso"])
+    assert all(" min" in text or " h" in text for text in told["iso"])

@@ -65,7 +65,9 @@ test('instants are told by the day that is open', () => {
   assert.equal(clock(59.5, { precise: true }), '6:01');
   assert.equal(parseClock('7:30'), 1.5 * HOUR);
   assert.equal(money(3), '3.00\u00a0EUR');
-  assert.equal(timesInWords('reached at 5400 s, 60 s too late'), 'reached at 7:30, 0:01 too late');
+  assert.equal(timesInWords('reached at 5400 s, 60 s too late'), 'reached at 7:30, 1 min too late');
+  assert.equal(timesInWords('arrives 7332.8 minutes late'), 'arrives 122 h 13 min late');
+  assert.equal(timesInWords('works 600 s, in 90.5 s'), 'works 10 min, in 1 min 30.5 s');
   tellBy(null);
   assert.equal(clock(1.5 * HOUR), '1:30');
   assert.equal(money(3), '3.00');

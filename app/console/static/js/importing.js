@@ -74,6 +74,7 @@ let asked = 0;
 async function ask() {
   const { file, mapping, texts, choices } = store.get().importing;
   const { stated } = readFields(texts);
+  stated.time_zone = Intl.DateTimeFormat().resolvedOptions().timeZone;
   // Who isn't found is placed by hand, on the map.
   if (store.get().config.finds_addresses) stated.not_found = 'address';
   asked += 1;

@@ -79,13 +79,37 @@ export function parseNumber(text) {
   return Number(trimmed);
 }
 
-/** Return a message of the service with its seconds as times, `at 36000 s` as `at 10:00`. */
+/**
+ * Return a message of the service in words: `at 36000 s` as `at 10:00`, `7332.8 minutes` and
+ * `600 s` as hours and minutes.
+ */
 export function timesInWords(message) {
-  return message.replace(/(at |before |after |until )?\b(\d+(?:\.\d+)?) s\b/g, (_, when, seconds) =>
-    when
-      ? when + clock(Number(seconds), { precise: true })
-      : hours(Number(seconds), { precise: true }),
-  );
+  const exact = (seconds) => clock(Number(seconds), { precise: true });
+  return message
+    .replace(
+      /\b(arrival|service_start|departure|\w+_time) is ([\d.]+) s, computed ([\d.]+) s\b/g,
+      (_, what, stated, computed) => `${what} is ${exact(stated)}, computed ${exact(computed)}`,
+    )
+    .replace(
+      /\b((?:at|before|after|from|until) )(\d+(?:\.\d+)?) s\b/g,
+      (_, when, seconds) => when + exact(seconds),
+    )
+    .replace(/\b(\d+(?:\.\d+)?) (s|minutes?)\b(?!')/g, (_, amount, unit) =>
+      enough(Number(amount) * (unit === 's' ? 1 : 60)),
+    );
+}
+
+/** Return a length in words, from an hour on rounded up, so that what is said to suffice does. */
+function enough(seconds) {
+  if (seconds < 3600) {
+    const minutes = Math.floor(seconds / 60);
+    const rest = Number((seconds - minutes * 60).toFixed(3));
+    return [minutes && `${minutes} min`, rest && `${rest} s`].filter(Boolean).join(' ') || '0 s';
+  }
+  const minutes = Math.ceil(Number((seconds / 60).toFixed(6)));
+  return [`${Math.floor(minutes / 60)} h`, minutes % 60 && `${minutes % 60} min`]
+    .filter(Boolean)
+    .join(' ');
 }
 
 /** Return a length of time such as `2 h 05 min`, `12 min` or `40 s`. */

@@ -1,7 +1,7 @@
 /** Customers that no vehicle serves, by what would help: its price, and one click to apply it. */
 
 import { edit, indexOf, shownPlan } from '../actions.js';
-import { count, money, number, signed } from '../core/format.js';
+import { count, money, number, signed, timesInWords } from '../core/format.js';
 import { applyRemedy, groupUnassigned } from '../core/remedies.js';
 import { html, useEffect, useMemo } from '../libraries.js';
 import { plan } from '../planning.js';
@@ -39,7 +39,7 @@ export function UnassignedTab() {
 function Group({ group, entry }) {
   const request = useStore((state) => state.request);
   const { members, remedy, isForEach } = group;
-  const sentence = remedy && remedy.charAt(0).toUpperCase() + remedy.slice(1);
+  const sentence = remedy && sentenceOf(remedy);
   const most = isForEach && members.length > 1 ? 'Each its own, at most: ' : '';
   const customers = members.map(
     ({ customer }) => html`<${Unassigned} key=${customer.id} customer=${customer}
@@ -49,7 +49,7 @@ function Group({ group, entry }) {
   if (members.length === 1) return html`<section>${customers}${price}</section>`;
   return html`<section class="group" data-group=${group.key}>
     <h4>${count(members.length, 'customer')}:
-      ${' '}${members[0].reason?.message ?? 'no reason found'}</h4>
+      ${' '}${timesInWords(members[0].reason?.message ?? 'no reason found')}</h4>
     ${sentence && html`<p>${most}${sentence}.</p>`}
     ${price}
     <details open=${members.length <= FEW}><summary>${members
@@ -80,7 +80,8 @@ function Price({ group, entry }) {
     ${
       group.members.length > 1 &&
       html`<button type="button" class="primary" disabled=${request !== entry.request}
-      aria-label=${[`Apply to all ${group.members.length} and plan again: ${group.remedy}`,
+      aria-label=${[`Apply to all ${group.members.length} and plan again: ${
+        timesInWords(group.remedy)}`,
         group.type].join(', ')} onClick=${apply}>Apply to all and plan again</button>`
     }</div>`;
 }
@@ -102,11 +103,17 @@ function Unassigned({ customer, index, request }) {
     <header><${SelectButton} of=${key}><strong>${customer.id}</strong></${SelectButton}></header>
     <div class="inside">${customer.reasons.map(
       (reason) => html`<div key=${reason.vehicle_type}>
-      <p><strong>${reason.vehicle_type}</strong>: ${reason.message}</p>
+      <p><strong>${reason.vehicle_type}</strong>: ${timesInWords(reason.message)}</p>
       ${reason.remedy && html`<${Remedy} customer=${customer} reason=${reason}
         request=${request} />`}
     </div>`,
     )}<${StopMoves} id=${customer.id} /><${WhyHere} id=${customer.id} /></div></article>`;
+}
+
+/** Return a remedy as a sentence without its full stop. */
+function sentenceOf(remedy) {
+  const words = timesInWords(remedy);
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
 function Remedy({ customer, reason, request }) {
@@ -115,12 +122,12 @@ function Remedy({ customer, reason, request }) {
     edit(changed);
     plan();
   };
-  const sentence = reason.remedy.charAt(0).toUpperCase() + reason.remedy.slice(1);
+  const sentence = sentenceOf(reason.remedy);
   return html`<div class="buttons"><span>${sentence}.</span>
     ${
       changed &&
       html`<button type="button" onClick=${apply}
-      aria-label=${['Apply and plan again: ' + reason.remedy, reason.vehicle_type,
+      aria-label=${['Apply and plan again: ' + timesInWords(reason.remedy), reason.vehicle_type,
         customer.id].join(', ')}>
       Apply and plan again</button>`
     }</div>`;
