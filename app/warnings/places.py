@@ -7,6 +7,7 @@ import numpy as np
 
 from app.conversion.leg_origins import AS_THE_CROW_FLIES
 from app.schemas.fields import Location, point_of
+from app.warnings.homes import far_from_home
 from app.warnings.survey import Survey
 from app.warnings.warning import Warnings, amount_text, customers_text, warning_at
 from model.problem import BoolArray, FloatArray
@@ -22,10 +23,11 @@ SEA = (
     ((45.3, 50), (11.6, 12.6)), ((52.3, 56), (12.85, 15.3)), ((54.8, 71), (9, 16.5)),
     ((58.5, 66), (16, 20)), ((60, 66), (20, 24.9)), ((60, 62.5), (24.9, 25.05)),
     ((-35, 5), (-72, -38)), ((0, 8), (2, 4)), ((-1.6, -0.6), (36.3, 37.2)),
-    ((-58, -32), (12, 36)), ((-30, -19), (19, 36)),
+    ((-58, -32), (12, 36)), ((-30, -19), (19, 36)), ((40.25, 42), (-10, -3.3)),
+    ((47.4, 53), (18.8, 21.5)),
 )
-"""Longitudes and latitudes of open sea where cities would be if theirs were swapped: northern
-Europe's, South America's, southern Africa's."""
+"""Longitudes and latitudes of open sea, and of sand, where cities would be if theirs were swapped:
+northern Europe's, South America's, southern Africa's, Madrid, Budapest, Warsaw."""
 
 TINY_M = 20.0
 """Metres within which no problem of vehicles lies."""
@@ -105,13 +107,18 @@ def _all_swapped(survey: Survey) -> Warnings:
     everywhere = _everywhere(survey)
     turned = everywhere[:, ::-1]
     on_globe = np.abs(turned[:, 1]) <= 90
-    lost = _is_empty(everywhere) & on_globe & ~_is_empty(turned)
-    if lost[:len(survey.bases)].any() and lost.mean() > 0.5:
-        lon, lat = survey.bases[0].tolist()
-        yield warning_at(
-            "LOOKS_SWAPPED", ("depots", 0, "location"),
-            f"Places such as {[lon, lat]} lie in the open sea or near a pole; swapped they don't. "
-            f"A location is [longitude, latitude]: write {[lat, lon]}.")
+    nowhere = _is_empty(everywhere) & ~_is_empty(turned)
+    elsewhere = far_from_home(survey.request, everywhere) & ~far_from_home(survey.request, turned)
+    for lost, where in ((nowhere, "in the open sea, in a desert or near a pole"),
+                        (elsewhere, "far from where time zone, currency or telephone numbers are")):
+        lost &= on_globe
+        if lost[:len(survey.bases)].any() and lost.mean() > 0.5:
+            lon, lat = survey.bases[0].tolist()
+            yield warning_at(
+                "LOOKS_SWAPPED", ("depots", 0, "location"),
+                f"Places such as {[lon, lat]} lie {where}; swapped they don't. "
+                f"A location is [longitude, latitude]: write {[lat, lon]}.")
+            return
 
 
 def _is_empty(points: FloatArray) -> BoolArray:
