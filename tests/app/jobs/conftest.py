@@ -16,6 +16,7 @@ import uvicorn
 from sqlalchemy import create_engine, text
 
 from app.main import create_app
+from app.jobs import planning, studies, webhook
 from app.settings import Settings
 from tests.app.jobs.stepping import SteppingPlanner
 from tests.conftest import eventually, free_port
@@ -114,9 +115,15 @@ def serving(settings: Settings) -> Iterator[httpx.Client]:
 
 @pytest.fixture(scope="module")
 def jobs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """Return a client of a service that works on jobs, with SQLite and webhooks."""
+    """Return a client of a service that works on jobs, with SQLite and webhooks.
+
+    It writes down finds and calls webhooks again sooner than others do.
+    """
     settings = Settings(data_dir=tmp_path_factory.mktemp("jobs"), role="all", job_slots=2,
                         max_scenarios=8, drain_seconds=0,
                         webhook_secret="whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE=")
-    with serving(settings) as client:
+    with pytest.MonkeyPatch.context() as patch, serving(settings) as client:
+        for module in (planning, studies):
+            patch.setattr(module, "SLICE", 0.25)
+        patch.setattr(webhook, "FIRST_WAIT", 0.25)
         yield client

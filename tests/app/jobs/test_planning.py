@@ -96,8 +96,9 @@ def test_slices_tell_how_far_a_job_has_come(desk: Desk) -> None:
 
 def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
     # Long enough that a process which is kept waiting doesn't end it by itself.
-    job, crashed = desk.job(3.0), desk.process()
-    until(lambda: crashed.advance(job), lambda now: now.cost is not None and now.cost < 900)
+    limit, crashed = 2.5, desk.process()
+    job = desk.job(limit)
+    until(lambda: crashed.advance(job), lambda now: now.cost is not None and now.cost < 700)
     before = desk.row(job)
     assert before.state == "running"
     work = desk.process()
@@ -105,7 +106,9 @@ def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
     assert before.cost is not None
     assert all(now.cost is not None and now.cost <= before.cost for now in slices)
     done = desk.row(job)
-    assert done.searched == pytest.approx(3.0, abs=0.4)
+    # It takes what is left of the time, not all of it once more.
+    assert done.searched > 0.9 * limit
+    assert done.searched - before.searched < limit
     assert done.search_iterations > before.search_iterations
     result = desk.store.result(job)
     assert result is not None
@@ -114,7 +117,7 @@ def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
     assert (solver["start"], solver["decoded_cost"]) == ("policy", 100.0 * NUM_CUSTOMERS)
     assert solver["search_iterations"] == done.search_iterations
     assert solver["deterministic"] is False
-    assert solver["elapsed"]["search"] == pytest.approx(done.searched, abs=0.2)
+    assert 0.9 * limit < solver["elapsed"]["search"] <= done.searched
 
 
 def test_iterations_asked_for_are_those_of_all_processes(desk: Desk) -> None:

@@ -84,7 +84,8 @@ def test_stopped_sweep_keeps_what_its_scenarios_found(jobs: httpx.Client) -> Non
     JobReply.model_validate(stopped)
     assert stopped["state"] == "cancelled"
     found = [cell["cost"] for cell in stopped["result"]["cells"]]
-    assert len([cost for cost in found if cost is not None]) == 2
+    # Of the two that may run at once, one may have been about to begin.
+    assert len([cost for cost in found if cost is not None]) in (1, 2)
     assert stopped["cost"] == min(cost for cost in found if cost is not None)
     assert {cell["status"] for cell in stopped["result"]["cells"]} == {"partial", "cancelled"}
 

@@ -2,7 +2,6 @@
 
 import json
 import socket
-import time
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
@@ -47,21 +46,19 @@ def test_what_slots_and_queue_cannot_hold_is_refused_at_once_and_the_rest_is_pla
         serve: Serve, smallest: Request) -> None:
     planner = WaitingPlanner()
     client = warmed(serve(planner, Settings(max_concurrent_plans=2, max_queued_plans=3,
-                                            max_queue_seconds=60)))
+                                            max_queue_seconds=600)))
     with ThreadPoolExecutor(5) as pool:
         accepted = [pool.submit(client.post, "/plan", json=smallest) for _ in range(5)]
         soon(lambda: planner_gauge(client, "waiting") == 3)
         assert planner_gauge(client, "running") == planner.started == 2
-        began = time.perf_counter()
+        # None of them waits until there is room: there is none until the planner goes on.
         refused = [client.post("/plan", json=smallest) for _ in range(20)]
         assert client.get("/health/live").status_code == 200
-        seconds = time.perf_counter() - began
         planner.go_on.set()
         assert [future.result().status_code for future in accepted] == [200] * 5
     assert {reply.status_code for reply in refused} == {503}
     assert refused[0].json()["type"] == "urn:tandem:error:overloaded"
     assert int(refused[0].headers["retry-after"]) > 0
-    assert seconds < 5
     assert client.post("/plan", json=smallest).status_code == 200
     assert planner_gauge(client, "waiting") == planner_gauge(client, "running") == 0
 
@@ -111,6 +108,7 @@ def test_whoever_waits_too_long_is_refused(serve: Serve, smallest: Request) -> N
     assert "0.05 s" in late.json()["detail"]
 
 
+@pytest.mark.by_clock
 def test_abandoned_plan_stops_and_frees_its_slot(serve: Serve, smallest: Request) -> None:
     planner = WaitingPlanner()
     client = warmed(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))

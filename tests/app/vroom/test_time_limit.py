@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from app.conversion.preparing import Preparing, StoppedError
+from app.conversion.work import legs_seconds
 from app.errors import InvalidRequestError
 from app.load.bodies import ReceivedBody
 from app.settings import Settings
@@ -88,8 +89,10 @@ def test_a_small_request_is_answered_though_its_time_is_over(waited: float) -> N
 
 def test_legs_are_not_looked_for_where_there_is_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.vroom.places.great_circle_distances", None)
+    # Above what may be asked for however little of the time is over.
+    assert legs_seconds(4000, 1, 0, True) > 1.5
     with pytest.raises(VroomError, match="take about") as refusal:
-        asked(crowd(4000, l=0.5), FirstFitPlanner())
+        asked(crowd(4000, l=1.5), FirstFitPlanner())
     assert refusal.value.code == TOO_LARGE
 
 
