@@ -4,6 +4,7 @@ from typing import Any
 
 import httpx
 import pytest
+from tests.app.plans.asking import planned
 
 Request = dict[str, Any]
 
@@ -18,13 +19,6 @@ def flying(request: Request, charge_w: float, battery_wh: float) -> Request:
         "energy": {"battery_wh": battery_wh, "reserve": 0, "power": {"cruise_w": 100}},
         "turnaround": {"charge_w": charge_w}}
     return request
-
-
-def planned(client: httpx.Client, request: Request) -> Request:
-    reply = client.post("/plan", json=request)
-    assert reply.status_code == 200, reply.text
-    plan: Request = reply.json()
-    return plan
 
 
 def sorties_of(plan: Request) -> list[Request]:

@@ -9,32 +9,9 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli import commands
-from app.schemas.check import CheckReply
+from tests.app.plans.asking import judged, planned, refused
 
 Request = dict[str, Any]
-
-
-def planned(client: httpx.Client, problem: Request) -> dict[str, Any]:
-    """Return the service's plan for a problem."""
-    reply = client.post("/plan", json=problem)
-    assert reply.status_code == 200, reply.text
-    return reply.json()
-
-
-def judged(client: httpx.Client, problem: Request, plan: object) -> dict[str, Any]:
-    """Return the service's judgement."""
-    reply = client.post("/check", json={"problem": problem, "plan": plan})
-    assert reply.status_code == 200, reply.text
-    CheckReply.model_validate(reply.json())
-    return reply.json()
-
-
-def refused(client: httpx.Client, body: object, path: str = "/check") -> list[tuple[str, str]]:
-    """Return the code and path of every error of a refused request."""
-    reply = client.post(path, json=body)
-    assert reply.status_code == 422, reply.text
-    assert reply.headers["content-type"] == "application/problem+json"
-    return [(error["code"], error["path"]) for error in reply.json()["errors"]]
 
 
 @pytest.mark.parametrize("name", ["smallest", "with_drones"])

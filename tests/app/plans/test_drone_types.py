@@ -4,6 +4,7 @@ from typing import Any
 
 import httpx
 import pytest
+from tests.app.plans.asking import planned
 
 Request = dict[str, Any]
 
@@ -17,13 +18,6 @@ def flying(request: Request, *drones: Request) -> Request:
     for customer in request["customers"]:
         customer["served_by"] = "drone"
     return request | {"fleet": [request["fleet"][0] | {"drones": list(drones)}]}
-
-
-def planned(client: httpx.Client, request: Request) -> Request:
-    reply = client.post("/plan", json=request)
-    assert reply.status_code == 200, reply.text
-    plan: Request = reply.json()
-    return plan
 
 
 def judged(client: httpx.Client, request: Request, plan: Request) -> set[str]:

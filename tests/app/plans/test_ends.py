@@ -5,7 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.schemas.response import PlanReply
+from tests.app.plans.asking import planned_and_judged
 
 Request = dict[str, Any]
 
@@ -21,20 +21,6 @@ def street() -> Request:
         "fleet": [{"id": "van", "count": 1, "capacity": [2], "speed_kmh": 60}],
         "options": {"time_limit": 0},
     }
-
-
-def planned(client: httpx.Client, request: Request) -> Request:
-    """Return the service's plan, which it has to find feasible at the same cost."""
-    reply = client.post("/plan", json=request)
-    assert reply.status_code == 200, reply.text
-    plan: Request = reply.json()
-    PlanReply.model_validate(plan)
-    checked = client.post("/check", json={"problem": request, "plan": plan})
-    assert checked.status_code == 200, checked.text
-    verdict = checked.json()
-    assert (verdict["violations"], verdict["cost"]) == ([], plan["cost"])
-    assert verdict["summary"] == plan["summary"]
-    return plan
 
 
 def errors_of(client: httpx.Client, path: str, request: Request) -> list[tuple[str, str]]:
@@ -53,7 +39,7 @@ def stops_of(plan: Request) -> list[tuple[str, str]]:
 
 def test_an_open_route_ends_at_its_last_stop(client: httpx.Client, street: Request) -> None:
     street["fleet"][0]["end"] = "open"
-    plan = planned(client, street)
+    plan = planned_and_judged(client, street)
     assert stops_of(plan) == [("depot", "hub"), ("customer", "near"), ("customer", "far")]
     trip = plan["routes"][0]["trips"][0]
     assert trip["distance"] == plan["summary"]["distance"] == 2000
@@ -66,7 +52,7 @@ def test_an_open_route_ends_at_its_last_stop(client: httpx.Client, street: Reque
 def test_routes_begin_and_end_at_places_of_their_own(client: httpx.Client,
                                                      street: Request) -> None:
     street["fleet"][0] |= {"start_location": [0, 1], "end": {"location": [3, 0]}}
-    plan = planned(client, street)
+    plan = planned_and_judged(client, street)
     assert stops_of(plan) == [("start", "van"), ("customer", "near"), ("customer", "far"),
                               ("end", "van")]
     assert plan["summary"]["distance"] == pytest.approx(2**0.5 * 1000 + 2000, abs=1)
@@ -78,7 +64,7 @@ def test_places_have_rows_in_matrices(client: httpx.Client, street: Request) -> 
     legs = [[abs(row - column) * 60 for column in range(6)] for row in range(6)]
     street["matrices"] = {"truck": {"durations": legs, "distances": legs}}
     street["fleet"][0] |= {"start_location_index": 5, "end": {"location_index": 4}}
-    plan = planned(client, street)
+    plan = planned_and_judged(client, street)
     assert stops_of(plan)[0] == ("start", "van")
     assert plan["summary"]["distance"] == (4 + 1 + 2) * 60
     street["fleet"][0] |= {"end": {"location": [3, 0]}, "start_location_index": 9}
@@ -86,7 +72,7 @@ def test_places_have_rows_in_matrices(client: httpx.Client, street: Request) -> 
         ("MATRIX_SIZE", "$.fleet[0].start_location_index"),
         ("MISSING_LOCATION_INDEX", "$.fleet[0].end.location_index")]
     street["fleet"][0] |= {"end": "open", "start_location_index": None}
-    assert stops_of(planned(client, street))[-1] == ("customer", "far")
+    assert stops_of(planned_and_judged(client, street))[-1] == ("customer", "far")
 
 
 @pytest.mark.parametrize(("change", "error"), [
@@ -104,14 +90,15 @@ def test_wrong_places_are_refused(client: httpx.Client, street: Request, change:
 
 
 def test_plans_that_end_elsewhere_break_a_rule(client: httpx.Client, street: Request) -> None:
-    plan = planned(client, street)
+    plan = planned_and_judged(client, street)
     for change in ({"end": "open"}, {"end": {"location": [3, 0]}}, {"start_location": [0, 1]}):
         problem = street | {"fleet": [street["fleet"][0] | change]}
         verdict = client.post("/check", json={"problem": problem, "plan": plan}).json()
         assert [broken["code"] for broken in verdict["violations"]] == ["DEPOT"]
-    assert errors_of(client, "/check", {"problem": street, "plan": planned(client, street | {
-        "fleet": [street["fleet"][0] | {"end": {"location": [3, 0]}}]})}) == [
-            ("UNKNOWN_DEPOT", "$.plan.routes[0].trips[0].stops[3].id")]
+    elsewhere = street | {"fleet": [street["fleet"][0] | {"end": {"location": [3, 0]}}]}
+    plan = planned_and_judged(client, elsewhere)
+    assert errors_of(client, "/check", {"problem": street, "plan": plan}) == [
+        ("UNKNOWN_DEPOT", "$.plan.routes[0].trips[0].stops[3].id")]
 
 
 def test_trips_meet_at_any_depot_to_reload_at(client: httpx.Client, street: Request) -> None:
@@ -140,7 +127,7 @@ def test_trips_meet_at_any_depot_to_reload_at(client: httpx.Client, street: Requ
 def test_flights_alone_may_be_an_open_route(client: httpx.Client, street: Request) -> None:
     street["fleet"][0] |= {"end": "open", "drones": {"count": 1, "capacity": [2], "speed_kmh": 60}}
     street["customers"] = [street["customers"][0] | {"served_by": "drone"}]
-    plan = planned(client, street)
+    plan = planned_and_judged(client, street)
     assert stops_of(plan) == [("depot", "hub")]
     (sortie,) = plan["routes"][0]["trips"][0]["sorties"]
     assert (sortie["launch_stop"], sortie["recovery_stop"]) == (0, 0)
@@ -150,7 +137,7 @@ def test_flights_alone_may_be_an_open_route(client: httpx.Client, street: Reques
 def test_a_day_under_way_ends_where_it_was_to(client: httpx.Client, street: Request) -> None:
     for change in ({"end": "open"}, {"end": {"location": [9, 0]}}):
         request = street | {"fleet": [street["fleet"][0] | change | {"capacity": [3]}]}
-        plan = planned(client, request)
+        plan = planned_and_judged(client, request)
         for now, settled in ((10, 1), (10_000, len(stops_of(plan)) - 1)):
             replan = {"plan": plan, "freeze_before": now}
             again = client.post("/plan", json=request | {"replan": replan})

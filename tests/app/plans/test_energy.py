@@ -5,7 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.schemas.response import PlanReply
+from tests.app.plans.asking import planned
 
 Request = dict[str, Any]
 
@@ -16,14 +16,6 @@ def flying(request: Request, **energy: Any) -> Request:
     request["fleet"][0]["drones"] = {
         "count": 1, "capacity": [10], "energy": {"battery_wh": 100.0, "reserve": 0} | energy}
     return request
-
-
-def planned(client: httpx.Client, request: Request) -> dict[str, Any]:
-    reply = client.post("/plan", json=request)
-    assert reply.status_code == 200, reply.text
-    plan: dict[str, Any] = reply.json()
-    PlanReply.model_validate(plan)
-    return plan
 
 
 def test_a_reply_tells_what_flights_take(client: httpx.Client, smallest: Request) -> None:

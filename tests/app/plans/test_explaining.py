@@ -1,6 +1,5 @@
 """Why a customer is served where he is, over HTTP."""
 
-import json
 import time
 from typing import Any
 
@@ -8,8 +7,7 @@ import httpx
 import pytest
 
 from app.schemas.explain import ExplainReply
-from app.schemas.openapi import EXAMPLES_DIR
-from tests.app.plans.test_checking import planned, refused
+from tests.app.plans.asking import documented, planned, refused
 
 Request = dict[str, Any]
 
@@ -17,8 +15,7 @@ Request = dict[str, Any]
 @pytest.fixture
 def asked() -> Request:
     """Return the documented example: two trucks, one with a sortie from B to C and back."""
-    example: Request = json.loads((EXAMPLES_DIR / "explain.json").read_text())
-    return example
+    return documented("explain")
 
 
 def explained(client: httpx.Client, body: Request) -> dict[str, Any]:

@@ -1,6 +1,5 @@
 """Where customers fit best, and plans whose times are left out, over HTTP."""
 
-import json
 from collections.abc import Iterator
 from random import Random
 from typing import Any
@@ -9,8 +8,7 @@ import httpx
 import pytest
 
 from app.schemas.fit import FitReply
-from app.schemas.openapi import EXAMPLES_DIR
-from tests.app.plans.test_checking import judged, planned, refused
+from tests.app.plans.asking import documented, judged, planned, refused
 
 Request = dict[str, Any]
 
@@ -18,8 +16,7 @@ Request = dict[str, Any]
 @pytest.fixture
 def asked() -> Request:
     """Return the documented example: two trucks and a new customer."""
-    example: Request = json.loads((EXAMPLES_DIR / "fit.json").read_text())
-    return example
+    return documented("fit")
 
 
 def fitted(client: httpx.Client, body: Request) -> dict[str, Any]:
@@ -109,7 +106,7 @@ def test_the_documented_example_says_who_can_and_why_others_cannot(client: httpx
 
 
 def test_customers_of_the_plan_are_put_elsewhere_or_on_drones(client: httpx.Client) -> None:
-    example: Request = json.loads((EXAMPLES_DIR / "explain.json").read_text())
+    example = documented("explain")
     body = {"problem": example["problem"], "plan": example["plan"], "customer": "C", "count": 20}
     told = fitted(client, body)
     assert told["here"]["by"] == "drone"

@@ -10,16 +10,14 @@ import pytest
 from shapely import LineString, Polygon
 
 from model.travel.matrices import LocalProjection
+from tests.app.plans.asking import planned
 
 NO_FLY = [[24.942, 60.165], [24.946, 60.165], [24.946, 60.178], [24.942, 60.178]]
 
 
-def planned(client: httpx.Client, request: dict[str, Any], geometry: bool = True) -> dict[str, Any]:
+def drawn(client: httpx.Client, request: dict[str, Any], geometry: bool = True) -> dict[str, Any]:
     """Return a plan, with geometry unless told otherwise."""
-    options = {"time_limit": 0, "geometry": geometry}
-    reply = client.post("/plan", json=request | {"options": options})
-    assert reply.status_code == 200, reply.text
-    return dict(reply.json())
+    return planned(client, request | {"options": {"time_limit": 0, "geometry": geometry}})
 
 
 def city(**airspace: Any) -> dict[str, Any]:
@@ -59,7 +57,7 @@ def metres(lines: list[str]) -> float:
 
 
 def test_lines_lead_from_stop_to_stop(client: httpx.Client) -> None:
-    plan = planned(client, city())
+    plan = drawn(client, city())
     stops = plan["routes"][0]["trips"][0]["stops"]
     assert "geometry" not in stops[0]
     assert [places(stop["geometry"]) for stop in stops[1:]] == [
@@ -69,14 +67,14 @@ def test_lines_lead_from_stop_to_stop(client: httpx.Client) -> None:
 def test_nothing_is_drawn_unless_asked_for(client: httpx.Client) -> None:
     assert "geometry" not in client.post("/plan", json=city() | {
         "options": {"time_limit": 0}}).text
-    plan = planned(client, city(), geometry=False)
+    plan = drawn(client, city(), geometry=False)
     assert "geometry" not in str(plan)
 
 
 @pytest.mark.parametrize("wind", [0, 30])
 def test_flights_around_areas_are_drawn_as_they_are_flown(
         client: httpx.Client, wind: float) -> None:
-    plan = planned(client, city(no_fly=[NO_FLY], wind={"speed_kmh": wind, "direction_deg": 200}))
+    plan = drawn(client, city(no_fly=[NO_FLY], wind={"speed_kmh": wind, "direction_deg": 200}))
     found = sorties(plan)
     assert [len(places(line)) for line in flights(found["clear"])] == [2, 2]
     around = flights(found["behind"])
@@ -88,7 +86,7 @@ def test_flights_around_areas_are_drawn_as_they_are_flown(
 
 
 def test_flights_are_chains_of_their_places(client: httpx.Client) -> None:
-    plan = planned(client, city(no_fly=[NO_FLY]))
+    plan = drawn(client, city(no_fly=[NO_FLY]))
     for customer, sortie in sorties(plan).items():
         (there, back) = map(places, flights(sortie))
         location = next(tuple(other["location"]) for other in city()["customers"]
@@ -98,7 +96,7 @@ def test_flights_are_chains_of_their_places(client: httpx.Client) -> None:
 
 def test_planar_places_are_drawn_in_their_unit(client: httpx.Client,
                                                with_drones: dict[str, Any]) -> None:
-    plan = planned(client, with_drones)
+    plan = drawn(client, with_drones)
     locations = {entry["id"]: tuple(entry["location"])
                  for entry in with_drones["depots"] + with_drones["customers"]}
     lines = 0
@@ -112,7 +110,7 @@ def test_planar_places_are_drawn_in_their_unit(client: httpx.Client,
 
 def test_places_without_locations_have_no_lines(client: httpx.Client) -> None:
     matrix = [[0, 60], [60, 0]]
-    plan = planned(client, {
+    plan = drawn(client, {
         "depots": [{"id": "hub", "location_index": 0}],
         "customers": [{"id": "one", "location_index": 1, "demand": [1]}],
         "fleet": [{"id": "van", "count": 1, "capacity": [1], "profile": "road"}],
@@ -122,6 +120,6 @@ def test_places_without_locations_have_no_lines(client: httpx.Client) -> None:
 
 def test_plan_with_lines_can_be_checked_and_gone_on_from(client: httpx.Client) -> None:
     request = city(no_fly=[NO_FLY])
-    plan = planned(client, request)
+    plan = drawn(client, request)
     checked = client.post("/check", json={"problem": request, "plan": plan})
     assert checked.json()["violations"] == [], checked.text

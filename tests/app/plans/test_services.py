@@ -5,7 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.schemas.response import PlanReply
+from tests.app.plans.asking import planned_and_judged
 
 Request = dict[str, Any]
 
@@ -30,17 +30,6 @@ def street() -> Request:
     }
 
 
-def planned(client: httpx.Client, request: Request) -> Request:
-    """Return the service's plan, which it has to find feasible at the same cost."""
-    reply = client.post("/plan", json=request)
-    assert reply.status_code == 200, reply.text
-    plan: Request = reply.json()
-    PlanReply.model_validate(plan)
-    verdict = client.post("/check", json={"problem": request, "plan": plan}).json()
-    assert (verdict["violations"], verdict["cost"]) == ([], plan["cost"])
-    return plan
-
-
 def stops_of(plan: Request) -> dict[str, Request]:
     """Return the customers' stops, and the first one, at the depot."""
     stops = [stop for route in plan["routes"] for trip in route["trips"] for stop in trip["stops"]]
@@ -49,7 +38,7 @@ def stops_of(plan: Request) -> dict[str, Request]:
 
 def test_a_van_sets_up_serves_and_leaves_as_late_as_goods_have_to_be_fresh(
         client: httpx.Client, street: Request) -> None:
-    stops = stops_of(planned(client, street))
+    stops = stops_of(planned_and_judged(client, street))
     near, far = stops["near"], stops["far"]
     assert near["setup"] == near["service_start"] - near["arrival"] == 30
     assert near["departure"] - near["service_start"] == 120
@@ -61,11 +50,11 @@ def test_a_van_sets_up_serves_and_leaves_as_late_as_goods_have_to_be_fresh(
 
 def test_what_is_too_long_aboard_is_said_and_how_it_could_be_served(client: httpx.Client,
                                                                     street: Request) -> None:
-    plan = planned(client, street)
+    plan = planned_and_judged(client, street)
     street["customers"][1]["max_time_aboard"] = 60
     verdict = client.post("/check", json={"problem": street, "plan": plan}).json()
     assert [violation["code"] for violation in verdict["violations"]] == ["TIME_ABOARD"]
-    left, = planned(client, street)["unassigned"]
+    left, = planned_and_judged(client, street)["unassigned"]
     assert left["id"] == "far"
     reason, = left["reasons"]
     assert (reason["code"], reason["remedy"]) == (
@@ -76,15 +65,15 @@ def test_incompatible_goods_go_by_other_trips(client: httpx.Client, street: Requ
     for customer, goods in zip(street["customers"], ("paint", "food"), strict=True):
         customer["goods"] = [goods]
     street["fleet"][0] |= {"count": 2}
-    assert len(planned(client, street)["routes"]) == 1
+    assert len(planned_and_judged(client, street)["routes"]) == 1
     street["incompatible_goods"] = [{"goods": ["food", "paint"]}]
-    plan = planned(client, street)
+    plan = planned_and_judged(client, street)
     assert plan["summary"]["served"] == len(plan["routes"]) == 2
 
 
 def test_a_day_under_way_goes_on_with_setups_and_fresh_goods(client: httpx.Client,
                                                              street: Request) -> None:
-    plan = planned(client, street)
+    plan = planned_and_judged(client, street)
     before = stops_of(plan)
     now = before["near"]["arrival"] + 10
     later = street | {"replan": {"plan": {"routes": plan["routes"]}, "freeze_before": now}}

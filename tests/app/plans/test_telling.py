@@ -10,8 +10,8 @@ from pydantic_core import to_json
 from app.errors import InvalidRequestError
 from app.requests.reading import read_request
 from app.schemas.request import PlanRequest
-from app.schemas.response import PlanReply
 from app.schemas.times import read_body
+from tests.app.plans.asking import planned
 
 Request = dict[str, Any]
 HOUR = 3600
@@ -25,14 +25,6 @@ def day(smallest: Request) -> Request:
         customer["service_duration"] = "0:10"
     smallest["fleet"][0]["shift"] = {"earliest": "01:00", "latest": "18:00"}
     return smallest
-
-
-def planned(client: httpx.Client, request: Request) -> Request:
-    reply = client.post("/plan", json=request)
-    assert reply.status_code == 200, reply.text
-    plan: Request = reply.json()
-    PlanReply.model_validate(plan)
-    return plan
 
 
 def refused(client: httpx.Client, request: Request, path: str = "/plan") -> dict[str, str]:

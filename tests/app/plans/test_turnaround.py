@@ -4,6 +4,7 @@ from typing import Any
 
 import httpx
 import pytest
+from tests.app.plans.asking import planned
 
 Request = dict[str, Any]
 
@@ -15,13 +16,6 @@ def flying(request: Request, **turnaround: Any) -> Request:
     request["fleet"][0]["drones"] = {"count": 1, "capacity": [10], "launch_duration": 20,
                                      "recovery_duration": 10, "turnaround": turnaround}
     return request
-
-
-def planned(client: httpx.Client, request: Request) -> Request:
-    reply = client.post("/plan", json=request)
-    assert reply.status_code == 200, reply.text
-    plan: Request = reply.json()
-    return plan
 
 
 def handled(plan: Request) -> list[tuple[float, float]]:
