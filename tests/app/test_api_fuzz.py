@@ -13,7 +13,7 @@ from app.database.connections import make_engine
 from app.settings import Settings
 from tests.app.observe.server import running
 
-CASES = 3
+CASES = 1
 """Most of each operation in a phase."""
 
 UNCHECKED = "positive_data_acceptance"

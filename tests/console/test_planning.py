@@ -17,13 +17,13 @@ def set_option(page: Page, name: str, value: str) -> None:
 def test_decoded_plan_comes_at_once_and_improvements_follow(page: Page) -> None:
     idle(page)
     open_tab(page, "solve")
-    set_option(page, "time_limit", "4")
+    set_option(page, "time_limit", "3")
     page.get_by_role("button", name="Plan", exact=True).click()
     expect(page.locator(".result-line")).to_contain_text("Improving")
     first = state(page, "state.run.points.0.cost")
     idle(page)
     points = state(page, "state.run.points")
-    assert len(points) >= 3
+    assert len(points) >= 2
     assert points[-1]["cost"] < first
     assert points[-1]["cost"] == min(point["cost"] for point in points)
     expect(page.get_by_text("From ", exact=False).first).to_be_visible()

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import httpx
-import pytest
 from sqlalchemy import create_engine, text
 
+from app.jobs.housekeeping import PATIENCE as RESCUED
 from app.settings import Settings
 from tests.app.jobs.conftest import Postgres
 from tests.app.jobs.stepping import (
@@ -18,8 +18,8 @@ from tests.conftest import eventually
 
 FULL_COST = 2.0 * NUM_CUSTOMERS
 
-NUM_JOBS = 100
-"""Jobs that two workers share."""
+NUM_JOBS = 40
+"""Jobs that two workers share, each half a second long: one alone would need two and a half."""
 
 
 def stated(settings: Settings) -> dict[str, Any]:
@@ -100,12 +100,12 @@ def test_process_that_is_asked_to_end_hands_its_jobs_to_another(
               first.client.stream("GET", f"/jobs/{job}/events") as events):
             lines = events.iter_lines()
             next(lines)
-            # It does not wait for those who follow jobs: they go on elsewhere.
+            # It does not wait for those who follow jobs: they go on elsewhere, at once.
             first.terminate()
             with suppress(httpx.RemoteProtocolError):
                 list(lines)
             after = eventually(lambda: (seen := read(second.client, job))["search_iterations"]
-                               > before["search_iterations"] and seen, seconds=10)
+                               > before["search_iterations"] and seen, seconds=RESCUED - 5)
             assert after["cost"] <= before["cost"]
             assert ended(second.client, job)["cost"] == FULL_COST
 
@@ -138,7 +138,7 @@ def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_pa
           served(tmp_path, "one", role="worker", worker_id="one", **common) as worker,
           served(tmp_path, "two", role="worker", worker_id="two", **common)):
         assert worker.client.post("/plan", json=request_of(0)).status_code == 404
-        jobs = [submit(api.client, request_of(0)) for _ in range(NUM_JOBS)]
+        jobs = [submit(api.client, request_of(0.5)) for _ in range(NUM_JOBS)]
         done = [ended(api.client, job) for job in jobs]
         assert {job["state"] for job in done} == {"done"}
     engine = create_engine(url)
@@ -154,10 +154,11 @@ def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_pa
 
 
 def test_true_planner_goes_on_after_a_kill(tmp_path: Path, with_drones: dict[str, Any]) -> None:
-    request = with_drones | {"options": {"time_limit": 5.0}}
+    limit = 4.0
+    request = with_drones | {"options": {"time_limit": limit}}
     with served(tmp_path, module="app", data_dir=tmp_path, drain_seconds=0) as process:
         job = submit(process.client, request)
-        before = eventually(lambda: (seen := read(process.client, job))["progress"] > 0.2 and seen)
+        before = eventually(lambda: (seen := read(process.client, job))["progress"] > 0.4 and seen)
         process.kill()
         process.start()
         done = ended(process.client, job)
@@ -166,4 +167,5 @@ def test_true_planner_goes_on_after_a_kill(tmp_path: Path, with_drones: dict[str
         assert done["search_iterations"] > before["search_iterations"]
         solver = done["result"]["solver"]
         assert solver["start"] == before["result"]["solver"]["start"]
-        assert solver["elapsed"]["search"] == pytest.approx(5.0, abs=1.5)
+        # What was left of the time, not all of it once more.
+        assert 0.9 * limit < solver["elapsed"]["search"] < limit * (1 + before["progress"])

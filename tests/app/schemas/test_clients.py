@@ -85,13 +85,11 @@ def guarded(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Visitor]:
         yield Visitor(server, made.stdout.strip())
 
 
-@pytest.fixture(params=["without a key", "with an idle key", "with a key that is asked for"])
+@pytest.fixture(params=["without a key", "with a key that is asked for"])
 def visitor(request: pytest.FixtureRequest, server: Server) -> Visitor:
     """Return a server and the key with which its clients come."""
     if request.param == "without a key":
         return Visitor(server, None)
-    if request.param == "with an idle key":
-        return Visitor(server, "unused")
     guarded: Visitor = request.getfixturevalue("guarded")
     return guarded
 
@@ -131,6 +129,11 @@ def test_python_example_runs(visitor: Visitor, tmp_path: Path) -> None:
     printed = run([sys.executable, "-"], example("python"), tmp_path, visitor)
     for line in ("plan: ", "end done ", "job: done ", "fleet: one ", "fleet: two "):
         assert f"\n{line}" in f"\n{printed}"
+
+
+def test_a_key_that_nobody_asks_for_is_no_harm(server: Server, tmp_path: Path) -> None:
+    printed = run(["bash", "-eu"], example("sh"), tmp_path, Visitor(server, "unused"))
+    assert '"state":"done"' in printed
 
 
 def test_javascript_example_runs(visitor: Visitor, tmp_path: Path) -> None:
