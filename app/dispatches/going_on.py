@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from app.dispatches.retiming import Retimed, retime
 from app.dispatches.schemas import FailedReply, GoingOnReply, StepKind, StepReply
-from app.dispatches.standing import Standing
+from app.dispatches.standing import Standing, is_broken, of_steps
 from app.dispatches.steps import flight_id, stop_id
 from app.schemas.plan import PlanInput, RouteInput, TripInput
 
@@ -33,20 +33,23 @@ def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float) -> 
     routes, failed, told = [], [], []
     for route in plan.routes:
         known = vehicles[route.vehicle]
-        if not known.standing:
+        standing = of_steps(known.standing)
+        if known.standing:
+            told.append(route.vehicle)
+        if not standing:
             routes.append(route)
             continue
-        told.append(route.vehicle)
         durations = {step.id: step.duration for step in known.steps}
-        driven, failures = _driven(route, retime(route, known.standing, durations, now),
-                                   known.standing)
+        driven, failures = _driven(route, retime(route, standing, durations, now), standing)
         failed += failures
         if driven.trips:
             routes.append(driven)
     given = plan.model_copy(update={"routes": tuple(routes)})
-    return GoingOnReply(
-        replan={"plan": given.model_dump(mode="json", exclude_none=True), "freeze_before": now},
-        told=told, failed=failed)
+    broken = [route.vehicle for route in routes if is_broken(vehicles[route.vehicle].standing)]
+    replan = {"plan": given.model_dump(mode="json", exclude_none=True), "freeze_before": now}
+    if broken:
+        replan["unavailable"] = broken
+    return GoingOnReply(replan=replan, broken=broken, told=told, failed=failed)
 
 
 def _driven(route: RouteInput, trips: Sequence[Retimed],

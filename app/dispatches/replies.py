@@ -3,7 +3,9 @@
 from app.dispatches.instants import instant
 from app.dispatches.links import address_of, qr_of
 from app.dispatches.rows import DispatchRow
-from app.dispatches.schemas import DispatchReply, DispatchSummary, DriverLinkReply, LinkState
+from app.dispatches.schemas import (
+    BREAKDOWN, DispatchReply, DispatchSummary, DriverLinkReply, LinkState,
+)
 from app.dispatches.service import Followed, LinkStanding
 from app.dispatches.standing import standing_reply
 from app.dispatches.store import now_ms
@@ -35,11 +37,12 @@ def _link_reply(followed: Followed, known: LinkStanding, base: str,
     token = followed.tokens.get(link.id)
     address = None if token is None else address_of(base, token.text)
     told = standing_reply(known.standing, known.steps)
-    count = sum(step.state == "failed" for step in told)
+    steps = [step for step in told if step.id != BREAKDOWN]
+    count = sum(step.state == "failed" for step in steps)
     return DriverLinkReply(
         id=link.id, vehicle=link.vehicle, state=state, url=address,
         qr=None if address is None else qr_of(address),
         opened_at=None if link.opened_at is None else instant(link.opened_at),
         told_at=None if known.told_at is None else instant(known.told_at),
-        steps=len(known.steps), done=len(told) - count, failed=count, standing=told,
+        steps=len(known.steps), done=len(steps) - count, failed=count, standing=told,
         next=next((step.id for step in known.steps if step.id not in known.standing), None))

@@ -9,6 +9,9 @@ from app.schemas.check import PlannedProblem
 from app.schemas.fields import Info
 
 StepKind = Literal["depart", "stop", "launch", "recover", "return"]
+BREAKDOWN: Literal["vehicle"] = "vehicle"
+"""In place of a step's id: what is told is of the vehicle. It has failed, or goes on again."""
+
 Outcome = Literal["done", "failed"]
 EventKind = Literal["done", "failed", "undone"]
 LinkState = Literal["open", "revoked", "over"]
@@ -109,8 +112,10 @@ class StepStanding(_Reply):
     """What was told last of a step."""
 
     id: str = Field(description="Name of the step within its vehicle's day.")
-    kind: StepKind = Field(description="What the driver does.")
-    place: str = Field(description="Id of its place, or of the customers of its drone.")
+    kind: StepKind | Literal["vehicle"] = Field(
+        description="What the driver does; `vehicle`: it has broken down.")
+    place: str = Field(description="Id of its place, or of the customers of its drone; empty for "
+                       "the vehicle.")
     state: Outcome = Field(description="What became of it.")
     time: float = Field(description="When, in seconds since plan start.")
     reason: str | None = Field(None, description="Why it failed, in the driver's words.")
@@ -135,7 +140,7 @@ class EventInput(_Input):
         description="A name that is this event's own, such as a UUID: sent again it counts once."
     )
     step: Annotated[str, Field(min_length=1, max_length=40)] = Field(
-        description="Id of the step.")
+        description="Id of the step; `vehicle`, with `failed`: it has broken down.")
     kind: EventKind = Field(description="`undone` takes back what was told before.")
     time: AwareDatetime = Field(description="When it happened, by the sender's clock.")
     reason: Annotated[str, Field(max_length=MAX_REASON_LENGTH)] | None = Field(
@@ -227,6 +232,7 @@ class GoingOnReply(_Reply):
         description="`replan` of a request of `POST /plan`: the plan with the times that drivers "
         "told, and now."
     )
+    broken: list[str] = Field(description="Vehicles that have broken down: `unavailable`.")
     told: list[str] = Field(description="Vehicles whose drivers told something; others are held "
                             "to be where the plan has them.")
     failed: list[FailedReply] = Field(description="Customers who weren't served.")

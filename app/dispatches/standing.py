@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from app.dispatches.rows import EventRow
-from app.dispatches.schemas import Outcome, StepReply, StepStanding
+from app.dispatches.schemas import BREAKDOWN, Outcome, StepReply, StepStanding
 
 
 @dataclass(frozen=True)
@@ -34,10 +34,25 @@ def standing_of(events: Iterable[EventRow], plan_start: int) -> Standing:
 
 
 def standing_reply(standing: Standing, steps: Sequence[StepReply]) -> list[StepStanding]:
-    """Return how steps stand of which something holds, in the steps' order."""
-    return [StepStanding(id=step.id, kind=step.kind, place=_place(step), state=told.outcome,
-                         time=told.time, reason=told.reason)
-            for step in steps if (told := standing.get(step.id)) is not None]
+    """Return how steps stand of which something holds, in the steps' order; a breakdown first."""
+    broken = standing.get(BREAKDOWN)
+    vehicle = [] if broken is None else [StepStanding(
+        id=BREAKDOWN, kind=BREAKDOWN, place="", state=broken.outcome, time=broken.time,
+        reason=broken.reason)]
+    return vehicle + [
+        StepStanding(id=step.id, kind=step.kind, place=_place(step), state=told.outcome,
+                     time=told.time, reason=told.reason)
+        for step in steps if (told := standing.get(step.id)) is not None]
+
+
+def is_broken(standing: Standing) -> bool:
+    """Tell whether a vehicle has broken down."""
+    return BREAKDOWN in standing and standing[BREAKDOWN].outcome == "failed"
+
+
+def of_steps(standing: Standing) -> Standing:
+    """Return what was told of steps alone."""
+    return {step: told for step, told in standing.items() if step != BREAKDOWN}
 
 
 def _place(step: StepReply) -> str:

@@ -83,6 +83,17 @@ def test_whoever_was_not_served_is_open_again_once_the_parcel_is_back() -> None:
     assert failed.parcel_back == trip["stops"][-1]["arrival"]
 
 
+def test_vehicle_that_broke_down_does_nothing_more() -> None:
+    broken = {"vehicle": Told("failed", 30_250, "Broken down")}
+    reply = gone_on({"van-1": {**done({DEPART: 30_000, DOOR: 30_200}), **broken}}, 30_300)
+    assert reply.broken == reply.replan["unavailable"] == ["van-1"]
+    assert times(route_of(reply, "van-1"))[1][2] == 30_200
+    alone = gone_on({"van-1": broken}, 30_300)
+    assert (alone.broken, alone.told, alone.failed) == (["van-1"], ["van-1"], [])
+    assert times(route_of(alone, "van-1")) == times(PLAN["routes"][1]["trips"][0])
+    assert gone_on({"van-1": done({DEPART: 30_000})}, 30_300).broken == []
+
+
 def test_drone_that_was_not_launched_leaves_its_customers_open() -> None:
     told = {**done({DEPART: 30_000}), LAUNCH: Told("failed", 30_140, "No wind")}
     reply = gone_on({"truck-1": told}, 30_150)

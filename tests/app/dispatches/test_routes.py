@@ -112,6 +112,22 @@ def test_events_count_once_in_order_and_are_followed(service: httpx.Client) -> N
     assert (van["done"], van["opened_at"], van["told_at"]) == (0, None, None)
 
 
+def test_breakdown_is_told_followed_and_taken_back(service: httpx.Client) -> None:
+    sent = dispatched(service)
+    token = token_of(sent["links"][1])
+    broken = event("a", "vehicle", today(5), "failed", reason="Broken down")
+    reply = told(service, token, event("b", DEPART, today(4)), broken)
+    assert [(step["kind"], step["state"]) for step in reply["standing"]] == [
+        ("vehicle", "failed"), ("depart", "done")]
+    _, van = service.get(f"/dispatches/{sent['id']}").json()["links"]
+    assert (van["done"], van["failed"]) == (1, 0)
+    path = f"/dispatches/{sent['id']}/replan?now=30400"
+    assert service.get(path).json()["replan"]["unavailable"] == [van["vehicle"]]
+    told(service, token, event("c", "vehicle", today(6), "undone"))
+    again = service.get(path).json()
+    assert ("unavailable" in again["replan"], again["broken"]) == (False, [])
+
+
 def test_what_comes_late_from_another_phone_is_not_taken_for_the_latest(
         service: httpx.Client) -> None:
     token = token_of(dispatched(service)["links"][1])

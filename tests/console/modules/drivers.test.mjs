@@ -6,7 +6,7 @@ import { pointText } from '../../../app/console/static/js/core/format.js';
 import { clock, windowText } from '../../../app/dispatches/static/js/clocks.js';
 import { linkOf, tokenOf } from '../../../app/dispatches/static/js/link.js';
 import { chosenNavigator, NAVIGATORS, navigation } from '../../../app/dispatches/static/js/navigators.js';
-import { isOther, nextStep, standings, telephone } from '../../../app/dispatches/static/js/steps.js';
+import { isBroken, isOther, nextStep, standings, telephone } from '../../../app/dispatches/static/js/steps.js';
 
 const PLACE = { latitude: 48.1, longitude: 11.5 };
 
@@ -88,6 +88,8 @@ test('how far a driver is stands in words', () => {
   const far = { ...link, done: 1, failed: 1, standing };
   assert.equal(standingText(far), '2 of 4, at 8:20, 1 failure');
   assert.equal(standingText({ ...far, state: 'revoked' }), 'revoked');
+  const broken = { id: 'vehicle', kind: 'vehicle', state: 'failed', time: 0 };
+  assert.match(standingText({ ...far, standing: [broken, ...far.standing] }), /^broken down; /);
 });
 
 test('a parcel that comes back is released when it is back', () => {
@@ -103,4 +105,20 @@ test('a parcel that comes back is released when it is back', () => {
     { id: 'A', release_time: 99999 }, { id: 'B', release_time: 501 }, { id: 'C' },
   ]);
   assert.deepEqual(asked.replan, { plan, freeze_before: 60 });
+});
+
+test('a vehicle is broken until it is told to go on', () => {
+  const told = [{ id: 'vehicle', state: 'failed' }];
+  assert.equal(isBroken(standings(told, [])), true);
+  assert.equal(isBroken(standings(told, [{ step: 'vehicle', kind: 'undone' }])), false);
+  assert.equal(isBroken(standings([], [{ step: 'vehicle', kind: 'failed' }])), true);
+  assert.equal(isBroken(standings([], [])), false);
+});
+
+test('vehicles that drivers told to be broken are so in what is planned on', () => {
+  const replan = { plan: { routes: [] }, freeze_before: 60, unavailable: ['van-1'] };
+  const asked = goOnAsTold({ customers: [] }, { replan, failed: [] });
+  assert.deepEqual(asked.replan.unavailable, ['van-1']);
+  const again = goOnAsTold(asked, { replan: { ...replan, unavailable: ['van-2'] }, failed: [] });
+  assert.deepEqual(again.replan.unavailable, ['van-1', 'van-2']);
 });

@@ -11,6 +11,14 @@ export function standings(standing, waiting) {
   return found;
 }
 
+/** Of whom the driver tells that the vehicle has broken down, in place of a step. */
+export const VEHICLE = 'vehicle';
+
+/** Tell whether the vehicle has broken down. */
+export function isBroken(found) {
+  return found.get(VEHICLE)?.state === 'failed';
+}
+
 /** Tell whether other steps are to be done, or in another order. */
 export function isOther(before, now) {
   const ids = (steps) => steps.map(({ id }) => id).join();

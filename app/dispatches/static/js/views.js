@@ -13,12 +13,14 @@ import {
   amounts,
   countOver,
   DONE,
+  isBroken,
   isSome,
   mayFail,
   nextStep,
   standings,
   telephone,
   titleOf,
+  VEHICLE,
 } from './steps.js';
 
 const REASONS = ['Nobody there', 'Refused', 'Wrong address', 'Damaged', 'No time left'];
@@ -55,11 +57,38 @@ export function Day({ day, waiting, isReached, isChanged, failure, onTell, onSee
       (step) => html`<${Step} key=${step.id} day=${day} step=${step} isNext=${step === next}
         standing=${found.get(step.id)} navigator=${navigator_} onTell=${onTell} />`,
     )}</ol>
-    <footer><label>Navigate with <select value=${navigator_} onChange=${choose}>
+    <footer><${Breakdown} broken=${isBroken(found)}
+      onTell=${(kind, reason) => onTell(VEHICLE, kind, reason)} />
+    <label>Navigate with <select value=${navigator_} onChange=${choose}>
       ${Object.entries(NAVIGATORS).map(
         ([name, { name: label }]) => html`<option key=${name} value=${name}
           selected=${name === navigator_}>${label}</option>`,
       )}</select></label></footer>`;
+}
+
+/** What a driver says whose vehicle can't go on, asked once more before it is told. */
+function Breakdown({ broken, onTell }) {
+  const [isAsking, setAsking] = useState(false);
+  const say = (kind, reason) => {
+    setAsking(false);
+    onTell(kind, reason);
+  };
+  if (broken) {
+    return html`<p role="alert" class="unsent">You told that your vehicle has broken down: others
+      are planned for your stops.</p>
+      <button type="button" class="button"
+        onClick=${() => say('undone')}>It goes on again</button>`;
+  }
+  if (!isAsking) {
+    return html`<button type="button" class="button" onClick=${() => setAsking(true)}>
+      My vehicle has broken down</button>`;
+  }
+  return html`<fieldset><legend>Can your vehicle serve nobody any more today?</legend>
+    <div class="actions">
+      <button type="button" class="button bad"
+        onClick=${() => say('failed', 'Broken down')}>It has broken down</button>
+      <button type="button" class="button" onClick=${() => setAsking(false)}>Back</button>
+    </div></fieldset>`;
 }
 
 function sendingText(count, isReached) {

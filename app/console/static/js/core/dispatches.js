@@ -47,12 +47,14 @@ export function withMade(made, { links }) {
 /** Return how far a driver is, in words. */
 export function standingText({ state, opened_at: opened, done, failed, steps, standing }) {
   if (state === 'revoked') return 'revoked';
+  const isBroken = standing.some((told) => told.kind === 'vehicle' && told.state === 'failed');
+  const broken = isBroken ? 'broken down; ' : '';
   const over = done + failed;
   const far = over ? `${over} of ${steps}` : opened ? 'opened' : 'not opened yet';
   const last = standing.reduce((latest, { time }) => Math.max(latest, time), -Infinity);
   const at = over ? `, at ${clock(last)}` : '';
   const lost = failed ? `, ${count(failed, 'failure')}` : '';
-  return `${far}${at}${lost}${state === 'over' ? '; the day is over' : ''}`;
+  return `${broken}${far}${at}${lost}${state === 'over' ? '; the day is over' : ''}`;
 }
 
 /** Return the request that goes on from what drivers told: see `GET /dispatches/{id}/replan`. */
@@ -68,5 +70,9 @@ export function goOnAsTold(request, { replan, failed }) {
     return { ...customer, release_time: Math.max(customer.release_time ?? 0, time) };
   });
   const changed = back.size ? { ...request, customers } : request;
-  return goOnFrom(changed, replan.plan, replan.freeze_before);
+  const next = goOnFrom(changed, replan.plan, replan.freeze_before);
+  const broken = new Set([...(next.replan.unavailable ?? []), ...(replan.unavailable ?? [])]);
+  return broken.size
+    ? { ...next, replan: { ...next.replan, unavailable: [...broken] } }
+    : next;
 }
