@@ -18,8 +18,12 @@ from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel
 
 MINUTE = 60_000
 
-PATIENCE, SOON, PAUSE = 60.0, 10.0, 0.01
-"""Seconds to wait for anything, for what takes not long, and between two looks at it."""
+PATIENCE, SOON = 60.0, 10.0
+"""Seconds to wait for anything, and for what takes not long."""
+
+PAUSE, LONGEST_PAUSE = 0.01, 0.1
+"""Seconds between the first two looks at something, and between later ones at most: whoever asks a
+service a hundred times a second takes the processor from what is waited for."""
 
 Result = TypeVar("Result")
 
@@ -97,10 +101,11 @@ def own_data_dir(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 def eventually(happens: Callable[[], Any], seconds: float = PATIENCE) -> Any:
     """Wait until something is true, and return it. Others have the processor meanwhile."""
-    deadline = time.monotonic() + seconds
+    deadline, pause = time.monotonic() + seconds, PAUSE
     while not (seen := happens()):
         assert time.monotonic() < deadline, "it did not happen"
-        threading.Event().wait(PAUSE)
+        threading.Event().wait(pause)
+        pause = min(1.3 * pause, LONGEST_PAUSE)
     return seen
 
 

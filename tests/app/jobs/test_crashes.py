@@ -19,7 +19,7 @@ from tests.conftest import eventually
 FULL_COST = 2.0 * NUM_CUSTOMERS
 
 NUM_JOBS = 40
-"""Jobs that two workers share, each half a second long: one alone would need two and a half."""
+"""Jobs that two workers share, too many for one before the other looks for any."""
 
 
 def stated(settings: Settings) -> dict[str, Any]:
@@ -138,7 +138,7 @@ def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_pa
           served(tmp_path, "one", role="worker", worker_id="one", **common) as worker,
           served(tmp_path, "two", role="worker", worker_id="two", **common)):
         assert worker.client.post("/plan", json=request_of(0)).status_code == 404
-        jobs = [submit(api.client, request_of(0.5)) for _ in range(NUM_JOBS)]
+        jobs = [submit(api.client, request_of(0.2)) for _ in range(NUM_JOBS)]
         done = [ended(api.client, job) for job in jobs]
         assert {job["state"] for job in done} == {"done"}
     engine = create_engine(url)
