@@ -201,16 +201,24 @@ def _compared(curves: dict[int, Curve]) -> str:
     for workers, curve in sorted(curves.items()):
         if workers == fewest:
             continue
-        factors = []
-        for share in (0.5, 0.7, 0.85, 1.0):
-            second, cost = curves[fewest][int(share * (len(curves[fewest]) - 1))]
-            sooner = next((each for each, found in curve if found <= cost), None)
-            if sooner is not None:
-                factors.append(second / sooner)
-        told = ", ".join(f"{factor:.2f}" for factor in factors)
-        lines.append(f"{workers} workers: {told} times as fast as {fewest} to equal cost "
-                     f"(median {statistics.median(factors or [0.0]):.2f})")
+        for since, first in (("the job began", False), ("its first plan", True)):
+            factors = _factors(curves[fewest], curve, first)
+            told = ", ".join(f"{factor:.2f}" for factor in factors)
+            lines.append(f"{workers} workers, since {since}: {told} times as fast as {fewest} to "
+                         f"equal cost (median {statistics.median(factors or [0.0]):.2f})")
     return "\n".join(lines)
+
+
+def _factors(slow: Curve, fast: Curve, from_first_plan: bool) -> list[float]:
+    """Return how many times sooner one of two found plans as cheap as some of the other's."""
+    begun = (slow[0][0], fast[0][0]) if from_first_plan else (0.0, 0.0)
+    factors = []
+    for share in (0.5, 0.7, 0.85, 1.0):
+        second, cost = slow[int(share * (len(slow) - 1))]
+        sooner = next((each for each, found in fast if found <= cost), None)
+        if sooner is not None and sooner > begun[1]:
+            factors.append((second - begun[0]) / (sooner - begun[1]))
+    return factors
 
 
 if __name__ == "__main__":

@@ -1,166 +1,32 @@
 """Plans by regions: the job that keeps the best plan, and those that plan a region each."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from pydantic_core import from_json, to_json
 
 from app.database.durable import connect
 from app.jobs import divided, planning, rounds
 from app.jobs.asked import Asking
-from app.jobs.divided import DividedWork
+from app.jobs.errors import UnknownJobError
 from app.jobs.incumbent import Incumbent
-from app.jobs.planning import PlanWork
+from app.jobs.queues import Queues
 from app.jobs.reading import JobReader
 from app.jobs.region_task import ERRANDS
 from app.jobs.rounds import num_regions
-from app.jobs.rows import JobRow, NewJob
-from app.jobs.running import RegionTerms, Returning
-from app.jobs.slices import Slice, Stopping
+from app.jobs.service import JobService, OpenLimits
+from app.jobs.slices import Stopping
 from app.jobs.store import JobStore
-from app.settings import DEFAULT_POLICY, Settings
+from app.settings import Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.warming import Tell, Warmth
-from model.planner import ALONE, Elapsed, Listener, PlanOptions, PlanResult
 from model.problem import Problem
 from model.regions.region import Region
-from model.search.improve import Progress
 from model.solution import Solution
-from tests.app.jobs.stepping import request_of
-
-NUM_CUSTOMERS = 12
-TERMS = RegionTerms(NUM_CUSTOMERS, 4, 0.5)
-
-
-class PoolingPlanner:
-    """Sends a truck to each customer at first, then fewer by one each time."""
-
-    policies = (DEFAULT_POLICY,)
-
-    def __init__(self) -> None:
-        self.sizes: list[int] = []  # of the regions planned
-        self.fails = False
-
-    def warm(self, tell: Tell) -> None:
-        tell(Warmth("compiling nothing", 1.0))
-
-    def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
-             listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
-        nodes = list(range(problem.num_depots, problem.num_nodes))
-        groups = [[node] for node in nodes]
-        if start is not None:
-            if self.fails:
-                raise ZeroDivisionError
-            self.sizes.append(len(nodes))
-            groups = [[stop.node for stop in route.trips[0].stops[1:-1]] for route in start.routes]
-            groups[:2] = [sorted(node for group in groups[:2] for node in group)]
-        plan = Solution(tuple(
-            schedule(problem, RouteDecision(0, number, (TripDecision((0, *group, 0)),)))
-            for number, group in enumerate(groups)))
-        evaluation = check(problem, plan)
-        listener.on_progress(Progress(evaluation.cost.total, 1, lambda: plan))
-        return PlanResult(plan, evaluation, "given" if start else "insertion",
-                          evaluation.cost.total, evaluation.cost.total, 1, options.threads, False,
-                          Elapsed(0.0, 0.0, 0.0))
-
-
-@dataclass
-class Office:
-    """A store, the queue of plans, and processes that work on both."""
-
-    store: JobStore
-    settings: Settings
-    planner: PoolingPlanner = field(default_factory=PoolingPlanner)
-    queue: list[str] = field(default_factory=list)
-    aside: list[str] = field(default_factory=list)
-    told: list[float] = field(default_factory=list)
-    now: float = 0.0
-
-    def job(self, seconds: float = 3.0, customers: int = NUM_CUSTOMERS, **options: Any) -> str:
-        """Add a job and return its id."""
-        request = request_of(seconds, **options)
-        request["customers"] = [{"id": f"c{number}", "location": [number, 0], "demand": [1]}
-                                for number in range(1, customers + 1)]
-        request["fleet"] = [{"id": "truck", "count": customers, "capacity": [customers]}]
-        self.add([NewJob("job", "plan", "me", "f", to_json(request))])
-        return "job"
-
-    def add(self, jobs: Sequence[NewJob]) -> bool:
-        """Keep and enqueue jobs."""
-        return self.store.add(jobs, lambda _, job: self.queue.append(job.id))
-
-    def process(self) -> tuple[PlanWork, DividedWork]:
-        """Return the work of a process."""
-        reader = JobReader(self.planner.policies, self.settings)
-        asking = Asking(lambda row: reader.plan_request(self.store, row), 1)
-        returning = Returning(self.queue.append, self.queue.append, self.aside.append)
-        plans = PlanWork(self.planner, self.store, asking, returning, self.tell, TERMS)
-        watching = DividedWork(self.store, asking, TERMS, self.add, self.stop_jobs, returning,
-                               lambda job: job in self.aside, self.tell, self.clock)
-        return plans, watching
-
-    def clock(self) -> float:
-        """Return the time, which passes with each look at it."""
-        self.now += 0.1
-        return self.now
-
-    def tell(self, reply: dict[str, Any]) -> None:
-        """Hear of a plan."""
-        self.told.append(reply["cost"]["total"])
-
-    def stop_jobs(self, rows: Sequence[JobRow]) -> None:
-        """Stop jobs as the service does."""
-        self.store.request_cancel([row.id for row in rows])
-        for row in rows:
-            if row.state == "queued":
-                self.store.finish(row.id, None, "cancelled")
-
-    def row(self, job: str = "job") -> JobRow:
-        """Return a job."""
-        row = self.store.find(job)
-        assert row is not None
-        return row
-
-    def result(self) -> dict[str, Any]:
-        """Return what the job has found."""
-        return dict(from_json(self.store.result("job") or b""))
-
-    def begin(self) -> tuple[PlanWork, DividedWork]:
-        """Plan the whole once, until regions are to follow, and return the process."""
-        plans, watching = self.process()
-        assert self.queue == ["job"]
-        self.queue.clear()
-        with pytest.raises(Stopping):
-            until(plans.advance)
-        assert (self.row().state, self.row().divided) == ("queued", True)
-        assert self.aside == ["job"]
-        return plans, watching
-
-    def plan_regions(self, plans: PlanWork) -> None:
-        """Plan all regions that wait."""
-        while self.queue:
-            until(plans.advance, self.queue.pop())
-
-    def finish(self, plans: PlanWork, watching: DividedWork) -> list[float]:
-        """Work on the job until it is over; return its costs."""
-        costs = []
-        while not (slice_of_work := watching.advance("job")).over:
-            costs.append(slice_of_work.cost or 0.0)
-            self.plan_regions(plans)
-        return [*costs, slice_of_work.cost or 0.0]
-
-
-def until(advance: Callable[[str], Slice], job: str = "job") -> None:
-    """Advance a job until it is over."""
-    for _ in range(500):
-        if advance(job).over:
-            return
-    raise AssertionError("it has no end")
+from tests.app.jobs.regional import NUM_CUSTOMERS, Office, served_by, until
 
 
 @pytest.fixture
@@ -174,14 +40,8 @@ def office(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Office]:
     engine = connect(settings)
     store = JobStore(engine, 1000, lambda *_: None, lambda *_: None)
     store.prepare()
-    yield Office(store, settings)
+    yield Office(engine, store, settings)
     engine.dispose()
-
-
-def served_by(reply: dict[str, Any]) -> Counter[str]:
-    """Return how often a plan serves whom."""
-    return Counter(stop["id"] for route in reply["routes"] for trip in route["trips"]
-                   for stop in trip["stops"] if stop["kind"] == "customer")
 
 
 EVERYBODY = Counter(f"c{number}" for number in range(1, NUM_CUSTOMERS + 1))
@@ -330,6 +190,18 @@ def test_regions_end_with_their_job(office: Office) -> None:
     assert office.planner.sizes == []
     assert watching.advance("job").over in (True, False)
     until(watching.advance)
+
+
+def test_regions_are_seen_by_no_client(office: Office) -> None:
+    office.job()
+    _, watching = office.begin()
+    watching.advance("job")
+    reader = JobReader(office.planner.policies, office.settings)
+    service = JobService(office.store, Queues(office.engine), reader, OpenLimits(1, 1),
+                         lambda _: None)
+    with pytest.raises(UnknownJobError):
+        service.find(office.queue[0], "me")
+    assert [row.id for row in service.page("me", 10, None, None)] == ["job"]
 
 
 def test_job_fails_if_no_region_can_be_planned(office: Office) -> None:

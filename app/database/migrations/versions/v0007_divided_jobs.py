@@ -15,5 +15,8 @@ def upgrade() -> None:
 
 def downgrade() -> None:
     """Drop the column, and regions with it: earlier versions plan the whole."""
+    for table in ("job_requests", "job_results"):
+        op.execute(f"DELETE FROM {table} WHERE job IN "
+                   "(SELECT id FROM jobs WHERE kind = 'region')")
     op.execute("DELETE FROM jobs WHERE kind = 'region'")
     op.drop_column("jobs", "divided")
