@@ -24,6 +24,10 @@ MAX_RATE = 1e9
 JSON knows no infinity.
 """
 
+MOST_REASONS = 10_000
+"""Reasons in a reply, of all customers left out together: as many as anybody could read, and not as
+many as customers times vehicle types."""
+
 Reasons = Callable[[Solution, int, float], tuple[Reason, ...]]
 """Says why a plan leaves a customer out, as far as is found until an instant."""
 
@@ -43,8 +47,7 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
         "cost": cost_reply(evaluation.cost),
         "routes": [route_reply(problem, route, metrics)
                    for route, metrics in zip(solution.routes, evaluation.routes, strict=True)],
-        "unassigned": [_unassigned(problem, node, why(solution, node, explain_until))
-                       for node in solution.unassigned],
+        **_unassigned(problem, solution, lambda node: why(solution, node, explain_until)),
         "summary": summary_reply(problem, solution, evaluation),
         "solver": {
             "policy": options.policy,
@@ -170,10 +173,18 @@ def _sortie(problem: Problem, kind: int, vehicle: str, sortie: Sortie,
     }
 
 
-def _unassigned(problem: Problem, node: int, reasons: tuple[Reason, ...]) -> Data:
-    return {"id": problem.customer_at(node).id,
-            "reasons": [reason_reply(problem, reason)
-                        for reason in one_per_type(problem, reasons)]}
+def _unassigned(problem: Problem, solution: Solution,
+                why: Callable[[int], tuple[Reason, ...]]) -> Data:
+    """Return the fields of a reply on who is left out."""
+    told: list[Data] = []
+    room, unexplained = MOST_REASONS, 0
+    for node in solution.unassigned:
+        reasons = one_per_type(problem, why(node)) if room > 0 else []
+        room -= len(reasons)
+        unexplained += not reasons
+        told.append({"id": problem.customer_at(node).id,
+                     "reasons": [reason_reply(problem, reason) for reason in reasons]})
+    return {"unassigned": told} | ({"unexplained": unexplained} if unexplained else {})
 
 
 def reason_reply(problem: Problem, reason: Reason) -> Data:

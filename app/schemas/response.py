@@ -156,7 +156,8 @@ class UnassignedReply(_Reply):
     """A customer that no vehicle serves."""
 
     id: str = Field(description="Id of the customer.")
-    reasons: list[ReasonReply] = Field(description="Reasons by vehicle type.")
+    reasons: list[ReasonReply] = Field(
+        description="Reasons by vehicle type; none where `unexplained` counts the customer.")
 
 
 class LoadRateReply(_Reply):
@@ -355,6 +356,11 @@ class PlanReply(_Reply):
     cost: CostReply = Field(description="Cost by term.")
     routes: list[RouteReply] = Field(description="One entry per vehicle used.")
     unassigned: list[UnassignedReply] = Field(description="Customers left out, with reasons.")
+    unexplained: int | None = Field(
+        None,
+        description="How many of `unassigned`, the last of them, have no reasons since those before "
+        "have 10,000 already. Left out if all have theirs.",
+    )
     summary: SummaryReply = Field(description="The plan in numbers.")
     solver: SolverReply = Field(description="How the plan was made.")
     legs: list[LegsReply] = Field(

@@ -6,6 +6,7 @@ from typing import Any
 import httpx
 import pytest
 
+from app.plans import replies
 from app.schemas.response import PlanReply
 
 Request = dict[str, Any]
@@ -72,6 +73,20 @@ def test_customer_that_nobody_can_serve_is_unassigned_with_reasons(
     (left_out,) = plan["unassigned"]
     assert left_out["id"] == "A"
     assert left_out["reasons"][0]["vehicle_type"] == "truck"
+
+
+def test_a_reply_gives_as_many_reasons_as_can_be_read(
+        client: httpx.Client, smallest: Request, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(replies, "MOST_REASONS", 3)
+    for customer in smallest["customers"]:
+        customer["skills"] = ["crane"]
+    smallest["customers"] += [smallest["customers"][0] | {"id": f"more-{number}"}
+                              for number in range(3)]
+    smallest["unassigned_cost"] = 77
+    plan = client.post("/plan", json=smallest).json()
+    PlanReply.model_validate(plan)
+    assert [len(each["reasons"]) for each in plan["unassigned"]] == [1, 1, 1, 0, 0]
+    assert plan["unexplained"] == 2
 
 
 def test_health(client: httpx.Client) -> None:
