@@ -1,0 +1,103 @@
+"""Many customers and a plan for them without any search, by which what surrounds it is measured.
+
+Customers lie on a square, vehicles sweep it in strips, to and fro, so many customers each.
+"""
+
+import random
+from collections.abc import Iterator, Sequence
+from math import hypot, sqrt
+from typing import Any
+
+Data = dict[str, Any]
+Place = tuple[float, float]
+
+PER_ROUTE = 20
+SPACE_M = 500.0
+"""Customers per route, and about how far they are from each other."""
+
+SPEED_M_S, SERVICE_S = 12.5, 60.0
+
+
+def many_customers(number: int) -> Data:
+    """Return a request of so many customers, as JSON has it."""
+    rng = random.Random(number)
+    side = SPACE_M * sqrt(number)
+    return {
+        "depots": [{"id": "hub", "location": [side / 2, side / 2]}],
+        "customers": [
+            {"id": f"c{index}", "demand": [rng.randint(1, 9)], "service_duration": SERVICE_S,
+             "location": [round(rng.uniform(0, side), 1), round(rng.uniform(0, side), 1)],
+             "time_window": {"earliest": index % 60 * 60, "latest": 10**6}}
+            for index in range(number)],
+        "fleet": [{"id": "truck", "count": -(-number // PER_ROUTE), "capacity": [10 * PER_ROUTE],
+                   "speed_kmh": SPEED_M_S * 3.6, "costs": {"fixed": 100, "per_km": 1}}],
+    }
+
+
+def swept(request: Data) -> list[list[int]]:
+    """Return the customers of each vehicle by their place in the request."""
+    customers = request["customers"]
+    strip = SPACE_M * 3
+
+    def place(index: int) -> tuple[int, float]:
+        x, y = customers[index]["location"]
+        return int(x // strip), y if x // strip % 2 else -y
+
+    order = sorted(range(len(customers)), key=place)
+    return [order[start:start + PER_ROUTE] for start in range(0, len(order), PER_ROUTE)]
+
+
+def swept_reply(request: Data) -> Data:
+    """Return a plan as `POST /plan` would reply it, all waiting left out."""
+    routes = [_route(request, number, some) for number, some in enumerate(swept(request), 1)]
+    number = len(request["customers"])
+    distance = sum(route["trips"][0]["distance"] for route in routes)
+    return {
+        "status": "complete",
+        "cost": {"total": distance, "fixed": 0.0, "distance": distance, "stops": 0.0, "time": 0.0,
+                 "overtime": 0.0, "lateness": 0.0, "earliness": 0.0, "unassigned": 0.0},
+        "routes": routes, "unassigned": [], "warnings": [], "legs": [],
+        "summary": {"customers": number, "served": number, "must_unserved": 0,
+                    "vehicles": len(routes), "trips": len(routes), "sorties": 0,
+                    "distance": distance, "drone_distance": 0.0, "energy_wh": None,
+                    "load_rate": {"min": 0.1, "mean": 0.5, "max": 1.0},
+                    "makespan": max(route["working_duration"] for route in routes),
+                    "co2_kg": None},
+        "solver": {"policy": "attention", "decoding": "greedy", "seed": 0, "start": "policy",
+                   "decoded_cost": distance, "final_cost": distance, "search_iterations": 0,
+                   "threads": 1, "deterministic": True,
+                   "elapsed": {"validate": 0, "decode": 0, "search": 0, "check": 0, "total": 0}},
+    }
+
+
+def _route(request: Data, number: int, some: Sequence[int]) -> Data:
+    stops = list(_stops(request, some))
+    places = [request["depots"][0]["location"],
+              *(request["customers"][index]["location"] for index in some),
+              request["depots"][0]["location"]]
+    end = stops[-1]["departure"]
+    return {
+        "vehicle": f"truck-{number}", "type": "truck", "working_duration": end,
+        "working_rate": None, "overtime": 0.0, "cost": 0.0,
+        "trips": [{"load": [1.0], "load_rate": 0.5, "duration": end, "energy_wh": None,
+                   "distance": sum(map(_metres, places, places[1:])), "stops": stops,
+                   "sorties": []}],
+    }
+
+
+def _stops(request: Data, some: Sequence[int]) -> Iterator[Data]:
+    """Yield a trip's stops, one after another as soon as possible."""
+    depot, time = request["depots"][0], 0.0
+    before = depot["location"]
+    halts = [request["customers"][index] for index in some]
+    for place in (depot, *halts, depot):
+        time += _metres(before, place["location"]) / SPEED_M_S
+        departure = time + place.get("service_duration", 0.0)
+        yield {"kind": "depot" if place is depot else "customer", "id": place["id"],
+               "arrival": time, "service_start": time, "departure": departure, "waiting": 0.0,
+               "lateness": 0.0, "load": [0.0]}
+        before, time = place["location"], departure
+
+
+def _metres(start: Place, end: Place) -> float:
+    return hypot(end[0] - start[0], end[1] - start[1])
