@@ -358,7 +358,7 @@ class PlanReply(_Reply):
     unassigned: list[UnassignedReply] = Field(description="Customers left out, with reasons.")
     unexplained: int | None = Field(
         None,
-        description="How many of `unassigned`, the last of them, have no reasons since those before "
+        description="How many of `unassigned`, the last ones, have no reasons since those before "
         "have 10,000 already. Left out if all have theirs.",
     )
     summary: SummaryReply = Field(description="The plan in numbers.")
