@@ -187,6 +187,12 @@ def test_plan_is_sent_out_followed_and_planned_on_from(page: Page) -> None:
     page.reload()
     open_tab(page, "drivers")
     expect(card).to_contain_text(f"1 of {len(day['steps'])}")
+    page.evaluate("sessionStorage.removeItem('tandem-dispatch')")  # as in another tab
+    page.reload()
+    open_tab(page, "drivers")
+    page.get_by_role("button", name="Look for them").click()
+    page.get_by_role("button", name="Follow the plan of").first.click()
+    expect(card).to_contain_text(f"1 of {len(day['steps'])}")
     open_example(page, "drones")
     open_tab(page, "drivers")
     page.get_by_role("button", name="to their phones").click()

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { goOnAsTold, linksByVehicle, standingText, withMade } from '../../../app/console/static/js/core/dispatches.js';
+import { goOnAsTold, linksByVehicle, openDispatches, standingText, withMade } from '../../../app/console/static/js/core/dispatches.js';
 import { pointText } from '../../../app/console/static/js/core/format.js';
 import { clock, windowText } from '../../../app/dispatches/static/js/clocks.js';
 import { linkOf, tokenOf } from '../../../app/dispatches/static/js/link.js';
@@ -121,4 +121,17 @@ test('vehicles that drivers told to be broken are so in what is planned on', () 
   assert.deepEqual(asked.replan.unavailable, ['van-1']);
   const again = goOnAsTold(asked, { replan: { ...replan, unavailable: ['van-2'] }, failed: [] });
   assert.deepEqual(again.replan.unavailable, ['van-1', 'van-2']);
+});
+
+test('plans on the road are found again until they end', () => {
+  const sent = { created_at: '2026-11-23T05:00:00Z', plan_start: '2026-11-23T00:00:00+01:00' };
+  const found = openDispatches(
+    [
+      { id: 'a', ends_at: '2026-11-23T23:00:00Z', ...sent },
+      { id: 'b', ends_at: '2026-11-22T23:00:00Z', ...sent },
+    ],
+    new Date('2026-11-23T08:00:00Z'),
+  );
+  assert.deepEqual(found.map(({ id }) => id), ['a']);
+  assert.match(found[0].words, /^2026-11-23, sent out /);
 });

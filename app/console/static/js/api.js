@@ -159,6 +159,9 @@ export const postDispatch = (body) => json('dispatches', { method: 'POST', body 
 export const changeDispatch = (id, body) =>
   json(`dispatches/${id}/plan`, { method: 'POST', body });
 
+/** Return the plans that this key has on the road, the youngest first. */
+export const getDispatches = async () => (await json('dispatches')).dispatches;
+
 /** Return how far a plan on the road is. */
 export const getDispatch = (id) => json(`dispatches/${id}`);
 

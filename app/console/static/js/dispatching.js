@@ -2,7 +2,7 @@
 
 import * as api from './api.js';
 import { edit, openTab, showFailure, shownPlan } from './actions.js';
-import { dispatchOf, goOnAsTold, withMade } from './core/dispatches.js';
+import { dispatchOf, goOnAsTold, openDispatches, withMade } from './core/dispatches.js';
 import { store } from './store.js';
 
 const KEPT = 'tandem-dispatch';
@@ -37,6 +37,21 @@ export async function followKept() {
     if (error.status !== 404) throw error;
     sessionStorage.removeItem(KEPT);
   }
+}
+
+/** Look for plans that are on the road already, such as those sent out in a tab that was closed. */
+export function lookForDispatches() {
+  return attempt(async () => {
+    store.set({ onTheRoad: openDispatches(await api.getDispatches()) });
+  });
+}
+
+/** Follow a plan that is on the road; its links are told no more, but others can be made. */
+export function followDispatch(id) {
+  return attempt(async () => {
+    keep({}, await api.getDispatch(id), null);
+    store.set({ onTheRoad: null });
+  });
 }
 
 /** Let a vehicle's link open nothing any more. */

@@ -71,6 +71,7 @@ export const store = createStore({
   keptFleets: {}, // fleets by name, to compare
   sweepAxes: null, // `[{path, text}]` as chosen; null: around the fleet at hand
   dispatch: null, // a plan on the road: its reply, links by id as made, its plan if known
+  onTheRoad: null, // plans on the road that may be followed, once they were asked for
   keeping: null, // a dialog about kept plans, see keeping/kept.js
   doubts: {}, // of where customers are, by key, see core/places.js
   importing: null, // a sheet that is looked over, see importing.js

@@ -28,6 +28,19 @@ function isoOf(instant) {
   return `${day}T${time.map(pad).join(':')}${ahead < 0 ? '-' : '+'}${offset}`;
 }
 
+/** Return the plans on the road that have not ended, with when they were sent out, in words. */
+export function openDispatches(dispatches, now = new Date()) {
+  return dispatches
+    .filter(({ ends_at: ends }) => new Date(ends) > now)
+    .map(({ id, created_at: created, plan_start: start }) => ({
+      id,
+      words: `${start.slice(0, 10)}, sent out ${new Date(created).toLocaleString('en', {
+        dateStyle: 'medium',
+        timeStyle: 'short',
+      })}`,
+    }));
+}
+
 /** Return links by vehicle, with the addresses and pictures told when they were made. */
 export function linksByVehicle(dispatch) {
   return new Map(

@@ -5,8 +5,10 @@ import { linksByVehicle, standingText } from '../core/dispatches.js';
 import { clock } from '../core/format.js';
 import {
   endDay,
+  followDispatch,
   goOnFromDrivers,
   leaveDispatch,
+  lookForDispatches,
   renew,
   revoke,
   sendChange,
@@ -22,12 +24,25 @@ export function DriversTab() {
   const dispatch = useStore((state) => state.dispatch);
   const entry = useStore(shownPlan);
   if (dispatch) return html`<${OnTheRoad} dispatch=${dispatch} />`;
-  if (!entry) return html`<p class="empty">Nothing is planned yet.</p>`;
+  if (!entry) return html`<p class="empty">Nothing is planned yet.</p><${Others} />`;
   return html`<section class="section"><h3>Send the plan to its drivers</h3>
     <p class="help">Each vehicle of plan ${entry.number} gets a link that opens its day on a phone,
       and shows nothing of the others. It ends with the day.</p>
     <div class="buttons"><button type="button" class="primary" onClick=${sendOut}>Send to drivers
-      </button></div></section>`;
+      </button></div></section><${Others} />`;
+}
+
+/** Plans that are on the road already, to be followed again. */
+function Others() {
+  const found = useStore((state) => state.onTheRoad);
+  return html`<section class="section"><h3>On the road already</h3>
+    <p class="help">Plans that were sent out before, here or elsewhere.</p>
+    ${!found && html`<div class="buttons"><button type="button"
+      onClick=${lookForDispatches}>Look for them</button></div>`}
+    ${found && !found.length && html`<p class="help">There is none.</p>`}
+    ${found?.map(({ id, words }) => html`<div class="buttons" key=${id}><span>${words}</span>
+      <button type="button" aria-label=${`Follow the plan of ${words}`}
+        onClick=${() => followDispatch(id)}>Follow</button></div>`)}</section>`;
 }
 
 function OnTheRoad({ dispatch }) {
