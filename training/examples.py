@@ -19,7 +19,7 @@ from training.rollout import Batch, make_batch
 MOST_PAIRS = 6
 """Mistakes of one plan that a step learns from."""
 
-CALM_ROWS, CALM_DECISIONS = 2, 4
+CALM_ROWS, CALM_DECISIONS = 4, 4
 """Stretches of decisions that cost nothing, of one plan, and their length."""
 
 REMEMBERED = 3000

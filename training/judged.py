@@ -56,7 +56,7 @@ class JudgedConfig:
     decay: tuple[int, int] = (10**9, 10**9)  # steps between which the rate falls to a twentieth
     plans: int = 16  # in a step
     shown: float = 0.1  # weight of the search's decisions after the better choice
-    calm: float = 0.3  # of the distance from the policy it began with, where nothing was wrong
+    calm: float = 10.0  # of the distance from the policy it began with, where nothing was wrong
     reinforce_every: int = 4  # steps; 0: never
     problems: int = 6  # in a step of REINFORCE
     rollouts: int = 8  # of each
@@ -316,7 +316,7 @@ def main(
     begin_with: Annotated[Path, typer.Option(help="folder of an exported policy")]
     = Path("model/weights/attention"),
     minutes: float = 60.0, seed: int = 0, learning_rate: float = 1e-4, plans: int = 16,
-    shown: float = 0.1, calm: float = 0.3, reinforce_every: int = 4,
+    shown: float = 0.1, calm: float = 10.0, reinforce_every: int = 4,
     decay: Annotated[str, typer.Option(help="steps first:last of the decay")] = "1000000:1000000",
     max_steps: Annotated[int | None, typer.Option(help="stop at this step")] = None,
 ) -> None:

@@ -14,7 +14,7 @@ from training.labels import Actor, Labelled, Origin, label, read, write
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 
 CONFIG = JudgedConfig(plans=3, problems=3, rollouts=2, learning_rate=3e-4, warm_up=1,
-                      reinforce_every=3)
+                      reinforce_every=3, calm=0.3)
 
 
 @pytest.fixture(scope="module")
