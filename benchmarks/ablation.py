@@ -105,7 +105,7 @@ def ways(limits: Sequence[float], moves: bool = True) -> list[Way]:
 def plans(problem: Problem, policy: Policy, way: Way, turns: int | None = None) -> list[Solution]:
     """Plan a problem; return the policy's plan too if the search began with it."""
     deadline = time.perf_counter() + way.seconds
-    instance = pack([problem], neighbours=way.start == "policy")
+    instance = pack([problem], legs=way.start == "policy")
     first = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     if way.start == "policy":
         scene = prepare(policy, problem, instance)

@@ -43,7 +43,7 @@ class Outcome:
 
 def cheapest_insertion(problem: Problem) -> Solution:
     """Plan as the search begins where it is given nothing."""
-    return improve(problem, pack([problem], neighbours=False), Solution((), ()),
+    return improve(problem, pack([problem], legs=False), Solution((), ()),
                    SearchConfig(turns=0)).solution
 
 

@@ -34,6 +34,6 @@ def solve(instance: Published, seconds: float, seed: int, threads: int) -> PeerA
     problem = problem_of(instance)
     nothing = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
-    improved = improve(problem, pack([problem], neighbours=False), nothing,
+    improved = improve(problem, pack([problem], legs=False), nothing,
                        SearchConfig(seed, threads), began + seconds)
     return plan_to_answer(improved.solution, time.perf_counter() - began)

@@ -38,6 +38,9 @@ DECODING_SHARE = 0.1
 """Most of the time limit that the policy may take, by `decoding_seconds`; else the search plans
 from nothing."""
 
+DECODED_UP_TO = 2000
+"""For how many customers at most policies plan: what they see grows by the square."""
+
 MIXED_SHARE, MIXED_UP_TO = 0.4, 200
 """The same with drones or several types of vehicles, for so many customers at most: what the search
 begins with there is dearer than the policy's plan."""
@@ -183,8 +186,8 @@ class Planner:
         if options.time_limit > 0:
             deadline = (began if received_at is None else received_at) + options.time_limit
         searches = options.search_iterations != 0 and deadline is not None
-        by_policy = start is None and (not searches
-                                       or policy_begins(problem, options))
+        by_policy = start is None and problem.num_customers <= DECODED_UP_TO and (
+            not searches or policy_begins(problem, options))
         try:
             instance = pack([problem], by_policy, _pause(listener, deadline, start))
         except EndedError:
@@ -205,7 +208,7 @@ class Planner:
                 return _result(first, how, first.cost, options, None, whole,
                                Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
         elif not searches:
-            # The policy was given up, so that the plan is what a search would begin with.
+            # No policy planned, so that the plan is what a search would begin with.
             options = replace(options, search_iterations=0)
         improved = _improve(problem, instance, first, options, deadline, listener)
         searched = time.perf_counter()

@@ -48,7 +48,7 @@ MODEL = {
 """What each folder and file of `model` may import of the others."""
 MOST_ARROWS = 32
 
-INTERPRETED = {"solution"}
+INTERPRETED = {"solution", "problem/straight", "problem/travel"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
 ASKING = {"kernel/warming", "planner"}
 """Compile nothing themselves, but ask what is compiled."""
@@ -82,6 +82,9 @@ DESCRIBING = {
     "kernel/variants": {".service_duration", ".setup_duration", ".site"},
     "policy/tokens": set.union(*HOMES.values()),
     "policy/features": {".capacity", ".demand", ".endurance"},
+    "kernel/leg": {".setup_duration", ".site"},
+    "search/ground": {".service_duration", ".setup_duration", ".site", ".window_earliest",
+                      ".window_latest"},
     "search/world": set.union(*HOMES.values()),
     "search/beginning/translate": {".capacity", ".demand", ".max_sorties", ".max_stops",
                                    ".setup_duration", ".site"},
@@ -92,7 +95,7 @@ LEG_TABLES = {"leg", "back", "legs", "flights", "inward", "onward", "drive", "fl
               "distance"}
 """Names of tables of legs and of rows of one, whose elements `kernel/leg` reads alone."""
 LEGS_AT_ONCE = {"kernel/instance", "kernel/nearest", "kernel/variants", "policy/resampling",
-                "policy/tokens", "search/world", "search/beginning/savings"}
+                "policy/tokens", "search/ground", "search/world"}
 """What fills a table, or reads a whole one in plain Python."""
 
 MAX_FILE_LINES = 400

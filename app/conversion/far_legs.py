@@ -115,8 +115,9 @@ class Estimates:
             for far in self.travels.values():
                 if far.legs is legs:
                     durations, distances = matrix_legs(seconds / far.speed, metres)
-                    far.travel.duration[nodes[:, 0], nodes[:, 1]] = durations
-                    far.travel.distance[nodes[:, 0], nodes[:, 1]] = distances
+                    duration, distance = far.travel.arrays()
+                    duration[nodes[:, 0], nodes[:, 1]] = durations
+                    distance[nodes[:, 0], nodes[:, 1]] = distances
         return count
 
     def close(self) -> None:
@@ -126,8 +127,9 @@ class Estimates:
             if self.nowhere is not None:
                 row = np.insert(unknown, self.nowhere, values=False, axis=0)
                 unknown = np.insert(row, self.nowhere, values=False, axis=1)
-            far.travel.duration[unknown] = DEAR_MS
-            far.travel.distance[unknown] = DEAR_MM
+            duration, distance = far.travel.arrays()
+            duration[unknown] = DEAR_MS
+            distance[unknown] = DEAR_MM
 
     def _estimated(self, problem: Problem, plan: Solution, legs: FarLegs) -> IntArray:
         """Return the (leg, 2) legs of a plan, by place, that are estimated."""

@@ -2,10 +2,8 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, UNREACHABLE, USUAL_DECIMALS, Customer, Travel,
+    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, USUAL_DECIMALS, Customer, Travel,
     VehicleType,
 )
 
@@ -68,9 +66,5 @@ def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],
 
 def _longest_leg(travel: Travel) -> tuple[float, float]:
     """Return the largest distance in kilometres and the largest duration in hours."""
-    millimetres, milliseconds = travel.distance.max(initial=0), travel.duration.max(initial=0)
-    if milliseconds < UNREACHABLE:
-        return float(millimetres) / MM_PER_KM, float(milliseconds) / MS_PER_HOUR
-    reachable = travel.duration < UNREACHABLE
-    return (float(np.max(travel.distance, where=reachable, initial=0)) / MM_PER_KM,
-            float(np.max(travel.duration, where=reachable, initial=0)) / MS_PER_HOUR)
+    milliseconds, millimetres = travel.longest()
+    return millimetres / MM_PER_KM, milliseconds / MS_PER_HOUR

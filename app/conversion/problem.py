@@ -12,7 +12,8 @@ from app.conversion.places import depots_of
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.service import with_service_durations
 from app.conversion.sites import sites_of
-from app.conversion.travels import Ground, Travels
+from app.conversion.ground import Ground
+from app.conversion.travels import Travels
 from app.conversion.vehicle import to_vehicle_type
 from app.schemas.request import PlanRequest
 from model.problem import IncompatibleGoods, Problem

@@ -1,5 +1,6 @@
 """Travel matrices of a request, from locations or the client's matrices, equal ones built once."""
 
+from dataclasses import replace
 from functools import cached_property
 from typing import Literal, NamedTuple
 
@@ -7,33 +8,28 @@ import numpy as np
 
 from app.conversion.energy import climb_duration
 from app.conversion.far_legs import Estimates, FarTravel
+from app.conversion.ground import Ground
 from app.conversion.leg_origins import AS_ASKED, AS_THE_CROW_FLIES, LegOrigin
 from app.conversion.places import nowhere_of, places_of
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.road_legs import RoadLegs, road_legs
-from app.conversion.rounding import rounded
 from app.conversion.units import thousandths
-from app.conversion.work import legs_seconds, sights_seconds
+from app.conversion.work import legs_seconds
 from app.roads.roads import NO_ROADS, Roads
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
-from app.schemas.fields import point_of
 from app.schemas.request import MatrixInput, PlanRequest, RoadsInput
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
-from model.problem import FloatArray, SpeedProfile, Travel
-from model.travel.airspace import Airspace, Flights
+from model.problem import UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel
+from model.problem.straight import fits
 from model.travel.matrices import (
-    LocalProjection,
     embed,
     flight_travel,
-    great_circle_distances,
     longer_legs,
     matrix_travel,
-    planar_distances,
     speed_profile,
     truck_travel,
     with_nowhere,
 )
-from model.travel.ways import Ways
 
 
 class _Key(NamedTuple):
@@ -47,108 +43,12 @@ class _Key(NamedTuple):
     estimated_kmh: float = 0.0  # where roads may not be known
 
 
+COMPUTED_FROM = 2000
+"""From how many places on legs from coordinates are computed wherever they are looked up: tables of
+all would take 16 bytes for each of places squared, and way to travel."""
+
 SECONDS_PER_METRE = 3.6
 """Seconds that a metre takes at one km/h."""
-
-
-class Detours(NamedTuple):
-    """Where flights bend around no-fly areas."""
-
-    ways: Ways
-    corners: FloatArray  # (corner, 2) as the request states places
-    airspace: Airspace
-
-    def bends(self, start: int, end: int, airspeed_kmh: float) -> FloatArray:
-        """Return the (place, 2) places where a flight from place to place bends, in their order."""
-        if not self.ways.blocked[start, end]:
-            return self.corners[:0]
-        return self.corners[self.ways.bends(start, end, self.airspace.wind(airspeed_kmh))]
-
-
-class Ground:
-    """Where a request's places and no-fly areas are, however its fleet travels."""
-
-    def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED) -> None:
-        self._request = request
-        self._preparing = preparing
-        self.places = places_of(request)
-
-    def is_that_of(self, request: PlanRequest) -> bool:
-        """Tell whether a request has its places and areas at the same points."""
-        mine = self._request
-        return (
-            (mine.coordinate_system, mine.planar_unit, mine.planar_rounding, mine.airspace)
-            == (request.coordinate_system, request.planar_unit, request.planar_rounding,
-                request.airspace)
-            and [place.location for place in self.places]
-            == [place.location for place in places_of(request)])
-
-    @cached_property
-    def locations(self) -> FloatArray:
-        """As stated."""
-        points = [point for place in self.places
-                  if (point := point_of(place.location)) is not None]
-        return np.array(points, dtype=np.float64)
-
-    @cached_property
-    def _projection(self) -> LocalProjection:
-        return LocalProjection.around(self.locations)
-
-    @cached_property
-    def is_geographic(self) -> bool:
-        """Tell whether places are on the globe."""
-        return self._request.coordinate_system == "geographic"
-
-    def _planar(self, points: FloatArray) -> FloatArray:
-        return (self._projection.project(points) if self.is_geographic
-                else points * self._request.planar_unit)
-
-    @cached_property
-    def points_m(self) -> FloatArray:
-        """Planar metres."""
-        return self._planar(self.locations)
-
-    @cached_property
-    def legs_m(self) -> FloatArray:
-        """What trucks drive from each place to each, as the request rounds it."""
-        request = self._request
-        if self.is_geographic or request.planar_rounding == "exact":
-            return self.distances_m
-        straight = planar_distances(self.locations, self._preparing.pause)
-        return rounded(straight, request.planar_rounding) * request.planar_unit
-
-    @cached_property
-    def distances_m(self) -> FloatArray:
-        """From each place to each, straight or on a great circle."""
-        pause = self._preparing.pause
-        return (great_circle_distances(self.locations, pause) if self.is_geographic
-                else planar_distances(self.points_m, pause))
-
-    @cached_property
-    def flights(self) -> Flights:
-        """Flights of drones of any speed."""
-        flights = Flights(self.points_m, self._airspace, self.distances_m, self._preparing.pause)
-        obstacles = flights.obstacles
-        self._preparing.expect(sights_seconds(
-            len(self.places), len(obstacles.corners.place), len(obstacles.edges)))
-        return flights
-
-    def detours(self) -> Detours:
-        """Return where flights bend, of a request with no-fly areas."""
-        corners = self.flights.obstacles.corners.place
-        stated = (self._projection.unproject(corners) if self.is_geographic
-                  else corners / self._request.planar_unit)
-        return Detours(self.flights.ways, stated, self._airspace)
-
-    @cached_property
-    def _airspace(self) -> Airspace:
-        stated = self._request.airspace
-        rings = [self._planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
-        return Airspace(
-            no_fly=tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings),
-            wind_speed_kmh=stated.wind.speed_kmh,
-            wind_direction_deg=stated.wind.direction_deg,
-        )
 
 
 class Travels:
@@ -169,13 +69,15 @@ class Travels:
     def count(self, on_roads: bool = False) -> int:
         """Return how many pairs of matrices planning needs at most, without building any.
 
+        What is computed needs none.
         Where customers ask for a setup, ways back to trucks are apart from those to customers;
         where profiles may have roads, equal speeds make no equal legs.
         """
         request = self._request
         sets_up = any(customer.setup_duration for customer in request.customers)
         flown = {self._flying(drones) for kind in request.fleet for drones in kind.drone_types}
-        driven = len(self._keys() - flown)
+        driven = len(self._stated(self._keys() - flown))
+        flown = self._stated(flown)
         if on_roads and self._ground.is_geographic and request.roads != "none":
             driven = max(driven, len({kind.profile for kind in request.fleet}))
         return driven + len(flown) + (len(flown) if sets_up else 0)
@@ -188,7 +90,10 @@ class Travels:
         RequestError
             If the work is to end.
         """
-        keys = self._keys()
+        keys = self._stated(self._keys())
+        if not keys:
+            self._preparing.pause()
+            return
         flights = sum(key.means == "flight" for key in keys)
         self._preparing.expect(legs_seconds(len(self._places), len(keys) - flights, flights,
                                             self._ground.is_geographic))
@@ -245,7 +150,7 @@ class Travels:
         if all(place.location is not None for place in self._places):
             points = self._ground.points_m
         else:
-            duration = self._travels[0].duration
+            duration = self._travels[0].duration[:]
             if nowhere is not None:
                 duration = np.delete(np.delete(duration, nowhere, 0), nowhere, 1)
             points = embed(duration)
@@ -256,6 +161,23 @@ class Travels:
         fleet = self._request.fleet
         return ({self._driving(kind)[0] for kind in fleet}
                 | {self._flying(drones) for kind in fleet for drones in kind.drone_types})
+
+    def _stated(self, keys: set[_Key]) -> set[_Key]:
+        """Return those of which there are matrices."""
+        return {key for key in keys if not self._is_computed(key)}
+
+    def _is_computed(self, key: _Key) -> bool:
+        """Tell whether legs are computed where they are looked up."""
+        return (key.means == "drive" and len(self._places) > COMPUTED_FROM
+                and fits(self._points.longest(), key.speed, key.climb))
+
+    @cached_property
+    def _points(self) -> Points:
+        """Where nodes are."""
+        points = self._ground.points
+        if self._nowhere is None:
+            return points
+        return replace(points, at=np.insert(points.at, self._nowhere, np.nan, axis=0))
 
     def _driving(self, vehicle_type: VehicleTypeInput) -> tuple[_Key, SpeedProfile | None]:
         matrix = self._matrix(vehicle_type.profile)
@@ -308,11 +230,19 @@ class Travels:
         """Return the index of a pair of matrices, which is built the first time."""
         if key not in self._index:
             self._index[key] = len(self._travels)
-            travel = self._build(key)
-            if self._nowhere is not None:
-                travel = with_nowhere(travel, self._nowhere, key.flown)
-            self._travels.append(travel)
+            self._travels.append(self._computed(key) if self._is_computed(key)
+                                 else self._with_nowhere(key))
         return self._index[key]
+
+    def _computed(self, key: _Key) -> Travel:
+        nowhere = UNREACHABLE if key.flown else 0
+        return Travel.along(StraightLegs(self._points, key.speed, key.climb, nowhere))
+
+    def _with_nowhere(self, key: _Key) -> Travel:
+        travel = self._build(key)
+        if self._nowhere is None:
+            return travel
+        return with_nowhere(travel, self._nowhere, key.flown)
 
     def _build(self, key: _Key) -> Travel:
         self._preparing.pause()

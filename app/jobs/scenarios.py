@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from pydantic_core import from_json, to_json
 
 from app.conversion.preparing import UNHURRIED, Preparing
-from app.conversion.travels import Ground
+from app.conversion.ground import Ground
 from app.errors import (
     MAX_LISTED_ERRORS, InputError, InvalidRequestError, NoRoadsError, json_path, schema_errors,
 )

@@ -11,7 +11,8 @@ from app.conversion.locating import Located, located
 from app.conversion.names import number_in
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.problem import problem_of
-from app.conversion.travels import Ground, Travels
+from app.conversion.ground import Ground
+from app.conversion.travels import Travels
 from app.conversion.units import optional_thousandths
 from app.errors import InputError, InvalidRequestError
 from app.plans.carried import Info, carry, info_of

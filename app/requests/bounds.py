@@ -9,7 +9,7 @@ from app.errors import InputError
 from app.requests.draft import Draft
 from app.schemas.request import PlanRequest, ReplanInput
 from app.settings import MAX_CUSTOMERS, MAX_LEGS, MAX_NUM_SAMPLES, MAX_TIME_LIMIT, Settings
-from model.planner import decoding_seconds
+from model.planner import DECODED_UP_TO, decoding_seconds
 from model.replanning.workers import MAX_OWN_TYPES
 
 PLAN_SECONDS = "TANDEM_MAX_PLAN_SECONDS"
@@ -60,7 +60,9 @@ def bound_errors(draft: Draft, bounds: Bounds) -> Iterator[InputError]:
     samples = options.num_samples if options.decoding == "sample" else None
     seconds = decoding_seconds(number, samples)
     # A stated time limit cuts samples short; without one, all of them are drawn.
-    if 0 in (options.time_limit, options.search_iterations) and seconds > bounds.time_limit:
+    draws_all = (number <= DECODED_UP_TO
+                 and 0 in (options.time_limit, options.search_iterations))
+    if draws_all and seconds > bounds.time_limit:
         yield InputError(
             code="OUT_OF_RANGE", path="$.options",
             message=f"The policy's plan takes about {seconds:.0f} s, and this service takes "

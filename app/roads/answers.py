@@ -10,7 +10,7 @@ from pyproj import Geod
 
 from app.roads.engine import Block, RoadsAnswerError, RoadTable
 from model.problem import BoolArray, FloatArray, IntArray
-from model.travel.matrices import EARTH_RADIUS_M
+from model.problem.distances import EARTH_RADIUS_M
 
 NOISE_M = 5.0
 """By how much a true distance may be less than its ends are apart: engines measure along segments,

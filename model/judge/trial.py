@@ -56,7 +56,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
     vehicle_type, table = problem.vehicle_types[kind], problem.may_serve
     depots = list(dict.fromkeys((vehicle_type.begins_at, vehicle_type.ends_at)))
     places = np.array([*depots, *nodes])
-    grid = np.ix_(places, places)
+    rows = places[:, None]
     travels = [problem.travel[vehicle_type.travel]]
     if drones is not None:
         travels.append(problem.travel[drones.travel])
@@ -66,7 +66,8 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
         customers=tuple([problem.customer_at(node) for node in nodes]),
         vehicle_types=(replace(vehicle_type, depot=0, start=0, end=len(depots) - 1, travel=0,
                                drones=drones, more_drones=(), charge_left=(), reload_depots=()),),
-        travel=tuple([Travel(each.duration[grid], each.distance[grid]) for each in travels]),
+        travel=tuple([Travel(each.duration[rows, places], each.distance[rows, places])
+                      for each in travels]),
         coordinates=problem.coordinates[places],
         unassigned_cost=problem.unassigned_cost,
         amount_decimals=problem.amount_decimals,

@@ -16,14 +16,15 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from typing import Any, TypeVar, cast
 
-from numba import config, njit
+from numba import config, njit, types
 from numba.core import event
 from numba.core.caching import UserProvidedCacheLocator
 from numba.core.compiler import Compiler
+from numba.extending import overload
 
 SOURCES = (
     *(f"problem/{part}" for part in (
-        "customer", "energy", "fleet", "overtime", "problem", "quantities")),
+        "customer", "distances", "energy", "fleet", "overtime", "problem", "quantities")),
     *(f"kernel/{part}" for part in (
         "compiled", "records", "plain", "alarm", "copying", "instance", "start", "shift", "stop",
         "energy", "flight", "load", "clock", "leg", "drone_types")),
@@ -157,6 +158,29 @@ def inlined_arithmetic(function: Function) -> Function:
     Only for what need not be the same to the last bit on every processor.
     """
     return _part(function, fastmath={"reassoc", "contract", "nsz", "arcp"})
+
+
+Result = TypeVar("Result")
+
+
+def chosen_by_type(kind: type, of_kind: Callable[..., Result], of_others: Callable[..., Result],
+                   paste: bool = False) -> Callable[..., Result]:
+    """Return what is one function if its first argument is a named tuple of a kind, else another.
+
+    Its type tells which, so that nothing is paid for the choice. It is compiled like `inlined`, or
+    like `pasted` if `paste`.
+    """
+    def either(first: Any, *others: Any) -> Result:
+        return (of_kind if isinstance(first, kind) else of_others)(first, *others)
+
+    def chosen(first: Any, *others: Any) -> Callable[..., Result]:
+        is_kind = isinstance(first, types.NamedTuple) and first.instance_class is kind
+        return of_kind if is_kind else of_others
+
+    if not config.DISABLE_JIT:  # type: ignore[attr-defined]
+        overload(either, jit_options=PART, strict=False,
+                 inline="always" if paste else "never")(chosen)
+    return either
 
 
 def _part(function: Function, **options: Any) -> Function:

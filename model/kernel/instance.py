@@ -126,11 +126,11 @@ class Instance(NamedTuple):
     neighbour: IntArray  # (problem, node, rank) nearest customers first, -1 behind the last
 
 
-def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go_on) -> Instance:
+def pack(problems: Sequence[Problem], legs: bool = True, pause: Pause = go_on) -> Instance:
     """Pack problems into common arrays, padded with zeros and False.
 
-    `neighbours` are what policies alone look at; without them `Instance.neighbour` lists none.
-    `pause` may end it.
+    `legs` and neighbours are what policies alone look at; without them there are none. `pause` may
+    end it.
 
     Raises
     ------
@@ -141,20 +141,21 @@ def pack(problems: Sequence[Problem], neighbours: bool = True, pause: Pause = go
         raise ValueError("problems: need at least one")
     durations = [durations_of(problem) for problem in problems]
     ways = [ways_of(problem) for problem in problems]
-    instance = _empty(problems, max(map(len, durations)), max(map(len, ways)))
+    instance = _empty(problems, max(map(len, durations)), max(map(len, ways)), legs)
     for row, problem in enumerate(problems):
         _pack_row(instance, row, problem, durations[row], ways[row])
-        write_legs(problem, ways[row], instance.setup[row], instance.duration[row],
-                   instance.distance[row], pause)
-        if neighbours:
+        if legs:
+            write_legs(problem, ways[row], instance.setup[row], instance.duration[row],
+                       instance.distance[row], pause)
             write_nearest(problem, instance.neighbour[row], pause)
     return instance
 
 
-def _empty(problems: Sequence[Problem], variants: int, travels: int) -> Instance:
-    """Allocate arrays for problems with so many tables of nodes and of legs."""
+def _empty(problems: Sequence[Problem], variants: int, travels: int, legs: bool) -> Instance:
+    """Allocate arrays for problems with so many tables of nodes and of `legs`, if any."""
     rows = len(problems)
     nodes = max(problem.num_nodes for problem in problems)
+    ends = nodes if legs else 0
     types = max(len(all_kinds(problem)) for problem in problems)
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
@@ -175,11 +176,11 @@ def _empty(problems: Sequence[Problem], variants: int, travels: int) -> Instance
         can_fly=np.zeros((rows, types, nodes), np.bool_),
         profile_time=np.zeros((rows, types, changes), np.int64),
         profile_factor=np.ones((rows, types, changes + 1), np.int64),
-        duration=np.zeros((rows, travels, nodes, nodes), np.int64),
-        distance=np.zeros((rows, travels, nodes, nodes), np.int64),
+        duration=np.zeros((rows, travels, ends, ends), np.int64),
+        distance=np.zeros((rows, travels, ends, ends), np.int64),
         unassigned_cost=np.array([problem.unassigned_cost for problem in problems]),
         unassigned_more=np.zeros((rows, nodes)),
-        neighbour=np.full((rows, nodes, MAX_NEIGHBOURS), -1, np.int64),
+        neighbour=np.full((rows, nodes, MAX_NEIGHBOURS if legs else 0), -1, np.int64),
     )
     instance.node["arrival_limit"] = FAR
     instance.node[..., 1:]["window_latest"] = FAR

@@ -1,10 +1,12 @@
 """Who is nearest to whom, in a time that hardly depends on how many are equally near."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
 from model.kernel.pausing import Pause, matrix_blocks
-from model.problem import BoolArray, IntArray, Problem
+from model.problem import BoolArray, FloatArray, IntArray, Problem
 
 FEW = 512
 """Up to how many columns equal entries cost nothing that matters."""
@@ -15,6 +17,13 @@ LOOKS = 64
 TIED = 0.1
 """Share of a row from which on equal entries keep the library's selection of the least busy: it
 halves a row by comparing, and took ten times as long where most customers were at one place."""
+
+
+CELL = 64
+"""Most points in a cell."""
+
+CELLS_PER_RANK = 2
+"""By how many points more than are ranked a cell's are compared with at first."""
 
 
 def least_columns(weight: NDArray[np.floating], ranks: int) -> IntArray:
@@ -51,6 +60,56 @@ def _selected_by_keys(weight: NDArray[np.floating], ranks: int) -> IntArray:
     keys |= np.arange(weight.shape[1])
     least = np.sort(np.partition(keys, ranks - 1, axis=1)[:, :ranks], axis=1)
     return least & np.int64(2**32 - 1)
+
+
+def nearest_points(points: FloatArray, ranks: int, pause: Pause) -> IntArray:
+    """Return the `ranks` points nearest to each of (point, axis), nearest first.
+
+    Points lie in cells of a k-d tree. Those of one are compared with all in cells near by, then
+    with all in cells no farther than the last of those found.
+    """
+    cells = list(_cells(points, np.arange(len(points))))
+    low, high = (np.array([edge(points[cell], axis=0) for cell in cells])
+                 for edge in (np.min, np.max))
+    nearest = np.empty((len(points), ranks), np.int64)
+    for cell, least, most in zip(cells, low, high, strict=True):
+        pause()
+        apart = _square(np.maximum(0.0, np.maximum(low - most, least - high)))
+        order = np.argsort(apart, kind="stable")
+        count = min(len(order), 2 + CELLS_PER_RANK * ranks // CELL)
+        reach = 0.0
+        while True:
+            others = np.concatenate([cells[index] for index in order[:count]])
+            away = _square(points[cell][:, None] - points[others])
+            away[cell[:, None] == others] = np.inf
+            if len(others) > ranks:
+                reach = float(np.partition(away, ranks - 1, axis=1)[:, ranks - 1].max())
+                enough = int(np.searchsorted(apart[order], reach))
+                if enough <= count:
+                    break
+                count = enough
+            else:
+                count = min(len(order), 2 * count)
+        nearest[cell] = others[least_columns(away, ranks)]
+    return nearest
+
+
+def _cells(points: FloatArray, members: IntArray) -> Iterator[IntArray]:
+    """Yield points in cells, halved across their longer side until they are small."""
+    if len(members) <= CELL:
+        yield members
+        return
+    inside = points[members]
+    axis = int(np.ptp(inside, axis=0).argmax())
+    half = len(members) // 2
+    order = np.argpartition(inside[:, axis], half)
+    yield from _cells(points, members[order[:half]])
+    yield from _cells(points, members[order[half:]])
+
+
+def _square(difference: FloatArray) -> FloatArray:
+    square: FloatArray = np.einsum("...i,...i->...", difference, difference)
+    return square
 
 
 def write_nearest(problem: Problem, neighbours: IntArray, pause: Pause) -> None:

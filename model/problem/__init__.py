@@ -6,16 +6,19 @@ from model.problem.energy import (
 )
 from model.problem.fleet import DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.overtime import Overtime
-from model.problem.problem import Problem, Travel
+from model.problem.problem import Problem
 from model.problem.quantities import (
     FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MOST_INCOMPATIBLE, MS_PER_HOUR,
     UNLIMITED, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray, UIntArray,
 )
+from model.problem.straight import Points, StraightLegs
+from model.problem.travel import Travel
 
 __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS", "MAX_POWER",
     "MAX_QUANTITY", "MICROJOULES_PER_WH", "MM_PER_KM", "MOST_INCOMPATIBLE", "MS_PER_HOUR",
     "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray", "Customer", "Depot", "DepotKind",
     "DroneType", "Energy", "FloatArray", "IncompatibleGoods", "IntArray", "Overtime", "Pickups",
-    "Problem", "ServedBy", "SpeedProfile", "Travel", "UIntArray", "VehicleType",
+    "Points", "Problem", "ServedBy", "SpeedProfile", "StraightLegs", "Travel", "UIntArray",
+    "VehicleType",
 ]

@@ -9,30 +9,10 @@ import numpy as np
 from model.problem.customer import Customer, Depot, IncompatibleGoods
 from model.problem.fleet import VehicleType
 from model.problem.quantities import (
-    MAX_DIMENSIONS, MAX_QUANTITY, MOST_INCOMPATIBLE, UNREACHABLE, USUAL_DECIMALS, BoolArray,
-    FloatArray, IntArray, require, require_rate,
+    MAX_DIMENSIONS, MOST_INCOMPATIBLE, USUAL_DECIMALS, BoolArray, FloatArray, require,
+    require_rate,
 )
-
-
-@dataclass(frozen=True, eq=False)
-class Travel:
-    """Legs between all nodes by one kind of vehicle, rows are origins."""
-
-    duration: IntArray  # (node, node) ms, UNREACHABLE where there is no leg (drones only)
-    distance: IntArray  # (node, node) mm
-
-    def __post_init__(self) -> None:
-        for name, matrix in (("duration", self.duration), ("distance", self.distance)):
-            require(matrix.dtype == np.int64, f"travel {name} dtype", matrix.dtype)
-            require(matrix.ndim == 2 and matrix.shape[0] == matrix.shape[1],
-                     f"travel {name} shape", matrix.shape)
-            # Negative entries are the largest ones here: one look at each is enough, mostly.
-            if matrix.view(np.uint64).max(initial=0) > MAX_QUANTITY:
-                require(bool((matrix >= 0).all()), f"travel {name}", "negative entry")
-                reachable = (matrix <= MAX_QUANTITY) | (matrix == UNREACHABLE)
-                require(bool(reachable.all()), f"travel {name}", "entry too large")
-        require(self.duration.shape == self.distance.shape, "travel distance shape",
-                 self.distance.shape)
+from model.problem.travel import Travel
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +63,10 @@ class Problem:
         for vehicle_type in self.vehicle_types:
             self._require_consistent(vehicle_type)
         for used in {vehicle_type.travel for vehicle_type in self.vehicle_types}:
-            require(bool(self.travel[used].duration.max() < UNREACHABLE), "travel",
-                     "unreachable leg")
+            require(self.travel[used].reaches_all(), "travel", "unreachable leg")
+        points = [each.straight.points.at for each in self.travel if each.straight is not None]
+        require(all(np.array_equal(each, points[0], equal_nan=True) for each in points), "travel",
+                 "places differ")
 
     def _require_consistent(self, vehicle_type: VehicleType) -> None:
         name = f"vehicle type {vehicle_type.id}"

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from model.problem import IntArray, Problem, Travel
+from model.problem import Problem
 from model.regions.region import Region, Vehicle, customers_of
 from model.solution import Solution, renumbered
 
@@ -66,13 +66,7 @@ def part_of(problem: Problem, region: Region) -> Part:
         customers=tuple(problem.customers[node - first] for node in customers),
         vehicle_types=tuple(replace(problem.vehicle_types[kind], count=len(all_of_it), numbers=())
                             for kind, all_of_it in zip(kinds, vehicles, strict=True)),
-        travel=tuple(_between(legs, chosen) for legs in problem.travel),
+        travel=tuple(legs.among(chosen) for legs in problem.travel),
         coordinates=problem.coordinates[chosen],
         may_serve=may_serve,
     ), nodes, vehicles)
-
-
-def _between(legs: Travel, nodes: IntArray) -> Travel:
-    """Return the legs between some nodes."""
-    grid = np.ix_(nodes, nodes)
-    return Travel(legs.duration[grid], legs.distance[grid])

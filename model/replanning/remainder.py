@@ -11,7 +11,7 @@ import numpy as np
 
 from model.judge.freshness import first_departure
 from model.judge.past import Past, Vehicle
-from model.problem import BoolArray, Customer, Depot, Problem, Travel, VehicleType
+from model.problem import BoolArray, Customer, Depot, Problem, VehicleType
 from model.replanning.kept import Kept
 from model.replanning.workers import Worker, from_now_on
 
@@ -73,7 +73,6 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     start = {kind: problem.num_depots + index for index, kind in enumerate(places)}
     types = [replace(kind, start=start.get(index, kind.start))
              for index, kind in enumerate((*plain.values(), *(own.kind for own in workers)))]
-    grid = np.ix_(source, source)
     carriers = {node: own for own in workers for node in own.aboard}
     left = replace(
         problem,
@@ -82,7 +81,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
         customers=tuple(_customer_left(problem, past, kept, node, carriers.get(node))
                         for node in nodes),
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
-        travel=tuple(Travel(each.duration[grid], each.distance[grid]) for each in problem.travel),
+        travel=tuple(each.among(np.array(source)) for each in problem.travel),
         may_serve=_table(problem, past, kinds, owners, nodes)
         & _goods_table(problem, kept, kinds, owners, nodes))
     return Remainder(left, tuple(source), kinds, owners)

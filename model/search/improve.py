@@ -14,6 +14,7 @@ from model.kernel.pausing import EndedError, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import first_plan, make_searcher, read_plan
+from model.search.ground import Ground, lay_ground
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.moves.anneal import ANY, anneal
 from model.search.route.layout import World
@@ -21,7 +22,7 @@ from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.temperature import Heat
-from model.search.world import ALL_MOVES, Ground, Moves, lay_ground, make_world
+from model.search.world import ALL_MOVES, Moves, make_world
 from model.solution import Solution, renumbered
 
 SLICE = 0.003

@@ -2,35 +2,21 @@
 
 from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from model.kernel.alarm import silent
 from model.kernel.drone_types import all_kinds, any_aboard
 from model.kernel.instance import FAR, NO_PROFILE, Instance, pack
-from model.kernel.nearest import least_columns
 from model.kernel.plain import as_plain
-from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Record, Records
-from model.problem import (
-    MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray, Problem,
-)
-from model.search.numbering import Numbering, along_neighbours, as_stated, renumbered
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
+from model.search.ground import Ground, lay_ground
+from model.search.numbering import renumbered
 from model.search.route.layout import (
     MODE_APART, MODE_LEAN, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE,
     MODE_TIMED, MOST_VISITS, World,
 )
-
-NEAR_RUIN = 128
-"""How many customers a ruin may spread to."""
-
-ROWS = 64
-"""For how many customers neighbours are ranked together; pages for all at once would take longer to
-get."""
-
-NEAR_INSERTION = 40
-"""Beside how many customers an insertion is tried where not everywhere is."""
 
 SCAN_ALL_BELOW = 400
 """Number of customers from which insertions are tried beside neighbours only."""
@@ -39,10 +25,6 @@ LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
 """How often a better place is overlooked: the last by the number of customers squared and that on a
 sortie, within the first two. Small problems have so few places that little else would differ from
 turn to turn, so that none are kept there where more than distance counts."""
-
-WAITING_WEIGHT = 0.2
-LATENESS_WEIGHT = 1.0
-"""What waiting and lateness weigh against driving between neighbours."""
 
 
 @dataclass(frozen=True)
@@ -57,51 +39,6 @@ class Moves:
 
 
 ALL_MOVES = Moves()
-
-
-class Ground(NamedTuple):
-    """What legs the search sees, whatever it may do: by far the largest of its arrays."""
-
-    leg: IntArray
-    back: IntArray
-    near: IntArray
-    fit: IntArray
-    numbering: Numbering
-
-
-def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on,
-               along: bool = False) -> Ground:
-    """Lay out the legs of a problem, and rank each customer's neighbours; `pause` may end it.
-
-    `along` numbers customers along their neighbours.
-    """
-    duration, distance = instance.duration[0], instance.distance[0]
-    near = _near(problem, pause)
-    fit = _fit(problem, instance.node[0, 0, :, 0], near, pause)
-    numbering = as_stated(problem.num_nodes)
-    if along:
-        numbering = along_neighbours(near, problem.num_depots)
-        near, fit = (_numbers_of(ranked, numbering) for ranked in (near, fit))
-    node = numbering.node
-    leg = np.empty((*duration.shape, 2), np.int64)
-    for travel in range(len(leg)):
-        for rows in matrix_blocks(leg.shape[1], pause):
-            leg[travel, rows, :, 0] = duration[travel, node[rows]][:, node]
-            leg[travel, rows, :, 1] = distance[travel, node[rows]][:, node]
-    back = leg
-    if not _symmetric(duration, pause) or not _symmetric(distance, pause):
-        back = np.empty_like(leg)
-        for travel in range(len(leg)):
-            for rows in matrix_blocks(leg.shape[1], pause):
-                back[travel, rows] = leg[travel, :, rows].transpose(1, 0, 2)
-    return Ground(leg, back, near, fit, numbering)
-
-
-def _numbers_of(ranked: IntArray, numbering: Numbering) -> IntArray:
-    """Return neighbours (node, rank), -1 for none, in the search's numbers."""
-    ranked = ranked[numbering.node]
-    numbers: IntArray = np.where(ranked >= 0, numbering.number[ranked], ranked)
-    return numbers
 
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
@@ -182,12 +119,6 @@ def _per_ms(prices: Records) -> Records:
     return price
 
 
-def _symmetric(matrices: IntArray, pause: Pause) -> bool:
-    """Tell whether all matrices (travel, node, node) are their own transposes."""
-    return all(bool((matrix[rows] == matrix[:, rows].T).all())
-               for matrix in matrices for rows in row_blocks(len(matrix), ROWS, pause))
-
-
 def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     rates = instance.rate[0]
     late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
@@ -232,7 +163,7 @@ def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
 
 def states_rarer_rules(problem: Problem) -> bool:
     """Tell whether the search for a problem is that which is compiled with all rules."""
-    instance = pack([problem], neighbours=False)
+    instance = pack([problem], legs=False)
     return not _is_plain(instance, instance.type[0])
 
 
@@ -302,52 +233,3 @@ def _splices(problem: Problem, swap: BoolArray) -> BoolArray:
     plain = np.array([kind.drones is None and kind.max_trips == 1 for kind in kinds])
     splices: BoolArray = (group[:, None] == group) & plain & plain[:, None]
     return splices | swap
-
-
-def _near(problem: Problem, pause: Pause) -> IntArray:
-    """Return each customer's closest others by the first type's drive, there or back.
-
-    (node, rank), nearest first; -1 for depots and behind the last.
-    """
-    first, number = problem.num_depots, problem.num_customers
-    ranks = max(1, min(NEAR_RUIN, number - 1))
-    near = np.full((problem.num_nodes, ranks), -1, np.int64)
-    if number > 1:
-        duration = problem.travel[problem.vehicle_types[0].travel].duration[first:, first:]
-        for rows in row_blocks(number, ROWS, pause):
-            drive = np.minimum(duration[rows], duration[:, rows].T).astype(np.float32)
-            drive[np.arange(len(drive)), np.arange(rows.start, rows.stop)] = np.inf
-            near[first:][rows] = least_columns(drive, ranks) + first
-    return near
-
-
-def _fit(problem: Problem, place: Records, near: IntArray, pause: Pause) -> IntArray:
-    """Return those of each customer's neighbours whom a truck would best visit before or after.
-
-    References
-    ----------
-    Vidal, Crainic, Gendreau and Prins (2013), a hybrid genetic algorithm with adaptive diversity
-    management for a large class of vehicle routing problems with time windows, Computers and
-    Operations Research 40:475-489.
-    """
-    ranks = min(NEAR_INSERTION, near.shape[1])
-    fit = near[:, :ranks].copy()
-    first, number = problem.num_depots, problem.num_customers
-    earliest, service, latest = (place[field].astype(np.float64) for field in (
-        "window_earliest", "service_duration", "window_latest"))
-    if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
-        return fit
-    duration = problem.travel[problem.vehicle_types[0].travel].duration
-
-    def detour(origin: IntArray, to: IntArray) -> FloatArray:
-        drive = duration[origin, to]
-        wait = earliest[to] - (latest[origin] + service[origin]) - drive
-        late = earliest[origin] + service[origin] + drive - latest[to]
-        return (drive + WAITING_WEIGHT * np.maximum(wait, 0.0)
-                + LATENESS_WEIGHT * np.maximum(late, 0.0))
-
-    for rows in row_blocks(number, ROWS, pause):
-        one, other = np.arange(first + rows.start, first + rows.stop)[:, None], near[first:][rows]
-        weight = np.minimum(detour(one, other), detour(other, one))
-        fit[first:][rows] = np.take_along_axis(other, least_columns(weight, ranks), axis=1)
-    return fit

@@ -1,8 +1,4 @@
-"""From locations, or a caller's matrices, to the integer travel matrices of `Problem`.
-
-Distances are rounded to the nearest millimetre and durations up to the next millisecond, both
-once, from the exact float values.
-"""
+"""From locations, or a caller's matrices, to the integer travel matrices of `Problem`."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -17,18 +13,13 @@ from model.problem import (
     UNREACHABLE,
     FloatArray,
     IntArray,
+    Points,
     SpeedProfile,
     Travel,
 )
-
-EARTH_RADIUS_M = 6_371_008.8
-"""Mean radius of the earth, which is taken for a sphere."""
-
-FLOAT_NOISE_MS = 5e-7
-"""A duration less than this above a whole millisecond is that millisecond."""
-
-COARSE_MS = 2.0**31
-"""Durations below this are told apart more finely than by `FLOAT_NOISE_MS` halved."""
+from model.problem.distances import (
+    EARTH_RADIUS_M, MS_PER_M_AT_1_KMH, ceiled_ms, rounded_mm,
+)
 
 _EMBEDDING_RANK = 10
 _EMBEDDING_ITERATIONS = 12
@@ -85,38 +76,43 @@ def local_coordinates(lon_lat: FloatArray) -> FloatArray:
 
 def planar_distances(points_m: FloatArray, pause: Pause = go_on) -> FloatArray:
     """Return the (node, node) straight-line distances in metres."""
-    x, y = points_m.T
-    distances = np.empty((len(x), len(x)))
-    for rows in matrix_blocks(len(distances), pause):
-        east, north = x[rows, None] - x, y[rows, None] - y
-        distances[rows] = np.sqrt(east * east + north * north)
-    return distances
+    return straight_distances(Points(points_m), pause)
 
 
 def great_circle_distances(lon_lat: FloatArray, pause: Pause = go_on) -> FloatArray:
-    """Return the (node, node) distances in metres on the sphere, by the haversine formula."""
-    _require_lon_lat(lon_lat)
-    longitude, latitude = np.radians(lon_lat).T
-    cosine = np.cos(latitude)
-    distances = np.empty((len(longitude), len(longitude)))
+    """Return the (node, node) distances in metres on the sphere."""
+    return straight_distances(points_of(lon_lat), pause)
+
+
+def straight_distances(points: Points, pause: Pause = go_on) -> FloatArray:
+    """Return the (node, node) distances in metres."""
+    distances = np.empty((len(points), len(points)))
+    everywhere = np.arange(len(points))
     for rows in matrix_blocks(len(distances), pause):
-        others = slice(rows.start, None)  # those before have this distance already
-        haversine = np.sin((latitude[rows, None] - latitude[others]) / 2) ** 2
-        haversine += (cosine[rows, None] * cosine[others]
-                      * np.sin((longitude[rows, None] - longitude[others]) / 2) ** 2)
-        around = 2 * EARTH_RADIUS_M * np.arcsin(np.sqrt(np.minimum(haversine, 1.0)))
-        distances[rows, others] = around
-        distances[others, rows] = around.T
+        distances[rows] = points.distances(everywhere[rows, None], everywhere)
     return distances
+
+
+def points_of(lon_lat: FloatArray) -> Points:
+    """Return where (node, 2) longitudes and latitudes in degrees are.
+
+    Raises
+    ------
+    ValueError
+        If these are none.
+    """
+    _require_lon_lat(lon_lat)
+    return Points.geographic(lon_lat)
 
 
 def truck_travel(distances_m: FloatArray, speed_kmh: float, pause: Pause = go_on) -> Travel:
     """Drive the distances at one speed (the fastest, where a speed profile applies)."""
     _require_speed(speed_kmh)
     _require_lengths("distances", distances_m, pause)
+    pace = MS_PER_M_AT_1_KMH / speed_kmh
     return Travel(
-        _whole(distances_m, lambda rows: _ceiled(rows * 3600.0 / speed_kmh), pause),
-        _whole(distances_m, _rounded_mm, pause))
+        _whole(distances_m, lambda rows: ceiled_ms(rows * pace), pause),
+        _whole(distances_m, rounded_mm, pause))
 
 
 def matrix_travel(durations_s: FloatArray, distances_m: FloatArray,
@@ -124,14 +120,14 @@ def matrix_travel(durations_s: FloatArray, distances_m: FloatArray,
     """Take a caller's matrices, which need not be symmetric."""
     _require_lengths("durations", durations_s, pause)
     _require_lengths("distances", distances_m, pause)
-    return Travel(_whole(durations_s, lambda rows: _ceiled(rows * 1000.0), pause),
-                  _whole(distances_m, _rounded_mm, pause))
+    return Travel(_whole(durations_s, lambda rows: ceiled_ms(rows * 1000.0), pause),
+                  _whole(distances_m, rounded_mm, pause))
 
 
 def matrix_legs(durations_s: FloatArray, distances_m: FloatArray) -> tuple[IntArray, IntArray]:
     """Return some legs as `matrix_travel` has them, in any shape."""
-    return (_ceiled(durations_s * 1000.0).astype(np.int64),
-            _rounded_mm(distances_m).astype(np.int64))
+    return (ceiled_ms(durations_s * 1000.0).astype(np.int64),
+            rounded_mm(distances_m).astype(np.int64))
 
 
 def with_nowhere(travel: Travel, node: int, flown: bool) -> Travel:
@@ -148,7 +144,8 @@ def with_nowhere(travel: Travel, node: int, flown: bool) -> Travel:
         legs[node, node] = 0
         return legs
 
-    return Travel(larger(travel.duration), larger(travel.distance))
+    duration, distance = travel.arrays()
+    return Travel(larger(duration), larger(distance))
 
 
 def flight_travel(distances_m: FloatArray, durations_s: FloatArray,
@@ -169,10 +166,10 @@ def flight_travel(distances_m: FloatArray, durations_s: FloatArray,
                 raise ValueError(f"{name}: every entry must be a number and not negative")
         reachable = (metres * 1000.0 <= MAX_QUANTITY) & (seconds * 1000.0 <= MAX_QUANTITY)
         if reachable.all():
-            duration[rows], distance[rows] = _ceiled(seconds * 1000.0), _rounded_mm(metres)
+            duration[rows], distance[rows] = ceiled_ms(seconds * 1000.0), rounded_mm(metres)
             continue
-        duration[rows] = _ceiled(np.where(reachable, seconds, 0.0) * 1000.0)
-        distance[rows] = _rounded_mm(np.where(reachable, metres, 0.0))
+        duration[rows] = ceiled_ms(np.where(reachable, seconds, 0.0) * 1000.0)
+        distance[rows] = rounded_mm(np.where(reachable, metres, 0.0))
         duration[rows][~reachable] = UNREACHABLE
         distance[rows][~reachable] = UNREACHABLE
     return Travel(duration, distance)
@@ -180,10 +177,11 @@ def flight_travel(distances_m: FloatArray, durations_s: FloatArray,
 
 def longer_legs(travel: Travel, more: int) -> Travel:
     """Return legs that take so many ms more, but for who stays."""
-    duration = np.where(travel.duration < UNREACHABLE, travel.duration + more, UNREACHABLE)
+    shorter, distance = travel.arrays()
+    duration = np.where(shorter < UNREACHABLE, shorter + more, UNREACHABLE)
     duration[duration > MAX_QUANTITY] = UNREACHABLE
-    np.fill_diagonal(duration, np.diagonal(travel.duration))
-    distance = np.where(duration < UNREACHABLE, travel.distance, UNREACHABLE)
+    np.fill_diagonal(duration, np.diagonal(shorter))
+    distance = np.where(duration < UNREACHABLE, distance, UNREACHABLE)
     return Travel(duration, distance)
 
 
@@ -255,19 +253,6 @@ def _whole(matrix: FloatArray, rounded: Callable[[FloatArray], FloatArray],
     for rows in matrix_blocks(len(matrix), pause):
         result[rows] = rounded(matrix[rows])
     return result
-
-
-def _ceiled(duration_ms: FloatArray) -> FloatArray:
-    noise: FloatArray | float = FLOAT_NOISE_MS
-    if duration_ms.max(initial=0.0) >= COARSE_MS:
-        noise = np.maximum(FLOAT_NOISE_MS, 2 * np.spacing(duration_ms))
-    whole: FloatArray = np.ceil(duration_ms - noise)
-    return whole
-
-
-def _rounded_mm(distance_m: FloatArray) -> FloatArray:
-    rounded: FloatArray = np.rint(distance_m * 1000.0)
-    return rounded
 
 
 def _require_speed(speed: float) -> None:

@@ -207,7 +207,7 @@ class Converter:
         placed = self._places.map
         # Vehicles that start or end anywhere are seen to do so amid all places.
         if placed is None:
-            points, is_nowhere = _by_landmarks(travels[0].duration), nodes.sites == NOWHERE
+            points, is_nowhere = _by_landmarks(travels[0].duration[:]), nodes.sites == NOWHERE
             points[is_nowhere] = points[~is_nowhere].mean(axis=0)
             return points
         return np.vstack([placed, placed.mean(axis=0)])[nodes.sites]
@@ -226,9 +226,9 @@ def dearest_plan(vehicle_types: Sequence[VehicleType], travels: Sequence[Travel]
     to_nodes = np.zeros(len(travels[0].distance))
     for travel, per_km, per_hour in _dearest_tariffs(vehicle_types):
         pause()
-        cost = travels[travel].distance * (per_km / MM_PER_KM)
+        cost = travels[travel].distance[:] * (per_km / MM_PER_KM)
         if per_hour:
-            cost += travels[travel].duration * (per_hour / MS_PER_HOUR)
+            cost += travels[travel].duration[:] * (per_hour / MS_PER_HOUR)
         to_nodes = np.maximum(to_nodes, cost.max(axis=0))
     to_jobs, to_end = to_nodes[num_depots:], float(to_nodes[:num_depots].max())
     return 1.0 + float(to_jobs.sum()) + len(to_jobs) * (to_end + fixed)

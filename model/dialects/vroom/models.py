@@ -59,7 +59,7 @@ class Model:
         latest = np.array([customer.latest for customer in customers], np.int64)
         most = np.array([np.maximum(customer.demand, customer.taken_in) for customer in customers])
         servable: BoolArray = np.zeros(len(customers), np.bool_)
-        shortest = {travel: _shortest_legs(problem.travel[travel].duration, first)
+        shortest = {travel: _shortest_legs(problem.travel[travel].duration[:], first)
                     for travel in {kind.travel for kind in problem.vehicle_types}}
         openings = _Openings(customers)
         for number, kind in enumerate(problem.vehicle_types):

@@ -2,7 +2,7 @@
 
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import FAR
-from model.kernel.leg import leg_at, legs_from, legs_to
+from model.kernel.leg import LegRow, leg_from, leg_to, legs_from, legs_to
 from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, places_of, too_late
@@ -25,7 +25,7 @@ def is_simple(world: World, fleet: Fleet, slot: int) -> bool:
 
 
 @spliced
-def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, last: int,
+def scan_stops(inward: LegRow, onward: LegRow, stops: Records, first: int, last: int,
                skipped: int, place: Records, room: Room, spare: int, rate: float, best: float,
                blink: float, rng: UIntArray) -> tuple[float, int]:
     """Find the cheapest place for a customer behind one of the stops from `first` to `last`.
@@ -36,7 +36,7 @@ def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, l
     """
     chosen = -1
     for p in range(first, last + 1):
-        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        out, on = leg_from(inward, stops[p].node), leg_to(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
         if cost >= best or detour > spare or p == skipped or not room_behind(room, p):
@@ -53,7 +53,7 @@ def scan_stops(inward: IntArray, onward: IntArray, stops: Records, first: int, l
 
 
 @inlined
-def scan_delayed(world: World, k: int, inward: IntArray, onward: IntArray, stops: Records,
+def scan_delayed(world: World, k: int, inward: LegRow, onward: LegRow, stops: Records,
                  start: int, first: int, last: int, node: int, room: Room, spare: int, rate: float,
                  best: float, blink: float, rng: UIntArray) -> tuple[float, int]:
     """As `scan_stops`, on a trip from stop `start` that has to wait for the customer's parcel."""
@@ -70,7 +70,7 @@ def scan_delayed(world: World, k: int, inward: IntArray, onward: IntArray, stops
             leave = end_of_service(places[stops[p].node], arrival)
         if too_late(place, leave):
             break
-        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        out, on = leg_from(inward, stops[p].node), leg_to(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
         arrival = leave + out.duration
@@ -93,7 +93,7 @@ def scan_limited(world: World, fleet: Fleet, slot: int, first: int, last: int, n
     m = kind.travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     for p in range(first, last + 1):
-        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        out, on = leg_from(inward, stops[p].node), leg_to(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
         cost = detour * rate
         if cost >= best or detour > spare or not room_behind(room, p):
@@ -147,7 +147,7 @@ def serving_type(world: World, fleet: Fleet, slot: int, index: int, node: int,
 
 
 @spliced
-def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: int, place: Records,
+def shortest_detour(inward: LegRow, onward: LegRow, stops: Records, last: int, place: Records,
                     room: Room, best: int) -> tuple[int, int]:
     """Return the shortest detour for a customer on a lean route, and the stop before it.
 
@@ -155,7 +155,7 @@ def shortest_detour(inward: IntArray, onward: IntArray, stops: Records, last: in
     """
     chosen = -1
     for p in range(last):
-        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        out, on = leg_from(inward, stops[p].node), leg_to(onward, stops[p + 1].node)
         detour = out.distance + on.distance - stops[p].leg
         if detour >= best or not room_behind(room, p):
             continue
@@ -309,7 +309,7 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
         stops, place = fleet.stop[slot], places_of(world.place, world.type[k])[node]
         room = room_on(world, fleet, slot, by, node)
         for p in (behind - 1, behind):
-            out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+            out, on = leg_from(inward, stops[p].node), leg_to(onward, stops[p + 1].node)
             cost = (out.distance + on.distance - stops[p].leg) * rate + base
             arrival = stops[p].leave + out.duration
             following = end_of_service(place, arrival) + on.duration

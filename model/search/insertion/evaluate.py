@@ -3,7 +3,7 @@
 from model.kernel.compiled import inlined, spliced
 from model.kernel.drone_types import drone_row_at, first_drone, num_drone_rows
 from model.kernel.instance import FAR, NONE
-from model.kernel.leg import leg, leg_at, legs_of, legs_to
+from model.kernel.leg import leg, leg_from, legs_of, legs_to
 from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.start import counted_from
@@ -283,7 +283,7 @@ def price_stop(world: World, fleet: Fleet, slot: int, p: int, node: int) -> floa
     k, here, behind = route.type, stops[p], stops[p + 1]
     place = places_of(world.place, world.type[k])[node]
     m = world.type[k].travel
-    out = leg_at(legs_to(world.back, m, node), here.node)
+    out = leg_from(legs_to(world.back, m, node), here.node)
     on = leg(legs_of(world.leg, m), node, behind.node)
     time, cum = here.leave + out.duration, here.cum + out.duration
     if too_late(place, time):

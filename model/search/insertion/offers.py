@@ -9,10 +9,12 @@ from model.kernel.energy import charges_aboard
 from model.kernel.flight import (
     can_serve, earliest_back, gone_by, recovery_end, take_off, unreachable, within_endurance,
 )
-from model.kernel.leg import leg, leg_at, legs_from, legs_of, legs_to
+from model.kernel.leg import (
+    LegRow, leg, leg_from, leg_to, legs_from, legs_of, legs_to,
+)
 from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, places_by_air, places_of, service_duration, too_late
-from model.problem import FloatArray, IntArray
+from model.problem import FloatArray
 from model.search.insertion.cheapest_stop import is_simple
 from model.search.insertion.evaluate import INFEASIBLE, price_move, price_stop, stands_alone
 from model.search.insertion.new_trips import may_begin, more_trips_fit, part_fits
@@ -51,7 +53,7 @@ def add_offer(offer: Records, least: FloatArray, count: Record, cost: float, kin
 
 
 @spliced
-def stop_costs(world: World, k: int, inward: IntArray, onward: IntArray, stops: Records, p: int,
+def stop_costs(world: World, k: int, inward: LegRow, onward: LegRow, stops: Records, p: int,
                node: int, spare: int, early: float, best: float) -> float:
     """Return what a customer behind stop `p` costs at least, or `best` if that is no less.
 
@@ -60,7 +62,7 @@ def stop_costs(world: World, k: int, inward: IntArray, onward: IntArray, stops: 
     """
     place = places_of(world.place, world.type[k])[node]
     here, there = stops[p].node, stops[p + 1].node
-    out, on = leg_at(inward, here), leg_at(onward, there)
+    out, on = leg_from(inward, here), leg_to(onward, there)
     cost = (out.distance + on.distance - stops[p].leg) * world.rate[k].distance - early
     cost += world.rate[k].stop
     mode = world.mode[k]
@@ -96,7 +98,7 @@ def offer_stops(world: World, searcher: Searcher, slot: int, first: int, last: i
     room = room_on(world, now, slot, k, node)
     for p in range(first, last + 1):
         cost = stop_costs(world, k, inward, onward, stops, p, node, spare, early, best)
-        out, on = leg_at(inward, stops[p].node), leg_at(onward, stops[p + 1].node)
+        out, on = leg_from(inward, stops[p].node), leg_to(onward, stops[p + 1].node)
         if cost < best and loads_cost(world, k):
             cost += load_more_behind(world, now, slot, p, node, out.distance, on.distance)
         if (cost < best and out.distance + on.distance - stops[p].leg <= most
@@ -159,7 +161,7 @@ def offer_flights(world: World, searcher: Searcher, slot: int, launch: int, node
     kind, rate = world.type[row], world.rate[row]
     m = kind.drone_travel
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, kind.home_travel, node)
-    out = leg_at(inward, stops[launch].node)
+    out = leg_from(inward, stops[launch].node)
     place, left = places_by_air(world.place, kind)[node], gone_by(kind, stops[launch].leave)
     begun = stops[launch].arrival
     if launch > 0:
@@ -174,7 +176,7 @@ def offer_flights(world: World, searcher: Searcher, slot: int, launch: int, node
     if world.crossings:
         last = min(launch + MAX_SPAN, now.trip[slot, stops[launch].trip].last)
     for recovery in range(first, last + 1):
-        home = leg_at(onward, stops[recovery].node)
+        home = leg_to(onward, stops[recovery].node)
         met = stops[recovery].arrival
         flight = out.duration + service + home.duration
         if not within_endurance(kind, left, left, met):
@@ -263,7 +265,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
     k = route.type
     m, depot, rate = world.type[k].travel, world.type[k].depot, world.rate[k].distance
     legs, inward = legs_of(world.leg, m), legs_to(world.back, m, node)
-    out, home = leg_at(inward, depot).distance, leg(legs, node, depot).distance
+    out, home = leg_from(inward, depot).distance, leg(legs, node, depot).distance
     for p in range(-1, route.length):
         kind = NEW_TRIP
         cost = (out + home) * rate
@@ -272,7 +274,7 @@ def offer_trips(world: World, searcher: Searcher, slot: int, node: int) -> None:
                 continue
             here, there = stops[p].node, stops[p + 1].node
             base = -stops[p].leg
-            until = (base + leg_at(inward, here).distance + home
+            until = (base + leg_from(inward, here).distance + home
                      + leg(legs, depot, there).distance) * rate
             cost = (base + leg(legs, here, depot).distance + out
                     + leg(legs, node, there).distance) * rate

@@ -3,13 +3,12 @@
 import math
 
 from model.kernel.compiled import inlined, spliced
-from model.kernel.leg import leg, legs_of
+from model.kernel.leg import TravelLegs, leg, legs_of
 from model.kernel.load import (
     EMPTY, NOTHING, barred_on_trip, cargo_at, demand_of, followed, go_together, holds, may_be_all,
     may_follow, plus,
 )
 from model.kernel.shift import allows_stops
-from model.problem import IntArray
 from model.search.route.edit import put
 from model.search.route.layout import CUSTOMER, END, NOWHERE, START, Fleet, World
 from model.search.route.rarer import goods_count, tiers_aboard
@@ -30,7 +29,7 @@ def rest_distance(fleet: Fleet, slot: int, p: int) -> int:
 
 
 @inlined
-def longer_home(legs: IntArray, fleet: Fleet, slot: int, end: int) -> int:
+def longer_home(legs: TravelLegs, fleet: Fleet, slot: int, end: int) -> int:
     """Return how much longer a route's last leg is to another end."""
     last = fleet.stop[slot, fleet.route[slot].length - 2]
     return leg(legs, last.node, end).distance - last.leg

@@ -7,15 +7,14 @@ from model.kernel.energy import (
 )
 from model.kernel.flight import launch_begin, longest_hold, recovery_end, take_off
 from model.kernel.instance import NONE
-from model.kernel.leg import leg
+from model.kernel.leg import TravelLegs, leg
 from model.kernel.load import weight_brought, weight_taken
 from model.kernel.records import Record, Records
 from model.kernel.stop import service_duration, waiting
-from model.problem import IntArray
 
 
 @inlined
-def charge(places: Records, legs: IntArray, homeward: IntArray, kind: Record, sortie: Record,
+def charge(places: Records, legs: TravelLegs, homeward: TravelLegs, kind: Record, sortie: Record,
            node: int) -> None:
     """Write what a sortie launched at `node` may hover for, without and before windows. In place.
 

@@ -13,14 +13,13 @@ from model.kernel.flight import (
     recovery_end, take_off, unreachable,
 )
 from model.kernel.instance import FAR, NONE
-from model.kernel.leg import leg, legs_of
+from model.kernel.leg import TravelLegs, leg, legs_of
 from model.kernel.records import Record, Records, record
 from model.kernel.start import leaves_first
 from model.kernel.stop import (
     allowed_within, are_single, end_of_service, in_same_window, latest_allowed, places_of,
     service_duration, start_within, too_late,
 )
-from model.problem import IntArray
 from model.search.route.batteries import await_charge, charge, hover, note_charge
 from model.search.route.craft import Skies, craft_of, skies_of
 from model.search.route.layout import CUSTOMER, DONE, END, FLYING, START, WAITING, World
@@ -109,7 +108,7 @@ def make_ready(world: World, k: int, stops: Records, sorties: Records, count: in
 
 
 @inlined
-def held_by_windows(places: Records, legs: IntArray, homeward: IntArray, kind: Record,
+def held_by_windows(places: Records, legs: TravelLegs, homeward: TravelLegs, kind: Record,
                     sortie: Record, node: int, takeoff: int) -> int:
     """Return until when the windows hold a sortie back that it meets if it leaves at `takeoff`."""
     time, back, here = takeoff, NONE, node
@@ -124,7 +123,7 @@ def held_by_windows(places: Records, legs: IntArray, homeward: IntArray, kind: R
 
 
 @inlined
-def soonest_takeoff(places: Records, legs: IntArray, homeward: IntArray, kind: Record,
+def soonest_takeoff(places: Records, legs: TravelLegs, homeward: TravelLegs, kind: Record,
                     sortie: Record, node: int, takeoff: int) -> int:
     """Return when a sortie takes off at `node` that can at `takeoff`: then, or held back."""
     takeoff = max(takeoff, sortie.held)
@@ -160,7 +159,7 @@ def reach(place: Records, arrival: int, d: int, c: int, acc: Record) -> bool:
 
 
 @inlined
-def fly_out(places: Records, legs: IntArray, homeward: IntArray, kind: Record, sortie: Record,
+def fly_out(places: Records, legs: TravelLegs, homeward: TravelLegs, kind: Record, sortie: Record,
             node: int, acc: Record) -> bool:
     """Launch a sortie from `node` once the truck's crew is free. In place; False if not allowed."""
     d = take_off(kind, acc.free_d, acc.launched)
@@ -199,7 +198,7 @@ def fly_out(places: Records, legs: IntArray, homeward: IntArray, kind: Record, s
 
 
 @inlined
-def bring_home(homeward: IntArray, kind: Record, sortie: Record, node: int,
+def bring_home(homeward: TravelLegs, kind: Record, sortie: Record, node: int,
                acc: Record) -> bool:
     """Recover a sortie at `node`. In place; False if endurance or energy forbids it."""
     last = sortie.nodes[sortie.count - 1]

@@ -2,13 +2,12 @@
 
 from model.kernel.compiled import inlined, pasted
 from model.kernel.drone_types import row_of_drone
-from model.kernel.leg import legs_of
+from model.kernel.leg import AllLegs, TravelLegs, legs_of
 from model.kernel.records import Record, Records
 from model.kernel.stop import places_by_air
-from model.problem import IntArray
 from model.search.route.layout import World
 
-Skies = tuple[Records, int, Records, IntArray]
+Skies = tuple[Records, int, Records, AllLegs]
 """What drones meet: all types, by which truck, nodes, legs. A call would copy a whole `World`."""
 
 
@@ -19,7 +18,7 @@ def skies_of(world: World, k: int) -> Skies:
 
 
 @pasted
-def craft_of(skies: Skies, sortie: Record) -> tuple[Record, Records, IntArray, IntArray]:
+def craft_of(skies: Skies, sortie: Record) -> tuple[Record, Records, TravelLegs, TravelLegs]:
     """Return the row and the nodes of a sortie's drones, its legs to customers and those home."""
     types, k, places, legs = skies
     kind = types[row_of_drone(types, k, sortie.drone)]

@@ -4,7 +4,6 @@ from model.kernel.compiled import inlined
 from model.kernel.leg import leg, legs_of
 from model.kernel.plain import is_plain
 from model.kernel.records import Record, Records
-from model.problem import IntArray
 from model.search.route.layout import END, MODE_APART, World
 
 
@@ -51,7 +50,7 @@ def detour_by_reload(world: World, k: int, before: int, node: int, behind: int,
 
     `first` tells that the customer comes first.
     """
-    legs: IntArray = legs_of(world.leg, world.type[k].travel)
+    legs = legs_of(world.leg, world.type[k].travel)
     direct = leg(legs, before, behind).distance
     if first:
         by, _ = nearest_reload(world, k, node, behind)

@@ -18,6 +18,7 @@ import numpy as np
 
 from model.kernel.compiled import inlined
 from model.kernel.instance import TIER
+from model.kernel.leg import AllLegs
 from model.kernel.load import HALT
 from model.kernel.plain import ANY_RULE, as_plain, is_plain
 from model.kernel.records import Record, Records, record
@@ -110,8 +111,8 @@ class World(NamedTuple):
     can: BoolArray  # (row, 2, node) by truck, by drone
     splice: BoolArray  # (type, type) vehicles may end each other's routes
     swap: BoolArray  # (type, type) may drive each other's routes at a cost by distance alone
-    leg: IntArray  # (travel, origin, to, 2) duration, distance
-    back: IntArray  # (travel, to, origin, 2) the same
+    leg: AllLegs  # duration, distance
+    back: AllLegs  # the same, for those to a node
     profile_time: IntArray  # (type, change)
     profile_factor: IntArray  # (type, change + 1)
     near: IntArray  # (node, rank) customers, nearest first, -1 behind the last

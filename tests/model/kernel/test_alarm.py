@@ -130,7 +130,7 @@ def endless() -> Problem:
 def needed(endless: Problem) -> float:
     """Return the processor time in seconds that this beginning takes."""
     small = one_long_trip(20, 10)
-    improve(small, pack([small], neighbours=False), Solution((), ()), SearchConfig(turns=1))
+    improve(small, pack([small], legs=False), Solution((), ()), SearchConfig(turns=1))
     found, seconds = searched(endless, Solution((), ()), SearchConfig(turns=1))
     assert found.whole
     return seconds
@@ -139,7 +139,7 @@ def needed(endless: Problem) -> float:
 def searched(problem: Problem, start: Solution, config: SearchConfig, limit: float | None = None,
              should_stop: Callable[[], bool] = lambda: False) -> tuple[Improved, float]:
     """Search until some seconds are over; return what is found, and the processor time it took."""
-    instance = pack([problem], neighbours=False)
+    instance = pack([problem], legs=False)
     began = time.process_time()
     deadline = None if limit is None else time.perf_counter() + limit
     found = improve(problem, instance, start, config, deadline, should_stop)

@@ -14,7 +14,7 @@ from model.kernel.pausing import EndedError, pausing
 from model.planner import Listener, Planner, PlanOptions
 from model.problem import Problem, Travel
 from model.search.improve import SearchConfig, improve
-from model.search.world import lay_ground
+from model.search.ground import lay_ground
 from model.solution import Solution
 from training.instances import generate
 
@@ -83,7 +83,7 @@ def test_a_large_problem_is_packed_in_parts(large: Problem) -> None:
 
 
 def test_a_large_ground_is_laid_in_parts(large: Problem) -> None:
-    instance, looks = pack([large], neighbours=False), Looks()
+    instance, looks = pack([large], legs=False), Looks()
     ground = lay_ground(large, instance, looks)
     looks()
     assert looks.longest < MOST_SECONDS

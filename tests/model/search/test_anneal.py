@@ -33,7 +33,7 @@ def found(problem: Problem, world: World, seed: int) -> float:
 def test_giving_a_turn_up_loses_nothing(variant: str) -> None:
     """It is given up once it costs too much, which it would in the end."""
     problem = generate(np.random.default_rng(8), 60, variant)
-    world = make_world(problem, pack([problem], neighbours=False))
+    world = make_world(problem, pack([problem], legs=False))
     assert world.adds_up
     through = world._replace(adds_up=False)
     costs = np.array([[found(problem, each, seed) for seed in range(SEEDS)]
@@ -46,4 +46,4 @@ def test_waiting_may_get_cheaper_by_a_customer_more() -> None:
     problem = generate(np.random.default_rng(8), 10, "vrptw")
     waited_for = replace(problem.customers[0], early_cost_per_hour=10.0)
     problem = replace(problem, customers=(waited_for, *problem.customers[1:]))
-    assert not make_world(problem, pack([problem], neighbours=False)).adds_up
+    assert not make_world(problem, pack([problem], legs=False)).adds_up

@@ -11,7 +11,8 @@ import pytest
 
 from model.kernel.instance import pack
 from model.problem import Problem
-from model.search.world import lay_ground, make_world
+from model.search.ground import lay_ground
+from model.search.world import make_world
 from training.instances import generate
 
 MANY = 3000
@@ -50,7 +51,7 @@ def seconds_of(work: Callable[[], object]) -> float:
 
 def test_many_types_take_no_longer_than_a_hundred_comparisons_of_each_with_each() -> None:
     problem = with_types(MANY, 1)
-    instance = pack([problem], neighbours=False)
+    instance = pack([problem], legs=False)
     ground = lay_ground(problem, instance)
     numbers = np.arange(MANY)
     assert (seconds_of(lambda: make_world(problem, instance, ground=ground))
@@ -68,7 +69,7 @@ def test_neighbours_at_one_place_are_ranked_soon(layout: str) -> None:
     there = replace(problem, travel=(travel,) * len(problem.travel))
     spent = []
     for each in (problem, there):
-        instance = pack([each], neighbours=False)
+        instance = pack([each], legs=False)
         assert (lay_ground(each, instance).near[each.num_depots:] >= each.num_depots).all()
         spent.append(seconds_of(partial(lay_ground, each, instance)))
     assert spent[1] < 3 * spent[0]

@@ -1,0 +1,182 @@
+"""What legs the search sees, and who is near to whom: by far the largest of its arrays."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from model.kernel.instance import Instance
+from model.kernel.leg import COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs
+from model.kernel.nearest import least_columns, nearest_points
+from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
+from model.kernel.records import Records
+from model.kernel.variants import Way, ways_of
+from model.problem import UNLIMITED, FloatArray, IntArray, Problem, StraightLegs
+from model.search.numbering import Numbering, along_neighbours, as_stated
+
+NEAR_RUIN = 128
+"""How many customers a ruin may spread to."""
+
+ROWS = 64
+"""For how many customers neighbours are ranked together; pages for all at once would take longer to
+get."""
+
+NEAR_INSERTION = 40
+"""Beside how many customers an insertion is tried where not everywhere is."""
+
+WAITING_WEIGHT = 0.2
+LATENESS_WEIGHT = 1.0
+"""What waiting and lateness weigh against driving between neighbours."""
+
+
+class Ground(NamedTuple):
+    """What a problem's search sees, whatever it may do."""
+
+    leg: AllLegs
+    back: AllLegs
+    near: IntArray
+    fit: IntArray
+    numbering: Numbering
+
+
+def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on,
+               along: bool = False) -> Ground:
+    """Lay out the legs of a problem, and rank each customer's neighbours; `pause` may end it.
+
+    `along` numbers customers along their neighbours.
+    """
+    near = _near(problem, pause)
+    fit = _fit(problem, instance.node[0, 0, :, 0], near, pause)
+    numbering = as_stated(problem.num_nodes)
+    if along:
+        numbering = along_neighbours(near, problem.num_depots)
+        near, fit = (_numbers_of(ranked, numbering) for ranked in (near, fit))
+    leg, back = _legs(problem, instance.setup[0], numbering, pause)
+    return Ground(leg, back, near, fit, numbering)
+
+
+def _numbers_of(ranked: IntArray, numbering: Numbering) -> IntArray:
+    """Return neighbours (node, rank), -1 for none, in the search's numbers."""
+    ranked = ranked[numbering.node]
+    numbers: IntArray = np.where(ranked >= 0, numbering.number[ranked], ranked)
+    return numbers
+
+
+def _legs(problem: Problem, setup: Records, numbering: Numbering, pause: Pause) -> AllLegs:
+    """Return all legs in the search's numbers; `setup` has the SETUP of nodes."""
+    ways = ways_of(problem)
+    law, point = np.zeros(len(ways), LAW), np.zeros(problem.num_nodes, POINT)
+    stated: list[Way] = []
+    for index, way in enumerate(ways):
+        straight = problem.travel[way.travel].straight
+        if straight is None:
+            law[index].table = len(stated)
+            stated.append(way)
+        else:
+            law[index] = _law(straight, way)
+            for axis, at in zip("xyz", straight.points.at.T, strict=False):
+                point[axis] = at
+    if len(setup):
+        point["site"], point["setup_duration"] = setup["site"], setup["setup_duration"]
+    tables = _tables(problem, stated, setup, numbering.node, pause)
+    if len(stated) == len(ways):
+        return tables[0], tables[-1]
+    legs = ComputedLegs(tables, _in_order(point, numbering), law)
+    return legs, legs
+
+
+def _in_order(point: Records, numbering: Numbering) -> Records:
+    """Return nodes in the search's order, each with its number."""
+    point = point[numbering.node]
+    point["node"] = np.arange(len(point))
+    return point
+
+
+def _law(straight: StraightLegs, way: Way) -> tuple[int | float, ...]:
+    points = straight.points
+    return (COMPUTED, GLOBE if points.on_globe else points.rounding, straight.more,
+            straight.nowhere, int(way.sets_up), points.metres, straight.pace)
+
+
+def _tables(problem: Problem, ways: Sequence[Way], setup: Records, node: IntArray,
+            pause: Pause) -> IntArray:
+    """Return the legs that were stated, (direction, table, node, node, 2)."""
+    if not ways:
+        return np.empty((1, 1, len(node), 0, 2), np.int64)
+    leg = np.empty((1, len(ways), len(node), len(node), 2), np.int64)
+    for index, way in enumerate(ways):
+        travel = problem.travel[way.travel]
+        for rows in matrix_blocks(len(node), pause):
+            leg[0, index, rows, :, 0] = travel.duration[node[rows]][:, node]
+            leg[0, index, rows, :, 1] = travel.distance[node[rows]][:, node]
+            if way.sets_up:
+                elsewhere = setup["site"][node[rows], None] != setup["site"][node]
+                leg[0, index, rows, :, 0] += elsewhere * setup["setup_duration"][node]
+    if _symmetric(leg[0], pause):
+        return leg
+    both = np.empty((2, *leg.shape[1:]), np.int64)
+    for index in range(len(ways)):
+        for rows in matrix_blocks(len(node), pause):
+            both[0, index, rows] = leg[0, index, rows]
+            both[1, index, rows] = leg[0, index, :, rows].transpose(1, 0, 2)
+    return both
+
+
+def _symmetric(tables: IntArray, pause: Pause) -> bool:
+    """Tell whether all tables (table, node, node, 2) are the same both ways."""
+    return all(bool((table[rows] == table[:, rows].transpose(1, 0, 2)).all())
+               for table in tables for rows in row_blocks(len(table), ROWS, pause))
+
+
+def _near(problem: Problem, pause: Pause) -> IntArray:
+    """Return each customer's closest others by the first type's drive, there or back.
+
+    (node, rank), nearest first; -1 for depots and behind the last.
+    """
+    first, number = problem.num_depots, problem.num_customers
+    ranks = max(1, min(NEAR_RUIN, number - 1))
+    near = np.full((problem.num_nodes, ranks), -1, np.int64)
+    if number > 1:
+        travel = problem.travel[problem.vehicle_types[0].travel]
+        if travel.straight is not None:
+            near[first:] = first + nearest_points(travel.straight.points.at[first:], ranks,
+                                                  pause)
+            return near
+        duration = travel.duration[first:, first:]
+        for rows in row_blocks(number, ROWS, pause):
+            drive = np.minimum(duration[rows], duration[:, rows].T).astype(np.float32)
+            drive[np.arange(len(drive)), np.arange(rows.start, rows.stop)] = np.inf
+            near[first:][rows] = least_columns(drive, ranks) + first
+    return near
+
+
+def _fit(problem: Problem, place: Records, near: IntArray, pause: Pause) -> IntArray:
+    """Return those of each customer's neighbours whom a truck would best visit before or after.
+
+    References
+    ----------
+    Vidal, Crainic, Gendreau and Prins (2013), a hybrid genetic algorithm with adaptive diversity
+    management for a large class of vehicle routing problems with time windows, Computers and
+    Operations Research 40:475-489.
+    """
+    ranks = min(NEAR_INSERTION, near.shape[1])
+    fit = near[:, :ranks].copy()
+    first, number = problem.num_depots, problem.num_customers
+    earliest, service, latest = (place[field].astype(np.float64) for field in (
+        "window_earliest", "service_duration", "window_latest"))
+    if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
+        return fit
+    duration = problem.travel[problem.vehicle_types[0].travel].duration
+
+    def detour(origin: IntArray, to: IntArray) -> FloatArray:
+        drive = duration[origin, to]
+        wait = earliest[to] - (latest[origin] + service[origin]) - drive
+        late = earliest[origin] + service[origin] + drive - latest[to]
+        return (drive + WAITING_WEIGHT * np.maximum(wait, 0.0)
+                + LATENESS_WEIGHT * np.maximum(late, 0.0))
+
+    for rows in row_blocks(number, ROWS, pause):
+        one, other = np.arange(first + rows.start, first + rows.stop)[:, None], near[first:][rows]
+        weight = np.minimum(detour(one, other), detour(other, one))
+        fit[first:][rows] = np.take_along_axis(other, least_columns(weight, ranks), axis=1)
+    return fit
