@@ -8,7 +8,9 @@ from contextlib import contextmanager
 import numpy as np
 
 from model.kernel.instance import pack
-from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
+from model.problem import (
+    Customer, Depot, DroneType, Points, Problem, StraightLegs, Travel, VehicleType,
+)
 from model.search.improve import SearchConfig, improve
 from model.search.world import states_rarer_rules
 from model.solution import Solution
@@ -16,7 +18,10 @@ from model.solution import Solution
 PLAIN, RARER = "plain", "rarer"
 """Parts of all that is compiled: for problems that state no rarer rules, and for those that do."""
 
-MOST_STOPS = {PLAIN: None, RARER: 2}
+LARGE = {PLAIN: "large", RARER: "large and rarer"}
+"""The same for problems whose legs are computed, compiled only once there is one."""
+
+MOST_STOPS = {PLAIN: None, RARER: 2, LARGE[PLAIN]: None, LARGE[RARER]: 2}
 """What the small problem for each part states."""
 
 COMPILE_SEARCH = """
@@ -35,7 +40,9 @@ def parts_for(problem: Problem | None) -> tuple[str, ...]:
     """
     if problem is None:
         return PLAIN, RARER
-    return (RARER if states_rarer_rules(problem) else PLAIN,)
+    part = RARER if states_rarer_rules(problem) else PLAIN
+    computed = any(travel.straight is not None for travel in problem.travel)
+    return (LARGE[part] if computed else part,)
 
 
 def compile_search(part: str) -> None:
@@ -52,8 +59,10 @@ def small_problem(part: str = PLAIN, drones: bool = True) -> Problem:
     drone = DroneType(count=1, capacity=(1000,), travel=0) if drones else None
     truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone,
                         max_stops=MOST_STOPS[part])
-    return Problem((Depot("depot"),), customers, (truck,), (Travel(distance, distance),), places,
-                   1000.0)
+    travel = Travel(distance, distance)
+    if part in LARGE.values():
+        travel = Travel.along(StraightLegs(Points(places * 1000.0), 3.6))
+    return Problem((Depot("depot"),), customers, (truck,), (travel,), places, 1000.0)
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.conversion import travels
+from app.conversion import ground, travels
 from app.conversion.preparing import PATIENCE, Preparing, StoppedError
 from app.errors import InvalidRequestError
 from app.jobs.reading import JobReader
@@ -144,7 +144,7 @@ def flown(monkeypatch: pytest.MonkeyPatch) -> list[Flights]:
         made.append(Flights(*given))
         return made[-1]
 
-    monkeypatch.setattr(travels, "Flights", note)
+    monkeypatch.setattr(ground, "Flights", note)
     return made
 
 
