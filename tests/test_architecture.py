@@ -41,12 +41,11 @@ MODEL = {
     "search": ("problem", "solution", "kernel"),
     "planner": ("problem", "solution", "judge", "kernel", "travel", "simulation", "policy",
                 "search"),
-    "regions": ("problem", "solution"),
     "replanning": ("problem", "solution", "judge", "planner"),
     "dialects": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
-MOST_ARROWS = 32
+MOST_ARROWS = 30
 
 INTERPRETED = {"solution", "problem/straight", "problem/travel"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""

@@ -26,7 +26,7 @@ from app.jobs.schemas import State
 from app.jobs.slices import MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, Slice, Stopping
 from app.jobs.store import JobStore
 from app.plans.replies import Data
-from model.regions.dividing import divide
+from model.search.regions.dividing import divide
 
 logger = logging.getLogger(__name__)
 

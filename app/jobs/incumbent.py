@@ -8,7 +8,7 @@ from typing import Literal
 
 from model.judge.check import Evaluation, JudgedRoute, check, judge_route
 from model.problem import Problem
-from model.regions.region import Region, Vehicle, in_order, put_back, vehicle_of
+from model.search.regions.region import Region, Vehicle, in_order, put_back, vehicle_of
 from model.solution import Route, Solution
 
 Outcome = Literal["merged", "stale", "dearer", "broken"]

@@ -8,8 +8,8 @@ from app.plans.replies import Data
 from model.judge.check import Evaluation, check
 from model.planner import ALONE, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
-from model.regions.part import Part, part_of
-from model.regions.region import Region
+from model.search.regions.part import Part, part_of
+from model.search.regions.region import Region
 from model.solution import Solution
 
 

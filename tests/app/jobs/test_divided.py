@@ -24,7 +24,7 @@ from app.settings import Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Problem
-from model.regions.region import Region
+from model.search.regions.region import Region
 from model.solution import Solution
 from tests.app.jobs.regional import NUM_CUSTOMERS, Office, served_by, until
 

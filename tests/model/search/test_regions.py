@@ -9,9 +9,9 @@ import pytest
 from model.judge.check import check
 from model.planner import Planner, PlanOptions
 from model.problem import Problem
-from model.regions.dividing import divide
-from model.regions.part import part_of
-from model.regions.region import Region, customers_of, put_back, vehicle_of
+from model.search.regions.dividing import divide
+from model.search.regions.part import part_of
+from model.search.regions.region import Region, customers_of, put_back, vehicle_of
 from model.solution import Solution
 from tests.model.street import NO_POLICY
 from tests.model.tiny import (

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from model.problem import Problem
-from model.regions.region import Region, Vehicle, customers_of
+from model.search.regions.region import Region, Vehicle, customers_of
 from model.solution import Solution, renumbered
 
 

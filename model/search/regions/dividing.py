@@ -6,7 +6,7 @@ from itertools import islice
 import numpy as np
 
 from model.problem import FloatArray, IntArray, Problem
-from model.regions.region import Region, Vehicle, customers_of, vehicle_of
+from model.search.regions.region import Region, Vehicle, customers_of, vehicle_of
 from model.solution import Solution
 
 ROWS = 1024
