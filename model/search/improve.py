@@ -21,7 +21,7 @@ from model.search.route.layout import World
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
-from model.search.temperature import Heat
+from model.search.temperature import Heat, only_loads_limit
 from model.search.world import ALL_MOVES, Moves, make_world
 from model.solution import Solution, renumbered
 
@@ -40,6 +40,13 @@ BEGINNING_SHARE = 0.3
 
 GRACE = 0.03
 """Seconds that the search may take for a beginning, even where no time is left."""
+
+IN_PARTS_FROM = 2000
+"""Number of customers from which on a search stays near one of them for a while, then goes on to
+another: what it looks at then is in the processor's cache."""
+
+STAY = 200
+"""Turns for which it does."""
 
 Reading = Callable[[int, int], float]
 """Seconds that a plan of so many routes and sorties takes to read."""
@@ -166,6 +173,7 @@ class _Team:
         while True:
             for worker, part in zip(self.workers, crew.spread(), strict=True):
                 worker.searcher, worker.span = part, span
+                part.count.stay = self.whole.count.stay
             list(self.pool.map(_Worker.run, self.workers))
             crew.gather()
             self.after_round(sum(worker.turns for worker in self.workers))
@@ -263,6 +271,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
             else renumbered(solution, numbering.number.tolist().__getitem__))
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, world, plan, seeds[0])
+    whole.count.stay = STAY if problem.num_customers >= IN_PARTS_FROM else 0
     _begin(world, whole, fresh, limits)
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(world, whole, from_trucks, config.hot, config.cold)
@@ -300,8 +309,10 @@ def _begin(world: World, whole: Searcher, fresh: bool, limits: Limits) -> None:
     deadline = math.inf
     if limits.turns is None:
         deadline = limits.began + (limits.deadline - limits.began) * BEGINNING_SHARE
+    # Savings are far better than insertion there, which in large problems takes its time.
+    by_savings = whole.count.stay > 0 and only_loads_limit(world)
     with Alarm(deadline, limits.should_stop) as alarm:
-        begin_anew(world, whole, fresh, world._replace(stop=alarm.flag))
+        begin_anew(world, whole, fresh and not by_savings, world._replace(stop=alarm.flag))
     if fresh and world.mixed:
         _begin_by_types(world, whole, limits)
 

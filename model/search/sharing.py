@@ -8,7 +8,9 @@ from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
 from model.search.route.layout import ELSEWHERE, NOWHERE, World
 from model.search.route.refresh import locate
-from model.search.route.state import Searcher, copy_route, keep_best, left_out_cost, list_active
+from model.search.route.state import (
+    ALL, Searcher, copy_route, keep_best, left_out_cost, list_active,
+)
 
 DIVIDED_FROM = 200
 """Number of customers from which on each thread has a region of its own."""
@@ -117,6 +119,7 @@ def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
         for part in parts:
             filled = add_best(whole, part, filled)
         whole.best.route["stamp"] = OTHERS
+        whole.count.changed = ALL
 
 
 def go_on_from_best(world: World, whole: Searcher) -> None:
@@ -184,6 +187,7 @@ def take_part(world: World, whole: Searcher, part: Searcher, owner: IntArray, nu
     for k in range(world.num_types):
         now.used[k] = world.type[k].count - spare[k]
     list_active(part)
+    count.changed = ALL
     for node in missing:
         now.where[node].slot = NOWHERE
     count.missing = len(missing)

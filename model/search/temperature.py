@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from model.problem import UNLIMITED
 from model.search.beginning.translate import leg_cost
 from model.search.route.layout import World
 from model.search.route.state import Searcher, missing_cost
@@ -22,6 +23,10 @@ LEAST_HOT = 1.0
 HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
 """Both by a leg where trips are split between truck and drone, which many small changes do."""
 
+HOT_IN_PARTS, COLD_IN_PARTS = 3.0, 0.03
+"""Both by a leg where loads alone limit routes and the search goes from part to part: the savings
+that it begins with are far from good where routes are long, and soon are where they are short."""
+
 HOT_FROM_TRUCKS = 0.2
 """The same where the search began with trucks alone."""
 
@@ -35,6 +40,7 @@ class Heat:
     types: int  # of vehicles
     drones: bool  # some type has drones
     single_drones: bool  # some type has one
+    in_parts: bool  # the search goes from part to part of a plan whose routes loads alone limit
     from_trucks: bool  # the search began with a plan for trucks alone
     hot: float | None  # first temperature by the cost of a leg, if it is stated
     cold: float | None  # last
@@ -48,7 +54,8 @@ class Heat:
         cost = float(searcher.value.cost) - missing_cost(world, searcher)
         drones = world.type["drones"][:world.num_types]
         return cls(cost / served, leg_cost(world, searcher), world.num_types,
-                   bool((drones > 0).any()), bool((drones == 1).any()), from_trucks, hot, cold)
+                   bool((drones > 0).any()), bool((drones == 1).any()),
+                   searcher.count.stay > 0 and only_loads_limit(world), from_trucks, hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:
         """Return the first and the last temperature.
@@ -63,6 +70,8 @@ class Heat:
         if self.single_drones:
             hot, cold = HOT_FROM_TRUCKS if self.from_trucks else HOT_WITH_DRONES, COLD_WITH_DRONES
             hot *= factor
+        elif self.in_parts:
+            hot, cold = HOT_IN_PARTS * factor, COLD_IN_PARTS
         else:
             hot, cold = self._haste(turns) * factor * HOT * self.customer / self.leg, COLD
             hot = max(LEAST_HOT, hot)
@@ -73,3 +82,10 @@ class Heat:
         if self.types > 1:
             return 1.0  # the start by insertion is too far from good
         return min(1.0, max(LEAST_HEAT, math.sqrt(turns / FULL_HEAT)))
+
+
+def only_loads_limit(world: World) -> bool:
+    """Tell whether trucks all alike make one trip each, whenever they like."""
+    served = world.place[0, world.num_depots:, 0]
+    return not (world.general or world.num_types > 1 or served["window_earliest"].any()
+                or (served["window_latest"] < UNLIMITED).any())

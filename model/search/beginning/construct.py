@@ -7,7 +7,7 @@ from model.kernel.copying import clear
 from model.search.moves.anneal import anneal
 from model.search.moves.recreate import BY_FAR, BY_WIDTH
 from model.search.route.layout import NOWHERE, World
-from model.search.route.state import Searcher, go_back, list_active, missing_cost
+from model.search.route.state import ALL, Searcher, go_back, list_active, missing_cost
 
 CONSTRUCTED = (BY_FAR, BY_WIDTH)
 """Orders in which customers are inserted into no routes."""
@@ -18,6 +18,7 @@ def disband(searcher: Searcher) -> None:
     """Take all routes apart. In place."""
     now, count = searcher.now, searcher.count
     count.stamp += 1
+    count.changed = ALL
     for slot in range(len(searcher.active)):
         now.route[slot].stamp = count.stamp
         now.route[slot].length = now.route[slot].sorties = now.route[slot].trips = 0

@@ -25,7 +25,9 @@ from model.search.route.layout import (
 from model.search.route.rarer import time_aboard_counts
 from model.search.route.refresh import clear_holds, locate, refresh, settle
 from model.search.route.routes import drive_forward, load_trips
-from model.search.route.state import COUNTS, Searcher, keep_best, left_out_cost, list_active, VALUES
+from model.search.route.state import (
+    ALL, COUNTS, VALUES, Searcher, keep_best, left_out_cost, list_active,
+)
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
 SPARE_SLOTS = 8
@@ -51,7 +53,7 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
     slots, stops, trips, sorties = sizes
     now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
     nodes, count = world.num_nodes, one(COUNTS)
-    count.lean = not world.general
+    count.lean, count.focus = not world.general, NOWHERE
     room = (nodes, slots) if world.keeps else (0, 0)
     of_moves = room if world.general else (0, 0)
     # On one route, by a trip more on any, beside neighbours.
@@ -62,6 +64,7 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
     return Searcher(
         now=now, before=before, best=best, count=count, value=one(VALUES),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
+        rank=_row(slots), changed=_row(slots), is_changed=np.zeros(slots, np.bool_),
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
         hit=np.zeros((slots, trips), np.int64), key=np.zeros(nodes),
@@ -152,7 +155,6 @@ def begin(world: World, searcher: Searcher, num_routes: int) -> None:
     for slot in range(num_routes):
         if refresh(world, now, slot, searcher.acc):
             now.used[now.route[slot].type] += 1
-            now.route[slot].stamp = 1
             cost += now.cost[slot]
             locate(now, slot)
         else:
@@ -162,7 +164,9 @@ def begin(world: World, searcher: Searcher, num_routes: int) -> None:
         if now.where[node].slot == NOWHERE:
             searcher.missing[count.missing] = node
             count.missing += 1
-    count.stamp, count.customers = 1, world.num_nodes - world.num_depots
+    for slot in range(len(searcher.active)):
+        now.route[slot].stamp = 1
+    count.stamp, count.customers, count.changed = 1, world.num_nodes - world.num_depots, ALL
     left_out = left_out_cost(world, searcher.missing, count.missing)
     searcher.value.cost = cost + left_out
     list_active(searcher)

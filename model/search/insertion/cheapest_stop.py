@@ -264,6 +264,18 @@ def scan_simple(world: World, fleet: Fleet, slot: int, node: int, enlarge: bool,
             move.kind, move.slot, move.first, move.type = AT_STOP, slot, p, by
 
 
+@spliced
+def is_too_far_beside(inward: LegRow, onward: LegRow, stops: Records, p: int, other: int,
+                      rate: float, best: float) -> bool:
+    """Tell whether to insert a customer beside stop `p`, at `other`, costs no less than `best`.
+
+    By the triangle inequality, with a stop between which and this one the customer would come that
+    is no nearer; beside that, if it is, the same place is looked at as well.
+    """
+    near = min(leg_from(inward, other).distance, leg_to(onward, other).distance)
+    return (2 * near - max(stops[p - 1].leg, stops[p].leg)) * rate >= best
+
+
 @pasted
 def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: bool,
                 move: Record, rng: UIntArray) -> float:
@@ -277,7 +289,12 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
         if not (is_simple(world, fleet, slot) and world.can[k, 0, node]):
             continue
         p = fleet.where[other].position
-        trip = fleet.stop[slot, p].trip
+        m, stops = world.type[k].travel, fleet.stop[slot]
+        if not enlarge and is_too_far_beside(
+                legs_to(world.back, m, node), legs_from(world.leg, m, node), stops, p, other,
+                world.rate[k].distance, best - world.rate[k].stop):
+            continue
+        trip = stops[p].trip
         by, base = serving_type(world, fleet, slot, trip, node, enlarge)
         if by < 0 or (by != k and base >= best):
             continue
@@ -299,14 +316,17 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
         if slot < 0:
             continue
         k = fleet.route[slot].type
+        m, stops = world.type[k].travel, fleet.stop[slot]
+        inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
+        if not enlarge and is_too_far_beside(inward, onward, stops, behind, other,
+                                             world.rate[k].distance, best - world.rate[k].stop):
+            continue
         if not world.can[k, 0, node]:
             continue
         by, base = serving_type(world, fleet, slot, 0, node, enlarge)
         if by < 0 or (by != k and base >= best):
             continue
-        m, rate = world.type[k].travel, world.rate[by].distance
-        inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
-        stops, place = fleet.stop[slot], places_of(world.place, world.type[k])[node]
+        rate, place = world.rate[by].distance, places_of(world.place, world.type[k])[node]
         room = room_on(world, fleet, slot, by, node)
         for p in (behind - 1, behind):
             out, on = leg_from(inward, stops[p].node), leg_to(onward, stops[p + 1].node)

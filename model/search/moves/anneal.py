@@ -15,12 +15,12 @@ from model.search.moves.exchange import exchange_tails
 from model.search.moves.recreate import draw_order, recreate, sort_absent
 from model.search.moves.resplit import resplit
 from model.search.moves.retype import cheapen_types, draw_type, improve_types
-from model.search.moves.ruin import choose, remove_marked
+from model.search.moves.ruin import choose, longest_string, remove_marked
 from model.search.route.layout import NOWHERE, World
 from model.search.route.randomness import below, uniform
-from model.search.route.refresh import locate
+from model.search.route.refresh import any_customer, locate
 from model.search.route.state import (
-    Searcher, accept, copy_route, keep_best, left_out_cost, list_active,
+    Searcher, accept, copy_route, keep_best, left_out_cost, list_touched,
     served_cost, touch, turn_cost,
 )
 
@@ -41,11 +41,13 @@ RETYPED = 0.1
 
 
 @spliced
-def begin_turn(searcher: Searcher, most: int) -> int:
+def begin_turn(world: World, searcher: Searcher, most: int) -> int:
     """List `most` of the customers left out as absent. In place; return how many are not tried."""
     count, absent, missing = searcher.count, searcher.absent, searcher.missing
     count.turn += 1
     count.touched = 0
+    if count.stay > 0 and count.turn % count.stay == 0:
+        count.focus = any_customer(world, searcher.now, searcher.rng)
     total = count.missing
     copy_some(missing, absent, total)
     alone = max(0, total - most)
@@ -86,27 +88,22 @@ def ruin(world: World, searcher: Searcher, first: int) -> None:
     count, now = searcher.count, searcher.now
     before = count.absent
     total, num_touched, seed = choose(
-        world, now, searcher.active, count.active, count.customers, searcher.marked,
-        searcher.absent, before, searcher.moved, searcher.hit, count.turn, searcher.rng)
+        world, searcher, longest_string(searcher), searcher.absent, before, searcher.moved)
     if first > 0:
         try_near(world, searcher, seed, first, before)
-    emptied = False
     for index in range(num_touched):
         touch(searcher, searcher.moved[index])
     for index in range(num_touched):
         slot = searcher.touched[index]
         total = remove_marked(world, now, slot, searcher.marked, searcher.absent, total,
                               searcher.moved, searcher.acc)
-        if now.route[slot].length == 0:
-            emptied = True
-        else:
+        if now.route[slot].length > 0:
             locate(now, slot)
     for index in range(before, total):
         searcher.marked[searcher.absent[index]] = False
         now.where[searcher.absent[index]].slot = NOWHERE
     count.absent = total
-    if emptied:
-        list_active(searcher)
+    list_touched(searcher)
 
 
 @inlined
@@ -152,20 +149,17 @@ def cost_to_insert(world: World, searcher: Searcher, first: int) -> float:
 def undo(searcher: Searcher) -> None:
     """Take back this turn. In place."""
     now, before = searcher.now, searcher.before
-    same = True
     for index in range(searcher.count.touched):
         slot = searcher.touched[index]
         if now.route[slot].length > 0:
             now.used[now.route[slot].type] -= 1
-        same = same and (now.route[slot].length > 0) == (before.route[slot].length > 0)
         copy_route(before, slot, now, slot, searcher.count.lean)
         if now.route[slot].length > 0:
             now.used[now.route[slot].type] += 1
             locate(now, slot)
     for index in range(searcher.count.missing):
         now.where[searcher.missing[index]].slot = NOWHERE
-    if not same:
-        list_active(searcher)
+    list_touched(searcher)
 
 
 @spliced
@@ -184,7 +178,7 @@ def move_parts(world: World, searcher: Searcher, tails: bool) -> None:
         cost = served_cost(searcher)
         if cost < value.cost + limit:
             copy_some(searcher.missing, searcher.absent, count.missing)
-            list_active(searcher)
+            list_touched(searcher)
             accept(searcher, cost)
             if cost < value.best:
                 keep_best(searcher)
@@ -207,7 +201,7 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
     value, count = searcher.value, searcher.count
     building = order != ANY
     for _ in range(turns):
-        first = begin_turn(searcher, count.missing if building else MOST_MISSING)
+        first = begin_turn(world, searcher, count.missing if building else MOST_MISSING)
         if not building:
             ruin(world, searcher, first)
             if world.mixed and count.touched > 0 and uniform(searcher.rng) < RETYPED:

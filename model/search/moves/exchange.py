@@ -12,7 +12,7 @@ from model.kernel.shift import allows_stops
 from model.search.route.edit import put
 from model.search.route.layout import CUSTOMER, END, NOWHERE, START, Fleet, World
 from model.search.route.rarer import goods_count, tiers_aboard
-from model.search.route.refresh import any_customer, locate, refresh
+from model.search.route.refresh import draw_customer, locate, refresh
 from model.search.route.state import Searcher, free_slot, keep_aside, touch
 
 NEIGHBOURS = 16
@@ -258,7 +258,7 @@ def exchange_tails(world: World, searcher: Searcher, limit: float) -> bool:
     In place; tells whether routes were changed and keep all rules; if not, they may be broken.
     """
     now = searcher.now
-    node = any_customer(world, now, searcher.rng)
+    node = draw_customer(world, now, searcher.count.focus, searcher.rng)
     a, p = now.where[node].slot, now.where[node].position
     if a < 0 or p < 0 or now.stop[a, p].flying > 0:
         return False

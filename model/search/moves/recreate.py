@@ -14,7 +14,7 @@ from model.search.route.lean import insert_lean
 from model.search.route.randomness import below, uniform
 from model.search.route.rarer import is_dearer_to_some, tiers_of
 from model.search.route.refresh import locate, refresh
-from model.search.route.state import Searcher, free_slot, keep_aside, list_active, touch
+from model.search.route.state import Searcher, free_slot, keep_aside, list_anew, touch
 from model.search.route.vehicles import change_type
 
 ENLARGED = 0.2
@@ -26,6 +26,9 @@ OPENING = 0.03
 BY_CHANCE, BY_DEMAND, BY_FAR, BY_CLOSE, BY_WIDTH, BY_LATEST, BY_COST = range(7)
 ORDERS = (BY_CHANCE, BY_CHANCE, BY_CHANCE, BY_CHANCE, BY_DEMAND, BY_DEMAND, BY_DEMAND, BY_DEMAND,
           BY_FAR, BY_FAR, BY_CLOSE, BY_WIDTH, BY_WIDTH, BY_LATEST)
+
+FEW_TO_SORT = 64
+"""Up to how many customers are sorted by insertion alone; where all are, that takes too long."""
 
 DEAREST_FIRST = 0.5
 """How often those come first whom it costs most to leave out, where that differs."""
@@ -63,16 +66,20 @@ def order_key(world: World, order: int, node: int, rng: UIntArray) -> float:
 @spliced
 def sort_absent(world: World, searcher: Searcher, first: int, order: int) -> None:
     """Put the customers to insert in order, from number `first` on. In place."""
-    absent, key, rng = searcher.absent, searcher.key, searcher.rng
-    for index in range(first, searcher.count.absent):
-        node = absent[index]
-        weight = order_key(world, order, node, rng)
-        place = index
-        while place > first and key[absent[place - 1]] > weight:
-            absent[place] = absent[place - 1]
-            place -= 1
-        absent[place] = node
-        key[node] = weight
+    absent, key, last = searcher.absent, searcher.key, searcher.count.absent
+    for index in range(first, last):
+        key[absent[index]] = order_key(world, order, absent[index], searcher.rng)
+    gap = 1
+    while FEW_TO_SORT * gap < last - first:
+        gap = 3 * gap + 1
+    while gap > 0:
+        for index in range(first + gap, last):
+            node, place = absent[index], index
+            while place >= first + gap and key[absent[place - gap]] > key[node]:
+                absent[place] = absent[place - gap]
+                place -= gap
+            absent[place] = node
+        gap //= 3
 
 
 @spliced
@@ -88,7 +95,7 @@ def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bo
         return False
     now.used[k] += 1
     locate(now, slot)
-    list_active(searcher)
+    list_anew(searcher, slot)
     return True
 
 

@@ -17,7 +17,7 @@ from model.search.moves.split import (
 from model.search.route.edit import add_sortie, put
 from model.search.route.layout import CUSTOMER, MODE_PRICED, NOWHERE, Fleet, World
 from model.search.route.randomness import below, uniform
-from model.search.route.refresh import any_customer, idle_time, locate, refresh, stop_beside
+from model.search.route.refresh import draw_customer, idle_time, locate, refresh, stop_beside
 from model.search.route.state import Searcher, free_slot, keep_aside, touch
 
 WINDOW = 12
@@ -282,7 +282,7 @@ def resplit(world: World, searcher: Searcher, limit: float) -> bool:
     Nothing is changed that would cost more than `limit`.
     """
     now, line, rng = searcher.now, searcher.line, searcher.rng
-    node = any_customer(world, now, rng)
+    node = draw_customer(world, now, searcher.count.focus, rng)
     slot = now.where[node].slot
     if slot < 0 or world.type[now.route[slot].type].drones != 1:
         return False

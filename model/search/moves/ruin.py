@@ -6,7 +6,8 @@ from model.problem import BoolArray, IntArray, UIntArray
 from model.search.route.edit import close_ranks, keep_sorties
 from model.search.route.layout import CUSTOMER, NOWHERE, Fleet, World
 from model.search.route.randomness import below, uniform
-from model.search.route.refresh import any_customer, refresh, stop_beside
+from model.search.route.refresh import draw_customer, refresh, stop_beside
+from model.search.route.state import Searcher
 
 AVERAGE_REMOVED = 10
 LONGEST_STRING = 10
@@ -77,20 +78,28 @@ def mark_around(fleet: Fleet, customer: int, longest: float, marked: BoolArray, 
 
 
 @spliced
-def choose(world: World, fleet: Fleet, active: IntArray, num_active: int, num_customers: int,
-           marked: BoolArray, absent: IntArray, num_absent: int, touched: IntArray, hit: IntArray,
-           turn: int, rng: UIntArray) -> tuple[int, int, int]:
+def longest_string(searcher: Searcher) -> float:
+    """Return how many stops a string has at most: as many as a trip has on average, or less."""
+    count, trips = searcher.count, searcher.count.active
+    if not count.lean:
+        trips = 0
+        for index in range(count.active):
+            trips += searcher.now.route[searcher.active[index]].trips
+    return min(float(LONGEST_STRING), (count.customers - count.absent) / max(1, trips))
+
+
+@spliced
+def choose(world: World, searcher: Searcher, longest: float, absent: IntArray, num_absent: int,
+           touched: IntArray) -> tuple[int, int, int]:
     """Mark strings near a random customer, at most one a trip.
 
     In place; returns how many customers are marked, how many routes are listed in `touched`, and
     the customer.
     """
-    num_touched = trips = 0
-    for index in range(num_active):
-        trips += fleet.route[active[index]].trips
-    longest = min(float(LONGEST_STRING), (num_customers - num_absent) / max(1, trips))
+    fleet, marked, hit, rng = searcher.now, searcher.marked, searcher.hit, searcher.rng
+    num_touched, turn = 0, searcher.count.turn
     strings = 1 + int(uniform(rng) * (4 * AVERAGE_REMOVED / (1 + longest) - 1))
-    customer = any_customer(world, fleet, rng)
+    customer = draw_customer(world, fleet, searcher.count.focus, rng)
     if num_absent > 0 and uniform(rng) < MAKE_ROOM:
         customer = absent[below(rng, num_absent)]
     rank, seed = -1, customer

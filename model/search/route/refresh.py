@@ -242,6 +242,19 @@ def any_customer(world: World, fleet: Fleet, rng: UIntArray) -> int:
 
 
 @spliced
+def draw_customer(world: World, fleet: Fleet, focus: int, rng: UIntArray) -> int:
+    """Return a random customer near `focus`, or anywhere if that is NOWHERE. As `any_customer`."""
+    if focus >= 0:
+        rank = below(rng, world.near.shape[1] + 1)
+        node = focus
+        if rank > 0:
+            node = world.near[focus, rank - 1]
+        if node >= 0 and fleet.where[node].slot != ELSEWHERE:
+            return node
+    return any_customer(world, fleet, rng)
+
+
+@spliced
 def stop_beside(fleet: Fleet, node: int) -> int:
     """Return the stop at a customer, or the one from where a drone flies there."""
     p = fleet.where[node].position

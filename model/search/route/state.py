@@ -11,9 +11,13 @@ from model.search.route.rarer import tiers_aboard
 from model.search.route.refresh import locate
 
 COUNTS = record("active", "missing", "absent", "touched", "turn", "stamp", "best_missing",
-                "customers", "lean", "offers")
-"""How many there are of each; the turn, the last stamp given, and whether all routes are lean."""
+                "customers", "lean", "offers", "changed", "stay", "focus")
+"""How many there are of each; the turn, the last stamp given, and whether all routes are lean.
+
+`changed` is `ALL` where any slot may have changed since the best; customers are drawn near `focus`,
+another every `stay` turns, or everywhere if that is 0."""
 VALUES = record(cost=float, best=float, temperature=float, cooling=float)
+ALL = -1
 
 
 class Searcher(NamedTuple):
@@ -25,7 +29,10 @@ class Searcher(NamedTuple):
     count: Record  # COUNTS
     value: Record  # VALUES
     rng: UIntArray  # (1,)
-    active: IntArray  # slots in use
+    active: IntArray  # slots in use, and behind them those that are free
+    rank: IntArray  # (slot,) where it stands in `active`
+    changed: IntArray  # slots changed since the best
+    is_changed: BoolArray  # (slot,) it is among those
     missing: IntArray  # customers left out
     best_missing: IntArray
     absent: IntArray  # to be inserted this turn, behind those left alone
@@ -93,32 +100,57 @@ def is_same(fleet: Fleet, other: Fleet, slot: int) -> bool:
 
 @inlined
 def list_active(searcher: Searcher) -> None:
-    """List the slots in use. In place."""
+    """List the slots in use, and those that are free. In place."""
     found = 0
-    for slot in range(len(searcher.active)):
-        if searcher.now.route[slot].length > 0:
-            searcher.active[found] = slot
-            found += 1
-    searcher.count.active = found
+    for used in (True, False):
+        for slot in range(len(searcher.active)):
+            if (searcher.now.route[slot].length > 0) == used:
+                searcher.active[found], searcher.rank[slot] = slot, found
+                found += 1
+        if used:
+            searcher.count.active = found
+
+
+@inlined
+def list_anew(searcher: Searcher, slot: int) -> None:
+    """Move a slot to those in use, or to those that are free, if it is no longer listed right.
+
+    In place.
+    """
+    active, rank, count = searcher.active, searcher.rank, searcher.count
+    used, place = searcher.now.route[slot].length > 0, rank[slot]
+    if used == (place < count.active):
+        return
+    if not used:
+        count.active -= 1
+    other = active[count.active]
+    active[place], rank[other] = other, place
+    active[count.active], rank[slot] = slot, count.active
+    if used:
+        count.active += 1
+
+
+@inlined
+def list_touched(searcher: Searcher) -> None:
+    """List the slots touched this turn where they belong. In place."""
+    for index in range(searcher.count.touched):
+        list_anew(searcher, searcher.touched[index])
 
 
 @inlined
 def free_slot(world: World, searcher: Searcher, k: int) -> int:
     """Return an empty slot for a route more by type `k`; NOWHERE if there is none."""
     now = searcher.now
-    if now.used[k] < world.type[k].count:
-        for slot in range(len(searcher.active)):
-            if now.route[slot].length == 0:
-                return slot
+    if now.used[k] < world.type[k].count and searcher.count.active < len(searcher.active):
+        return searcher.active[searcher.count.active]
     return NOWHERE
 
 
 @inlined
 def touch(searcher: Searcher, slot: int) -> None:
     """Keep a route as it is before it changes this turn. In place."""
-    for index in range(searcher.count.touched):
-        if searcher.touched[index] == slot:
-            return
+    if searcher.now.route[slot].stamp == CHANGING:
+        return
     copy_route(searcher.now, slot, searcher.before, slot, searcher.count.lean)
     searcher.now.route[slot].stamp = CHANGING
     searcher.touched[searcher.count.touched] = slot
@@ -135,12 +167,27 @@ def keep_aside(fleet: Fleet, slot: int, to: int) -> None:
 
 
 @inlined
+def list_all_changed(searcher: Searcher) -> None:
+    """List all slots as changed since the best. In place."""
+    for slot in range(len(searcher.is_changed)):
+        searcher.is_changed[slot] = False
+    searcher.count.changed = len(searcher.active)
+    for slot in range(len(searcher.active)):
+        searcher.changed[slot] = slot
+
+
+@inlined
 def keep_best(searcher: Searcher) -> None:
     """Take the routes as they are for the best. In place."""
-    now, best = searcher.now, searcher.best
-    for slot in range(len(searcher.active)):
+    now, best, count = searcher.now, searcher.best, searcher.count
+    if count.changed == ALL:
+        list_all_changed(searcher)
+    for index in range(count.changed):
+        slot = searcher.changed[index]
+        searcher.is_changed[slot] = False
         if now.route[slot].stamp != best.route[slot].stamp:
             copy_route(now, slot, best, slot, searcher.count.lean)
+    count.changed = 0
     copy_row(now.used, best.used)
     missing = searcher.count.missing
     searcher.count.best_missing = missing
@@ -200,6 +247,10 @@ def accept(searcher: Searcher, cost: float) -> None:
         if len(searcher.kept) > 0 and is_same(searcher.now, searcher.before, slot):
             stamp = searcher.before.route[slot].stamp
         searcher.now.route[slot].stamp = stamp
+        if count.changed != ALL and not searcher.is_changed[slot]:
+            searcher.is_changed[slot] = True
+            searcher.changed[count.changed] = slot
+            count.changed += 1
     count.missing = count.absent
     copy_some(searcher.absent, searcher.missing, count.absent)
     searcher.value.cost = cost
@@ -210,6 +261,7 @@ def go_back(searcher: Searcher) -> None:
     """Go on from the best routes. In place."""
     now, best, count = searcher.now, searcher.best, searcher.count
     count.stamp += 1
+    count.changed = ALL
     for slot in range(len(searcher.active)):
         copy_route(best, slot, now, slot, count.lean)
         now.route[slot].stamp = count.stamp

@@ -1,0 +1,123 @@
+"""What a search keeps up to date from turn to turn is what it would find by looking at all."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numba import njit
+
+from model.kernel.instance import pack
+from model.problem import Problem
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import make_searcher
+from model.search.insertion.cheapest_stop import scan_beside_lean
+from model.search.moves.anneal import ANY, anneal
+from model.search.moves.recreate import BY_FAR, FEW_TO_SORT, sort_absent
+from model.search.route.layout import NOWHERE, World
+from model.search.route.state import Searcher
+from model.search.world import make_world
+from model.solution import Solution
+from training.instances import generate
+
+ROUNDS, TURNS = 12, 25
+SOME = 420
+"""Customers, so that insertions are tried beside neighbours only."""
+
+
+def begun(variant: str, size: int) -> tuple[Problem, World, Searcher]:
+    """Return a problem, and a search that has planned it by insertion."""
+    problem = generate(np.random.default_rng(17), size, variant)
+    world = make_world(problem, pack([problem], neighbours=False))
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
+    begin_anew(world, searcher, True)
+    searcher.value.temperature = searcher.value.cost / problem.num_customers
+    return problem, world, searcher
+
+
+@pytest.mark.parametrize(("variant", "size", "stay"), [
+    ("cvrp", SOME, 20), ("vrptw", 60, 0), ("multitrip", 60, 7), ("drone", 60, 7)])
+def test_routes_in_use_and_the_best_are_known(variant: str, size: int, stay: int) -> None:
+    _, world, searcher = begun(variant, size)
+    searcher.count.stay = stay
+    slots = np.arange(len(searcher.active))
+    for _ in range(ROUNDS):
+        anneal(world, searcher, TURNS, ANY)
+        used = searcher.now.route["length"][slots] > 0
+        count = int(searcher.count.active)
+        assert sorted(searcher.active[:count]) == list(slots[used])
+        assert sorted(searcher.active) == list(slots)
+        assert (searcher.active[searcher.rank] == slots).all()
+        best = searcher.best.cost[slots][searcher.best.route["length"][slots] > 0].sum()
+        best += float(searcher.count.best_missing) * world.unassigned_cost
+        assert best == pytest.approx(float(searcher.value.best))
+        now = searcher.now.cost[slots][used].sum()
+        now += float(searcher.count.missing) * world.unassigned_cost
+        assert now == pytest.approx(float(searcher.value.cost))
+
+
+def test_a_search_that_stays_near_by_gets_everywhere() -> None:
+    problem, world, searcher = begun("cvrp", SOME)
+    searcher.count.stay = 5
+    seen = set()
+    for _ in range(40):
+        anneal(world, searcher, 5, ANY)
+        seen.add(int(searcher.count.focus))
+    assert len(seen) > 20
+    assert all(problem.num_depots <= node < problem.num_nodes for node in seen)
+
+
+def beside_neighbours(world: World, searcher: Searcher, node: int) -> float:
+    """Return the cheapest insertion of a customer beside a neighbour, all of them looked at."""
+    now, kind, rate = searcher.now, world.type[0], world.rate[0]
+    legs, demand = world.leg[0, :, :, 1], world.place[0, :, 0]["demand"][:, 0]
+    least = np.inf
+    for other in world.fit[node].tolist():
+        slot, p, _ = now.where[other].tolist()
+        if slot < 0:
+            continue
+        nodes = now.stop[slot, : now.route[slot].length]["node"]
+        if demand[nodes].sum() + demand[node] <= kind.capacity[0]:
+            for a, b in ((nodes[p - 1], other), (other, nodes[p + 1])):
+                least = min(least, float(legs[a, node] + legs[node, b] - legs[a, b]))
+    return least * rate.distance + rate.stop
+
+
+def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
+    _, world, searcher = begun("cvrp", SOME)
+    world, now = world._replace(blink=0.0), searcher.now
+    found = 0
+    for slot in searcher.active[: searcher.count.active].tolist():
+        left_out = now.stop[slot, 1: now.route[slot].length - 1]["node"].tolist()
+        now.where["slot"][left_out] = NOWHERE
+        for node in left_out:
+            cost = least(world, searcher, node)
+            assert cost == pytest.approx(beside_neighbours(world, searcher, node))
+            found += cost < np.inf
+        now.where["slot"][left_out] = slot
+    assert found > SOME / 20
+
+
+def _least(world: World, searcher: Searcher, node: int) -> float:
+    return scan_beside_lean(world, searcher.now, node, np.inf, False, searcher.move, searcher.rng)
+
+
+least: Callable[[World, Searcher, int], float] = njit()(_least)
+
+
+def test_many_customers_are_sorted_as_few_are() -> None:
+    _, world, searcher = begun("cvrp", SOME)
+    distance = world.leg[0, 0, :, 1]
+    for count in (FEW_TO_SORT - 1, SOME):
+        searcher.absent[:count] = np.random.default_rng(2).permutation(SOME)[:count] + 1
+        searcher.count.absent = count
+        sort(world, searcher, 3, BY_FAR)
+        far = distance[searcher.absent[3:count]]
+        assert (np.diff(far) <= 0).all()
+        assert len(set(searcher.absent[:count].tolist())) == count
+
+
+def _sort(world: World, searcher: Searcher, first: int, order: int) -> None:
+    sort_absent(world, searcher, first, order)
+
+
+sort: Callable[[World, Searcher, int, int], None] = njit()(_sort)
