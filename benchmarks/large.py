@@ -1,0 +1,191 @@
+"""Thousands of customers: gaps, turns and memory. `python -m benchmarks.large`.
+
+    python -m benchmarks.large ../shared/data/xxl --instances Leuven2,drawn-1-4000-30-central
+
+Plans CVRPLIB's instances of a folder with `best_known.csv`, and problems of the same kind that are
+drawn: by seed, customers, what a vehicle holds, and whether the depot lies `central` or
+`eccentric`. One thread. What legs and neighbours take is told, and comes before the budget.
+"""
+
+import csv
+import math
+import resource
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+from unittest.mock import patch
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from app.files.importers import read_instance_file
+from benchmarks.published import MODEL_UNITS
+from benchmarks.results import gap_percent
+from benchmarks.rows import append_rows, read_rows
+from model.judge.check import check
+from model.kernel.instance import pack
+from model.problem import (
+    MM_PER_KM, Customer, Depot, FloatArray, IntArray, Problem, Travel, VehicleType,
+)
+from model.search import improve as search
+from model.search.world import lay_ground
+from model.solution import Solution
+
+AREA = 10_000
+"""Side of the square of a drawn problem."""
+
+IN_THE_COUNTRY = 0.25
+"""Share of its customers who live in no town."""
+
+PER_TOWN = 60
+"""Its customers for each town, some ten times as large as others."""
+
+DEMANDS, SHARES = (1, 2, 3), (0.5, 0.3, 0.2)
+
+WARM = "drawn-0-500-30-central"
+"""What is planned first, so that all is compiled."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """A judged run."""
+
+    instance: str
+    n: int
+    budget_s: float
+    seed: int
+    legs_s: float  # for legs and neighbours, before the budget
+    wall_s: float
+    turns: int
+    routes: int
+    cost: float
+    best_known: float
+    gap_percent: float  # nan without a best known cost
+    memory_mb: float  # most that the process ever held
+
+
+@dataclass(frozen=True)
+class Stated:
+    """A problem of one depot and trucks all alike."""
+
+    place: FloatArray  # (node, 2)
+    demand: IntArray  # (node,)
+    capacity: int
+
+
+def drawn(name: str) -> Stated:
+    """Return the problem that is named by how it is drawn.
+
+    Raises
+    ------
+    ValueError
+        If the name says something else.
+    """
+    kind, *numbers, where = name.split("-")
+    if kind != "drawn" or len(numbers) != 3 or where not in ("central", "eccentric"):
+        raise ValueError(f"instance: {name!r} is neither a file nor drawn-1-4000-30-central, say")
+    seed, count, capacity = map(int, numbers)
+    rng = np.random.default_rng(seed)
+    towns = max(5, count // PER_TOWN)
+    size = rng.pareto(1.2, towns) + 0.3
+    town = rng.choice(towns, count, p=size / size.sum())
+    spread = 0.012 * AREA * np.sqrt(size * towns / size.sum())[town]
+    place = rng.uniform(0, AREA, (towns, 2))[town] + rng.normal(0, 1, (count, 2)) * spread[:, None]
+    country = rng.random(count) < IN_THE_COUNTRY
+    place[country] = rng.uniform(0, AREA, (int(country.sum()), 2))
+    place = np.clip(np.rint(place), 0, AREA)
+    depot = np.rint(place.mean(axis=0)) if where == "central" else np.array([0.02, 0.05]) * AREA
+    return Stated(np.vstack([depot, place]),
+                  np.append(0, rng.choice(DEMANDS, count, p=SHARES)), capacity)
+
+
+def read(path: Path) -> Stated:
+    """Return a problem of CVRPLIB."""
+    file = read_instance_file(path)
+    if file.coordinates is None or file.depots != (0,) or len(file.vehicles) != 1:
+        raise ValueError(f"{path}: has coordinates, one depot, and vehicles all alike")
+    return Stated(file.coordinates, np.rint(file.demand).astype(np.int64),
+                  int(file.vehicles[0].capacity))
+
+
+def as_problem(stated: Stated) -> Problem:
+    """Return it as the planner takes it; a unit of distance costs 1, and is a metre."""
+    legs = np.empty((len(stated.place),) * 2, np.int64)
+    for node, place in enumerate(stated.place):
+        apart = np.sqrt(((stated.place - place) ** 2).sum(axis=1))
+        legs[node] = np.floor(apart + 0.5) * MODEL_UNITS
+    customers = tuple(Customer(str(node), (demand * MODEL_UNITS,))
+                      for node, demand in enumerate(stated.demand.tolist()) if node)
+    truck = VehicleType("truck", len(customers), (stated.capacity * MODEL_UNITS,), travel=0,
+                        cost_per_km=MM_PER_KM / MODEL_UNITS)
+    return Problem((Depot("depot"),), customers, (truck,), (Travel(legs, legs),), stated.place,
+                   unassigned_cost=10.0 * float(legs.max()))
+
+
+def best_known(folder: Path) -> dict[str, float]:
+    """Return the best known costs of a folder."""
+    with (folder / "best_known.csv").open(encoding="utf-8", newline="") as lines:
+        return {row["instance"]: float(row["best_known"]) for row in csv.DictReader(lines)}
+
+
+def runs(folder: Path, name: str, budgets: list[float], seeds: int) -> Iterator[Row]:
+    """Plan an instance by all budgets and seeds, which count from 1."""
+    path = folder / f"{name}.vrp"
+    problem = as_problem(read(path) if path.exists() else drawn(name))
+    known = best_known(folder).get(name, math.nan)
+    nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    began = time.perf_counter()
+    instance = pack([problem], neighbours=False)
+    ground = lay_ground(problem, instance, along=True)
+    legs = time.perf_counter() - began
+    for budget in budgets:
+        for seed in range(1, seeds + 1):
+            began = time.perf_counter()
+            with patch.object(search, "lay_ground", lambda *_, **__: ground):
+                found = search.improve(problem, instance, nobody, search.SearchConfig(seed),
+                                       began + budget)
+            wall = time.perf_counter() - began
+            judged = check(problem, found.solution)
+            if judged.violations or found.solution.unassigned:
+                raise ValueError(f"{name}: the plan breaks a rule, or leaves somebody out")
+            cost = judged.cost.total
+            yield Row(name, problem.num_customers, budget, seed, legs, wall, found.turns,
+                      len(found.solution.routes), cost, known, gap_percent(cost, known),
+                      resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+
+
+def table(rows: list[Row]) -> Table:
+    """Return the means over seeds."""
+    columns = Table("instance", "customers", "s", "gap %", "cost", "turns", "legs s", "MB")
+    for key in sorted({(row.n, row.instance, row.budget_s) for row in rows}):
+        same = [row for row in rows if (row.n, row.instance, row.budget_s) == key]
+        def mean(name: str, same: list[Row] = same) -> float:
+            return float(np.mean([getattr(row, name) for row in same]))
+        columns.add_row(key[1], str(key[0]), f"{key[2]:g}", f"{mean('gap_percent'):.2f}",
+                        f"{mean('cost'):.0f}", f"{mean('turns'):.0f}", f"{mean('legs_s'):.1f}",
+                        f"{max(row.memory_mb for row in same):.0f}")
+    return columns
+
+
+def main(folder: Path, instances: Annotated[str, typer.Option()] = "Leuven2,Antwerp1",
+         seconds: Annotated[str, typer.Option()] = "10,60",
+         seeds: Annotated[int, typer.Option()] = 1,
+         output: Annotated[Path, typer.Option()] = Path("runs/bench/large.csv"),
+         processor_time: Annotated[bool, typer.Option(
+             "--processor-time", help="budgets of processor time")] = False) -> None:
+    """Plan, write a row for each run, and print the table of all rows."""
+    if processor_time:
+        time.perf_counter = time.process_time
+    list(runs(folder, WARM, [1.0], 1))
+    for name in instances.split(","):
+        append_rows(output, Row, runs(folder, name, [float(each) for each in seconds.split(",")],
+                                      seeds))
+    Console().print(table(read_rows(output, Row)))
+
+
+if __name__ == "__main__":
+    typer.run(main)
