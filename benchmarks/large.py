@@ -139,7 +139,7 @@ def runs(folder: Path, name: str, budgets: list[float], seeds: int) -> Iterator[
     known = best_known(folder).get(name, math.nan)
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
-    instance = pack([problem], neighbours=False)
+    instance = pack([problem])
     ground = lay_ground(problem, instance, along=True)
     legs = time.perf_counter() - began
     for budget in budgets:

@@ -183,7 +183,7 @@ def complete(rest: Rest, routes: Routes, turns: int, seed: int) -> Routes:
         The same gives the same routes.
     """
     problem = rest.problem
-    world = make_world(problem, pack([problem], neighbours=False))
+    world = make_world(problem, pack([problem]))
     searcher = make_searcher(problem, world, _written(rest, routes), np.random.SeedSequence(seed))
     begin_anew(world, searcher, not routes)
     value = searcher.value

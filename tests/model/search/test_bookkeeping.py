@@ -27,7 +27,7 @@ SOME = 420
 def begun(variant: str, size: int) -> tuple[Problem, World, Searcher]:
     """Return a problem, and a search that has planned it by insertion."""
     problem = generate(np.random.default_rng(17), size, variant)
-    world = make_world(problem, pack([problem], neighbours=False))
+    world = make_world(problem, pack([problem]))
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
     begin_anew(world, searcher, True)
     searcher.value.temperature = searcher.value.cost / problem.num_customers
