@@ -32,7 +32,7 @@ from model.problem import (
     MM_PER_KM, Customer, Depot, FloatArray, IntArray, Problem, Travel, VehicleType,
 )
 from model.search import improve as search
-from model.search.world import lay_ground
+from model.search.ground import lay_ground
 from model.solution import Solution
 
 AREA = 10_000
@@ -139,7 +139,7 @@ def runs(folder: Path, name: str, budgets: list[float], seeds: int) -> Iterator[
     known = best_known(folder).get(name, math.nan)
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
-    instance = pack([problem])
+    instance = pack([problem], legs=False)
     ground = lay_ground(problem, instance, along=True)
     legs = time.perf_counter() - began
     for budget in budgets:

@@ -68,9 +68,9 @@ def _straight(points: FloatArray) -> FloatArray:
 def _problem(points: FloatArray, customers: tuple[Customer, ...], truck: VehicleType,
              travel: tuple[Travel, ...]) -> Problem:
     """Return a problem in which no plan gains by leaving customers out."""
-    legs = travel[truck.travel]
-    cost = (legs.distance * (truck.cost_per_km / MM_PER_KM)
-            + legs.duration * (truck.cost_per_hour / MS_PER_HOUR))
+    duration, distance = travel[truck.travel].arrays()
+    cost = (distance * (truck.cost_per_km / MM_PER_KM)
+            + duration * (truck.cost_per_hour / MS_PER_HOUR))
     worst = float((cost[0] + cost[:, 0])[1:].max())
     return Problem((Depot("0"),), customers, (truck,), travel, points, unassigned_cost=10 * worst)
 
@@ -257,7 +257,7 @@ def _joo_lee_instance(folder: Path, row: dict[str, str]) -> TruckDroneInstance:
     fly = Travel(_scaled(JOO_LEE_DRONE_TIME_SHARE * length), _scaled(np.rint(cost / 2) / 2))
     closed = length > JOO_LEE_LONGEST_LEG
     closed[0, :] = closed[:, 0] = True
-    for legs in (fly.duration, fly.distance):
+    for legs in fly.arrays():
         legs[closed] = UNREACHABLE
     amounts, earliest, latest, services = _scaled(file[:, 3:7].T).tolist()
     lightest = sorted(amounts[1:])[:int(JOO_LEE_LIGHT_SHARE * (len(points) - 1))]

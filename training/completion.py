@@ -118,8 +118,7 @@ def what_is_left(setting: Setting, actions: IntArray) -> Rest | None:
         customers.insert(0, _here(whole, int(vehicle.service_end)))
         table = _table(whole, kinds, left - first)
     source = np.array([*range(first), *places, *left.tolist()])
-    grid = np.ix_(source, source)
-    legs = [Travel(each.duration[grid], each.distance[grid]) for each in travel]
+    legs = [each.among(source) for each in travel]
     if is_open:
         own = legs[types[0].travel if types[0].travel < len(legs) else
                    whole.vehicle_types[kinds[0]].travel]
@@ -160,7 +159,7 @@ def _table(whole: Problem, kinds: Sequence[int], customers: IntArray) -> np.ndar
 def _from_here(own: Travel, depot: int, here: int) -> Travel:
     """Return the legs of the open vehicle, whose way from the depot leads to its place alone."""
     result = []
-    for matrix in (own.duration, own.distance):
+    for matrix in own.arrays():
         legs = matrix.copy()
         legs[depot, here + 1:] = FAR * int(matrix.max())
         legs[depot, here] = 0
@@ -183,7 +182,7 @@ def complete(rest: Rest, routes: Routes, turns: int, seed: int) -> Routes:
         The same gives the same routes.
     """
     problem = rest.problem
-    world = make_world(problem, pack([problem]))
+    world = make_world(problem, pack([problem], legs=False))
     searcher = make_searcher(problem, world, _written(rest, routes), np.random.SeedSequence(seed))
     begin_anew(world, searcher, not routes)
     value = searcher.value

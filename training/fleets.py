@@ -194,8 +194,8 @@ def drawn_unassigned_cost(ground: Ground, customers: tuple[Customer, ...],
     lateness and earliness.
     """
     service = max((customer.service_duration for customer in customers), default=0)
-    span = [leg.duration.max().item() for leg in travel]
-    length = [leg.distance.max().item() / MM_PER_KM for leg in travel]
+    span = [leg.duration[:].max().item() for leg in travel]
+    length = [leg.distance[:].max().item() / MM_PER_KM for leg in travel]
     dearest = 0.0
     for kind in vehicle_types:
         cost = (kind.fixed_cost + 2 * length[kind.travel] * kind.cost_per_km

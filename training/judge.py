@@ -185,4 +185,4 @@ def _is_reversible(problem: Problem) -> bool:
     return (all(customer.latest >= UNLIMITED and customer.earliest == 0
                 for customer in problem.customers)
             and all(np.array_equal(matrix, matrix.T) for travel in problem.travel
-                    for matrix in (travel.duration, travel.distance)))
+                    for matrix in travel.arrays()))

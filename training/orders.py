@@ -187,7 +187,8 @@ def reachable_by_drone(orders: Orders, drones: DroneType, flight: Travel,
                        hubs: BoolArray) -> BoolArray:
     """Mark the customers that a drone can serve by a loop from one of the hubs (node,)."""
     num_depots = len(flight.duration) - len(orders.demand)
-    loop = flight.duration + flight.duration.T
+    there = flight.duration[:]
+    loop = there + there.T
     shortest = loop[hubs, num_depots:].min(axis=0) + orders.service_duration
     is_light = np.all(orders.demand <= np.array(drones.capacity), axis=1)
     reachable: BoolArray = np.logical_and(is_light, shortest <= drones.endurance)

@@ -10,9 +10,7 @@ from model.problem import (
     Customer,
     DroneType,
     IncompatibleGoods,
-    IntArray,
     Problem,
-    Travel,
     VehicleType,
 )
 from training.ground import integer, log_uniform, uniform
@@ -59,13 +57,7 @@ def _at_addresses(rng: np.random.Generator, problem: Problem) -> Problem:
                 site=first + there)
         for own, there in zip(problem.customers, host.tolist(), strict=True)])
     return replace(problem, customers=customers, coordinates=problem.coordinates[nodes],
-                   travel=tuple([_between(travel, nodes) for travel in problem.travel]))
-
-
-def _between(travel: Travel, nodes: IntArray) -> Travel:
-    """Return the legs between some nodes of a travel."""
-    return Travel(*(np.ascontiguousarray(legs[np.ix_(nodes, nodes)])
-                    for legs in (travel.duration, travel.distance)))
+                   travel=tuple([travel.among(nodes) for travel in problem.travel]))
 
 
 def _with_setups(rng: np.random.Generator, problem: Problem) -> Problem:
@@ -136,7 +128,7 @@ def _kept_apart(rng: np.random.Generator, problem: Problem) -> Problem:
 
 def _swapping(rng: np.random.Generator, problem: Problem) -> Problem:
     """Let batteries be swapped at launch, and limit how many some trucks have."""
-    usual = float(problem.travel[0].duration.mean())
+    usual = float(problem.travel[0].duration[:].mean())
 
     def swapping(kind: VehicleType) -> VehicleType:
         if kind.drones is None:

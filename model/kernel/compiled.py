@@ -178,7 +178,7 @@ def chosen_by_type(kind: type, of_kind: Callable[..., Result], of_others: Callab
         return of_kind if is_kind else of_others
 
     if not config.DISABLE_JIT:  # type: ignore[attr-defined]
-        overload(either, jit_options=PART, strict=False,
+        overload(either, jit_options=PART, strict=False,  # type: ignore[arg-type]
                  inline="always" if paste else "never")(chosen)
     return either
 

@@ -62,8 +62,9 @@ def _numbers_of(ranked: IntArray, numbering: Numbering) -> IntArray:
     return numbers
 
 
-def _legs(problem: Problem, setup: Records, numbering: Numbering, pause: Pause) -> AllLegs:
-    """Return all legs in the search's numbers; `setup` has the SETUP of nodes."""
+def _legs(problem: Problem, setup: Records, numbering: Numbering, pause: Pause
+          ) -> tuple[AllLegs, AllLegs]:
+    """Return all legs in the search's numbers, and those back; `setup` has the SETUP of nodes."""
     ways = ways_of(problem)
     law, point = np.zeros(len(ways), LAW), np.zeros(problem.num_nodes, POINT)
     stated: list[Way] = []

@@ -215,7 +215,7 @@ class Units:
     def travel(self, travel: Travel) -> Travel:
         """Convert legs."""
         return Travel(*(np.where(legs < UNREACHABLE, legs * factor, UNREACHABLE) for legs, factor
-                        in ((travel.duration, self.time), (travel.distance, self.length))))
+                        in zip(travel.arrays(), (self.time, self.length), strict=True)))
 
 
 def in_other_units(problem: Problem, units: Units) -> Problem:

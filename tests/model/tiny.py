@@ -161,8 +161,8 @@ def with_drone_types(rng: np.random.Generator, problem: Problem) -> Problem:
     Some of these fly by legs of their own.
     """
     slow = problem.travel[1]
-    slow = Travel(np.where(slow.duration < UNREACHABLE, 2 * slow.duration, UNREACHABLE),
-                  slow.distance)
+    duration, distance = slow.arrays()
+    slow = Travel(np.where(duration < UNREACHABLE, 2 * duration, UNREACHABLE), distance)
 
     def equipped(kind: VehicleType) -> VehicleType:
         if kind.drones is None or rng.random() < 0.2:

@@ -42,12 +42,12 @@ def test_planar_legs_are_rounded_in_planar_units(smallest: Request, rounding: st
     for unit in (1, 1000):
         problem = problem_of(smallest | {"planar_rounding": rounding, "planar_unit": unit})
         drive, flight = problem.travel
-        first = [drive.distance.item(leg) for leg in ((0, 1), (0, 2), (1, 2))]
+        first = [drive.distance[:].item(leg) for leg in ((0, 1), (0, 2), (1, 2))]
         assert first == pytest.approx([unit * leg for leg in legs], abs=0.5 * unit)
         if rounding != "exact":
             assert first == [unit * leg for leg in legs]
-            assert drive.duration.tolist() == drive.distance.tolist()
-            assert (flight.distance == drive.distance).all()
+            assert drive.duration[:].tolist() == drive.distance[:].tolist()
+            assert (flight.distance[:] == drive.distance[:]).all()
 
 
 def test_flights_around_areas_stay_exact(smallest: Request) -> None:
@@ -55,7 +55,7 @@ def test_flights_around_areas_stay_exact(smallest: Request) -> None:
     smallest["fleet"][0]["drones"] = {"count": 1, "capacity": [1]}
     smallest |= {"planar_rounding": "round", "airspace": {"wind": {"speed_kmh": 1}}}
     drive, flight = problem_of(smallest).travel
-    assert (drive.distance.item(0, 2), flight.distance.item(0, 2)) == (4_000_000, 3_605_551)
+    assert (drive.distance[:].item(0, 2), flight.distance[:].item(0, 2)) == (4_000_000, 3_605_551)
 
 
 def test_several_windows_are_one_after_another(smallest: Request) -> None:
@@ -75,9 +75,9 @@ def test_several_windows_are_one_after_another(smallest: Request) -> None:
 def test_planar_legs_at_forty_km_per_hour(smallest: Request) -> None:
     (travel,) = problem_of(smallest).travel
     # 3-4-5 triangle: 5 km take 5 / 40 h = 450 s; both customers are 5 km from (3, 4).
-    assert travel.distance.tolist() == [
+    assert travel.distance[:].tolist() == [
         [0, 5_000_000, 6_000_000], [5_000_000, 0, 5_000_000], [6_000_000, 5_000_000, 0]]
-    assert travel.duration.tolist() == [
+    assert travel.duration[:].tolist() == [
         [0, 450_000, 540_000], [450_000, 0, 450_000], [540_000, 450_000, 0]]
 
 
@@ -199,7 +199,7 @@ def test_diagonal_of_a_matrix_counts_between_places_of_one_row_alone(smallest: R
     table = [[7, 10], [20, 5]]
     smallest["matrices"] = {"truck": {"durations": table, "distances": table}}
     (travel,) = problem_of(smallest).travel
-    for matrix in (travel.duration, travel.distance):
+    for matrix in travel.arrays():
         assert matrix.tolist() == [[0, 10_000, 10_000], [20_000, 0, 5000], [20_000, 5000, 0]]
 
 
@@ -216,9 +216,9 @@ def test_matrices_are_read_by_location_index(smallest: Request) -> None:
     truck = problem.vehicle_types[0]
     assert truck.drones is not None
     drive, flight = problem.travel[truck.travel], problem.travel[truck.drones.travel]
-    assert flight.duration.tolist() == [[0, 50_000, 60_000], [20_000, 0, 10_001],
+    assert flight.duration[:].tolist() == [[0, 50_000, 60_000], [20_000, 0, 10_001],
                                         [40_000, 30_000, 0]]
-    assert flight.distance.tolist() == [[0, 5000, 6000], [2000, 0, 1000], [4000, 3000, 0]]
+    assert flight.distance[:].tolist() == [[0, 5000, 6000], [2000, 0, 1000], [4000, 3000, 0]]
     # Twice as fast at best, and half of that before 5 s; distances from locations.
     assert drive.duration[0].tolist() == [0, 25_000, 30_000]
     assert truck.speed_profile == SpeedProfile((5000,), (500_000, 1_000_000))

@@ -81,8 +81,8 @@ def test_request_keeps_the_numbers_of_the_file(tmp_path: Path) -> None:
 def test_unit_is_a_metre_a_second_and_a_cost(tmp_path: Path) -> None:
     problem = _problem(tmp_path, _vrplib())
     truck, travel = problem.vehicle_types[0], problem.travel[0]
-    assert travel.distance.item(0, 1) == travel.duration.item(0, 1) == 5000
-    assert (travel.distance.item(0, 2), travel.duration.item(0, 2)) == (1414, 1415)
+    assert travel.distance[:].item(0, 1) == travel.duration[:].item(0, 1) == 5000
+    assert (travel.distance[:].item(0, 2), travel.duration[:].item(0, 2)) == (1414, 1415)
     assert (truck.cost_per_km, truck.fixed_cost, truck.capacity) == (1000.0, 0.0, (12_000,))
     assert (truck.count, truck.max_trips, truck.latest) == (2, 1, UNLIMITED)
 
@@ -96,7 +96,7 @@ def test_distances_are_rounded_without_matrices(tmp_path: Path, rounding: Roundi
     assert request["planar_rounding"] == rounding
     assert "matrices" not in request
     travel = _problem(tmp_path, _vrplib(), rounding).travel[0]
-    assert travel.distance.tolist() == travel.duration.tolist() == [
+    assert travel.distance[:].tolist() == travel.duration[:].tolist() == [
         [0, 5000, diagonal], [5000, 0, across], [diagonal, across, 0]]
 
 
@@ -104,7 +104,7 @@ def test_distances_are_rounded_without_matrices(tmp_path: Path, rounding: Roundi
     ("FLOOR_2D", 1000), ("CEIL_2D", 2000), ("EXACT_2D", 1_414_000)])
 def test_file_may_state_the_rounding(tmp_path: Path, kind: str, diagonal: int) -> None:
     text = _vrplib(f"EDGE_WEIGHT_TYPE: {kind}\nCAPACITY: 12")
-    assert _problem(tmp_path, text).travel[0].distance.item(0, 2) == diagonal
+    assert _problem(tmp_path, text).travel[0].distance[:].item(0, 2) == diagonal
 
 
 @pytest.mark.parametrize(("layout", "weights", "expected"), [
@@ -118,7 +118,7 @@ def test_explicit_distances_need_no_locations(tmp_path: Path, layout: str, weigh
     assert request["customers"][1]["location_index"] == 2
     assert "location" not in request["customers"][1]
     (_, first), (second, third), (fourth, _) = expected
-    distance = _problem(tmp_path, text).travel[0].distance
+    distance = _problem(tmp_path, text).travel[0].distance[:]
     assert [distance.item(leg) for leg in ((0, 1), (0, 2), (1, 2), (2, 1))] == [
         1000 * first, 1000 * second, 1000 * third, 1000 * fourth]
 

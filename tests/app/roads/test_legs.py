@@ -47,11 +47,11 @@ def planned(stated: dict[str, Any], engine: StatedRoads | None, profile: str = "
 
 def durations(task: Task, vehicle_type: int = 0) -> list[list[float]]:
     kind = task.problem.vehicle_types[vehicle_type]
-    return (task.problem.travel[kind.travel].duration / 1000).tolist()
+    return (task.problem.travel[kind.travel].duration[:] / 1000).tolist()
 
 
 def distances(task: Task) -> list[list[float]]:
-    return (task.problem.travel[task.problem.vehicle_types[0].travel].distance / 1000).tolist()
+    return (task.problem.travel[task.problem.vehicle_types[0].travel].distance[:] / 1000).tolist()
 
 
 def told(task: Task) -> tuple[Any, ...]:

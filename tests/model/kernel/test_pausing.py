@@ -87,6 +87,8 @@ def test_a_large_ground_is_laid_in_parts(large: Problem) -> None:
     ground = lay_ground(large, instance, looks)
     looks()
     assert looks.longest < MOST_SECONDS
+    assert isinstance(ground.leg, np.ndarray)
+    assert isinstance(ground.back, np.ndarray)
     assert (ground.back == ground.leg.transpose(0, 2, 1, 3)).all()
     with pytest.raises(EndedError):
         lay_ground(large, instance, Looks(looks.number // 2))

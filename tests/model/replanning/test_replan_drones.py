@@ -102,9 +102,9 @@ def test_idle_drone_may_be_launched_where_the_truck_stands_from_now_on(
 def test_past_that_can_t_have_been_is_refused(street: Problem, drones: DroneType) -> None:
     problem, plan = _flying(street, drones)
     flights = problem.travel[1]
-    closed = flights.duration.copy()
+    closed = flights.duration[:].copy()
     closed[A, C] = 2**50
-    far = flights.distance.copy()
+    far = flights.distance[:].copy()
     far[A, C] = 2**50
     problem = replace(problem, travel=(problem.travel[0],
                                        replace(flights, duration=closed, distance=far)))

@@ -69,6 +69,7 @@ def test_a_search_that_stays_near_by_gets_everywhere() -> None:
 def beside_neighbours(world: World, searcher: Searcher, node: int) -> float:
     """Return the cheapest insertion of a customer beside a neighbour, all of them looked at."""
     now, kind, rate = searcher.now, world.type[0], world.rate[0]
+    assert isinstance(world.leg, np.ndarray)
     legs, demand = world.leg[0, :, :, 1], world.place[0, :, 0]["demand"][:, 0]
     least = np.inf
     for other in world.fit[node].tolist():
@@ -106,6 +107,7 @@ least: Callable[[World, Searcher, int], float] = njit()(_least)
 
 def test_many_customers_are_sorted_as_few_are() -> None:
     _, world, searcher = begun("cvrp", SOME)
+    assert isinstance(world.leg, np.ndarray)
     distance = world.leg[0, 0, :, 1]
     for count in (FEW_TO_SORT - 1, SOME):
         searcher.absent[:count] = np.random.default_rng(2).permutation(SOME)[:count] + 1
