@@ -45,8 +45,7 @@ class _Key(NamedTuple):
 
 COMPUTED_FROM = 10_000
 """From how many places on legs from coordinates are computed wherever they are looked up: tables of
-all would take 16 bytes for each of places squared, and way to travel. The search for such problems
-is compiled apart, when the first of them is planned, which takes as long as for all others."""
+all would take 16 bytes for each of places squared, and way to travel."""
 
 SECONDS_PER_METRE = 3.6
 """Seconds that a metre takes at one km/h."""

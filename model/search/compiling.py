@@ -15,13 +15,11 @@ from model.search.improve import SearchConfig, improve
 from model.search.world import states_rarer_rules
 from model.solution import Solution
 
-PLAIN, RARER = "plain", "rarer"
-"""Parts of all that is compiled: for problems that state no rarer rules, and for those that do."""
+PLAIN, LARGE, RARER = "plain", "large", "rarer"
+"""Parts of all that is compiled: for problems that state no rarer rules, with legs from tables or
+computed ones, and for those that do."""
 
-LARGE = {PLAIN: "large", RARER: "large and rarer"}
-"""The same for problems whose legs are computed, compiled only once there is one."""
-
-MOST_STOPS = {PLAIN: None, RARER: 2, LARGE[PLAIN]: None, LARGE[RARER]: 2}
+MOST_STOPS = {PLAIN: None, LARGE: None, RARER: 2}
 """What the small problem for each part states."""
 
 COMPILE_SEARCH = """
@@ -39,10 +37,11 @@ def parts_for(problem: Problem | None) -> tuple[str, ...]:
     What takes longest comes last.
     """
     if problem is None:
-        return PLAIN, RARER
-    part = RARER if states_rarer_rules(problem) else PLAIN
+        return PLAIN, LARGE, RARER
+    if states_rarer_rules(problem):
+        return (RARER,)
     computed = any(travel.straight is not None for travel in problem.travel)
-    return (LARGE[part] if computed else part,)
+    return (LARGE if computed else PLAIN,)
 
 
 def compile_search(part: str) -> None:
@@ -60,7 +59,7 @@ def small_problem(part: str = PLAIN, drones: bool = True) -> Problem:
     truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone,
                         max_stops=MOST_STOPS[part])
     travel = Travel(distance, distance)
-    if part in LARGE.values():
+    if part == LARGE:
         travel = Travel.along(StraightLegs(Points(places * 1000.0), 3.6))
     return Problem((Depot("depot"),), customers, (truck,), (travel,), places, 1000.0)
 

@@ -21,8 +21,8 @@ from model.search.route.layout import World
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
-from model.search.temperature import Heat, only_loads_limit
-from model.search.world import ALL_MOVES, Moves, make_world
+from model.search.temperature import Heat
+from model.search.world import ALL_MOVES, Moves, as_searched, make_world, only_loads_limit
 from model.solution import Solution, renumbered
 
 SLICE = 0.003
@@ -229,6 +229,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     if deadline is None and config.turns is None:
         raise ValueError("deadline, turns: None, None is not allowed")
     began, end = time.perf_counter(), math.inf if deadline is None else deadline
+    problem = as_searched(problem)
     # Where no routes are given, a late plan is better than none.
     latest = end if solution.routes else math.inf
     try:

@@ -3,10 +3,10 @@
 import math
 from dataclasses import dataclass
 
-from model.problem import UNLIMITED
 from model.search.beginning.translate import leg_cost
 from model.search.route.layout import World
 from model.search.route.state import Searcher, missing_cost
+from model.search.world import only_loads_limit
 
 HOT, COLD = 1.0, 0.1
 """First temperature by what a customer costs, last by what a leg between customers does."""
@@ -23,12 +23,12 @@ LEAST_HOT = 1.0
 HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
 """Both by a leg where trips are split between truck and drone, which many small changes do."""
 
+HOT_FROM_TRUCKS = 0.2
+"""The same where the search began with trucks alone."""
+
 HOT_IN_PARTS, COLD_IN_PARTS = 3.0, 0.03
 """Both by a leg where loads alone limit routes and the search goes from part to part: the savings
 that it begins with are far from good where routes are long, and soon are where they are short."""
-
-HOT_FROM_TRUCKS = 0.2
-"""The same where the search began with trucks alone."""
 
 
 @dataclass(frozen=True)
@@ -82,10 +82,3 @@ class Heat:
         if self.types > 1:
             return 1.0  # the start by insertion is too far from good
         return min(1.0, max(LEAST_HEAT, math.sqrt(turns / FULL_HEAT)))
-
-
-def only_loads_limit(world: World) -> bool:
-    """Tell whether trucks all alike make one trip each, whenever they like."""
-    served = world.place[0, world.num_depots:, 0]
-    return not (world.general or world.num_types > 1 or served["window_earliest"].any()
-                or (served["window_latest"] < UNLIMITED).any())

@@ -1,7 +1,7 @@
 """The search's arrays for a problem, and plans to and from its routes."""
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,7 +10,9 @@ from model.kernel.drone_types import all_kinds, any_aboard
 from model.kernel.instance import FAR, NO_PROFILE, Instance, pack
 from model.kernel.plain import as_plain
 from model.kernel.records import Record, Records
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
+from model.problem import (
+    MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem, Travel,
+)
 from model.search.ground import Ground, lay_ground
 from model.search.numbering import renumbered
 from model.search.route.layout import (
@@ -149,6 +151,13 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     return mode
 
 
+def only_loads_limit(world: World) -> bool:
+    """Tell whether trucks all alike make one trip each, whenever they like."""
+    served = world.place[0, world.num_depots:, 0]
+    return not (world.general or world.num_types > 1 or served["window_earliest"].any()
+                or (served["window_latest"] < UNLIMITED).any())
+
+
 def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     """Tell whether to insert a customer never saves anything, if no detour does.
 
@@ -159,6 +168,16 @@ def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     swapped = types["relaunch_duration"] != types["launch_duration"]
     split = ((mode & MODE_LOADED > 0) | swapped) & (types["max_trips"] > 1)
     return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
+
+
+def as_searched(problem: Problem) -> Problem:
+    """Return a problem with tables of legs if rarer rules are stated.
+
+    The search with all rules is compiled for those alone.
+    """
+    if all(travel.straight is None for travel in problem.travel) or not states_rarer_rules(problem):
+        return problem
+    return replace(problem, travel=tuple([Travel(*travel.arrays()) for travel in problem.travel]))
 
 
 def states_rarer_rules(problem: Problem) -> bool:

@@ -20,7 +20,7 @@ from model.planner import (
 )
 from model.problem import Problem
 from model.search.compiling import (
-    COMPILE_SEARCH, PLAIN, RARER, beside, parts_for, small_problem,
+    COMPILE_SEARCH, LARGE, PLAIN, RARER, beside, parts_for, small_problem,
 )
 from model.search.improve import Progress
 from model.solution import Solution
@@ -254,7 +254,7 @@ def test_second_process_compiles_the_search_where_nothing_is_yet(
     subprocess.run([sys.executable, "-c", *helpers], check=True)
 
 
-@pytest.mark.parametrize("part", [PLAIN, RARER])
+@pytest.mark.parametrize("part", [PLAIN, LARGE, RARER])
 def test_what_one_problem_needs_is_compiled_alone(
     planner: Planner, part: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -263,7 +263,7 @@ def test_what_one_problem_needs_is_compiled_alone(
     planner.warm(problem=problem)
     assert compiled == [part]
     assert parts_for(problem) == (part,)
-    assert set(parts_for(None)) == {PLAIN, RARER}
+    assert set(parts_for(None)) == {PLAIN, LARGE, RARER}
 
 
 def test_work_beside_is_over_at_the_end(tmp_path: Path) -> None:

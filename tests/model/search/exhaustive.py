@@ -87,7 +87,8 @@ def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, 
         if flight > drones.endurance:
             return math.inf
         busy[f"drone {sortie.drone}"] += flight
-        cost += _sum(problem.travel[drones.travel].distance[:], path) / MM_PER_KM * drones.cost_per_km
+        flown = _sum(problem.travel[drones.travel].distance[:], path)
+        cost += flown / MM_PER_KM * drones.cost_per_km
     return cost + max(busy.values()) / MS_PER_HOUR * kind.cost_per_hour
 
 
