@@ -12,7 +12,6 @@ const L = leaflet();
 const LINE = { weight: 2.5, opacity: 0.9, lineCap: 'round', lineJoin: 'round' };
 const LEG = { weight: 5, opacity: 0, lineCap: 'round', lineJoin: 'round' };
 const MOST_LABELS = 30;
-const MOST_DISCS = 3000; // customers; of more, squares are drawn
 const SETTLED = { weight: 2, opacity: 0.5, dashArray: '1 5' };
 const FLIGHT = { weight: 1.6, opacity: 0.95, dashArray: '1 4', lineCap: 'round' };
 
@@ -30,29 +29,6 @@ const Cross = L.CircleMarker.extend({
     context.moveTo(x + size, y - size);
     context.lineTo(x - size, y + size);
     renderer._fillStroke(context, this);
-  },
-});
-
-/** A customer among thousands: a square, drawn much faster than a disc, unless it is marked. */
-const Dot = L.CircleMarker.extend({
-  _updatePath() {
-    const renderer = this._renderer;
-    const { fillColor, color, fillOpacity, radius, isHollow, weight } = this.options;
-    if (weight > 0) {
-      L.CircleMarker.prototype._updatePath.call(this);
-      return;
-    }
-    if (!renderer._drawing || this._empty()) return;
-    const { _ctx: context } = renderer;
-    const { x, y } = this._point;
-    context.globalAlpha = fillOpacity;
-    context.fillStyle = isHollow ? color : fillColor;
-    context.fillRect(x - radius, y - radius, 2 * radius, 2 * radius);
-    if (isHollow) {
-      context.fillStyle = fillColor;
-      context.fillRect(x - radius + 1, y - radius + 1, 2 * radius - 2, 2 * radius - 2);
-    }
-    context.globalAlpha = 1;
   },
 });
 
@@ -85,6 +61,7 @@ export function planLines(index, parts, dark) {
       for (const { standing, places } of stretches(trip, parts)) {
         lines.push(line(trip.key, places, styles[standing]));
       }
+      lines.push(...legLines(trip, colour));
       for (const sortie of trip.sorties) {
         const legs = legsOf(sortie).map((leg) => leg.map(latLng));
         const style = { ...styles[standingIn(parts, sortie)], ...FLIGHT };
@@ -116,14 +93,12 @@ function stretches(trip, parts) {
   return found;
 }
 
-/** Return a vehicle's drives from stop to stop, which are seen where one is selected. */
-export function legLines(vehicle, dark) {
-  const base = { ...LEG, color: vehicleColour(vehicle.number, dark) };
-  return vehicle.trips.flatMap((trip) =>
-    trip.stops
-      .filter(({ line: way }) => way.length > 1)
-      .map((halt) => line(legKey(trip, halt), halt.line.map(latLng), base)),
-  );
+/** Return the drives from stop to stop, which are seen where one is selected. */
+function legLines(trip, colour) {
+  const base = { ...LEG, color: colour };
+  return trip.stops
+    .filter(({ line: way }) => way.length > 1)
+    .map((halt) => line(legKey(trip, halt), halt.line.map(latLng), base));
 }
 
 function legKey(trip, halt) {
@@ -134,20 +109,17 @@ function line(key, places, base) {
   return { key, base, layer: L.polyline(places, { ...base, key }) };
 }
 
-/** Tell whether a problem has so many customers that their marks are small. */
-export function isCrowded({ customers }) {
-  return customers.length > 600;
-}
-
-/** Return the marks of some customers of a problem by key. */
-export function customerMarks(customers, request, index, parts, dark) {
-  const radius = isCrowded(request) ? 3.2 : 5;
-  return customers.filter(placeOf).map((customer) => {
-    const key = `c:${customer.id}`;
-    const [Kind, base] = customerStyle(index, customer, parts, dark, radius);
-    const layer = new Kind(latLng(customer.location), { ...base, key });
-    return { key, base, layer, customer };
-  });
+/** Return the customers' marks by key. */
+export function customerMarks(request, index, parts, dark) {
+  const crowded = request.customers.length > 600;
+  const radius = crowded ? 3.2 : 5;
+  return request.customers
+    .filter(placeOf)
+    .map((customer) => {
+      const key = `c:${customer.id}`;
+      const [Kind, base] = customerStyle(index, customer, parts, dark, radius);
+      return { key, base, layer: new Kind(latLng(customer.location), { ...base, key }) };
+    });
 }
 
 function customerStyle(index, customer, parts, dark, radius) {
@@ -164,12 +136,9 @@ function customerStyle(index, customer, parts, dark, radius) {
   const standing = standingIn(parts, halt);
   const colour = standing === 'lost' ? redOf(dark) : vehicleColour(halt.vehicle.number, dark);
   if (standing === 'settled') Object.assign(plain, { opacity: 0.6, fillOpacity: 0.45 });
-  const isDot = index.customers.size > MOST_DISCS;
-  const Kind = isDot ? Dot : L.CircleMarker;
-  if (isDot) Object.assign(plain, { weight: 0, isHollow: Boolean(halt.sortie) });
   if (halt.sortie)
-    return [Kind, { ...plain, weight: isDot ? 0 : 2.2, color: colour, fillColor: ground }];
-  return [Kind, { ...plain, color: ground, fillColor: colour }];
+    return [L.CircleMarker, { ...plain, weight: 2.2, color: colour, fillColor: ground }];
+  return [L.CircleMarker, { ...plain, color: ground, fillColor: colour }];
 }
 
 /** Return the marks of depots, and of where vehicles start and end elsewhere. */

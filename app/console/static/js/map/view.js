@@ -10,10 +10,8 @@ import {
   customerMarks,
   depotMarks,
   doubtMarks,
-  isCrowded,
   labelIcon,
   latLng,
-  legLines,
   noFlyShapes,
   pinMarks,
   planLines,
@@ -27,8 +25,6 @@ const L = leaflet();
 const DIM = 0.18;
 const LEAST_FOCUS = 0.9;
 const LIT = 5; // pixels
-const MOST_DIMMED = 3000; // layers; of more, those that are marked stand out and the rest stays
-const MOST_LEGS = 3000; // at a time, of the vehicles in view
 const TIP_GAP = 14; // pixels between a place and its tip
 const TIP_EDGE = 4; // pixels between a tip and the map's edge
 
@@ -58,13 +54,11 @@ export class MapView {
     element.classList.toggle('with-streets', this.grounds.length > 0);
     new ScaleBar({ metresPerUnit: geographic ? null : planarUnit }).addTo(this.map);
     this.areas = L.layerGroup().addTo(this.map);
-    this.shapes = L.featureGroup().addTo(this.map);
+    this.shapes = L.layerGroup().addTo(this.map);
     this.labels = L.layerGroup().addTo(this.map);
     this.numbers = L.layerGroup().addTo(this.map);
     this.movers = L.layerGroup().addTo(this.map);
-    this.entries = new Map(); // by key
-    this.legs = new Map(); // entries by vehicle, of those in view
-    this.touched = new Set(); // keys of what is drawn otherwise than its base
+    this.entries = [];
     this.trucks = new Map();
     this.tooltip = L.tooltip({ direction: 'top', offset: [0, -6], opacity: 1 });
     this.#listen(onHover, onSelect);
@@ -80,18 +74,6 @@ export class MapView {
     this.map.on('click', ({ latlng }) => {
       if (!this.isDeaf) this.onGround([latlng.lng, latlng.lat]);
     });
-    this.map.on('moveend', () => this.#showLegs());
-    // One listener for all: a problem may have many thousands of marks.
-    const keyOf = ({ propagatedFrom: layer }) => layer.options.key;
-    this.shapes.on('mouseover', (event) => this.onHover(keyOf(event)));
-    this.shapes.on('mouseout', () => this.onHover(null));
-    this.shapes.on('mousedown', (event) =>
-      this.onPress(keyOf(event), event.propagatedFrom, event),
-    );
-    this.shapes.on('click', (event) => {
-      L.DomEvent.stopPropagation(event);
-      if (!this.isDeaf) this.onSelect(keyOf(event), [event.latlng.lng, event.latlng.lat]);
-    });
   }
 
   destroy() {
@@ -102,90 +84,31 @@ export class MapView {
 
   /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
   draw(request, index, parts, dark, doubts = {}) {
-    const former = this.request;
-    const isSamePlan =
-      former &&
-      this.index === index &&
-      this.parts === parts &&
-      this.dark === dark &&
-      isCrowded(former) === isCrowded(request);
-    Object.assign(this, { request, index, parts, dark });
+    Object.assign(this, { request, index, dark });
     this.grounds.forEach((ground) => ground.setDark?.(dark));
-    [this.areas, this.labels, this.numbers].forEach((group) => group.clearLayers());
+    [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
     this.noFly.forEach((shape) => this.areas.addLayer(shape));
-    if (!isSamePlan) this.#clear();
-    if (index && !isSamePlan) planLines(index, parts, dark).forEach((entry) => this.#add(entry));
-    this.#drawCustomers(isSamePlan ? former.customers : []);
+    const lines = index ? planLines(index, parts, dark) : [];
+    this.entries = [...lines, ...customerMarks(request, index, parts, dark)];
+    for (const { layer, key } of this.entries) this.#addEntry(layer, key);
     depotMarks(request).forEach((mark) => this.labels.addLayer(mark));
     pinMarks(request).forEach((mark) => this.labels.addLayer(mark));
     doubtMarks(request, doubts).forEach((mark) => this.labels.addLayer(mark));
     if (index) tripLabels(index, dark).forEach((mark) => this.labels.addLayer(mark));
-    this.#showLegs();
     this.marked = '';
     this.map.fire('drawn');
   }
 
-  #clear() {
-    this.shapes.clearLayers();
-    this.entries.clear();
-    this.legs.clear();
-    this.touched.clear();
-  }
-
-  /** Draw the customers, of whom some may be drawn as they were: they are told by identity. */
-  #drawCustomers(former) {
-    const { request, index, parts, dark } = this;
-    const [drawn, wanted] = [new Set(former), new Set(request.customers)];
-    const gone = new Set(former.filter((one) => !wanted.has(one)).map(({ id }) => id));
-    gone.forEach((id) => this.#drop(this.entries.get(`c:${id}`) ?? []));
-    const fresh = request.customers.filter((one) => !drawn.has(one) || gone.has(one.id));
-    customerMarks(fresh, request, index, parts, dark).forEach((entry) => this.#add(entry));
-  }
-
-  #add(entry) {
-    if (!this.entries.has(entry.key)) this.entries.set(entry.key, []);
-    this.entries.get(entry.key).push(entry);
-    this.shapes.addLayer(entry.layer);
-  }
-
-  #drop(entries) {
-    for (const { key, layer } of [...entries]) {
-      this.shapes.removeLayer(layer);
-      this.entries.delete(key);
-    }
-  }
-
-  /** Have the legs of vehicles in view, unless these are too many to tell one from another. */
-  #showLegs() {
-    if (!this.index) return;
-    const bounds = this.map.getBounds();
-    const all = this.index.halts.size <= MOST_LEGS;
-    const isSeen = ({ trips }) =>
-      trips.some(({ key }) =>
-        this.entries.get(key)?.some(({ layer }) => bounds.intersects(layer.getBounds())),
-      );
-    const seen = all ? this.index.vehicles : this.index.vehicles.filter(isSeen);
-    const length = ({ trips }) => trips.reduce((sum, { stops }) => sum + stops.length, 0);
-    const number = seen.reduce((sum, vehicle) => sum + length(vehicle), 0);
-    const wanted = new Set(number <= MOST_LEGS ? seen : []);
-    for (const [vehicle, entries] of this.legs) {
-      if (!wanted.has(vehicle)) {
-        this.#drop(entries);
-        this.legs.delete(vehicle);
-      }
-    }
-    for (const vehicle of wanted) {
-      if (!this.legs.has(vehicle)) {
-        const entries = legLines(vehicle, this.dark);
-        this.legs.set(vehicle, entries);
-        entries.forEach((entry) => this.#add(entry));
-        // Legs lie between their trips and the customers, who take clicks first.
-        entries.forEach(({ layer }) => layer.bringToBack());
-        vehicle.trips.flatMap(({ key }) => this.entries.get(key) ?? [])
-          .forEach(({ layer }) => layer.bringToBack());
-      }
-    }
+  #addEntry(layer, key) {
+    layer.on('mouseover', () => this.onHover(key));
+    layer.on('mouseout', () => this.onHover(null));
+    layer.on('mousedown', (event) => this.onPress(key, layer, event));
+    layer.on('click', (event) => {
+      L.DomEvent.stopPropagation(event);
+      if (!this.isDeaf) this.onSelect(key, [event.latlng.lng, event.latlng.lat]);
+    });
+    this.shapes.addLayer(layer);
   }
 
   /** Show everything. */
@@ -215,26 +138,19 @@ export class MapView {
     const state = `${outer}|${focus}|${selection}`;
     if (state === this.marked) return;
     this.marked = state;
-    const dims = outer && this.entries.size <= MOST_DIMMED;
-    const now = new Set(dims ? this.entries.keys() : [focus, selection].filter(Boolean));
-    if (outer && !dims) keysWithin(this.index, outer).forEach((key) => now.add(key));
-    for (const key of new Set([...this.touched, ...now]))
-      for (const entry of this.entries.get(key) ?? [])
-        this.#style(entry, outer, key === focus || key === selection, dims);
-    this.touched = now;
+    for (const { key, layer, base } of this.entries) {
+      const inside = !outer || contains(this.index, outer, key);
+      const isFocus = key === focus || key === selection;
+      const style = { ...base };
+      if (!inside) Object.assign(style, { opacity: base.opacity * DIM, fillOpacity: DIM });
+      if (isFocus) style.weight = base.weight + 2;
+      if (isFocus && !base.radius) style.opacity = Math.max(base.opacity, LEAST_FOCUS);
+      layer.setStyle(style);
+      if (base.radius) layer.setRadius(isFocus ? base.radius + 3 : base.radius);
+      // Above customers, legs would take their clicks.
+      if (isFocus && key[0] !== 'l') layer.bringToFront();
+    }
     this.#number(selection);
-  }
-
-  #style({ key, layer, base }, outer, isFocus, dims) {
-    const inside = !outer || contains(this.index, outer, key);
-    const style = { ...base };
-    if (!inside && dims) Object.assign(style, { opacity: base.opacity * DIM, fillOpacity: DIM });
-    if (isFocus || (outer && inside && !dims)) style.weight = base.weight + 2;
-    if (isFocus && !base.radius) style.opacity = Math.max(base.opacity, LEAST_FOCUS);
-    layer.setStyle(style);
-    if (base.radius) layer.setRadius(isFocus ? base.radius + 3 : base.radius);
-    // Above customers, legs would take their clicks.
-    if (isFocus && key[0] !== 'l') layer.bringToFront();
   }
 
   #number(selection) {
@@ -246,7 +162,7 @@ export class MapView {
   /** Let the leg that a key names stand out, as what is dropped there would be on it; or none. */
   light(key) {
     this.lit?.layer.setStyle(this.lit.base);
-    this.lit = key && this.entries.get(key)?.[0];
+    this.lit = key && this.entries.find((entry) => entry.key === key);
     this.lit?.layer.setStyle({ opacity: LEAST_FOCUS, weight: this.lit.base.weight + LIT });
   }
 
@@ -260,7 +176,7 @@ export class MapView {
 
   /** Show a tip at what a key names; null hides it. */
   tip(key, content) {
-    const entry = key && this.entries.get(key)?.[0];
+    const entry = key && this.entries.find((other) => other.key === key);
     if (!entry || !content) {
       this.tooltip.remove();
       return;
@@ -282,7 +198,7 @@ export class MapView {
 
   /** Bring what a key names into view, if it is outside. */
   reveal(key) {
-    const entry = this.entries.get(key)?.[0];
+    const entry = this.entries.find((other) => other.key === key);
     if (!entry) return;
     const bounds = entry.layer.getBounds?.() ?? L.latLngBounds([entry.layer.getLatLng()]);
     if (!this.map.getBounds().contains(bounds)) {
@@ -350,15 +266,6 @@ function tripOrVehicle(index, key) {
   const { vehicle, trip } = partsOf(index, key);
   if (key[0] === 'v') return vehicle ? key : null;
   return trip ? trip.key : null;
-}
-
-/** Return the keys of what belongs to a trip or vehicle and is always drawn. */
-function keysWithin(index, outer) {
-  const { vehicle, trip } = partsOf(index, outer);
-  return (trip ? [trip] : vehicle.trips).flatMap(({ key, stops, sorties }) => [
-    key,
-    ...[...stops, ...sorties, ...sorties.flatMap(({ visits }) => visits)].map((part) => part.key),
-  ]);
 }
 
 /** Let two maps show the same place; returns a function that ends it. */
