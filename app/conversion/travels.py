@@ -17,8 +17,10 @@ from app.conversion.units import thousandths
 from app.conversion.work import legs_seconds
 from app.roads.roads import NO_ROADS, Roads
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.fields import MAX_DEPOTS
 from app.schemas.request import MatrixInput, PlanRequest, RoadsInput
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
+from app.settings import MAX_CUSTOMERS
 from model.problem import UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel
 from model.problem.straight import fits
 from model.travel.matrices import (
@@ -43,9 +45,11 @@ class _Key(NamedTuple):
     estimated_kmh: float = 0.0  # where roads may not be known
 
 
-COMPUTED_FROM = 10_000
-"""From how many places on legs from coordinates are computed wherever they are looked up: tables of
-all would take 16 bytes for each of places squared, and way to travel."""
+COMPUTED_FROM = MAX_CUSTOMERS + MAX_DEPOTS
+"""From how many places on legs from coordinates are computed wherever they are looked up: where
+requests may have more, tables of all would take 16 bytes for each of places squared, and way to
+travel. The search for such problems is compiled when the first of them is planned, which nobody
+waits for whom tables serve."""
 
 SECONDS_PER_METRE = 3.6
 """Seconds that a metre takes at one km/h."""

@@ -17,7 +17,7 @@ from model.solution import Solution
 
 PLAIN, LARGE, RARER = "plain", "large", "rarer"
 """Parts of all that is compiled: for problems that state no rarer rules, with legs from tables or
-computed ones, and for those that do."""
+computed ones (compiled once there is one), and for those that do."""
 
 MOST_STOPS = {PLAIN: None, LARGE: None, RARER: 2}
 """What the small problem for each part states."""
@@ -32,12 +32,12 @@ with counting():
 
 
 def parts_for(problem: Problem | None) -> tuple[str, ...]:
-    """Return the parts that the search for a problem needs; all if there is none yet.
+    """Return the parts that the search for a problem needs; the usual ones if there is none yet.
 
     What takes longest comes last.
     """
     if problem is None:
-        return PLAIN, LARGE, RARER
+        return PLAIN, RARER
     if states_rarer_rules(problem):
         return (RARER,)
     computed = any(travel.straight is not None for travel in problem.travel)

@@ -263,7 +263,7 @@ def test_what_one_problem_needs_is_compiled_alone(
     planner.warm(problem=problem)
     assert compiled == [part]
     assert parts_for(problem) == (part,)
-    assert set(parts_for(None)) == {PLAIN, LARGE, RARER}
+    assert set(parts_for(None)) == {PLAIN, RARER}
 
 
 def test_work_beside_is_over_at_the_end(tmp_path: Path) -> None:
