@@ -6,6 +6,8 @@ from typing import Literal, get_args
 
 import httpx
 
+from app.remote.servers import require_address, require_positive
+
 ServerKind = Literal["nominatim", "photon", "pelias"]
 
 SERVER_KINDS: tuple[ServerKind, ...] = get_args(ServerKind)
@@ -54,19 +56,13 @@ class GeocodingServer:
     first_wait: float = 0.2
 
     def __post_init__(self) -> None:
-        try:
-            url = httpx.URL(self.url)
-        except httpx.InvalidURL as error:
-            raise ValueError(f"a geocoder has no such address: {error}") from error
-        if url.scheme not in ("http", "https") or not url.host or url.query or url.fragment:
-            raise ValueError("the address of a geocoder must be as https://host is")
+        require_address(self.url, "a geocoder")
         if self.host in NEEDS_CONTACT and "@" not in self.email:
             raise ValueError(f"{self.host} asks who uses it: add ?email=you@example.org")
         if self.per_second < 0:
             raise ValueError("per_second of a geocoder must not be negative")
-        for name in ("at_once", "patience", "failures", "rest", "first_wait"):
-            if not getattr(self, name) > 0:
-                raise ValueError(f"{name} of a geocoder must be positive")
+        require_positive(self, ("at_once", "patience", "failures", "rest", "first_wait"),
+                         "a geocoder")
 
     @property
     def host(self) -> str:

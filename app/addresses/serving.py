@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from urllib.parse import parse_qsl, urlsplit, urlunsplit
 
 from pydantic import ValidationError
 
@@ -14,6 +13,7 @@ from app.addresses.places import Place, judged
 from app.addresses.server import GeocodingServer, ServerKind
 from app.remote.asking import Asking, Question, ShouldStop
 from app.remote.errors import SourceError
+from app.remote.servers import Options, numbers_of, parted
 
 MOST_BYTES = 2**20
 """Longer than any answer with few places."""
@@ -21,8 +21,8 @@ MOST_BYTES = 2**20
 SENSELESS = frozenset({400, 414, 422})
 """Statuses that servers answer to addresses which they can't make anything of."""
 
-WHOLE, BROKEN = ("at_once", "failures"), ("patience", "rest", "per_second")
-TEXTS = ("key", "email", "country", "language")
+OPTIONS = Options(("at_once", "failures"), ("patience", "rest", "per_second"),
+                  ("key", "email", "country", "language"))
 
 
 class _SenselessError(GeocoderAnswerError):
@@ -107,20 +107,10 @@ def read_server(address: str) -> GeocodingServer:
     ValueError
         If it can't be read.
     """
-    parts = urlsplit(address)
-    options = dict(parse_qsl(parts.query, keep_blank_values=True))
-    unknown = options.keys() - {*WHOLE, *BROKEN, *TEXTS}
-    if unknown:
-        raise ValueError(f"a geocoder has no option {min(unknown)!r}: it has "
-                         f"{', '.join((*TEXTS, *WHOLE, *BROKEN))}")
-    try:
-        whole = {name: int(options[name]) for name in WHOLE if name in options}
-        broken = {name: float(options[name]) for name in BROKEN if name in options}
-    except ValueError:
-        raise ValueError("an option of a geocoder is no number") from None
-    texts = {name: options[name] for name in TEXTS if name in options}
-    url = urlunsplit(parts._replace(query="")).rstrip("/")
-    return GeocodingServer(url, **texts, **whole, **broken)  # type: ignore[arg-type]
+    url, options = parted(address)
+    numbers = numbers_of(options, OPTIONS, "a geocoder")
+    texts = {name: options[name] for name in OPTIONS.texts if name in options}
+    return GeocodingServer(url, **texts, **numbers)  # type: ignore[arg-type]
 
 
 def _refusal(status: int, body: bytes) -> GeocoderError:

@@ -116,7 +116,8 @@ def with_locations(request: PlanRequest, points: Mapping[str, Location]) -> Plan
 def _candidates(asked: Mapping[str, str], addresses: Addresses,
                 preparing: Preparing) -> Mapping[str, Candidates]:
     texts = set(asked.values())
-    looked_up = addresses.look_up(asked.values(), preparing.until, preparing.should_stop)
+    with preparing.waiting() as until:
+        looked_up = addresses.look_up(asked.values(), until, preparing.should_stop)
     missing = texts - looked_up.candidates.keys()
     if not missing:
         return looked_up.candidates

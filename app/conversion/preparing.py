@@ -1,7 +1,9 @@
 """What ends the work on a request before its search: its client, this process's end, its time."""
 
+import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from app.errors import InputError, InvalidRequestError, RequestError
@@ -18,6 +20,10 @@ LEAST_WORK = 0.1
 LEAST_TIME = 0.5
 """Seconds that may always pass before the search: a machine that is busy for a moment answers small
 requests late, and doesn't refuse them."""
+
+
+PATIENCE_WITH_OTHERS = 20.0
+"""Seconds on top of a time limit that nobody stated, in which roads and geocoders may answer."""
 
 
 class StoppedError(RequestError):
@@ -44,6 +50,8 @@ class Preparing:
         What takes the time, and what would take less, in words.
     least_time
         Seconds that may pass in any case; more than work of so many seconds may take.
+    patience
+        Seconds that roads and geocoders may take on top of it all.
     """
 
     should_stop: Callable[[], bool] = lambda: False
@@ -54,6 +62,8 @@ class Preparing:
                    "corners")
     began: float = field(default_factory=time.perf_counter)
     least_time: float = LEAST_TIME
+    patience: float = 0.0
+    _waits: list[list[float]] = field(default_factory=list)  # from when, and until when
 
     def pause(self) -> None:
         """Go on, if neither the client nor the time is gone.
@@ -82,12 +92,23 @@ class Preparing:
 
     def allows(self, seconds: float) -> bool:
         """Tell whether there is time enough for what may come next."""
-        return time.perf_counter() - self.began + seconds <= self._most_work
+        return time.perf_counter() - self.began + seconds <= self._most_work + self.waited
+
+    @contextmanager
+    def waiting(self) -> Iterator[float]:
+        """Wait for what others tell; give until when at most, on `time.perf_counter`. In place."""
+        latest = self.began + self._latest + self.patience - self.waited
+        self._waits.append([time.perf_counter(), math.inf])
+        try:
+            yield latest
+        finally:
+            self._waits[-1][1] = time.perf_counter()
 
     @property
-    def until(self) -> float:
-        """When the work has to have ended, on `time.perf_counter`."""
-        return self.began + self._latest
+    def waited(self) -> float:
+        """Seconds that others took so far, on top of the time for all."""
+        now = time.perf_counter()
+        return min(sum(min(end, now) - begin for begin, end in self._waits), self.patience)
 
     @property
     def _most_work(self) -> float:
@@ -95,12 +116,18 @@ class Preparing:
 
     @property
     def _latest(self) -> float:
-        return max(self.least_time, SHARE * self.seconds)
+        return max(self.least_time, SHARE * self.seconds) + self.waited
 
     def _refusal(self, found: str, allowed: float) -> InvalidRequestError:
         message = (f"{self.work} {found} on one core, and {allowed:.1f} s may be spent "
                    f"on them by {self.limit}: allow more time, or {self.advice}.")
         return InvalidRequestError([InputError(code="TOO_MUCH_WORK", path="$", message=message)])
+
+
+def patience(most: float) -> float:
+    """Return the seconds that others may take where no time limit is stated, and at most so many.
+    """
+    return min(PATIENCE_WITH_OTHERS, most)
 
 
 UNHURRIED = Preparing()

@@ -11,7 +11,9 @@ from app.conversion.far_legs import Ask, FarLegs
 from app.conversion.places import paths_of, places_of
 from app.conversion.preparing import Preparing, StoppedError
 from app.errors import InputError, InvalidRequestError, NoRoadsError, json_path
-from app.roads.engine import RoadsError, RoadsStoppedError, RoadTable
+from app.roads.engine import (
+    RoadsError, RoadsStoppedError, RoadsUnavailableError, RoadTable,
+)
 from app.roads.nearness import Nearness, estimated, nearness
 from app.roads.roads import Roads
 from app.schemas.request import PlanRequest, RoadsInput
@@ -74,19 +76,27 @@ def road_legs(roads: Roads, profile: str, request: PlanRequest, ground: Straight
     StoppedError
         If the work is to end.
     """
+    with preparing.waiting() as latest:
+        return _legs_by(roads, profile, request, ground, preparing, latest)
+
+
+def _legs_by(roads: Roads, profile: str, request: PlanRequest, ground: Straight,
+             preparing: Preparing, latest: float) -> RoadLegs:
+    """Return the legs that roads tell until an instant; arguments and errors of `road_legs`."""
     stated = request.roads if isinstance(request.roads, RoadsInput) else RoadsInput()
-    engine, lon_lat, until = roads.engine_name(profile), ground.locations, _until(preparing, stated)
+    engine, lon_lat = roads.engine_name(profile), ground.locations
     parts = None
     if len(lon_lat) > roads.full_up_to and request.replan is None:
         parts = nearness(lon_lat, range(len(lon_lat) - len(request.customers)))
+    until = _until(latest, stated)
     try:
         table = (roads.table(profile, lon_lat, until, preparing.should_stop) if parts is None
                  else roads.near_legs(profile, lon_lat, parts, until, preparing.should_stop))
     except RoadsStoppedError as error:
         raise StoppedError("The work was stopped before there was a plan: try again.") from error
     except RoadsError as error:
-        if time.perf_counter() >= preparing.until:
-            raise _too_slow(profile, len(lon_lat), preparing) from error
+        if stated.fallback is None and _is_late(error):
+            raise _too_slow(profile, len(lon_lat), latest, preparing) from error
         if stated.fallback is None:
             raise NoRoadsError(f"The roads of {profile!r}: {error} Try again, or state "
                                "roads.fallback.") from error
@@ -100,9 +110,14 @@ def road_legs(roads: Roads, profile: str, request: PlanRequest, ground: Straight
     return legs.with_far_ones(parts, ground.distances_m, partial(roads.some_legs, profile), lon_lat)
 
 
-def _too_slow(profile: str, count: int, preparing: Preparing) -> InvalidRequestError:
+def _is_late(error: RoadsError) -> bool:
+    return isinstance(error, RoadsUnavailableError) and error.is_late
+
+
+def _too_slow(profile: str, count: int, latest: float,
+              preparing: Preparing) -> InvalidRequestError:
     message = (f"The roads of {profile!r} didn't tell the legs between {count} places within "
-               f"{preparing.until - preparing.began:.1f} s, as long as may be spent on them by "
+               f"{latest - preparing.began:.1f} s, as long as may be spent on them by "
                f"{preparing.limit}: state a longer time_limit, or submit a job (POST /jobs), whose "
                "time begins when its legs are there. Legs that were told are kept: the same "
                "places are quick from then on.")
@@ -110,11 +125,11 @@ def _too_slow(profile: str, count: int, preparing: Preparing) -> InvalidRequestE
                                            message=message)])
 
 
-def _until(preparing: Preparing, stated: RoadsInput) -> float:
+def _until(latest: float, stated: RoadsInput) -> float:
     now = time.perf_counter()
-    if stated.fallback is None or preparing.until == float("inf"):
-        return preparing.until
-    return now + FALLBACK_SHARE * (preparing.until - now)
+    if stated.fallback is None or latest == float("inf"):
+        return latest
+    return now + FALLBACK_SHARE * (latest - now)
 
 
 class _Legs:

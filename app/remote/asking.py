@@ -133,6 +133,11 @@ class _Round:
     def __init__(self, at_once: int) -> None:
         self.gate = asyncio.Semaphore(at_once)
         self.has_failed = False
+        self.trouble = ""  # of the last attempt after which a question is asked again
+
+    def note(self, state: RetryCallState) -> None:
+        """Note why a question is asked again. In place."""
+        self.trouble = str(state.outcome.exception()) if state.outcome else ""
 
     async def begin(self) -> None:
         """Wait for ever if one has failed: whoever asks ends all others when it is told so."""
@@ -198,7 +203,7 @@ class Asking:
                     raise self._kind.stopped("The work was stopped before there was an answer.")
                 left = until - time.perf_counter()
                 if left <= 0:
-                    raise self._late(until - began)
+                    raise self._late(until - began, together.trouble)
                 for future in wait(pending, min(left, POLL), FIRST_COMPLETED).done:
                     place = pending.pop(future)
                     if future.cancelled():
@@ -240,15 +245,17 @@ class Asking:
         """Return a question's answer, or why there is none."""
         async with together.gate:
             await together.begin()
-            outcome = await self._asked_again(question, until)
+            outcome = await self._asked_again(question, together, until)
             together.has_failed |= isinstance(outcome, Exception) and question.refused is None
             return outcome
 
-    async def _asked_again(self, question: Question[Answer], until: float) -> bytes | SourceError:
+    async def _asked_again(self, question: Question[Answer], together: _Round,
+                           until: float) -> bytes | SourceError:
         """Return a question's answer after some attempts, or why there is none."""
         left = max(until - time.perf_counter(), 0.0)
         attempts = AsyncRetrying(
             retry=retry_if_exception_type(_TransientError), reraise=True, wait=self._pause,
+            before_sleep=together.note,
             stop=stop_any(stop_after_attempt(ATTEMPTS), stop_before_delay(left)))
         try:
             return await attempts(self._attempted, question)
@@ -301,9 +308,11 @@ class Asking:
             return self._refusal(status, body)
         return self._kind.unavailable(f"The {self._kind.name} answered with status {status}.")
 
-    def _late(self, waited: float) -> SourceUnavailableError:
+    def _late(self, waited: float, trouble: str) -> SourceUnavailableError:
+        if trouble:
+            return self._kind.unavailable(f"The {self._kind.name} failed: {trouble}.")
         error = self._kind.unavailable(f"The {self._kind.name} didn't answer in time.")
-        error.counts = waited >= PATIENT
+        error.counts, error.is_late = waited >= PATIENT, True
         return error
 
     def close(self) -> None:

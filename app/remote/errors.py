@@ -13,6 +13,9 @@ class SourceUnavailableError(SourceError):
     counts = True
     """Whether it says anything of the source: not if the caller had no time for an answer."""
 
+    is_late = False
+    """Whether the caller's time was over, and the source hadn't failed before."""
+
 
 class SourceAnswerError(SourceError):
     """The source answered what can't be right, or that it can't answer this."""

@@ -10,12 +10,16 @@ from app.roads.building import Build
 from app.roads.child import MAX_ROUTE, Child
 from app.roads.engine import Block, RoadRoute, RoadsUnavailableError, RoadTable
 from app.roads.osrm import Osrm
+from app.roads.osrm_tables import quickest
 from app.roads.server import RoadServer
 from app.roads.tools import Tools
 from model.problem import FloatArray
 
-PLACES_AT_ONCE = 500
-"""Places of one question, so that no answer is large and stopping is quick."""
+PLACES_AT_ONCE = 2000
+"""Places of one question: where tables are cut, ways are looked for again in each part."""
+
+UNPACKED = {"Accept-Encoding": "identity"}
+"""To pack answers takes longer than to find the ways, and they don't leave the machine."""
 
 PATIENCE, FIRST_WAIT = 300.0, 0.05
 """Most seconds for an answer of the child, whom nobody else asks, and until it is asked again."""
@@ -92,7 +96,7 @@ class EmbeddedRoads:
                 self._asked.append(Osrm(RoadServer(
                     url, max_places=PLACES_AT_ONCE, max_points=MAX_ROUTE, at_once=THREADS,
                     patience=PATIENCE, first_wait=FIRST_WAIT, max_url=LONGEST_ADDRESS,
-                    failures=NEVER)))
+                    failures=NEVER, headers=UNPACKED), form=quickest))
                 if len(self._asked) > KEPT:
                     self._asked.pop(0).close()
             return self._asked[-1]

@@ -10,18 +10,14 @@ import numpy as np
 import polyline
 
 from app.remote.asking import Asking, Question, ShouldStop
-from app.roads.answers import (
-    Part, Schema, TableAnswer, blocks, joined, moved, read, stated_refusal,
-)
+from app.roads.answers import Part, Schema, blocks, joined, moved, read, stated_refusal
 from app.roads.engine import (
     ROADS, Block, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable, whole,
 )
 from app.roads.lines import DECIMALS, decoded, joined_route, route_of, stretches
+from app.roads.osrm_tables import BYTES_BESIDES, Asked, TableForm, in_json
 from app.roads.server import RoadServer
 from model.problem import BoolArray, FloatArray
-
-BYTES_PER_LEG, BYTES_PER_PLACE, BYTES_BESIDES = 64, 1_024, 65_536
-"""More than an answer holds for a leg of a table (both numbers), for a place, and besides."""
 
 COMPANY = 5
 """Places named beside those of a block, if need be, so that not all are of one island."""
@@ -30,10 +26,6 @@ BYTES_PER_ROUTE = 64 << 20
 """More than any route takes."""
 
 Answer = TypeVar("Answer")
-
-
-class _Table(TableAnswer):
-    code: Literal["Ok"]
 
 
 class _Nearest(Schema):
@@ -70,12 +62,20 @@ class _NoSegmentError(RoadsAnswerError):
 
 
 class Osrm:
-    """Roads of one profile from OSRM."""
+    """Roads of one profile from OSRM.
+
+    Parameters
+    ----------
+    form
+        How it is asked for tables.
+    """
 
     name = "osrm"
 
-    def __init__(self, server: RoadServer, profile: str = "driving") -> None:
+    def __init__(self, server: RoadServer, profile: str = "driving",
+                 form: TableForm = in_json) -> None:
         self._server = server
+        self._form = form
         self._profile = quote(profile, safe="")
         self._unlimited = False
         self._asking = Asking(server, ROADS, _refusal)
@@ -105,40 +105,40 @@ class Osrm:
 
     def _table(self, lon_lat: FloatArray, until: float, should_stop: ShouldStop,
                wanted: Sequence[Block]) -> RoadTable:
-        parts, questions = self._cut(lon_lat, wanted)
-        answers = dict(zip(parts, self._asking.ask(questions, until, should_stop), strict=True))
-        unsure = moved(len(lon_lat), answers.items())
+        asked = self._cut(lon_lat, wanted)
+        answers = dict(zip(asked, self._form(self._asking, asked, until, should_stop),
+                           strict=True))
+        unsure = moved(len(lon_lat), _by_block(answers))
         if unsure.any():
-            again = [block for block in parts
-                     if unsure[block.origins].any() or unsure[block.destinations].any()]
-            questions = [self._question(lon_lat, block, _company(block, unsure)) for block in again]
-            answers.update(zip(again, self._asking.ask(questions, until, should_stop),
+            doubted = [one for one in asked if unsure[one.block.origins].any()
+                       or unsure[one.block.destinations].any()]
+            again = [self._asked(lon_lat, one.block, _company(one.block, unsure))
+                     for one in doubted]
+            answers.update(zip(doubted, self._form(self._asking, again, until, should_stop),
                                strict=True))
-        return joined(lon_lat, answers.items())
+        return joined(lon_lat, _by_block(answers))
 
-    def _cut(self, lon_lat: FloatArray,
-             wanted: Sequence[Block]) -> tuple[list[Block], list[Question[Part]]]:
-        """Return blocks that the server takes, and how to ask for them."""
+    def _cut(self, lon_lat: FloatArray, wanted: Sequence[Block]) -> list[Asked]:
+        """Return how to ask for blocks that the server takes."""
         most = self._server.max_places
         while True:
             parts = blocks(wanted, most)
-            questions = [self._question(lon_lat, block) for block in parts]
-            longest = max((len(question.path) for question in questions), default=0)
+            asked = [self._asked(lon_lat, block) for block in parts]
+            longest = max((len(one.whole) for one in asked), default=0)
             if longest <= self._server.max_url or most == 1:
-                return parts, questions
+                return asked
             largest = max(max(len(part.origins), len(part.destinations)) for part in parts)
             most = -(-largest // 2)
 
-    def _question(self, lon_lat: FloatArray, block: Block,
-                  company: Sequence[int] = ()) -> Question[Part]:
-        rows, columns = len(block.origins), len(block.destinations)
-        places = lon_lat[[*block.origins, *block.destinations]]
-        stated = lon_lat[[*block.origins, *block.destinations, *company]]
-        path = (f"{self._path('table', stated)}?annotations=duration,distance&generate_hints=false"
-                f"&sources={_listed(range(rows))}"
-                f"&destinations={_listed(range(rows, rows + columns))}{self._radii(len(stated))}")
-        most = rows * columns * BYTES_PER_LEG + len(places) * BYTES_PER_PLACE + BYTES_BESIDES
-        return Question(path, partial(_part, block, places), most)
+    def _asked(self, lon_lat: FloatArray, block: Block, company: Sequence[int] = ()) -> Asked:
+        named = np.unique([*block.origins, *block.destinations, *company])
+        origins, destinations = (np.searchsorted(named, places)
+                                 for places in (block.origins, block.destinations))
+        # OSRM makes no table of one place.
+        places = lon_lat[named if len(named) > 1 else named.repeat(2)]
+        return Asked(block, self._path("table", places),
+                     f"&generate_hints=false{self._radii(len(places))}", places, origins,
+                     destinations)
 
     def _radii(self, count: int) -> str:
         """Return that each place is to be put on the nearest road however far that is."""
@@ -180,12 +180,8 @@ def _company(block: Block, unsure: BoolArray) -> list[int]:
     return chosen[spread].tolist()
 
 
-def _listed(places: range) -> str:
-    return ";".join(map(str, places))
-
-
-def _part(block: Block, places: FloatArray, body: bytes) -> Part:
-    return read(_Table, body).part(block, places)
+def _by_block(answers: dict[Asked, Part]) -> list[tuple[Block, Part]]:
+    return [(asked.block, part) for asked, part in answers.items()]
 
 
 def _route(points: int, body: bytes) -> RoadRoute:

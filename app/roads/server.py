@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-import httpx
+from app.remote.servers import require_address, require_positive
 
 
 @dataclass(frozen=True)
@@ -45,15 +45,8 @@ class RoadServer:
     headers: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
-        try:
-            url = httpx.URL(self.url)
-        except httpx.InvalidURL as error:
-            raise ValueError(f"A server of roads has no such address: {error}") from error
-        if url.scheme not in ("http", "https") or not url.host or url.query or url.fragment:
-            raise ValueError("The address of a server of roads must be as http://host:port is")
+        require_address(self.url, "a server of roads")
         if self.max_points < 2:
             raise ValueError("max_points of a server of roads must be at least 2")
-        for name in ("max_places", "at_once", "patience", "first_wait", "max_url", "failures",
-                     "rest"):
-            if not getattr(self, name) > 0:
-                raise ValueError(f"{name} of a server of roads must be positive")
+        require_positive(self, ("max_places", "at_once", "patience", "first_wait", "max_url",
+                                "failures", "rest"), "a server of roads")

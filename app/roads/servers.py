@@ -1,9 +1,8 @@
 """Which server answers for a profile, as its operator states it."""
 
-from dataclasses import replace
 from typing import Literal
-from urllib.parse import parse_qsl, urlsplit, urlunsplit
 
+from app.remote.servers import Options, numbers_of, parted
 from app.roads.engine import RoadEngine
 from app.roads.openrouteservice import MAX_PLACES as ORS_PLACES
 from app.roads.openrouteservice import MAX_POINTS as ORS_POINTS
@@ -25,8 +24,15 @@ PROFILES: dict[ServerKind, dict[str, str]] = {
 
 CARS: dict[ServerKind, str] = {"osrm": "driving", "valhalla": "auto", "ors": "driving-car"}
 
-WHOLE, BROKEN = ("max_places", "max_points", "at_once", "max_url", "failures"), ("patience", "rest")
-"""Options of an address that are whole numbers, and those that needn't be."""
+LIMITS: dict[ServerKind, dict[str, int]] = {
+    "osrm": {},
+    "valhalla": {"max_places": VALHALLA_PLACES, "max_points": VALHALLA_POINTS},
+    "ors": {"max_places": ORS_PLACES, "max_points": ORS_POINTS},
+}
+"""What servers take at once as they come, where it is less than of OSRM's."""
+
+OPTIONS = Options(("max_places", "max_points", "at_once", "max_url", "failures"),
+                  ("patience", "rest"), ("profile", "key", "key_parameter"))
 
 
 def server_engine(kind: ServerKind, address: str, profile: str) -> RoadEngine:
@@ -44,33 +50,17 @@ def server_engine(kind: ServerKind, address: str, profile: str) -> RoadEngine:
     ValueError
         If it can't be read.
     """
-    parts = urlsplit(address)
-    options = dict(parse_qsl(parts.query, keep_blank_values=True))
-    name = options.pop("profile", PROFILES[kind].get(profile, CARS[kind]))
-    key, parameter = options.pop("key", None), options.pop("key_parameter", None)
+    url, options = parted(address)
+    limits = numbers_of(options, OPTIONS, "a server of roads")
+    name = options.get("profile", PROFILES[kind].get(profile, CARS[kind]))
+    key, parameter = options.get("key"), options.get("key_parameter")
     if parameter is not None and (key is None or kind != "valhalla"):
         raise ValueError("key_parameter is for a server of Valhalla with a key")
-    server = RoadServer(urlunsplit(parts._replace(query="")).rstrip("/"),
-                        headers={} if key is None or parameter is not None
-                        else {"Authorization": key})
+    headers = {} if key is None or parameter is not None else {"Authorization": key}
+    server = RoadServer(url, headers=headers, **(LIMITS[kind] | limits))  # type: ignore[arg-type]
     if kind == "osrm":
-        return Osrm(_limited(server, options), name)
+        return Osrm(server, name)
     if kind == "valhalla":
-        usual = replace(server, max_places=VALHALLA_PLACES, max_points=VALHALLA_POINTS)
         stated = {} if key is None or parameter is None else {parameter: key}
-        return Valhalla(_limited(usual, options), name, stated)
-    usual = replace(server, max_places=ORS_PLACES, max_points=ORS_POINTS)
-    return OpenRouteService(_limited(usual, options), name)
-
-
-def _limited(server: RoadServer, options: dict[str, str]) -> RoadServer:
-    unknown = options.keys() - {*WHOLE, *BROKEN}
-    if unknown:
-        raise ValueError(f"A server of roads has no option {min(unknown)!r}: it has "
-                         f"{', '.join((*WHOLE, *BROKEN, 'profile', 'key', 'key_parameter'))}")
-    try:
-        whole = {name: int(options[name]) for name in WHOLE if name in options}
-        broken = {name: float(options[name]) for name in BROKEN if name in options}
-    except ValueError:
-        raise ValueError("An option of a server of roads is no number") from None
-    return replace(server, **whole, **broken)  # type: ignore[arg-type]
+        return Valhalla(server, name, stated)
+    return OpenRouteService(server, name)

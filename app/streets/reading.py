@@ -57,7 +57,6 @@ def _bounds(osmium: Any, extract: Path) -> Box:
     with osmium.io.Reader(str(extract), osmium.osm.NODE) as reader:
         box = reader.header().box()
     if not box.valid():
-        box = osmium.osm.Box()
         for node in osmium.FileProcessor(str(extract), osmium.osm.NODE):
             box.extend(node.location)
     if not box.valid():

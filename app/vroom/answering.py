@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from app.conversion.preparing import Preparing
+from app.conversion.preparing import Preparing, patience
 from app.errors import InvalidRequestError
 from app.load.bodies import ReceivedBody
 from app.roads.roads import NO_ROADS, Roads
@@ -89,7 +89,8 @@ def preparing_of(stated: VroomOptionsInput, began: float, settings: Settings,
         f"the time limit of {seconds:g} s, which options.l states up to "
         f"{settings.max_plan_seconds:g} s (TANDEM_MAX_PLAN_SECONDS)", began=began,
         work="Legs and a first plan",
-        advice="send fewer jobs, or fewer vehicles that drive unlike each other")
+        advice="send fewer jobs, or fewer vehicles that drive unlike each other",
+        patience=patience(settings.max_plan_seconds) if stated.l is None else 0.0)
 
 
 def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: ReceivedBody,
@@ -109,7 +110,7 @@ def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: 
     start = stated_routes(request, places, planning.kinds)
     loaded = time.perf_counter()
     seconds = search_seconds(stated.options, settings) - SECONDS_PER_JOB * len(request.jobs)
-    found = planning.find(body.received_at + seconds, start)
+    found = planning.find(body.received_at + preparing.waited + seconds, start)
     routes = name_vehicles(request, places, planning.kinds, found.routes)
     solved = time.perf_counter()
     return Writer(stated, places, request.is_timed).reply(

@@ -25,7 +25,8 @@ def ask_roads(roads: Roads, profile: str, lon_lat: FloatArray, preparing: Prepar
         If the work is to end.
     """
     try:
-        table = roads.table(profile, lon_lat, preparing.until, preparing.should_stop)
+        with preparing.waiting() as until:
+            table = roads.table(profile, lon_lat, until, preparing.should_stop)
     except RoadsStoppedError as error:
         raise StoppedError("The work was stopped before there was a plan: try again.") from error
     except RoadsError as error:

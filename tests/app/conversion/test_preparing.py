@@ -4,18 +4,24 @@ import json
 import math
 import random
 from collections.abc import Callable
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import httpx
 import pytest
 
-from app.conversion import ground, travels
-from app.conversion.preparing import PATIENCE, Preparing, StoppedError
+from app.conversion import ground, travels, work
+from app.conversion.preparing import (
+    PATIENCE, PATIENCE_WITH_OTHERS, Preparing, StoppedError,
+)
 from app.errors import InvalidRequestError
 from app.jobs.reading import JobReader
+from app.plans.service import preparing
 from app.plans.task import task_of
+from app.requests.bounds import Bounds
 from app.requests.reading import read_request
+from app.schemas.request import OptionsInput
 from app.settings import Settings
 from model.travel.airspace import Flights
 from tests.app.conftest import FirstFitPlanner, ready
@@ -80,6 +86,17 @@ def test_areas_that_cross_too_often_are_refused(client: httpx.Client) -> None:
     assert "14400 times" in error["message"]
 
 
+def test_a_plan_to_go_on_from_that_takes_too_long_is_refused_with_an_estimate(
+        client: httpx.Client, monkeypatch: pytest.MonkeyPatch, smallest: Request) -> None:
+    plan = client.post("/plan", json=smallest).json()
+    going_on = smallest | {"replan": {"plan": plan}}
+    assert client.post("/plan", json=going_on).status_code == 200
+    monkeypatch.setattr(work, "REPLANNED_ROUTE", 1000.0)
+    [error] = client.post("/plan", json=going_on).json()["errors"]
+    assert error["code"] == "TOO_MUCH_WORK"
+    assert error["message"].startswith("Legs and the plan to go on from take about")
+
+
 def test_work_ends_when_the_clock_says_so_though_the_estimate_did_not(
         monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(travels, "legs_seconds", lambda *_: 0.0)
@@ -113,6 +130,44 @@ def test_work_that_does_not_fit_is_refused_before_it_is_done(
     with pytest.raises(InvalidRequestError) as refusal:
         at(spent, limit).expect(expected)
     assert "take about" in refusal.value.errors[0].message
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """Return a list of the one time that it is."""
+    now = [50.0]
+    monkeypatch.setattr("app.conversion.preparing.time",
+                        SimpleNamespace(perf_counter=lambda: now[0]))
+    return now
+
+
+def test_what_roads_take_comes_on_top_of_a_limit_that_nobody_stated(clock: list[float]) -> None:
+    work = replace(preparing(OptionsInput(), Bounds(time_limit=60.0), lambda: False), began=50.0)
+    with work.waiting() as until:
+        assert until == 50.0 + 0.9 + PATIENCE_WITH_OTHERS
+        clock[0] += 3.0
+        work.pause()
+    assert work.waited == 3.0
+    work.pause()
+    work.expect(0.8)
+    with work.waiting() as until:
+        assert until == 50.0 + 0.9 + PATIENCE_WITH_OTHERS
+        clock[0] += PATIENCE_WITH_OTHERS
+    assert work.waited == PATIENCE_WITH_OTHERS
+    with pytest.raises(InvalidRequestError):
+        work.pause()
+
+
+@pytest.mark.parametrize(("options", "bound", "longest"), [
+    (OptionsInput(time_limit=1.0), 60.0, 0.9), (OptionsInput(), 5.0, 5.9)])
+def test_roads_have_no_longer_than_is_stated(clock: list[float], options: OptionsInput,
+                                             bound: float, longest: float) -> None:
+    work = replace(preparing(options, Bounds(time_limit=bound), lambda: False), began=50.0)
+    with work.waiting() as until:
+        assert until == 50.0 + longest
+        clock[0] += longest + 0.1
+    with pytest.raises(InvalidRequestError):
+        work.pause()
 
 
 @pytest.mark.parametrize(("limit", "spent"), [(0.0, 0.51), (0.15, 0.51), (1.0, 0.91), (10.0, 9.1)])

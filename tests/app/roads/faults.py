@@ -38,7 +38,10 @@ class Reply:
 
     def change(self, change: Callable[[Answer], object]) -> None:
         """Send JSON changed in place, if it is an answer of the kind that can be so changed."""
-        answer = json.loads(self.body)
+        try:
+            answer = json.loads(self.body)
+        except ValueError:
+            return
         with suppress(KeyError):
             change(answer)
         self.replace(json.dumps(answer).encode())

@@ -26,6 +26,7 @@ from app.plans.task import task_of
 from app.requests.reading import read_request
 from app.roads.building import build_roads
 from app.roads.osrm import Osrm
+from app.roads.osrm_tables import in_floats, in_json
 from app.roads.roads import Roads
 from app.roads.server import RoadServer
 from app.roads.setting import Extract
@@ -40,7 +41,7 @@ from tests.app.roads.faults import proxied
 
 TRIES = 500
 
-REQUESTS, PLACES = 10, 13
+REQUESTS, PLACES = 11, 13
 """Requests that are tried in turn, and the places of each."""
 
 AT_ONCE = 8
@@ -94,7 +95,8 @@ class Tries:
         chosen = faults.chosen([*bad, *[faults.nothing] * (2 * len(bad))], rng)
         with proxied(self._url, chosen) as proxy:
             engines = [Osrm(RoadServer(proxy.url, max_places=most, first_wait=0.001, patience=0.3,
-                                       failures=10**9)) for most in AT_MOST]
+                                       failures=10**9), form=form)
+                       for form in (in_json, in_floats) for most in AT_MOST]
             with ThreadPoolExecutor(AT_ONCE) as threads:
                 found = Counter(threads.map(self._tried, cycle(engines), range(count),
                                             rng.uniform(*SECONDS, count)))

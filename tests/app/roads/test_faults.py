@@ -112,7 +112,7 @@ def test_block_that_contradicts_others_is_asked_for_again(
         engine.close()
     with proxied(helsinki_osrm, Once(*[NOWHERE] * 5)) as proxy:
         engine = engine_at(proxy.url)
-        with pytest.raises(RoadsError, match="two spots"):
+        with pytest.raises(RoadsError, match=r"two spots|without a road"):
             engine.table(places, soon())
         engine.close()
 
@@ -235,7 +235,7 @@ def test_redirections_are_not_followed(helsinki_osrm: str, places: FloatArray) -
 def test_long_addresses_are_cut(helsinki_osrm: str, places: FloatArray,
                                 true_table: RoadTable) -> None:
     with proxied(helsinki_osrm, lambda: faults.nothing) as proxy:
-        engine = engine_at(proxy.url, max_places=100, max_url=250)
+        engine = engine_at(proxy.url, max_places=100, max_url=225)
         assert_equal(engine.table(places, soon()), true_table)
         engine.close()
     assert proxy.questions == 4
@@ -247,3 +247,18 @@ def test_no_plan_has_a_wrong_leg(tools: Tools, prepared_build: Build) -> None:
     assert found.total() == PLANS
     for outcome in ("all legs true", "said to be estimated", "refused"):
         assert any(outcome in name for name in found), found
+
+
+@pytest.mark.parametrize(("planned", "words", "is_late"), [
+    ((faults.status(503), faults.delay(1_000)), "failed: status 503", False),
+    ((faults.delay(1_000),), "in time", True)])
+def test_who_runs_out_of_time_is_told_what_failed_before(
+        planned: tuple[Fault, ...], words: str, is_late: bool, helsinki_osrm: str,
+        places: FloatArray) -> None:
+    with proxied(helsinki_osrm, Once(faults.nothing, *planned)) as proxy:
+        engine = engine_at(proxy.url, max_places=100)
+        engine.table(places, soon())
+        with pytest.raises(RoadsUnavailableError, match=words) as raised:
+            engine.table(places, soon(0.8))
+        engine.close()
+    assert raised.value.is_late == is_late

@@ -219,10 +219,17 @@ def test_roads_that_fail_are_an_error_or_estimated(error: Exception) -> None:
     assert str(error) in (task.legs[0].note or "")
 
 
+def late() -> RoadsUnavailableError:
+    """Return what roads fail with that have too little time."""
+    error = RoadsUnavailableError("They are late.")
+    error.is_late = True
+    return error
+
+
 def test_roads_are_part_of_the_time_limit() -> None:
-    late = Preparing(began=-1e9, seconds=1.0)
+    hurried = Preparing(began=-1e9, seconds=1.0)
     with pytest.raises(InvalidRequestError, match="1 error") as raised:
-        planned(request(), StatedRoads(RoadsUnavailableError("They are late.")), preparing=late)
+        planned(request(), StatedRoads(late()), preparing=hurried)
     assert raised.value.errors[0].code == "TOO_MUCH_WORK"
 
 
@@ -233,7 +240,7 @@ def test_who_has_too_little_time_for_roads_is_told_what_to_do() -> None:
                   wanted: Sequence[Block] | None = None) -> RoadTable:
             while time.perf_counter() < until:
                 pass
-            raise RoadsUnavailableError("They are late.")
+            raise late()
 
     hurried = Preparing(seconds=0.05, limit="the time_limit of 0.05 s", least_time=0.2)
     with pytest.raises(InvalidRequestError) as raised:

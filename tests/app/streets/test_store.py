@@ -2,6 +2,7 @@
 
 import gzip
 import json
+import re
 from pathlib import Path
 from tempfile import mkstemp
 
@@ -32,6 +33,11 @@ def test_island_is_read(island: Path) -> None:
         "sea": 1, "green": 1, "building": 1, "street": 1}
     (park,) = drawing.shapes["green"]
     assert len(park.geoms[0].interiors) == 1
+
+
+def test_extract_that_does_not_state_its_bounds_has_those_of_its_places(island: Path) -> None:
+    island.write_text(re.sub("<bounds.*?/>", "", island.read_text()))
+    assert read_drawing(island).bounds == (0, 0.001, 0.01, 0.009)
 
 
 def test_tile_shows_street_house_and_park(island: Path, tmp_path: Path) -> None:

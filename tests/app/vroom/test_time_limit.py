@@ -92,7 +92,7 @@ def test_legs_are_not_looked_for_where_there_is_no_time(monkeypatch: pytest.Monk
     # Above what may be asked for however little of the time is over.
     assert legs_seconds(4000, 1, 0, True) > 1.5
     with pytest.raises(VroomError, match="take about") as refusal:
-        asked(crowd(4000, l=1.5), FirstFitPlanner())
+        asked(crowd(4000, l=1.5), FirstFitPlanner(), Settings(max_customers=4000))
     assert refusal.value.code == TOO_LARGE
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
 from sqlalchemy import Engine, inspect, text
 
 from app.access.keys import KeyStore, find_key
@@ -167,6 +168,14 @@ def test_there_is_no_way_back_to_what_never_was(engine: Engine) -> None:
     upgrade(engine)
     with pytest.raises(SchemaError, match="leads back"):
         downgrade(engine, "0000")
+
+
+def test_each_migration_follows_the_one_before_and_one_is_the_newest() -> None:
+    scripts = ScriptDirectory(str(FOLDER))
+    versions = sorted(script.revision for script in scripts.walk_revisions())
+    assert scripts.get_heads() == [versions[-1]] == [newest()]
+    before = {script.revision: script.down_revision for script in scripts.walk_revisions()}
+    assert before == dict(zip(versions, [None, *versions[:-1]], strict=True))
 
 
 def test_migrations_are_installed_with_the_service() -> None:
