@@ -64,6 +64,8 @@ class Past:
     unavailable: frozenset[Vehicle] = frozenset()  # do nothing more
     pinned: Mapping[int, Vehicle] = field(default_factory=dict)  # customer -> who alone may serve
     returned: Mapping[int, int] = field(default_factory=dict)  # customer -> parcel is back then
+    orders: Mapping[Vehicle, tuple[int, ...]] = field(default_factory=dict)
+    """Whom trucks served before, in their order, where pinned customers keep their places."""
 
     def under_way(self, vehicle: Vehicle) -> KnownTrip | None:
         """Return the trip that a vehicle is on and may add to."""

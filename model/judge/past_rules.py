@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
 from model.judge.rules import Violation, seconds
 from model.problem import Problem
-from model.solution import Route, Solution, Sortie, Stop, Trip
+from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
-PAST_RULES = frozenset({"FROZEN", "PAST", "UNAVAILABLE", "ABOARD", "PINNED", "RETURN"})
+PAST_RULES = frozenset({"FROZEN", "PAST", "UNAVAILABLE", "ABOARD", "PINNED", "ORDER", "RETURN"})
 """Codes of the rules here."""
 
 
@@ -32,6 +32,7 @@ def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict
     known = past.trips.get(vehicle, ())
     if vehicle in past.unavailable and len(route.trips) > len(known):
         yield Violation("UNAVAILABLE", f"does nothing more from {seconds(past.now)} on", path)
+    yield from _order_violations(problem, route, past, vehicle, path)
     for number, trip in enumerate(route.trips):
         trip_path = f"{path}.trips[{number}]"
         begun = known[number] if number < len(known) else None
@@ -54,6 +55,30 @@ def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict
             if begun is None and trip.stops and trip.stops[0].arrival < back:
                 message = f"the parcel of {name} is at the depot again at {seconds(back)}"
                 yield Violation("RETURN", message, trip_path)
+
+
+def _order_violations(problem: Problem, route: Route, past: Past, vehicle: Vehicle,
+                      path: str) -> Iterator[Violation]:
+    """Yield who isn't at the place in the order that it keeps, by when service starts."""
+    places = {node: place for place, node in enumerate(past.orders.get(vehicle, ()))}
+    served = sorted((visit.service_start, places[visit.node], visit.node) for trip in route.trips
+                    for visit in _visits(trip) if visit.node in places)
+    for at, (start, place, node) in enumerate(served):
+        if node not in past.pinned:
+            continue
+        before = [other for other in served[:at] if other[0] < start and other[1] > place]
+        after = [other for other in served[at:] if other[0] > start and other[1] < place]
+        for _, _, other in before[:1] or after[:1]:
+            order = "after" if before else "before"
+            message = (f"{problem.customer_at(node).id} is served {order} "
+                       f"{problem.customer_at(other).id}")
+            yield Violation("ORDER", message, path)
+
+
+def _visits(trip: Trip) -> Iterator[Stop | Visit]:
+    yield from trip.stops[1:-1]
+    for sortie in trip.sorties:
+        yield from sortie.visits
 
 
 def _new_customers(trip: Trip, begun: KnownTrip | None) -> Iterator[int]:

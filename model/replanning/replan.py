@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, check
 from model.judge.explain import Reason, explain_type, unexplained
+from model.judge.memory import Memory
 from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
 from model.judge.rules import Violation
@@ -17,6 +18,7 @@ from model.planner import (
 from model.problem import Problem
 from model.replanning.handover import hand_over, settled, take_back
 from model.replanning.kept import Kept, kept_routes
+from model.replanning.order import in_order, orders_of
 from model.replanning.remainder import Remainder, what_is_left
 from model.replanning.workers import find_workers, vehicle_name
 from model.solution import Route, Solution
@@ -44,6 +46,7 @@ class Terms:
     pinned: frozenset[int] = frozenset()  # customers who stay with their vehicles
     unavailable: frozenset[Vehicle] = frozenset()  # do nothing more
     parcels_back: int | None = None  # ms; when theirs are at the depot again; None: now
+    keeps_order: bool = False  # whether pinned customers keep their places in the order, too
 
 
 @dataclass(frozen=True)
@@ -89,6 +92,7 @@ class Replanning:
         workers, returned = find_workers(problem, past, self._kept)
         self.past = replace(past, returned=returned)
         self._left = what_is_left(problem, self.past, self._kept, workers)
+        self._judge = Memory(problem, self.past)
 
     @property
     def kept(self) -> tuple[Kept, ...]:
@@ -97,7 +101,7 @@ class Replanning:
 
     def check(self, solution: Solution) -> Evaluation:
         """Judge a plan; what is excused is no violation."""
-        evaluation = check(self.problem, solution, self.past)
+        evaluation = self._judge.check(solution)
         excused = set(self.excused)
         return replace(evaluation, violations=tuple(
             violation for violation in evaluation.violations if violation not in excused))
@@ -115,13 +119,12 @@ class Replanning:
         plan = self._plan if start is None else start
         kept = self._kept if start is None else kept_routes(self.problem, start, self.past)
         bridge = _Bridge(self.problem, self.past, plan, kept, self._left)
-        first = _begin(self._left, hand_over(self.problem, plan, kept, self._left), options,
-                       listener.should_stop)
-        solution = bridge.whole(first)
-        before = self._legal(solution)
-        result = planner.plan(self._left.problem, options, received_at,
+        first, solution, before = self._beginning(
+            bridge, hand_over(self.problem, plan, kept, self._left), options,
+            listener.should_stop)
+        result = planner.plan(self._in_order(self._left, first), options, received_at,
                               _relayed(listener, before.cost.total, bridge), first)
-        found = bridge.whole(result.solution)
+        found = solution if result.solution is first else bridge.whole(result.solution)
         evaluation = self.check(found)
         if evaluation.is_feasible and evaluation.cost.total <= before.cost.total:
             solution = found
@@ -146,6 +149,27 @@ class Replanning:
             return unexplained(self.problem)
         return tuple(self._reason(solution, kind, node, until)
                      for kind in range(len(self.problem.vehicle_types)))
+
+    def _beginning(self, bridge: _Bridge, handed: Solution, options: PlanOptions,
+                   should_stop: Callable[[], bool]) -> tuple[Solution, Solution, Evaluation]:
+        """Return where the search begins, of what is left and as a whole, and its judgement."""
+        has_orders = bool(self.past.orders)
+        first = _begin(bridge.left, handed, options, should_stop, has_orders)
+        solution = bridge.whole(first)
+        if has_orders and self.check(solution).violations:
+            # Who came in between was at another place before.
+            first, solution = handed, bridge.whole(handed)
+        return first, solution, self._legal(solution)
+
+    def _in_order(self, left: Remainder, first: Solution) -> Problem:
+        """Return what is left, those at their places in `first` who keep them."""
+        if not self.past.orders:
+            return left.problem
+        here = {node: index for index, node in enumerate(left.nodes)}
+        pinned = {here[node] for node in self.past.pinned if node in here}
+        orders = [[here[node] for node in order if node in here]
+                  for order in self.past.orders.values()]
+        return in_order(left.problem, first, pinned, orders)
 
     def _legal(self, solution: Solution) -> Evaluation:
         evaluation = self.check(solution)
@@ -188,7 +212,8 @@ def _past(problem: Problem, terms: Terms) -> Past:
                            *(visit.node for sortie in trip.sorties for visit in sortie.visits))
               if node in terms.pinned
               and (route.vehicle_type, route.vehicle) not in terms.unavailable}
-    return Past(terms.now or 0, known, terms.unavailable, pinned)
+    orders = orders_of(terms.plan) if terms.keeps_order and pinned else {}
+    return Past(terms.now or 0, known, terms.unavailable, pinned, orders=orders)
 
 
 def _as_given(plan: Solution, settled: Solution,
@@ -228,12 +253,14 @@ def _returned(problem: Problem, kept: Mapping[Vehicle, Kept], terms: Terms) -> d
 
 
 def _begin(left: Remainder, begun: Solution, options: PlanOptions,
-           should_stop: Callable[[], bool]) -> Solution:
+           should_stop: Callable[[], bool], has_orders: bool) -> Solution:
     """Return what is left of the plan given; if no search follows, with those whom it lacks.
 
-    They are inserted where that costs least, as a search does at its beginning.
+    They are inserted where that costs least, as a search does at its beginning. Where some keep
+    their places in the order, windows leave it little room to do so later.
     """
-    if (options.time_limit > 0 and options.search_iterations != 0) or not begun.unassigned:
+    searches = options.time_limit > 0 and options.search_iterations != 0 and not has_orders
+    if searches or not begun.unassigned:
         return begun
     filled = complete_plan(left.problem, begun, options.seed, should_stop)
     before, after = check(left.problem, begun), check(left.problem, filled)

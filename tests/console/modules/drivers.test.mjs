@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { goOnAsTold, linksByVehicle, openDispatches, standingText, withMade } from '../../../app/console/static/js/core/dispatches.js';
+import { goOnAsTold, linksByVehicle, nextOrder, openDispatches, standingText, withMade } from '../../../app/console/static/js/core/dispatches.js';
 import { pointText } from '../../../app/console/static/js/core/format.js';
 import { clock, windowText } from '../../../app/dispatches/static/js/clocks.js';
 import { linkOf, tokenOf } from '../../../app/dispatches/static/js/link.js';
@@ -103,8 +103,30 @@ test('a parcel that comes back is released when it is back', () => {
   const asked = goOnAsTold({ customers }, { replan: { plan, freeze_before: 60 }, failed });
   assert.deepEqual(asked.customers, [
     { id: 'A', release_time: 99999 }, { id: 'B', release_time: 501 }, { id: 'C' },
+    { id: 'C (again)', release_time: 501 },
   ]);
   assert.deepEqual(asked.replan, { plan, freeze_before: 60 });
+});
+
+test('whoever failed at a drone is ordered anew, each time once', () => {
+  const replan = { plan: { routes: [] }, freeze_before: 60 };
+  const told = (customer) => ({ customer, is_open: false, parcel_back: 500 });
+  const ids = ({ customers }) => customers.map(({ id }) => id);
+  const once = goOnAsTold({ customers: [{ id: 'C' }] }, { replan, failed: [told('C')] });
+  assert.deepEqual(ids(once), ['C', 'C (again)']);
+  const twice = goOnAsTold(once, { replan, failed: [told('C')] });
+  assert.deepEqual(ids(twice), ['C', 'C (again)']);
+  const failed = [told('C'), told('C (again)')];
+  assert.deepEqual(ids(goOnAsTold(once, { replan, failed })), ['C', 'C (again)', 'C (again 2)']);
+  assert.equal(nextOrder('C (again 2)'), 'C (again 3)');
+});
+
+test('whose drone was neither launched nor recovered is still the same order', () => {
+  const replan = { plan: { routes: [] }, freeze_before: 60 };
+  const told = { customer: 'C', parcel_back: 500 };
+  const failed = [{ ...told, is_open: true }, { ...told, is_open: false }];
+  const { customers } = goOnAsTold({ customers: [{ id: 'C' }] }, { replan, failed });
+  assert.deepEqual(customers, [{ id: 'C', release_time: 500 }]);
 });
 
 test('a vehicle is broken until it is told to go on', () => {

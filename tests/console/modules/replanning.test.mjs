@@ -124,6 +124,9 @@ test('going on keeps pins of whom the plan serves, and what is broken', () => {
   const kept = { pinned: ['E'], unavailable: ['van-3'] };
   assert.deepEqual(replan, { ...kept, plan: PLAN, freeze_before: 90 });
   assert.equal(furtherFrom(first, { plan: PLAN }).replan.freeze_before, 50);
+  assert.equal(furtherFrom(first, { plan: PLAN }).replan.keep_order, undefined);
+  assert.equal(furtherFrom(first, { plan: PLAN }, ['gone']).replan.keep_order, undefined);
+  assert.equal(furtherFrom(first, { plan: PLAN }, ['E']).replan.keep_order, true);
   assert.equal(fromNothing(first).replan, undefined);
 });
 

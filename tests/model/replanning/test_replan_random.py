@@ -154,7 +154,8 @@ def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator,
     broken = frozenset(Vehicle(route.vehicle_type, route.vehicle) for route in plan.routes
                        if rng.random() < 0.15)
     pinned = frozenset(node for node in served(*given.routes) if rng.random() < 0.1)
-    replanning = Replanning(problem, Terms(given, now, pinned, broken))
+    keeps_order = rng.random() < 0.5
+    replanning = Replanning(problem, Terms(given, now, pinned, broken, keeps_order=keeps_order))
     result = replanning.plan(planner, OPTIONS)
     assert replanning.check(result.solution).violations == ()
     assert result.final_cost <= result.decoded_cost
@@ -166,8 +167,16 @@ def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator,
     for node in result.solution.unassigned:
         assert len(replanning.reasons(result.solution, node)) == len(problem.vehicle_types)
     again = replanning.plan(planner, replace(OPTIONS, search_iterations=0), start=result.solution)
-    assert again.final_cost == pytest.approx(result.final_cost)
+    assert_as_cheap(again.final_cost, result.final_cost, keeps_order)
     replan_later(planner, problem, result.solution, now + (max(times) - now) // 2, broken)
+
+
+def assert_as_cheap(again: float, before: float, keeps_order: bool) -> None:
+    """Fail if a plan gone on from has another cost; where order is kept, it may serve more."""
+    if keeps_order:
+        assert again <= before * (1 + 1e-9)
+    else:
+        assert again == pytest.approx(before)
 
 
 def replan_later(planner: Planner, problem: Problem, plan: Solution, now: int,

@@ -44,9 +44,16 @@ export const DONE = {
   return: 'I am back',
 };
 
+/** Why steps fail most often, by their kind. */
+export const REASONS = {
+  stop: ['Nobody there', 'Refused', 'Wrong address', 'Damaged', 'No time left'],
+  launch: ['Too much wind', 'Drone is broken', 'Battery is empty', 'No time left'],
+  recover: ['Came back with the parcel', 'Did not come back'],
+};
+
 /** Whether a step can fail. */
 export function mayFail({ kind }) {
-  return kind === 'stop' || kind === 'launch' || kind === 'recover';
+  return kind in REASONS;
 }
 
 /** Return what a step is called. */

@@ -17,13 +17,12 @@ import {
   isSome,
   mayFail,
   nextStep,
+  REASONS,
   standings,
   telephone,
   titleOf,
   VEHICLE,
 } from './steps.js';
-
-const REASONS = ['Nobody there', 'Refused', 'Wrong address', 'Damaged', 'No time left'];
 
 /** A page that has nothing but something to say. */
 export function Message({ text }) {
@@ -171,7 +170,7 @@ function Actions({ step, state, reason, onTell }) {
         onClick=${() => setFailing(true)}>Failed</button>`}</div>`;
   }
   return html`<fieldset><legend>Why?</legend>
-    <div class="actions">${REASONS.map(
+    <div class="actions">${REASONS[step.kind].map(
       (known) => html`<button type="button" key=${known} class="button"
         aria-pressed=${text === known} onClick=${() => setText(known)}>${known}</button>`,
     )}</div>

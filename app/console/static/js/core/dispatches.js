@@ -70,17 +70,26 @@ export function standingText({ state, opened_at: opened, done, failed, steps, st
   return `${broken}${far}${at}${lost}${state === 'over' ? '; the day is over' : ''}`;
 }
 
-/** Return the request that goes on from what drivers told: see `GET /dispatches/{id}/replan`. */
+/**
+ * Return the request that goes on from what drivers told: see `GET /dispatches/{id}/replan`.
+ *
+ * Whoever failed where a drone was launched or met, or by a drone, stays in the plan as if served,
+ * and is ordered anew under another id.
+ */
 export function goOnAsTold(request, { replan, failed }) {
-  const back = new Map(
-    failed
-      .filter(({ is_open: isOpen }) => isOpen)
-      .map(({ customer, parcel_back: time }) => [customer, Math.ceil(time)]),
-  );
-  const customers = request.customers.map((customer) => {
-    const time = back.get(customer.id);
-    if (time === undefined) return customer;
-    return { ...customer, release_time: Math.max(customer.release_time ?? 0, time) };
+  // Of a flight that wasn't launched, the recovery may be told to have failed too.
+  const isLast = (told) => (told.is_open ? 1 : 0);
+  const sorted = [...failed].sort((one, other) => isLast(one) - isLast(other));
+  const back = new Map(sorted.map((told) => [told.customer, told]));
+  const ids = new Set(request.customers.map(({ id }) => id));
+  const customers = request.customers.flatMap((customer) => {
+    const told = back.get(customer.id);
+    if (!told) return [customer];
+    const time = Math.max(customer.release_time ?? 0, Math.ceil(told.parcel_back));
+    const again = { ...customer, release_time: time };
+    if (told.is_open) return [again];
+    const id = nextOrder(customer.id);
+    return ids.has(id) ? [customer] : [customer, { ...again, id }];
   });
   const changed = back.size ? { ...request, customers } : request;
   const next = goOnFrom(changed, replan.plan, replan.freeze_before);
@@ -88,4 +97,11 @@ export function goOnAsTold(request, { replan, failed }) {
   return broken.size
     ? { ...next, replan: { ...next.replan, unavailable: [...broken] } }
     : next;
+}
+
+/** Return the id of a customer who is ordered anew: `B (again)`, then `B (again 2)`. */
+export function nextOrder(id) {
+  const [, name, number] = /^(.*) \(again(?: (\d+))?\)$/s.exec(id) ?? [null, id, null];
+  if (name === id) return `${id} (again)`;
+  return `${name} (again ${Number(number ?? 1) + 1})`;
 }

@@ -30,11 +30,16 @@ function withoutUndefined(entries) {
   return Object.fromEntries(Object.entries(entries).filter(([, value]) => value !== undefined));
 }
 
-/** Return the request that looks for a cheaper plan from an entry on; who is locked is pinned. */
+/**
+ * Return the request that looks for a cheaper plan from an entry on.
+ *
+ * Whoever is locked stays with its vehicle and at its place in the order.
+ */
 export function furtherFrom(request, entry, locks = []) {
   const replan = { ...request.replan, plan: entry.plan };
   const pinned = [...new Set([...(replan.pinned ?? []), ...locks])];
   if (pinned.length) replan.pinned = pinnedIn(entry.plan, { pinned });
+  if (pinnedIn(entry.plan, { pinned: locks }).length) replan.keep_order = true;
   return { ...request, replan };
 }
 

@@ -1,0 +1,93 @@
+"""Pinned customers keep their places in the order of their trucks, if that is asked for."""
+
+import pytest
+
+from model.judge.check import check
+from model.judge.past import Past
+from model.planner import Planner
+from model.problem import Customer, Problem
+from model.replanning.order import in_order, orders_of
+from model.replanning.replan import Terms
+from model.solution import Solution
+from tests.model.street import (
+    MINUTE, ONE, A, B, C, D, planned, replan, route_of, served, with_customer,
+)
+
+HOURLY = 10.0
+
+
+def tour(solution: Solution) -> list[int]:
+    """Return whom the first truck serves, in its order."""
+    return [stop.node for trip in route_of(solution, ONE).trips for stop in trip.stops[1:-1]]
+
+
+def test_pinned_customers_keep_their_order_only_if_asked_to(planner: Planner,
+                                                            street: Problem) -> None:
+    # A, B, C and D lie one behind the other.
+    plan = planned(street, ((B, D, A, C),))
+    pinned = frozenset({A, B, C, D})
+    free = replan(planner, street, Terms(plan, pinned=pinned))
+    held = replan(planner, street, Terms(plan, pinned=pinned, keeps_order=True))
+    assert tour(held) == [B, D, A, C]
+    assert check(street, free).cost.total < check(street, held).cost.total
+
+
+def test_whom_a_pinned_customer_comes_before_is_served_behind_it(planner: Planner,
+                                                                 street: Problem) -> None:
+    plan = planned(street, ((B, D, A, C),))
+    solution = replan(planner, street, Terms(plan, pinned=frozenset({D}), keeps_order=True))
+    (place,) = [place for place, node in enumerate(tour(solution)) if node == D]
+    assert {A, C}.isdisjoint(tour(solution)[:place])
+    assert B not in tour(solution)[place:]
+    assert served(*solution.routes) == {A, B, C, D}
+
+
+def test_others_may_come_between(planner: Planner, street: Problem) -> None:
+    plan = planned(street, ((B, D),))
+    solution = replan(planner, street, Terms(plan, pinned=frozenset({B, D}), keeps_order=True))
+    assert [node for node in tour(solution) if node in (B, D)] == [B, D]
+    assert served(*solution.routes) == {A, B, C, D}
+
+
+def test_checker_tells_who_left_its_place(street: Problem) -> None:
+    plan = planned(street, ((B, A, C),))
+    past = Past(pinned={A: ONE}, orders=orders_of(plan))
+
+    def told(*tours: tuple[int, ...]) -> list[str]:
+        changed = planned(street, *((tour,) for tour in tours))
+        return [item.message for item in check(street, changed, past).violations
+                if item.code == "ORDER"]
+
+    assert told((B, A, C)) == told((B, D, A, C)) == told((A, C), (B,)) == []
+    assert told((A, B, C)) == ["a is served before b"]
+    assert told((B, C, A)) == ["a is served after c"]
+
+
+@pytest.mark.parametrize(("changes", "expected"), [
+    ({}, {}),
+    ({"earliest": 3 * MINUTE, "gaps": ((12 * MINUTE, 20 * MINUTE),)},
+     {"earliest": 3 * MINUTE, "latest": 12 * MINUTE}),
+    ({"late_cost_per_hour": HOURLY}, {}),
+    ({"late_cost_per_hour": HOURLY, "latest": 5 * MINUTE}, {}),
+    ({"latest": 12 * MINUTE}, {"latest": 12 * MINUTE}),
+])
+def test_windows_say_the_order_and_hold_the_plan_given(
+        street: Problem, changes: dict[str, object], expected: dict[str, int]) -> None:
+    # From 9 to 14 min at B, which C is two minutes behind.
+    plan = planned(with_customer(street, B, **changes), ((A, B, C),))
+    ordered = in_order(with_customer(street, B, **changes), plan, {C})
+    bounded: Customer = ordered.customer_at(B)
+    assert {"earliest": bounded.earliest, "latest": bounded.latest} == {
+        "earliest": 0, "latest": 15 * MINUTE} | expected
+    assert (bounded.gaps, bounded.late_cost_per_hour) == ((), None)
+    assert ordered.customer_at(C).earliest == 15 * MINUTE
+    assert ordered.customer_at(C).latest == street.customer_at(C).latest
+    assert not [item for item in check(ordered, plan).violations if item.code == "TIME_WINDOW"]
+
+
+def test_who_is_late_at_the_end_may_stay_late(street: Problem) -> None:
+    late = with_customer(street, B, latest=5 * MINUTE, late_cost_per_hour=HOURLY)
+    plan = planned(late, ((A, B),))
+    last = in_order(late, plan, {A}).customer_at(B)
+    assert (last.earliest, last.latest, last.late_cost_per_hour) == (
+        5 * MINUTE, 5 * MINUTE, HOURLY)
