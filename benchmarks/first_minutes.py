@@ -132,13 +132,17 @@ def run(page: Page, address: str, folder: Path, pictures: Path | None) -> Stopwa
         page.locator("#file-input").set_input_files(
             {"name": "touren.csv", "mimeType": "text/csv", "buffer": sheet()})
         expect(page.locator("#use-import")).to_be_visible()
+    picture("first-opened")
     with watch.step("look it over, state depot and fleet"):
         look_over(watch, page)
     picture("import")
     with watch.step("plan and look at the plan"):
         plan(watch, page)
+    picture("first-planned")
     with watch.step("print the drivers' sheets"):
         print_sheets(watch, page, folder)
+    page.emulate_media(media="print")
+    picture("first-sheet")
     return watch
 
 
@@ -150,7 +154,8 @@ def main(folder: Path = Path("."), pictures: Path | None = None) -> None:
     folder
         Where `driver-sheets.pdf` is written.
     pictures
-        Where a picture of the import is written; none without it.
+        Where pictures are written of the file as it was read, of the import, the plan and a
+        driver's sheet; none without it.
     """
     expect.set_options(timeout=WAIT_MS)
     with service() as address, browser() as chromium:

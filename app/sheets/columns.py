@@ -70,7 +70,10 @@ def columns_of(table: Table, style: Style, mapping: Sequence[ColumnMapping]) -> 
     options = [option for index in range(len(table.headings)) if index not in stated
                for option in _options(table, index, style)]
     taken = {column.meaning for column in found.values()}
-    for column in sorted(options, key=lambda option: -option.confidence):
+    spoken = language_of(options)
+    # `van` is a vehicle in English, and where a window begins in Dutch.
+    for column in sorted(options, key=lambda option: (-option.confidence,
+                                                      option.language != spoken)):
         if column.index in found:
             continue
         if column.meaning in taken and not _may_repeat(column):

@@ -3,7 +3,7 @@
 import re
 import unicodedata
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
 from app.sheets.meanings import CLOCK_UNITS, DURATION_UNITS, MEANINGS, UNITS
@@ -18,9 +18,15 @@ SHORTEST_PART = 5
 
 LONGEST_HEADING = 60
 
+AT_STOP = 0.7
+"""Score of a heading whose word is of stops or goods, but in minutes: the time that they take."""
+
+OF_STOPS = frozenset({"name", "demand", "address", "order"})
+
 _SIGNS = str.maketrans({"ß": "ss", "ł": "l", "ø": "o", "æ": "ae", "œ": "oe", "đ": "d", "³": "3",
                         "²": "2", "№": " no ", "\u0131": "i", "#": " no ", "º": " ", "°": " "})
 _UNIT = re.compile(r"[(\[{](?P<unit>[^)\]}]{1,20})[)\]}]")
+_WORD = re.compile(r"[^\W\d_]{2,20}\.?")
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
 
 
@@ -49,6 +55,11 @@ def unit_named(text: str) -> str | None:
     return UNITS.get(plain) or UNITS.get(simple(text))
 
 
+def without_unit(heading: str) -> str:
+    """Return a heading without the unit that it states in brackets."""
+    return _UNIT.sub(" ", heading).strip() or heading
+
+
 def is_unit(text: str) -> bool:
     """Tell whether a cell below a heading is its unit."""
     return unit_named(text.strip("()[]{} ")) is not None
@@ -61,16 +72,31 @@ def guesses(heading: str) -> tuple[Guess, ...]:
     unit = unit_named(stated["unit"]) if stated else None
     words = simple(_UNIT.sub(" ", heading)).split()
     found = dict(_scored(words, unit))
-    if unit is None and len(words) > 1 and (last := UNITS.get(words[-1])):
+    last = UNITS.get(words[-1]) if unit is None and len(words) > 1 else None
+    if last:
         for meaning, guess in _scored(words[:-1], last):
             better = Guess(meaning, guess.score * 0.97, last, guess.language)
             if _takes(meaning, last) and better.score > found.get(meaning, better).score - 1e-9:
                 found[meaning] = better
+    _read_as_time(found, unit or last)
+    if stated and unit is None and "demand" in found and _WORD.fullmatch(stated["unit"]):
+        found["demand"] = replace(found["demand"], unit=stated["unit"])
     # A heading may say no more than the unit of an amount.
     alone = unit or UNITS.get(words[0]) if len(words) == 1 else unit if not words else None
     if alone and _takes("demand", alone):
         found.setdefault("demand", Guess("demand", 0.9, alone))
     return tuple(sorted(found.values(), key=lambda guess: -guess.score))
+
+
+def _read_as_time(found: dict[str, Guess], unit: str | None) -> None:
+    """Have stops and goods in a unit of time mean how long a stop takes. In place."""
+    if unit not in DURATION_UNITS or not OF_STOPS & found.keys():
+        return
+    language = max((found[meaning] for meaning in OF_STOPS & found.keys()),
+                   key=lambda guess: guess.score).language
+    for meaning in OF_STOPS & found.keys():
+        del found[meaning]
+    found.setdefault("service", Guess("service", AT_STOP, unit, language))
 
 
 def is_known(heading: str, least: float = HEADING) -> bool:

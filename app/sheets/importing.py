@@ -147,8 +147,8 @@ def _day_first(cells: Sequence[tuple[int, int, str]],
 
 
 def _encoding_doubt(file: SheetFile, table: Table) -> Doubt:
-    strange = next((raw for row in table.rows for raw in table.sheet.rows[row]
-                    if isinstance(raw, str) and not raw.isascii()), "")
+    cells = [*table.headings, *(raw for row in table.rows for raw in table.sheet.rows[row])]
+    strange = next((raw for raw in cells if isinstance(raw, str) and not raw.isascii()), "")
     return Doubt("ENCODING_GUESSED", f"The file doesn't say its encoding: {file.encoding} is "
                  f"taken. Check that {strange[:60]!r} is spelt right.")
 
@@ -201,8 +201,8 @@ def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: Imp
     if day is not None and settings.time_zone is not None:
         request = on_day(request, day, settings.time_zone)
     else:
-        work.doubts.append(Doubt("MIDNIGHT", "Times are seconds since midnight"
-                                 + (f" of {day.isoformat()}." if day else ".")))
+        since = f" of {day.isoformat()}" if day else ", of whichever day: no date is stated"
+        work.doubts.append(Doubt("MIDNIGHT", f"Times are counted from midnight{since}."))
     if work.errors and not settings.leave_out_errors:
         return
     wrong, work.warnings = look_over(request, work.stops, road_profiles)

@@ -13,6 +13,7 @@ from app.sheets.columns import Column
 from app.sheets.customers import Entry, placed
 from app.sheets.fleet import Incomplete, fleet_of
 from app.sheets.geography import Ground, Pair, depot_pair, on_globe
+from app.sheets.headings import without_unit
 from app.sheets.rows import Row
 from app.sheets.schemas import ImportSettings
 from app.warnings.finding import warnings_of
@@ -25,6 +26,9 @@ CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "deman
 """Meanings of the columns that fields of a customer come from."""
 
 _PATH = re.compile(r"\$\.customers\[(\d+)\]\.?(\w*)")
+
+LONGEST_NAME, LONGEST_UNIT = 200, 50
+"""Letters of a dimension of the load."""
 
 Data = dict[str, Any]
 
@@ -48,9 +52,19 @@ def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
         doubts.append(Doubt("PLANE", "x and y are taken for places on a plane, in "
                             f"{'kilometres' if in_km else 'metres'}."))
     system = "geographic" if ground.is_geographic else "planar"
-    request: Data = {"coordinate_system": system, **unit, "depots": depot,
+    request: Data = {"coordinate_system": system, **unit, **_loads(columns), "depots": depot,
                      "customers": [stop.customer for stop in stops], "fleet": fleet}
     return request, [*doubts, *assumed]
+
+
+def _loads(columns: Sequence[Column]) -> Data:
+    """Return what amounts are called and counted in, by the headings of their columns."""
+    amounts = [column for column in columns if column.meaning == "demand"]
+    if not amounts or any(not column.heading for column in amounts):
+        return {}
+    return {"load_dimensions": [{"name": without_unit(column.heading)[:LONGEST_NAME],
+                                 **({"unit": column.unit[:LONGEST_UNIT]} if column.unit else {})}
+                                for column in amounts]}
 
 
 def look_over(request: Data, stops: Sequence[Entry], road_profiles: Collection[str]) -> tuple[

@@ -208,7 +208,7 @@ WORDS: dict[str, dict[str, str]] = {
         "fr": "duree|temps de service|temps sur place|duree d arret|temps de dechargement|"
               "duree de service|temps d arret|duree arret",
         "es": "duracion|tiempo de servicio|tiempo de descarga|servicio|tiempo de parada",
-        "it": "durata|tempo di servizio|tempo di scarico|servizio|sosta|tempo sosta",
+        "it": "durata|tempo di servizio|tempo di scarico|servizio|sosta|tempo sosta|tempo scarico",
         "nl": "duur|lostijd|servicetijd|stoptijd|lostijden|verblijftijd",
         "pl": "czas obslugi|czas trwania|czas rozladunku|obsluga|czas postoju",
         "pt": "duracao|tempo de servico|tempo de descarga|servico",

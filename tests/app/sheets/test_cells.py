@@ -197,6 +197,8 @@ def test_the_unit_of_lengths_is_as_stated_or_doubtful(cells: list[Raw], stated: 
     ("N° commande", "order", None), ("deliveryWindowEnd", "latest", None), ("kg", "demand", "kg"),
     ("Dirección", "address", None), ("Telefoonnummer", "phone", None), ("Uwagi", "notes", None),
     ("Drone allowed?", "served_by", None), ("Liczba paczek", "demand", None),
+    ("Tempo scarico (min)", "service", "minutes"), ("Stop minutes", "service", "minutes"),
+    ("Kunde (Min)", "service", "minutes"), ("Menge (Kisten)", "demand", "Kisten"),
 ])
 def test_headings_are_known_in_many_languages(heading: str, meaning: str, unit: str | None) -> None:
     best = guesses(heading)[0]

@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from app.sheets import importing
 from app.sheets.importing import import_file
 from app.sheets.schemas import ImportReply, ImportSettings
 from app.sheets.table import NotASheetError
@@ -71,7 +72,8 @@ def test_nothing_is_inherited_and_what_is_assumed_is_told() -> None:
     assert reply.request is not None
     assert reply.request["depots"] == [{"id": "depot", "location": [11.55, 48.15]}]
     assert reply.request["fleet"] == [{"id": "vehicle", "count": 1, "capacity": [15]}]
-    assert set(reply.request) == {"coordinate_system", "depots", "customers", "fleet"}
+    assert set(reply.request) == {"coordinate_system", "load_dimensions", "depots", "customers",
+                                  "fleet"}
     assert codes(reply) == {"DEPOT_ASSUMED", "FLEET_ASSUMED", "CAPACITY_ASSUMED", "SHIFT_ASSUMED",
                             "MIDNIGHT"}
 
@@ -215,11 +217,13 @@ def test_who_may_serve_skills_costs_and_vehicles() -> None:
     assert first["vehicles"] == {"allowed": ["vehicle-1"]}
 
 
-def test_more_customers_than_can_be_planned_are_refused_in_words() -> None:
-    rows = [f"{number},1,{number}" for number in range(10_001)]
+def test_more_customers_than_can_be_planned_are_refused_in_words(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(importing, "MAX_CUSTOMERS", 10)
+    rows = [f"{number},1,{number}" for number in range(11)]
     reply = read(*rows, head="name,x,y")
     (error,) = reply.errors
-    assert (error.code, error.cell) == ("WRONG_LENGTH", "A10002")
+    assert (error.code, error.cell) == ("WRONG_LENGTH", "A12")
     assert "Cut the file in parts" in error.message
 
 
