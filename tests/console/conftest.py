@@ -9,7 +9,8 @@ from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from tests.console.serving import chromium, serving
 
-WAIT_MS = 30_000
+WAIT_MS, OPENING_MS = 30_000, 120_000
+"""For what a page does, and for opening one while other tests have all cores."""
 
 expect.set_options(timeout=WAIT_MS)
 
@@ -41,6 +42,7 @@ def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
     def opener(address: str, allow: tuple[str, ...] = (), **options: Any) -> Page:
         context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}} | options)
         contexts.append(context)
+        context.set_default_navigation_timeout(OPENING_MS)
         page = context.new_page()
 
         def note(text: str) -> None:

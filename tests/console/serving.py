@@ -35,7 +35,8 @@ def serving(folder: Path, **settings: str) -> Iterator[str]:
         port = listener.getsockname()[1]
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith("TANDEM_")}
-    environment |= {"PYTHONPATH": str(ROOT), "TANDEM_DATA_DIR": str(folder)} | settings
+    environment |= {"PYTHONPATH": str(ROOT), "TANDEM_DATA_DIR": str(folder),
+                    "TANDEM_MAX_CUSTOMERS": "3000"} | settings
     log = folder / "service.log"
     with log.open("wb") as output:
         process = subprocess.Popen([sys.executable, "-m", "app", "serve", "--port", str(port)],

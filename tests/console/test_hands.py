@@ -168,5 +168,6 @@ def test_who_is_locked_stays_where_the_plan_is_improved(hands: Page) -> None:
     assert body is not None
     asked = body["replan"]
     assert (asked["pinned"], len(asked["plan"]["routes"])) == (["A", "B", "C"], 2)
+    assert asked["keep_order"] is True
     expect(hands.get_by_role("region", name="Changes by hand")).to_have_count(0)
     assert sorted("".join(sorted(tour)) for tour in tours(hands)) == ["ADEF", "BC"]

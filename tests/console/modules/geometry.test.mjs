@@ -3,7 +3,9 @@ import test from 'node:test';
 import { Airspace } from '../../../app/console/static/js/core/detour.js';
 import {
   arc,
+  distanceToLine,
   lengthOf,
+  nearestLine,
   planeOf,
   pointAlong,
 } from '../../../app/console/static/js/core/geometry.js';
@@ -114,4 +116,23 @@ test('degrees become metres and back', () => {
   assert.ok(Math.abs(north[1] - south[1] - 111195) < 10);
   const again = fromPlane(toPlane([8.6, 47.3]));
   assert.ok(Math.hypot(again[0] - 8.6, again[1] - 47.3) < 1e-9);
+});
+
+test('a point is as far from a line as from its nearest place', () => {
+  const line = [[0, 0], [10, 0], [10, 10]];
+  assert.equal(distanceToLine([5, 3], line), 3);
+  assert.equal(distanceToLine([13, 14], line), 5);
+  assert.equal(distanceToLine([-3, -4], line), 5);
+  assert.equal(distanceToLine([3, 4], [[0, 0], [0, 0]]), 5);
+  assert.equal(distanceToLine([3, 4], [[0, 0]]), 5);
+  assert.equal(distanceToLine([3, 4], []), Infinity);
+});
+
+test('of several lines the nearest is pointed at, if it is near enough', () => {
+  const lines = [[], [[0, 0], [10, 0]], [[10, 0], [10, 10]], [[10, 10], [0, 0]]];
+  assert.equal(nearestLine([4, 1], lines), 1);
+  assert.equal(nearestLine([9, 6], lines), 2);
+  assert.equal(nearestLine([5, 6], lines), 3);
+  assert.equal(nearestLine([4, -9], lines, 8), -1);
+  assert.equal(nearestLine([0, 0], []), -1);
 });

@@ -135,8 +135,8 @@ test('changes, places and rules are told in words', () => {
     PLAN.routes), ['van-2: load 5 exceeds 4.']);
 });
 
-test('who is locked is pinned where a plan is improved, if the plan serves him', () => {
+test('who is locked is pinned, in order, where a plan is improved, if the plan serves him', () => {
   const asked = furtherFrom(REQUEST, { plan: PLAN }, ['A', 'G', 'nobody']);
-  assert.deepEqual(asked.replan, { plan: PLAN, pinned: ['A'] });
+  assert.deepEqual(asked.replan, { plan: PLAN, pinned: ['A'], keep_order: true });
   assert.deepEqual(furtherFrom(REQUEST, { plan: PLAN }).replan, { plan: PLAN });
 });

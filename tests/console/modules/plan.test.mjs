@@ -7,7 +7,7 @@ import {
 import { geoJson, gpx, stopsCsv } from '../../../app/console/static/js/core/exports.js';
 import { flightLines, flownLines } from '../../../app/console/static/js/core/flights.js';
 import { pictureOf, toSvg } from '../../../app/console/static/js/core/picture.js';
-import { contains, indexPlan, spanOf } from '../../../app/console/static/js/core/plan.js';
+import { contains, indexPlan, keysWithin, spanOf } from '../../../app/console/static/js/core/plan.js';
 import { playback } from '../../../app/console/static/js/core/playback.js';
 import { rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
 import { eventReader } from '../../../app/console/static/js/core/sse.js';
@@ -84,6 +84,15 @@ const PLAN = {
   summary: { customers: 3, served: 2, vehicles: 1, trips: 1, sorties: 1 },
 };
 const index = indexPlan(REQUEST, PLAN);
+
+test('what belongs to a vehicle or a trip is told by its keys, each of which it contains', () => {
+  for (const outer of ['v:0', 't:0/0']) {
+    const keys = keysWithin(index, outer);
+    assert.deepEqual(keys, ['t:0/0', 'c:=A', 's:0/0/0', 'c:B']);
+    assert.ok(keys.every((key) => contains(index, outer, key)));
+  }
+  assert.deepEqual(keysWithin(index, 't:7/0'), []);
+});
 
 test('a key contains the keys of its parts', () => {
   assert.ok(contains(index, 'v:0', 'c:B'));

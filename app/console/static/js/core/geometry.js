@@ -56,6 +56,33 @@ export function distance([ax, ay], [bx, by]) {
   return Math.hypot(bx - ax, by - ay);
 }
 
+/** Return how far a point is from a line of points; infinite from none. */
+export function distanceToLine(point, points) {
+  let least = points.length === 1 ? distance(point, points[0]) : Infinity;
+  for (let index = 1; index < points.length; index += 1) {
+    least = Math.min(least, distanceToStretch(point, points[index - 1], points[index]));
+  }
+  return least;
+}
+
+function distanceToStretch([x, y], from, to) {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const length = dx * dx + dy * dy;
+  const share = length ? ((x - from[0]) * dx + (y - from[1]) * dy) / length : 0;
+  const within = Math.min(Math.max(share, 0), 1);
+  return Math.hypot(from[0] + within * dx - x, from[1] + within * dy - y);
+}
+
+/** Return which of some lines is nearest to a point, nearer than `most`; -1 if none is. */
+export function nearestLine(point, lines, most = Infinity) {
+  let [nearest, least] = [-1, most];
+  lines.forEach((line, index) => {
+    const length = distanceToLine(point, line);
+    if (length < least) [nearest, least] = [index, length];
+  });
+  return nearest;
+}
+
 /** Return an arc from one point to another that bows out to the left of the way. */
 export function arc(from, to) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];

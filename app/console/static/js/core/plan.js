@@ -201,6 +201,17 @@ export function partsOf(index, key) {
   return found;
 }
 
+/** Return the keys of what belongs to the trip or the vehicle that a key names. */
+export function keysWithin(index, key) {
+  const { vehicle, trip } = partsOf(index, key);
+  const trips = key[0] === 'v' ? vehicle?.trips : trip && [trip];
+  return (trips ?? []).flatMap((each) => [
+    each.key,
+    ...each.stops.filter(({ kind }) => kind === 'customer').map((halt) => halt.key),
+    ...each.sorties.flatMap((sortie) => [sortie.key, ...sortie.visits.map((visit) => visit.key)]),
+  ]);
+}
+
 /** Tell whether what one key names is or contains what another names. */
 export function contains(index, outer, key) {
   if (!outer || !key) return false;

@@ -7,9 +7,19 @@ import { resolve } from './schema.js';
 
 const KINDS = { Instant: 'instant', Opening: 'opening', Duration: 'duration' };
 
+/** What was found out of schemas, which each of many thousand customers asks for anew. */
+const kinds = new WeakMap();
+const shapes = new WeakMap();
+
 /** Return `instant`, `opening` or `duration` if a schema is of one, else null. */
 export function timeKind(schema) {
-  const texts = (schema?.anyOf ?? []).flatMap((one) => one.anyOf ?? [one]);
+  if (!schema) return null;
+  if (!kinds.has(schema)) kinds.set(schema, kindOf(schema));
+  return kinds.get(schema);
+}
+
+function kindOf(schema) {
+  const texts = (schema.anyOf ?? []).flatMap((one) => one.anyOf ?? [one]);
   return KINDS[texts.find(({ type }) => type === 'string')?.title] ?? null;
 }
 
@@ -45,19 +55,25 @@ function isPlain(schema) {
 
 /** Return what describes an object or array, of several schemas the one that does. */
 function shapeOf(schemas, schema, value) {
-  const all = schema.anyOf ?? schema.oneOf;
-  const found = (all ?? [schema]).map((one) => resolve(schemas, one).schema);
+  if (!shapes.has(schema)) {
+    const all = schema.anyOf ?? schema.oneOf ?? [schema];
+    shapes.set(schema, all.map((one) => resolve(schemas, one).schema));
+  }
   const type = Array.isArray(value) ? 'array' : 'object';
-  return found.find((one) => one.type === type);
+  return shapes.get(schema).find((one) => one.type === type);
 }
 
-/** Return a request whose instants and lengths are seconds; what can't be read stays as it is. */
+/**
+ * Return a request whose instants and lengths are seconds, itself if they are; what can't be read
+ * stays as it is.
+ */
 export function inSeconds(schemas, request) {
   const day = dayOf(request);
+  const texts = [...timesIn(schemas, request)].filter(({ value }) => typeof value === 'string');
+  if (!texts.length) return request;
   const changed = structuredClone(request);
-  for (const { keys, kind, value } of timesIn(schemas, request)) {
-    if (typeof value === 'string') put(changed, keys, secondsOf(value, kind, day) ?? value);
-  }
+  for (const { keys, kind, value } of texts)
+    put(changed, keys, secondsOf(value, kind, day) ?? value);
   return changed;
 }
 

@@ -1,34 +1,27 @@
 /** Leaflet layers of a problem and its plan. */
 
 import { flightLines } from '../core/flights.js';
+import { nearestLine } from '../core/geometry.js';
 import { tripDash, vehicleColour } from '../core/palette.js';
+import { partsOf } from '../core/plan.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
 import { standingIn } from '../core/replanning.js';
 import { standsOf } from '../core/stands.js';
 import { leaflet } from '../libraries.js';
+import { Cross, Disc } from './marks.js';
 
 const L = leaflet();
 
 const LINE = { weight: 2.5, opacity: 0.9, lineCap: 'round', lineJoin: 'round' };
-const LEG = { weight: 5, opacity: 0, lineCap: 'round', lineJoin: 'round' };
+const LEG = { weight: 5, opacity: 0, lineCap: 'round', lineJoin: 'round', interactive: false };
 const MOST_LABELS = 30;
 const SETTLED = { weight: 2, opacity: 0.5, dashArray: '1 5' };
 const FLIGHT = { weight: 1.6, opacity: 0.95, dashArray: '1 4', lineCap: 'round' };
 
-/** A customer that nobody serves: a cross, so that it is told by shape too. */
-const Cross = L.CircleMarker.extend({
+/** A drive that is drawn only where it stands out. */
+const Leg = L.Polyline.extend({
   _updatePath() {
-    const renderer = this._renderer;
-    if (!renderer._drawing || this._empty()) return;
-    const { _ctx: context } = renderer;
-    const { x, y } = this._point;
-    const size = this._radius * 0.75;
-    context.beginPath();
-    context.moveTo(x - size, y - size);
-    context.lineTo(x + size, y + size);
-    context.moveTo(x + size, y - size);
-    context.lineTo(x - size, y + size);
-    renderer._fillStroke(context, this);
+    if (this.options.opacity > 0) L.Polyline.prototype._updatePath.call(this);
   },
 });
 
@@ -61,7 +54,6 @@ export function planLines(index, parts, dark) {
       for (const { standing, places } of stretches(trip, parts)) {
         lines.push(line(trip.key, places, styles[standing]));
       }
-      lines.push(...legLines(trip, colour));
       for (const sortie of trip.sorties) {
         const legs = legsOf(sortie).map((leg) => leg.map(latLng));
         const style = { ...styles[standingIn(parts, sortie)], ...FLIGHT };
@@ -93,16 +85,32 @@ function stretches(trip, parts) {
   return found;
 }
 
-/** Return the drives from stop to stop, which are seen where one is selected. */
-function legLines(trip, colour) {
-  const base = { ...LEG, color: colour };
-  return trip.stops
-    .filter(({ line: way }) => way.length > 1)
-    .map((halt) => line(legKey(trip, halt), halt.line.map(latLng), base));
+/** Return the drive that a key names, seen only where it stands out; null: there is none. */
+export function legLine(index, key, dark) {
+  const { vehicle, leg } = partsOf(index, key);
+  if (!leg || leg.line.length < 2) return null;
+  const base = { ...LEG, color: vehicleColour(vehicle.number, dark) };
+  return { key, base, layer: new Leg(leg.line.map(latLng), { ...base, key }) };
 }
 
-function legKey(trip, halt) {
-  return `l:${trip.key.slice(2)}/${halt.stop}`;
+/** Return the key of the drive to a stop. */
+export function legKey({ trip, stop }) {
+  return `l:${trip.key.slice(2)}/${stop}`;
+}
+
+/** Return the key of the drive of a trip that is nearest to a point of the map's container. */
+export function legAt(map, trip, { x, y }) {
+  const lines = trip.stops.map((halt, stop) => (stop ? pixelsOf(map, halt.line) : []));
+  const stop = nearestLine([x, y], lines);
+  return stop < 0 ? trip.key : legKey(trip.stops[stop]);
+}
+
+/** Return where places are in a map's container. */
+export function pixelsOf(map, places) {
+  return places.map((place) => {
+    const { x, y } = map.latLngToContainerPoint(latLng(place));
+    return [x, y];
+  });
 }
 
 function line(key, places, base) {
@@ -128,7 +136,7 @@ function customerStyle(index, customer, parts, dark, radius) {
   const plain = { radius, weight: 1.5, opacity: 1, fillOpacity: 1 };
   if (!index?.customers.has(customer.id)) {
     const grey = dark ? '#9aa7b4' : '#66727e';
-    return [L.CircleMarker, { ...plain, color: ground, fillColor: grey }];
+    return [Disc, { ...plain, color: ground, fillColor: grey }];
   }
   if (!halt) {
     return [Cross, { ...plain, radius: radius + 2, weight: 3, color: redOf(dark), fill: false }];
@@ -136,9 +144,8 @@ function customerStyle(index, customer, parts, dark, radius) {
   const standing = standingIn(parts, halt);
   const colour = standing === 'lost' ? redOf(dark) : vehicleColour(halt.vehicle.number, dark);
   if (standing === 'settled') Object.assign(plain, { opacity: 0.6, fillOpacity: 0.45 });
-  if (halt.sortie)
-    return [L.CircleMarker, { ...plain, weight: 2.2, color: colour, fillColor: ground }];
-  return [L.CircleMarker, { ...plain, color: ground, fillColor: colour }];
+  if (halt.sortie) return [Disc, { ...plain, weight: 2.2, color: colour, fillColor: ground }];
+  return [Disc, { ...plain, color: ground, fillColor: colour }];
 }
 
 /** Return the marks of depots, and of where vehicles start and end elsewhere. */

@@ -109,11 +109,13 @@ function Map({ request, entry, onView, isMain = false }) {
     };
   }, []);
   const doubts = useStore((state) => state.doubts);
+  useEffect(() => view?.shade(dark), [view, dark]);
+  // Before anything is drawn, or all would be drawn twice.
+  useEffect(() => view?.fit(request), [view, firstPlace(request)]);
   useEffect(
     () => view?.draw(request, index, parts, dark, doubts),
     [view, request, index, parts, dark, doubts],
   );
-  useEffect(() => view?.fit(), [view, firstPlace(request)]);
   useEffect(
     () => (view ? followMarks(view, request, index) : undefined),
     [view, request, index, parts, dark, doubts],

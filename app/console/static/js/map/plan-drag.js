@@ -1,13 +1,14 @@
 /** Customers of the plan are dragged onto the leg of another trip, or another one of their own. */
 
 import { indexOf, settledOf, shownPlan } from '../actions.js';
+import { distanceToLine } from '../core/geometry.js';
 import { isHere } from '../core/moving.js';
 import { vehicleColour } from '../core/palette.js';
 import { standingIn } from '../core/replanning.js';
 import { leaflet } from '../libraries.js';
 import { store } from '../store.js';
 import { move } from '../views/stop-moves.js';
-import { labelIcon, latLng } from './layers.js';
+import { labelIcon, latLng, legKey, pixelsOf } from './layers.js';
 
 const L = leaflet();
 const LEAST = 6; // pixels of a drag, below which it is a click
@@ -76,25 +77,12 @@ function nearestLeg(map, index, moved, point) {
       stops.slice(1).forEach((halt) => {
         const place = { vehicle: halt.vehicle.name, trip: halt.trip.index, stop: halt.stop };
         if (isHere(moved, place)) return;
-        const distance = distanceTo(map, halt.line, point);
+        const distance = distanceToLine([point.x, point.y], pixelsOf(map, halt.line));
         if (distance < least) [best, least] = [{ halt, place, key: legKey(halt) }, distance];
       });
     }
   }
   return best;
-}
-
-function legKey({ vehicle, trip, stop }) {
-  return `l:${vehicle.index}/${trip.index}/${stop}`;
-}
-
-function distanceTo(map, line, point) {
-  const points = line.map((place) => map.latLngToContainerPoint(latLng(place)));
-  let least = Infinity;
-  for (let at = 1; at < points.length; at += 1) {
-    least = Math.min(least, L.LineUtil.pointToSegmentDistance(point, points[at - 1], points[at]));
-  }
-  return least;
 }
 
 /** Return the way that a trip would take by the pointer. */

@@ -1,6 +1,6 @@
 /** One map: a problem, a plan on it, and where everything is at an instant. */
 
-import { contains, partsOf } from '../core/plan.js';
+import { contains, keysWithin, partsOf } from '../core/plan.js';
 import { boundsOf } from '../core/geometry.js';
 import { vehicleColour } from '../core/palette.js';
 import { placeOf } from '../core/places.js';
@@ -12,6 +12,8 @@ import {
   doubtMarks,
   labelIcon,
   latLng,
+  legAt,
+  legLine,
   noFlyShapes,
   pinMarks,
   planLines,
@@ -24,6 +26,7 @@ import { StreetsLayer } from './streets.js';
 const L = leaflet();
 const DIM = 0.18;
 const LEAST_FOCUS = 0.9;
+const MOST_DIMMED = 3000; // lines and marks; where there are more, the rest doesn't step back
 const LIT = 5; // pixels
 const TIP_GAP = 14; // pixels between a place and its tip
 const TIP_EDGE = 4; // pixels between a tip and the map's edge
@@ -59,6 +62,8 @@ export class MapView {
     this.numbers = L.layerGroup().addTo(this.map);
     this.movers = L.layerGroup().addTo(this.map);
     this.entries = [];
+    this.byKey = new Map(); // entries
+    this.touched = []; // entries that are marked, where there are many
     this.trucks = new Map();
     this.tooltip = L.tooltip({ direction: 'top', offset: [0, -6], opacity: 1 });
     this.#listen(onHover, onSelect);
@@ -74,6 +79,28 @@ export class MapView {
     this.map.on('click', ({ latlng }) => {
       if (!this.isDeaf) this.onGround([latlng.lng, latlng.lat]);
     });
+    // Each has them itself: of one that was drawn anew under the pointer, its group hears no more.
+    const pointed = (event) => this.onHover(this.#keyAt(event));
+    this.listeners = {
+      mouseover: pointed,
+      mousemove: pointed,
+      mouseout: () => this.onHover(null),
+      mousedown: (event) => this.onPress(event.target.options.key, event.target, event),
+      click: (event) => {
+        L.DomEvent.stopPropagation(event);
+        const { lng, lat } = event.latlng;
+        if (!this.isDeaf) this.onSelect(this.#keyAt(event), [lng, lat]);
+      },
+    };
+  }
+
+  /** Return the key of what an event is on: of a trip's line, the drive there. */
+  #keyAt({ target, originalEvent }) {
+    const { key } = target.options;
+    const { trip } = key[0] === 't' ? partsOf(this.index, key) : {};
+    return trip
+      ? legAt(this.map, trip, this.map.mouseEventToContainerPoint(originalEvent))
+      : key;
   }
 
   destroy() {
@@ -82,16 +109,22 @@ export class MapView {
     this.isGone = true;
   }
 
+  /** Show the ground in light or dark. */
+  shade(dark) {
+    this.grounds.forEach((ground) => ground.setDark?.(dark));
+  }
+
   /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
   draw(request, index, parts, dark, doubts = {}) {
     Object.assign(this, { request, index, dark });
-    this.grounds.forEach((ground) => ground.setDark?.(dark));
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
     this.noFly.forEach((shape) => this.areas.addLayer(shape));
     const lines = index ? planLines(index, parts, dark) : [];
     this.entries = [...lines, ...customerMarks(request, index, parts, dark)];
-    for (const { layer, key } of this.entries) this.#addEntry(layer, key);
+    this.byKey = new Map();
+    this.touched = [];
+    this.entries.forEach((entry) => this.#add(entry));
     depotMarks(request).forEach((mark) => this.labels.addLayer(mark));
     pinMarks(request).forEach((mark) => this.labels.addLayer(mark));
     doubtMarks(request, doubts).forEach((mark) => this.labels.addLayer(mark));
@@ -100,25 +133,30 @@ export class MapView {
     this.map.fire('drawn');
   }
 
-  #addEntry(layer, key) {
-    layer.on('mouseover', () => this.onHover(key));
-    layer.on('mouseout', () => this.onHover(null));
-    layer.on('mousedown', (event) => this.onPress(key, layer, event));
-    layer.on('click', (event) => {
-      L.DomEvent.stopPropagation(event);
-      if (!this.isDeaf) this.onSelect(key, [event.latlng.lng, event.latlng.lat]);
-    });
-    this.shapes.addLayer(layer);
+  #add(entry) {
+    this.shapes.addLayer(entry.layer.on(this.listeners));
+    if (!this.byKey.has(entry.key)) this.byKey.set(entry.key, []);
+    this.byKey.get(entry.key).push(entry);
   }
 
-  /** Show everything. */
-  fit() {
+  /** Return what a key names, of which drives are made when they are asked for. */
+  #entryOf(key) {
+    const found = key && this.byKey.get(key)?.[0];
+    const leg = !found && key?.[0] === 'l' && legLine(this.index, key, this.dark);
+    if (!leg) return found;
+    this.entries.push(leg);
+    this.#add(leg);
+    return leg;
+  }
+
+  /** Show everything of a problem. */
+  fit(request = this.request) {
     const places = [
-      ...this.request.depots,
-      ...standsOf(this.request),
-      ...this.request.customers,
+      ...request.depots,
+      ...standsOf(request),
+      ...request.customers,
     ].map(placeOf).filter(Boolean);
-    const bounds = boundsOf([...places, ...(this.request.airspace?.no_fly ?? []).flat()]);
+    const bounds = boundsOf([...places, ...(request.airspace?.no_fly ?? []).flat()]);
     if (!bounds) return;
     const [west, south, east, north] = bounds;
     this.map.invalidateSize({ animate: false });
@@ -131,25 +169,23 @@ export class MapView {
     );
   }
 
-  /** Mark what is selected and what the pointer is on; the rest steps back. */
+  /** Mark what is selected and what the pointer is on; the rest steps back, unless it is much. */
   mark(selection, hovered) {
     const focus = hovered ?? selection;
     const outer = focus && this.index ? tripOrVehicle(this.index, focus) : null;
     const state = `${outer}|${focus}|${selection}`;
     if (state === this.marked) return;
     this.marked = state;
-    for (const { key, layer, base } of this.entries) {
-      const inside = !outer || contains(this.index, outer, key);
-      const isFocus = key === focus || key === selection;
-      const style = { ...base };
-      if (!inside) Object.assign(style, { opacity: base.opacity * DIM, fillOpacity: DIM });
-      if (isFocus) style.weight = base.weight + 2;
-      if (isFocus && !base.radius) style.opacity = Math.max(base.opacity, LEAST_FOCUS);
-      layer.setStyle(style);
-      if (base.radius) layer.setRadius(isFocus ? base.radius + 3 : base.radius);
-      // Above customers, legs would take their clicks.
-      if (isFocus && key[0] !== 'l') layer.bringToFront();
+    [focus, selection].forEach((key) => this.#entryOf(key));
+    const isFew = this.entries.length <= MOST_DIMMED;
+    const keys = new Set([focus, selection, ...(outer ? keysWithin(this.index, outer) : [])]);
+    const marked = isFew ? this.entries : [...keys].flatMap((key) => this.byKey.get(key) ?? []);
+    for (const entry of new Set([...this.touched, ...marked])) {
+      const inside = !outer || contains(this.index, outer, entry.key);
+      const isFocus = entry.key === focus || entry.key === selection;
+      restyle(entry, { isFocus, isDim: isFew && !inside, isBold: !isFew && outer && inside });
     }
+    this.touched = isFew ? [] : marked;
     this.#number(selection);
   }
 
@@ -162,7 +198,7 @@ export class MapView {
   /** Let the leg that a key names stand out, as what is dropped there would be on it; or none. */
   light(key) {
     this.lit?.layer.setStyle(this.lit.base);
-    this.lit = key && this.entries.find((entry) => entry.key === key);
+    this.lit = this.#entryOf(key);
     this.lit?.layer.setStyle({ opacity: LEAST_FOCUS, weight: this.lit.base.weight + LIT });
   }
 
@@ -176,7 +212,7 @@ export class MapView {
 
   /** Show a tip at what a key names; null hides it. */
   tip(key, content) {
-    const entry = key && this.entries.find((other) => other.key === key);
+    const entry = this.#entryOf(key);
     if (!entry || !content) {
       this.tooltip.remove();
       return;
@@ -198,7 +234,7 @@ export class MapView {
 
   /** Bring what a key names into view, if it is outside. */
   reveal(key) {
-    const entry = this.entries.find((other) => other.key === key);
+    const entry = this.#entryOf(key);
     if (!entry) return;
     const bounds = entry.layer.getBounds?.() ?? L.latLngBounds([entry.layer.getLatLng()]);
     if (!this.map.getBounds().contains(bounds)) {
@@ -243,6 +279,17 @@ export class MapView {
     }
     this.trucks.get(key).setLatLng(latLng(what.location));
   }
+}
+
+function restyle({ key, layer, base }, { isFocus, isDim, isBold }) {
+  const style = { ...base };
+  if (isDim) Object.assign(style, { opacity: base.opacity * DIM, fillOpacity: DIM });
+  if (isFocus || isBold) style.weight = base.weight + 2;
+  if (isFocus && !base.radius) style.opacity = Math.max(base.opacity, LEAST_FOCUS);
+  layer.setStyle(style);
+  if (base.radius) layer.setRadius(isFocus ? base.radius + 3 : base.radius);
+  // Above customers, lines would take their clicks.
+  if (isFocus && key[0] === 'c') layer.bringToFront();
 }
 
 /** Return the layers under the plan: tiles of a server, or streets of the service's extracts. */

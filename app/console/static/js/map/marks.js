@@ -1,0 +1,72 @@
+/** How customers look on the map. */
+
+import { leaflet } from '../libraries.js';
+
+const L = leaflet();
+const MOST_DISCS = 2000; // pictures kept
+
+const discs = new Map();
+
+/** A customer as a disc, copied from a picture of its style, as there may be thousands. */
+export const Disc = L.CircleMarker.extend({
+  _updatePath() {
+    const renderer = this._renderer;
+    if (!renderer._drawing || this._empty()) return;
+    const { x, y } = this._point;
+    const half = halfOf(this.options);
+    renderer._ctx.drawImage(discOf(this.options), x - half, y - half, 2 * half, 2 * half);
+  },
+});
+
+/** A customer that nobody serves: a cross, so that it is told by shape too. */
+export const Cross = L.CircleMarker.extend({
+  _updatePath() {
+    const renderer = this._renderer;
+    if (!renderer._drawing || this._empty()) return;
+    const { _ctx: context } = renderer;
+    const { x, y } = this._point;
+    const size = this._radius * 0.75;
+    context.beginPath();
+    context.moveTo(x - size, y - size);
+    context.lineTo(x + size, y + size);
+    context.moveTo(x + size, y - size);
+    context.lineTo(x - size, y + size);
+    renderer._fillStroke(context, this);
+  },
+});
+
+/** Return half of the side of a disc's picture in pixels, whole ones so that it stays sharp. */
+function halfOf({ radius, weight }) {
+  return Math.ceil(radius + weight / 2) + 1;
+}
+
+/** Return the picture of a disc. */
+function discOf(style) {
+  const { radius, weight, color, opacity, fillColor, fillOpacity } = style;
+  const key = [radius, weight, color, opacity, fillColor, fillOpacity].join();
+  if (!discs.has(key)) {
+    if (discs.size >= MOST_DISCS) discs.clear();
+    discs.set(key, drawnDisc(style));
+  }
+  return discs.get(key);
+}
+
+function drawnDisc(style) {
+  const half = halfOf(style);
+  const scale = Math.ceil(window.devicePixelRatio || 1);
+  const picture = document.createElement('canvas');
+  picture.width = 2 * half * scale;
+  picture.height = picture.width;
+  const context = picture.getContext('2d');
+  context.scale(scale, scale);
+  context.beginPath();
+  context.arc(half, half, style.radius, 0, 2 * Math.PI);
+  context.globalAlpha = style.fillOpacity;
+  context.fillStyle = style.fillColor;
+  context.fill();
+  context.globalAlpha = style.opacity;
+  context.strokeStyle = style.color;
+  context.lineWidth = style.weight;
+  context.stroke();
+  return picture;
+}
