@@ -13,7 +13,8 @@ from itertools import product
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from model.judge.check import Evaluation, check
+from model.judge.check import Evaluation
+from model.judge.memory import Memory
 from model.kernel.alarm import Alarm
 from model.kernel.compiled import first_to_compile
 from model.kernel.cores import num_cores
@@ -87,6 +88,7 @@ class PlanOptions:
     time_limit: float = 1.0  # seconds; 0: the decoded plan as it is, all samples of it
     search_iterations: int | None = None
     threads: int = 1  # of the search
+    cooled: float = 0.0  # share of the search's cooling that is over, if it goes on from a plan
 
 
 @dataclass(frozen=True)
@@ -181,7 +183,7 @@ class Planner:
         """
         if options.policy not in self._policies:
             raise ValueError(f"policy: {options.policy!r} is not one of {', '.join(self.policies)}")
-        began = time.perf_counter()
+        began, judge = time.perf_counter(), Memory(problem)
         deadline = None
         if options.time_limit > 0:
             deadline = (began if received_at is None else received_at) + options.time_limit
@@ -200,7 +202,7 @@ class Planner:
             decoded = time.perf_counter()
             whole = decoded < give_up
             by_policy = start is not None
-        first = None if start is None else _judged(problem, start)
+        first = None if start is None else _judged(judge, start)
         how: Start = "policy" if by_policy else "insertion" if first is None else "given"
         if first is not None:
             _tell(listener, first)
@@ -212,7 +214,7 @@ class Planner:
             options = replace(options, search_iterations=0)
         improved = _improve(problem, instance, first, options, deadline, listener)
         searched = time.perf_counter()
-        last = _judged(problem, improved.solution)
+        last = _judged(judge, improved.solution)
         if first is not None and first.cost <= last.cost:
             last = first
         elapsed = Elapsed(decoded - began, searched - decoded, time.perf_counter() - searched)
@@ -279,8 +281,8 @@ class _Judged:
         return self.evaluation.cost.total
 
 
-def _judged(problem: Problem, solution: Solution) -> _Judged:
-    evaluation = check(problem, solution)
+def _judged(judge: Memory, solution: Solution) -> _Judged:
+    evaluation = judge.check(solution)
     if evaluation.violations:
         raise PlanCheckError("; ".join(f"{violation.path}: {violation.message}"
                                        for violation in evaluation.violations))
@@ -302,7 +304,7 @@ def _unimproved(problem: Problem, start: Solution | None, options: PlanOptions,
                 began: float) -> PlanResult:
     """Return the plan given, or one that serves nobody, where nothing else was done."""
     packed = time.perf_counter()
-    last = _judged(problem, _nobody(problem) if start is None else start)
+    last = _judged(Memory(problem), _nobody(problem) if start is None else start)
     elapsed = Elapsed(packed - began, 0.0, time.perf_counter() - packed)
     return _result(last, "insertion" if start is None else "given", last.cost, options, None,
                    False, elapsed)
@@ -314,7 +316,8 @@ def _tell(listener: Listener, first: _Judged) -> None:
 
 def _improve(problem: Problem, instance: Instance, first: _Judged | None, options: PlanOptions,
              deadline: float | None, listener: Listener) -> Improved:
-    config = SearchConfig(options.seed, options.threads, options.search_iterations)
+    config = SearchConfig(options.seed, options.threads, options.search_iterations,
+                          cooled=options.cooled)
     each = SECONDS_PER_CUSTOMER + SECONDS_PER_REASON * len(problem.vehicle_types)
     if any(kind.drones is not None for kind in problem.vehicle_types):
         each += SECONDS_WITH_DRONES

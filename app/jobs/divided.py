@@ -211,7 +211,8 @@ class DividedWork:
         seconds = min(self._terms.seconds, rounds.remaining)
         self._add([
             NewJob(str(uuid.uuid4()), "region", row.owner, row.fingerprint,
-                   ERRANDS.dump_json(Errand(region, seconds, seed + number)), parent=row.id,
+                   ERRANDS.dump_json(Errand(region, seconds, seed + number, rounds.share)),
+                   parent=row.id,
                    position=number, priority=SINGLE if row.parent is None else SCENARIO)
             for number, region in enumerate(regions)])
         rounds.begin(len(regions), seconds)

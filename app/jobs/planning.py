@@ -169,7 +169,8 @@ class PlanWork:
         asked = self._asking.shared(whole, should_stop, time.monotonic())
         errand = ERRANDS.validate_json(self._store.request(row.id))
         return Begun(RegionTask.of(asked.task.problem, errand.region),
-                     replace(asked.options, time_limit=errand.seconds, seed=errand.seed))
+                     replace(asked.options, time_limit=errand.seconds, seed=errand.seed,
+                             cooled=errand.cooled))
 
     def _taken(self, job_id: str, has_waited: bool) -> JobRow | None:
         """Take a job, and return it unless it is over then. In place."""

@@ -20,6 +20,7 @@ class Errand:
     region: Region
     seconds: float
     seed: int
+    cooled: float = 0.0  # share of the job's time that was over
 
 
 ERRANDS = TypeAdapter(Errand)

@@ -74,6 +74,11 @@ class Rounds:
         return self.asked.options.time_limit - self._searched
 
     @property
+    def share(self) -> float:
+        """Share of the time that is over."""
+        return min(1.0, self._searched / self.asked.options.time_limit)
+
+    @property
     def is_last(self) -> bool:
         """Tell whether nothing more is to be begun."""
         return self.is_cancelled or self.remaining < SHORTEST
@@ -111,7 +116,7 @@ class Rounds:
 
     def standing(self) -> Standing:
         """Return how far the job has come, with its plan if that is new. In place."""
-        progress = min(self._searched / self.asked.options.time_limit, NEARLY_OVER)
+        progress = min(self.share, NEARLY_OVER)
         if not self.best.cost < self._told:
             return Standing(progress, self._iterations, self._searched)
         return self._told_of(progress)
@@ -119,8 +124,7 @@ class Rounds:
     def last_standing(self) -> Standing:
         """Return what the job came to. In place."""
         is_whole = not self.is_cancelled
-        progress = self._searched / self.asked.options.time_limit
-        return self._told_of(1.0 if is_whole else min(progress, NEARLY_OVER))
+        return self._told_of(1.0 if is_whole else min(self.share, NEARLY_OVER))
 
     def slice(self, over: bool) -> Slice:
         """Return what a slice came to."""

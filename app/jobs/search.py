@@ -117,12 +117,7 @@ class Search:
     @property
     def progress(self) -> float:
         """Share of the time or the iterations that is over."""
-        share = 0.0
-        if self._options.time_limit > 0:
-            share = self.searched / self._options.time_limit
-        if self._options.search_iterations:
-            share = max(share, self.iterations / self._options.search_iterations)
-        return min(share, NEARLY_OVER)
+        return self._share(self.searched, self.iterations)
 
     def find(self) -> Find | None:
         """Return the best plan heard of so far."""
@@ -174,16 +169,27 @@ class Search:
         finally:
             self._done.set()
 
+    def _share(self, searched: float, iterations: int) -> float:
+        """Return the share of all that is to be done that so much is."""
+        share = 0.0
+        if self._options.time_limit > 0:
+            share = searched / self._options.time_limit
+        if self._options.search_iterations:
+            share = max(share, iterations / self._options.search_iterations)
+        return min(share, NEARLY_OVER)
+
     def _remaining(self) -> PlanOptions:
         """Return the options for what is left to do."""
-        options = self._options
+        options, cooled = self._options, self._options.cooled
         limit, turns = options.time_limit, options.search_iterations
+        if self._earlier.reply is not None:
+            cooled += (1 - cooled) * self._share(self._earlier.searched, self._earlier.iterations)
         if limit > 0 and self._earlier.searched > 0:
             limit -= self._earlier.searched
             limit = limit if limit >= SHORTEST_REST else 0.0
         if turns:
             turns = max(0, turns - self._earlier.iterations)
-        return replace(options, time_limit=limit, search_iterations=turns)
+        return replace(options, time_limit=limit, search_iterations=turns, cooled=cooled)
 
     def _start(self) -> Solution | None:
         if self._earlier.reply is None:

@@ -4,12 +4,13 @@ import logging
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 
 from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.durable import connect
-from app.jobs.asked import Asking
+from app.jobs.asked import Asking, Awaiting
 from app.jobs.desk import JobDesk
 from app.jobs.divided import DividedWork
 from app.jobs.housekeeping import Housekeeper
@@ -43,7 +44,7 @@ WARMTH_POLLING = 0.1
 @contextmanager
 def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], bool],
                  metrics: Metrics, on_plan: Callable[[Data], None],
-                 roads: Roads = NO_ROADS,
+                 roads: Roads = NO_ROADS, await_search: Awaiting = lambda *_: None,
                  also_expire: Sequence[Callable[[Engine], None]] = ()) -> Iterator[JobDesk]:
     """Yield where endpoints turn to; jobs are worked on until the block ends.
 
@@ -61,6 +62,8 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
         Is told of each plan made.
     roads
         Those to plan on.
+    await_search
+        Waits until a problem can be searched, unless the work is to end, or refuses it.
     also_expire
         What else deletes what has expired, besides jobs.
     """
@@ -68,10 +71,10 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
     store = JobStore(queues.engine, int(settings.job_expiry_hours * HOUR_MS), queues.add_webhook,
                      metrics.count_finished_job)
     reader = JobReader(planner.policies, settings, roads)
-    asking = Asking(lambda row: reader.plan_request(store, row), settings.search_threads, roads)
-    returning = Returning(lambda job_id: queues.put(job_id, PLANS),
-                          lambda job_id: queues.put(job_id, WAITING),
-                          lambda job_id: queues.put(job_id, DIVIDED))
+    asking = Asking(partial(reader.plan_request, store), settings.search_threads, roads,
+                    await_search)
+    returning = Returning(*(partial(queues.put, queue=queue)
+                            for queue in (PLANS, WAITING, DIVIDED)))
     terms = RegionTerms(settings.region_from, settings.region_customers, settings.region_seconds)
     plans = PlanWork(planner, store, asking, returning, on_plan, terms)
     limits = OpenLimits(settings.max_open_jobs, settings.max_open_jobs_per_client)

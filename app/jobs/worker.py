@@ -34,8 +34,9 @@ from app.settings import Settings
 
 logger = logging.getLogger(__name__)
 
-POLLING, FORMER_POLLING = 0.2, 5.0
-"""Seconds between two looks into a queue, and into one that nothing is added to any more."""
+POLLING, PATIENT_POLLING, FORMER_POLLING = 0.2, 1.0, 5.0
+"""Seconds between two looks into a queue, one whose jobs can wait, and one that nothing is added to
+any more. Looking is most of what many workers ask of the database."""
 
 STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE, WAITING_AT_ONCE, DIVIDED_AT_ONCE = 100, 20, 20, 4
 
@@ -140,12 +141,14 @@ class Worker:
         DBOS(config=_config(engine, identity))
         expiry = self._register()
         DBOS.launch()
-        for queue, limit in ((PLANS, self._settings.job_slots), (STUDIES, STUDIES_AT_ONCE),
-                             (WAITING, WAITING_AT_ONCE), (DIVIDED, DIVIDED_AT_ONCE)):
-            DBOS.register_queue(queue, worker_concurrency=limit, polling_interval_sec=POLLING)
+        for queue, limit, polling in ((PLANS, self._settings.job_slots, POLLING),
+                                      (STUDIES, STUDIES_AT_ONCE, POLLING),
+                                      (WAITING, WAITING_AT_ONCE, PATIENT_POLLING),
+                                      (DIVIDED, DIVIDED_AT_ONCE, PATIENT_POLLING)):
+            DBOS.register_queue(queue, worker_concurrency=limit, polling_interval_sec=polling)
         DBOS.register_queue(WEBHOOKS, worker_concurrency=WEBHOOKS_AT_ONCE,
                             partition_worker_concurrency=CALLS_OF_A_HOST,
-                            polling_interval_sec=POLLING)
+                            polling_interval_sec=PATIENT_POLLING)
         DBOS.register_queue(FORMER_WEBHOOKS, worker_concurrency=CALLS_OF_A_HOST,
                             polling_interval_sec=FORMER_POLLING)
         DBOS.apply_schedules([expiry])

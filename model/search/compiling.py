@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from model.kernel.compiled import compiled_folder, first_to_compile
 from model.kernel.instance import pack
 from model.problem import (
     Customer, Depot, DroneType, Points, Problem, StraightLegs, Travel, VehicleType,
@@ -17,7 +18,7 @@ from model.solution import Solution
 
 PLAIN, LARGE, RARER = "plain", "large", "rarer"
 """Parts of all that is compiled: for problems that state no rarer rules, with legs from tables or
-computed ones (compiled once there is one), and for those that do."""
+computed ones (compiled apart from the others), and for those that do."""
 
 MOST_STOPS = {PLAIN: None, LARGE: None, RARER: 2}
 """What the small problem for each part states."""
@@ -29,6 +30,15 @@ with counting():
     compile_search({!r})
 """
 """What a second process does while everything else is compiled."""
+
+COMPILE_LARGE = """
+import os
+from model.search.compiling import compile_large
+os.nice(19)
+compile_large()
+"""
+"""What a process does for problems to come, while others are planned: whatever else there is to do
+comes first."""
 
 
 def parts_for(problem: Problem | None) -> tuple[str, ...]:
@@ -42,6 +52,22 @@ def parts_for(problem: Problem | None) -> tuple[str, ...]:
         return (RARER,)
     computed = any(travel.straight is not None for travel in problem.travel)
     return (LARGE if computed else PLAIN,)
+
+
+def is_compiled(part: str) -> bool:
+    """Tell whether a part is there, for this process to load."""
+    folder = compiled_folder()
+    return folder is not None and (folder / part).exists()
+
+
+def compile_large() -> None:
+    """Compile the search for computed legs, or wait for another process that does."""
+    if compiled_folder() is None:
+        compile_search(LARGE)
+        return
+    with first_to_compile((LARGE,)) as has_to:
+        if has_to:
+            compile_search(LARGE)
 
 
 def compile_search(part: str) -> None:

@@ -45,6 +45,10 @@ IN_PARTS_FROM = 2000
 """Number of customers from which on a search stays near one of them for a while, then goes on to
 another: what it looks at then is in the processor's cache."""
 
+IN_PARTS_BY_TRUCK_SHARE = 0.6
+"""The share of the time that a plan by trucks alone takes there: a turn with drones takes many
+times as long, and each customer gets few of them."""
+
 STAY = 200
 """Turns for which it does."""
 
@@ -77,6 +81,7 @@ class SearchConfig:
     turns: int | None = None  # of all threads together; None: until the deadline
     hot: float | None = None  # first temperature by the cost of a leg; None: by the problem
     cold: float | None = None  # last
+    cooled: float = 0.0  # share of the cooling that earlier searches for this plan went through
     moves: Moves = ALL_MOVES
 
 
@@ -112,6 +117,7 @@ class _Worker:
     cooling: Span | None = None  # whose first temperature was set
     turns: int = 0
     pace: float = 0.0  # seconds a turn takes
+    cooled: float = 0.0  # share of the cooling that is left out
 
     def run(self) -> None:
         """Search for one round."""
@@ -139,6 +145,7 @@ class _Worker:
     def _anneal(self, turns: int) -> None:
         value, span = self.searcher.value, self.span
         hot, cold = self.heat.ends(self.expected() * (span.end - span.begin), span.heat)
+        hot *= (cold / hot) ** self.cooled
         if self.limits.turns is None:
             value.temperature = hot * (cold / hot) ** span.share(self.limits.share(self.turns))
             value.cooling = 1.0
@@ -277,7 +284,8 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(world, whole, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
-    workers = [_Worker(world, whole, limits, heat) for _ in range(config.threads)]
+    workers = [_Worker(world, whole, limits, heat, cooled=config.cooled)
+               for _ in range(config.threads)]
 
     node = numbering.node.tolist()
 
@@ -328,7 +336,7 @@ def _search(team: _Team, world: World, crew: Crew,
     """
     whole = team.whole
     starts = None
-    if world.scan_all and not team.workers[0].heat.drones:
+    if world.scan_all and not team.workers[0].heat.drones and team.workers[0].cooled == 0.0:
         starts = Starts(world, whole, seeds)
     team.search(crew, WHOLE, rounds=1)
     count, rest = team.num_starts(), WHOLE
@@ -367,14 +375,20 @@ def _trucks_come_first(problem: Problem, moves: Moves) -> bool:
             and (moves.loops or moves.crossings))
 
 
+def _share_by_truck(problem: Problem) -> float:
+    return (IN_PARTS_BY_TRUCK_SHARE if problem.num_customers >= IN_PARTS_FROM
+            else BY_TRUCK_SHARE)
+
+
 def _plan_by_truck(task: _Task) -> Improved:
     """Return a plan without flights, to which the drones' then are added.
 
     The order of the customers is found sooner so; whom no truck can serve is left out.
     """
     config, limits = task.config, task.limits
-    turns = None if config.turns is None else math.ceil(config.turns * BY_TRUCK_SHARE)
-    deadline = limits.began + (limits.deadline - limits.began) * BY_TRUCK_SHARE
+    share = _share_by_truck(task.problem)
+    turns = None if config.turns is None else math.ceil(config.turns * share)
+    deadline = limits.began + (limits.deadline - limits.began) * share
     config = replace(config, turns=turns,
                      moves=replace(config.moves, loops=False, crossings=False))
     limits = replace(limits, began=time.perf_counter(), end=deadline,

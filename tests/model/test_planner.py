@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 from model import planner as planner_module
-from model.judge.check import check
+from model.judge import memory
+from model.judge.check import JudgedRoute, check, judge_route
+from model.judge.past import Past
 from model.judge.rules import Violation
 from model.kernel.warming import Warmth
 from model.planner import (
@@ -23,7 +25,7 @@ from model.search.compiling import (
     COMPILE_SEARCH, LARGE, PLAIN, RARER, beside, parts_for, small_problem,
 )
 from model.search.improve import Progress
-from model.solution import Solution
+from model.solution import Route, Solution
 from training.instances import VARIANTS, generate
 from training.variants import InstanceConfig
 
@@ -211,12 +213,11 @@ def test_policy_begins_where_that_is_worth_its_time(
 
 def test_a_plan_that_fails_the_check_never_leaves(planner: Planner,
                                                   monkeypatch: pytest.MonkeyPatch) -> None:
-    def strict(problem: object, solution: object) -> object:
-        evaluation = check(problem, solution)  # type: ignore[arg-type]
-        wrong = Violation("CAPACITY", "too much", "routes[0]")
-        return type(evaluation)(**{**vars(evaluation), "violations": (wrong,)})
+    def strict(problem: Problem, route: Route, path: str, past: Past) -> JudgedRoute:
+        judged = judge_route(problem, route, path, past)
+        return replace(judged, violations=[Violation("CAPACITY", "too much", path)])
 
-    monkeypatch.setattr(planner_module, "check", strict)
+    monkeypatch.setattr(memory, "judge_route", strict)
     for time_limit in (0.0, 0.05):
         with pytest.raises(PlanCheckError, match=r"routes\[0\]: too much"):
             planner.plan(small_problem(), PlanOptions(POLICIES[0], time_limit=time_limit))

@@ -38,6 +38,7 @@ class PoolingPlanner:
 
     def __init__(self) -> None:
         self.sizes: list[int] = []  # of the regions planned
+        self.cooled: list[float] = []  # how far each search was cooled down when it began
         self.fails = False
 
     def warm(self, tell: Tell) -> None:
@@ -46,6 +47,7 @@ class PoolingPlanner:
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
         nodes = list(range(problem.num_depots, problem.num_nodes))
+        self.cooled.append(options.cooled)
         groups = [[node] for node in nodes]
         if start is not None:
             if self.fails:

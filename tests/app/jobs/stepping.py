@@ -56,11 +56,15 @@ class SteppingPlanner:
 
     policies = (DEFAULT_POLICY,)
 
+    def __init__(self) -> None:
+        self.cooled = 0.0  # how far the last search was cooled down when it began
+
     def warm(self, tell: Tell) -> None:
         tell(Warmth("compiling nothing", 1.0))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
+        self.cooled = options.cooled
         if options.seed == RAISING_SEED:
             raise ZeroDivisionError
         began = time.perf_counter() if received_at is None else received_at

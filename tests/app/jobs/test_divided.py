@@ -65,6 +65,11 @@ def test_job_is_planned_by_regions_round_after_round(office: Office) -> None:
     # The first plan took one, and each region another.
     assert solver["search_iterations"] == done.search_iterations == 1 + len(office.planner.sizes)
     assert max(office.planner.sizes) < NUM_CUSTOMERS
+    # Nothing is heated anew: each round begins as cool as the whole would be by then.
+    first, *cooled = office.planner.cooled
+    assert first == 0.0
+    assert 0.0 < cooled[0] < cooled[-1] < 1.0
+    assert cooled == sorted(cooled)
     # One plan was told, and nothing is left of the regions.
     assert office.told == [done.cost]
     assert office.store.children("job") == []

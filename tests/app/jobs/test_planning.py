@@ -101,8 +101,10 @@ def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
     until(lambda: crashed.advance(job), lambda now: now.cost is not None and now.cost < 700)
     before = desk.row(job)
     assert before.state == "running"
-    work = desk.process()
+    planner = SteppingPlanner()
+    work = desk.process(planner)
     slices = until(lambda: work.advance(job), lambda now: now.over)
+    assert planner.cooled == pytest.approx(before.searched / limit)
     assert before.cost is not None
     assert all(now.cost is not None and now.cost <= before.cost for now in slices)
     done = desk.row(job)

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from model.judge.check import Evaluation, check
 from model.judge.timing import RouteDecision, read_decision, schedule
 from model.kernel.instance import pack
 from model.problem import Problem
+from model.search import improve as searching
 from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
@@ -184,3 +186,19 @@ def test_search_without_an_end_is_refused() -> None:
     problem = generate(np.random.default_rng(9), 3, "cvrp")
     with pytest.raises(ValueError, match="deadline, turns"):
         improve(problem, pack([problem]), nobody(problem), SearchConfig())
+
+
+def test_trucks_plan_large_problems_alone_for_longer(monkeypatch: pytest.MonkeyPatch) -> None:
+    turns: list[int | None] = []
+    improved = searching._improved
+
+    def noted(task: searching._Task, *given: Any) -> Improved:
+        turns.append(task.config.turns)
+        return improved(task, *given)
+
+    monkeypatch.setattr(searching, "_improved", noted)
+    problem = generate(np.random.default_rng(1), 30, "drone")
+    for parts_from in (31, 30):
+        monkeypatch.setattr(searching, "IN_PARTS_FROM", parts_from)
+        assert judged(problem, search(problem, Solution((), ()), 20)).is_feasible
+    assert turns == [3, 20, 12, 20]
