@@ -105,7 +105,8 @@ def _running(app: FastAPI, settings: Settings, planner: Planner,
         service.start()
         app.state.service, app.state.addresses = service, roads.addresses
         jobs = running_jobs(settings, planner, lambda: service.readiness().is_ready,
-                            observer.metrics, observer.record_plan, roads, [delete_expired])
+                            observer.metrics, observer.record_plan, roads, service.await_search,
+                            [delete_expired])
         app.state.gallery.start()
         with keeping_plans(settings) as app.state.kept, jobs as app.state.jobs:
             yield

@@ -17,8 +17,14 @@ MAX_THREADS = 64
 
 WEIGHTS_DIR = Path(__file__).resolve().parent.parent / "model" / "weights"
 
-MAX_CUSTOMERS = 10_000
+MAX_CUSTOMERS = 100_000
 """Most customers of any request, whatever the settings say."""
+
+BYTES_PER_CUSTOMER = 15_000
+"""What planning holds in memory for a customer where legs are computed."""
+
+MAX_VEHICLES = MAX_CUSTOMERS
+"""Most vehicles of a type."""
 
 MAX_NUM_SAMPLES = 4096
 """Most samples of any request."""
@@ -179,7 +185,10 @@ class Settings(BaseSettings):
         2.0, gt=0, description="Longest wait for a plan's turn in seconds, then 503."
     )
     max_customers: int = Field(
-        MAX_CUSTOMERS, ge=1, le=MAX_CUSTOMERS, description="Most customers of a request."
+        default_factory=lambda: min(MAX_CUSTOMERS, memory_bytes() // 4 // BYTES_PER_CUSTOMER),
+        ge=1, le=MAX_CUSTOMERS,
+        description="Most customers of a request. Planning holds about 15 kB a customer, besides "
+        "tables of legs; usually 100,000, or as many as a quarter of the memory holds.",
     )
     max_num_samples: int = Field(
         MAX_NUM_SAMPLES, ge=1, le=MAX_NUM_SAMPLES,

@@ -1,8 +1,8 @@
 """What surrounds the search over the number of customers: `python -m benchmarks.scaling`.
 
 Reads, converts, judges and replies a request of so many customers and a plan for it that was made
-without any search; each size in a process of its own, which tells the processor time of each step
-and its peak of memory. Prints a table as Markdown.
+without any search; then makes a first plan and improves it. Each size in a process of its own,
+which tells the processor time of each step and its peak of memory. Prints a table as Markdown.
 """
 
 import json
@@ -18,14 +18,20 @@ from pydantic_core import to_json
 
 MOST_CUSTOMERS = 200_000
 
-STEPS = ("read", "warn", "convert", "judge", "reply", "check")
+STEPS = ("read", "warn", "convert", "judge", "reply", "check", "begin", "improve")
+
+TURNS = 100_000
+"""Of the search, for every size."""
 
 Data = dict[str, Any]
 Result = TypeVar("Result")
 
 
-def measured(number: int, is_planned: bool) -> Data:
-    """Return seconds of each step and MB for so many customers, the service's bounds set aside."""
+def measured(number: int, is_planned: bool, turns: int = TURNS) -> Data:
+    """Return seconds of each step and MB for so many customers, the service's bounds set aside.
+
+    Beside them what its first plan costs, and by which share less after so many turns.
+    """
     from app import settings
 
     # Constants of the schema are made from it when they are imported.
@@ -38,14 +44,25 @@ def measured(number: int, is_planned: bool) -> Data:
     collect_seldom()
     compile_scan()
     body = to_json(many_customers(number))
-    _steps(to_json(many_customers(2)), {}, is_planned)  # what is imported and made once
+    _compile(number)
+    _steps(to_json(many_customers(2)), {}, is_planned, 0)  # what is imported and made once
     before = _peak_mb()
     found: Data = {"customers": number, "body": len(body) / 1e6}
-    _steps(body, found, is_planned)
+    _steps(body, found, is_planned, turns)
     return found | {"memory": _peak_mb() - before}
 
 
-def _steps(body: bytes, found: Data, is_planned: bool) -> None:
+def _compile(number: int) -> None:
+    """Have the search compiled, or loaded, that so many customers need."""
+    from app.conversion.travels import COMPUTED_FROM
+    from model.search.compiling import LARGE, PLAIN, compile_search
+
+    compile_search(PLAIN)
+    if number >= COMPUTED_FROM:
+        compile_search(LARGE)
+
+
+def _steps(body: bytes, found: Data, is_planned: bool, turns: int) -> None:
     """Take all steps, or those before the legs, and note how long each takes. In place."""
     from app.conversion.problem import to_problem
     from app.plans.checking import read_check
@@ -61,12 +78,7 @@ def _steps(body: bytes, found: Data, is_planned: bool) -> None:
     from model.planner import Elapsed, PlanResult
     from model.solution import Solution
 
-    def step(name: str, work: Callable[[], Result]) -> Result:
-        began = time.process_time()
-        result = work()
-        found[name] = time.process_time() - began
-        return result
-
+    step = _Stopwatch(found)
     request = step("read", lambda: read_request(body, None))
     step("warn", lambda: warnings_of(request))
     if not is_planned:
@@ -84,6 +96,35 @@ def _steps(body: bytes, found: Data, is_planned: bool) -> None:
     reply = step("reply", lambda: to_json(plan_reply(problem, options, result)))
     both = b'{"problem":' + body + b',"plan":' + reply + b"}"
     step("check", lambda: read_plan(read_check(both, UNBOUNDED).plan, problem))
+    _search(problem, step, turns)
+
+
+def _search(problem: Any, step: "_Stopwatch", turns: int) -> None:
+    """Plan a problem, and note as `_steps` does. In place."""
+    from model.kernel.instance import pack
+    from model.search.improve import SearchConfig, improve
+    from model.solution import Solution
+
+    instance = pack([problem], legs=False)
+    begun = step("begin", lambda: improve(problem, instance, Solution((), ()),
+                                          SearchConfig(), time.perf_counter()))
+    better = step("improve", lambda: improve(problem, instance, begun.solution,
+                                             SearchConfig(turns=turns)))
+    step.found |= {"cost": begun.cost, "saved": 1 - better.cost / begun.cost}
+
+
+class _Stopwatch:
+    """Notes how long steps take."""
+
+    def __init__(self, found: Data) -> None:
+        self.found = found
+
+    def __call__(self, name: str, work: Callable[[], Result]) -> Result:
+        """Return what a step comes to. In place."""
+        began = time.process_time()
+        result = work()
+        self.found[name] = time.process_time() - began
+        return result
 
 
 def _peak_mb() -> float:
@@ -107,13 +148,14 @@ def main(sizes: Annotated[str, typer.Option(help="Numbers of customers.")]
     if one is not None:
         print(json.dumps(measured(one, one <= most_planned)))
         return
-    print("| customers | body, MB |", " | ".join(STEPS), "| memory, MB |")
-    print("| ---: " * (len(STEPS) + 3) + "|")
+    print("| customers | body, MB |", " | ".join(STEPS), "| memory, MB | cost | saved |")
+    print("| ---: " * (len(STEPS) + 5) + "|")
     for number in map(int, sizes.split(",")):
         row = _in_process(number, most_planned)
         times = [f"{row[name]:.3g}" if name in row else "" for name in STEPS]
         print(f"| {number:,} | {row['body']:.1f} |", " | ".join(times),
-              f"| {row['memory']:.0f} |", flush=True)
+              f"| {row['memory']:.0f} | {row.get('cost', 0):,.0f} | {row.get('saved', 0):.1%} |",
+              flush=True)
 
 
 if __name__ == "__main__":

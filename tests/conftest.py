@@ -96,6 +96,8 @@ def own_data_dir(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Have services under test keep their data in a folder of their own."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TANDEM_DATA_DIR", str(tmp_path_factory.mktemp("data")))
+        # Services that take no more compile no search for computed legs, of which few tests know.
+        patch.setenv("TANDEM_MAX_CUSTOMERS", "3000")
         yield
 
 

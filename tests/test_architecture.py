@@ -49,7 +49,7 @@ MOST_ARROWS = 30
 
 INTERPRETED = {"solution", "problem/straight", "problem/travel"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""
-ASKING = {"kernel/warming", "planner"}
+ASKING = {"kernel/warming", "planner", "search/compiling"}
 """Compile nothing themselves, but ask what is compiled."""
 
 COMPILED_FOLDERS = ("kernel", "simulation", "policy", "search")

@@ -1,6 +1,7 @@
 """The `tandem` command."""
 
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -16,13 +17,14 @@ from app.cli.plot import plot
 from app.cli.roads import roads_cli, roads_of
 from app.cli.serving import run_server
 from app.cli.settings_page import settings_page
+from app.conversion.travels import COMPUTED_FROM
 from app.errors import RequestError
 from app.files.importers import FileFormat, convert_file
 from app.load.memory import collect_seldom
 from app.plans.service import plan_options, preparing, reply_of
 from app.plans.task import Task, task_of
 from app.plans.warming import showing
-from app.requests.bounds import UNBOUNDED
+from app.requests.bounds import UNBOUNDED, require_tables
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
 from app.schemas.fields import Rounding
@@ -30,7 +32,11 @@ from app.settings import Settings
 from model.judge.check import Evaluation
 from model.planner import Planner, load_planner
 from model.problem import Problem
+from model.search.compiling import compile_large
 from model.solution import COST_TERMS
+
+LEAST_PREPARING = 60.0
+"""Seconds that may pass before the search however short its time: nobody else waits for it."""
 
 EXIT_INFEASIBLE = 1
 
@@ -85,7 +91,11 @@ def list_settings() -> None:
 @cli.command()
 def warm() -> None:
     """Compile everything that planning needs, so that later starts are quick."""
-    _warm_planner(Settings())
+    settings = Settings()
+    _warm_planner(settings)
+    if settings.max_customers > COMPUTED_FROM:
+        typer.echo(f"compiling the search for more than {COMPUTED_FROM} places", err=True)
+        compile_large()
     typer.echo("ready")
 
 
@@ -97,14 +107,16 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
         with roads_of(settings) as roads:
             started = time.perf_counter()
             request = read_request(problem_file.read_bytes(), settings.policies)
-            hurried = preparing(request.options, UNBOUNDED, lambda: False)
+            hurried = replace(preparing(request.options, UNBOUNDED, lambda: False),
+                              least_time=LEAST_PREPARING)
             task = task_of(request, hurried, roads=roads)
+            require_tables(task.problem, UNBOUNDED, hurried)
             prepared = time.perf_counter() - started
             _print_warnings(task)
             planner = _warm_planner(settings, task.problem)
             # What loading and compiling take is no part of the time limit.
             reply = reply_of(planner, task, plan_options(request.options, settings.search_threads),
-                             time.perf_counter() - prepared)
+                             time.perf_counter() - prepared, waited=hurried.waited)
     except RequestError as error:
         refuse(problem_file, error)
     if output is None:

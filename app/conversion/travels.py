@@ -14,13 +14,11 @@ from app.conversion.places import nowhere_of, places_of
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.road_legs import RoadLegs, road_legs
 from app.conversion.units import thousandths
-from app.conversion.work import legs_seconds
+from app.conversion.work import COMPUTED, legs_seconds
 from app.roads.roads import NO_ROADS, Roads
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
-from app.schemas.fields import MAX_DEPOTS
 from app.schemas.request import MatrixInput, PlanRequest, RoadsInput
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
-from app.settings import MAX_CUSTOMERS
 from model.problem import UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel
 from model.problem.straight import fits
 from model.travel.matrices import (
@@ -45,11 +43,10 @@ class _Key(NamedTuple):
     estimated_kmh: float = 0.0  # where roads may not be known
 
 
-COMPUTED_FROM = MAX_CUSTOMERS + MAX_DEPOTS
-"""From how many places on legs from coordinates are computed wherever they are looked up: where
-requests may have more, tables of all would take 16 bytes for each of places squared, and way to
-travel. The search for such problems is compiled when the first of them is planned, which nobody
-waits for whom tables serve."""
+COMPUTED_FROM = 3000
+"""Above how many places legs from coordinates are computed wherever they are looked up. Tables are
+read in less time, but to make them takes so long that a search of ten seconds gains nothing by
+them; and they take 50 bytes for each of places squared, and way to travel."""
 
 SECONDS_PER_METRE = 3.6
 """Seconds that a metre takes at one km/h."""
@@ -89,17 +86,23 @@ class Travels:
     def expect_legs(self) -> None:
         """Make sure that there is time to build all matrices, if none is flown around areas.
 
+        Where legs are computed, time for what is done for each place before a search begins.
+
         Raises
         ------
         RequestError
             If the work is to end.
         """
-        keys = self._stated(self._keys())
-        if not keys:
+        keys = self._keys()
+        stated = self._stated(keys)
+        if len(stated) < len(keys):
+            replace(self._preparing, work="Plans of so many places",
+                    advice="send fewer customers").expect(COMPUTED * len(self._places))
+        if not stated:
             self._preparing.pause()
             return
-        flights = sum(key.means == "flight" for key in keys)
-        self._preparing.expect(legs_seconds(len(self._places), len(keys) - flights, flights,
+        flights = sum(key.means == "flight" for key in stated)
+        self._preparing.expect(legs_seconds(len(self._places), len(stated) - flights, flights,
                                             self._ground.is_geographic))
 
     def built(self) -> tuple[Travel, ...]:

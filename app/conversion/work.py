@@ -5,6 +5,8 @@ memory that was in use before; the first touch of new memory may take as long ag
 sees.
 """
 
+from model.search.regions.region import customers_of
+from model.solution import Solution
 from model.travel.visibility import FEW_EDGES
 
 DRIVE, FLIGHT = 2e-8, 3e-8
@@ -13,9 +15,24 @@ DRIVE, FLIGHT = 2e-8, 3e-8
 PLANAR, GREAT_CIRCLE = 1e-8, 8e-8
 """Seconds for each leg's distance, once."""
 
+COMPUTED = 1.6e-4
+"""Seconds for each place where legs are computed, from a request that was read to a first plan that
+was checked."""
+
 EDGE, LOOK, LOOK_AT_FEW = 1e-7, 1e-7, 3e-8
 """Seconds for each edge seen from a place or corner, and for each line of sight between two of
 these: the last where areas have few edges."""
+
+
+REPLANNED_ROUTE, REPLANNED_CUSTOMER = 4e-4, 1e-4
+"""Seconds for each route, and each customer on it, of a plan to go on from: it is handed over,
+judged before and after, and replied."""
+
+
+def replanning_seconds(plan: Solution) -> float:
+    """Estimate what going on from a plan takes beside legs and search."""
+    served = sum(1 for route in plan.routes for _ in customers_of(route))
+    return REPLANNED_ROUTE * len(plan.routes) + REPLANNED_CUSTOMER * served
 
 
 def legs_seconds(places: int, drives: int, flights: int, geographic: bool) -> float:

@@ -104,7 +104,7 @@ def _customer(file: InstanceFile, node: int, has_matrices: bool) -> dict[str, An
     }
     if file.has_windows:
         customer["time_window"] = _window(file, node)
-    if file.release.any():
+    if file.has_releases:
         customer["release_time"] = _number(file.release[node])
     return customer
 

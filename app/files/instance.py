@@ -1,6 +1,7 @@
 """A published instance as its file states it, and the ways to round its distances."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -56,10 +57,15 @@ class InstanceFile:
         """Depots and customers."""
         return len(self.demand)
 
-    @property
+    @cached_property
     def has_windows(self) -> bool:
         """Whether any node has a time window."""
         return bool((self.earliest > 0).any() or np.isfinite(self.latest).any())
+
+    @cached_property
+    def has_releases(self) -> bool:
+        """Whether any node is released after the start."""
+        return bool(self.release.any())
 
     def customers(self) -> list[int]:
         """Return the nodes that are no depots, in order."""

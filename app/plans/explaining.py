@@ -57,7 +57,7 @@ class Question:
         return self.began + share * (self.until - self.began)
 
 
-def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[], Planner],
+def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[Problem], Planner],
                    should_stop: Callable[[], bool] = lambda: False,
                    roads: Roads = NO_ROADS) -> bytes:
     """Return the reply to a request of `POST /explain` as JSON, unless the work is to end.
@@ -76,7 +76,7 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[], Pla
 
 
 def explain_job(request: PlanRequest, plan: bytes, customer: str | None, drones: bool,
-                options: ExplainOptions, bounds: Bounds, planner: Callable[[], Planner],
+                options: ExplainOptions, bounds: Bounds, planner: Callable[[Problem], Planner],
                 should_stop: Callable[[], bool], roads: Roads = NO_ROADS) -> bytes:
     """Return the same of a job's plan, as JSON; raises as `answer_explain` does."""
     began = time.perf_counter()
@@ -130,7 +130,7 @@ def _question(customer: str | None, drones: bool, options: ExplainOptions,
 class _Explainer:
     """Answers questions about one plan."""
 
-    def __init__(self, task: Task, solution: Solution, planner: Callable[[], Planner],
+    def __init__(self, task: Task, solution: Solution, planner: Callable[[Problem], Planner],
                  should_stop: Callable[[], bool]) -> None:
         """Judge the plan.
 
@@ -195,7 +195,7 @@ class _Explainer:
 
     def _searched(self, seconds: float) -> tuple[PlanResult, PlanResult] | None:
         """Return plans with drones and of trucks alone, found from the same plan as long."""
-        planner = self._planner()
+        planner = self._planner(self._problem)
         begun = _without_sorties(self._problem, self._solution, self._setting)
         if not self._task.check(begun).is_feasible:
             return None

@@ -8,13 +8,15 @@ from dataclasses import dataclass
 
 from pydantic_core import to_json
 
-from app.conversion.preparing import Preparing
+from app.conversion.preparing import UNHURRIED, Preparing, StoppedError, patience
+from app.conversion.travels import COMPUTED_FROM
 from app.errors import NotReadyError
 from app.load.bodies import ReceivedBody
+from app.plans.large import LargeSearch
 from app.plans.replies import Data
 from app.plans.task import Task, task_of, warning_replies
 from app.plans.warming import showing, words
-from app.requests.bounds import UNBOUNDED, Bounds
+from app.requests.bounds import UNBOUNDED, Bounds, require_tables
 from app.requests.reading import read_request
 from app.requests.refusal import compile_scan
 from app.roads.roads import NO_ROADS, Roads
@@ -23,8 +25,12 @@ from app.warnings.finding import warnings_of
 from model.kernel.cores import num_cores
 from model.kernel.warming import Warmth
 from model.planner import ALONE, Listener, Planner, PlanOptions
+from model.problem import Problem
 
 logger = logging.getLogger(__name__)
+
+LOOKING = 0.2
+"""Seconds between two looks whether the search for many customers is compiled."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +54,7 @@ class PlanService:
         self._search_threads = search_threads
         self._on_plan = on_plan
         self._bounds = bounds
+        self._large = LargeSearch()
         self._executor = ThreadPoolExecutor(1, thread_name_prefix="warm")
         self._warming: Future[None] | None = None
         self._warmth: Warmth | None = None
@@ -57,7 +64,8 @@ class PlanService:
         self._warming = self._executor.submit(self._warm)
 
     def stop(self) -> None:
-        """Let go of the background thread. In place."""
+        """Let go of what goes on in the background. In place."""
+        self._large.stop()
         self._executor.shutdown(wait=False, cancel_futures=True)
 
     def readiness(self) -> Readiness:
@@ -94,7 +102,8 @@ class PlanService:
         if not readiness.is_ready and not _only_decodes(request):
             raise _not_ready(readiness)
         return reply_to(self._planner, request, body.received_at, self._search_threads,
-                        self._on_plan, Listener(should_stop), self._bounds, self.roads)
+                        self._on_plan, Listener(should_stop), self._bounds, self.roads,
+                        self._require_search)
 
     def warnings(self, body: ReceivedBody) -> bytes:
         """Return the reply to a request of `POST /warnings` as JSON; nothing is planned.
@@ -120,6 +129,28 @@ class PlanService:
             raise _not_ready(readiness)
         return self._planner
 
+    def planner_for(self, problem: Problem) -> Planner:
+        """Return the planner for a problem; raises as `plan` does."""
+        planner = self.warm_planner()
+        self._require_search(problem, UNHURRIED)
+        return planner
+
+    def await_search(self, problem: Problem, work: Preparing) -> None:
+        """Wait until a problem can be searched, or the work is to end; raises as `plan` does."""
+        require_tables(problem, self._bounds, work)
+        while not self._large.serves(problem):
+            if work.should_stop():
+                raise StoppedError("The work was stopped before there was a plan: try again.")
+            time.sleep(LOOKING)
+
+    def _require_search(self, problem: Problem, work: Preparing) -> None:
+        """Refuse a problem that can't be searched, or not yet; raises as `plan` does."""
+        require_tables(problem, self._bounds, work)
+        if not self._large.serves(problem):
+            raise NotReadyError(
+                f"The search for more than {COMPUTED_FROM} places is being compiled, which takes "
+                "some minutes once: try again then, or submit a job, which waits for it.")
+
     def _warm(self) -> None:
         """Warm the planner. In place."""
         compile_scan()
@@ -129,6 +160,8 @@ class PlanService:
                 show(warmth)
 
             self._planner.warm(note)
+        if self._bounds.customers > COMPUTED_FROM:
+            self._large.compile()
 
 
 def _not_ready(readiness: Readiness) -> NotReadyError:
@@ -143,21 +176,29 @@ def _only_decodes(request: PlanRequest) -> bool:
 
 def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_threads: int = 1,
              on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
-             bounds: Bounds = UNBOUNDED, roads: Roads = NO_ROADS) -> bytes:
+             bounds: Bounds = UNBOUNDED, roads: Roads = NO_ROADS,
+             require: Callable[[Problem, Preparing], None] = lambda *_: None) -> bytes:
     """Return the reply to a planning request that was read as JSON; raises as `PlanService.plan`.
 
-    A request that states no number of threads gets `search_threads`; `on_plan` is told the reply.
+    A request that states no number of threads gets `search_threads`; `on_plan` is told the reply;
+    `require` refuses what can't be searched.
     """
-    task = task_of(request, preparing(request.options, bounds, listener.should_stop), roads=roads)
+    work = preparing(request.options, bounds, listener.should_stop)
+    task = task_of(request, work, roads=roads)
+    require(task.problem, work)
     return reply_of(planner, task, plan_options(request.options, search_threads), received_at,
-                    on_plan, listener)
+                    on_plan, listener, work.waited)
 
 
 def reply_of(planner: Planner, task: Task, options: PlanOptions, received_at: float,
-             on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE) -> bytes:
-    """Return the reply to a planning request that was converted as JSON, as `reply_to` does."""
+             on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
+             waited: float = 0.0) -> bytes:
+    """Return the reply to a planning request that was converted as JSON, as `reply_to` does.
+
+    `waited` are seconds since `received_at` that are no part of the time limit.
+    """
     validated = time.perf_counter() - received_at
-    result = task.plan(planner, options, received_at, listener)
+    result = task.plan(planner, options, received_at + waited, listener)
     reply = task.reply(options, result)
     elapsed = reply["solver"]["elapsed"]
     elapsed["validate"] = validated
@@ -172,8 +213,10 @@ def preparing(stated: OptionsInput, bounds: Bounds,
     if 0 in (stated.time_limit, stated.search_iterations):
         return Preparing(should_stop, bounds.time_limit, f"the {bounds.time_limit:g} s of "
                          f"{bounds.time_setting}")
+    stated_limit = "time_limit" in stated.model_fields_set
     return Preparing(should_stop, stated.time_limit, f"the time_limit of {stated.time_limit:g} s, "
-                     f"which may be up to {bounds.time_limit:g} s ({bounds.time_setting})")
+                     f"which may be up to {bounds.time_limit:g} s ({bounds.time_setting})",
+                     patience=0.0 if stated_limit else patience(bounds.time_limit))
 
 
 def plan_options(stated: OptionsInput, search_threads: int = 1) -> PlanOptions:

@@ -14,6 +14,7 @@ from app.conversion.problem import problem_of
 from app.conversion.ground import Ground
 from app.conversion.travels import Travels
 from app.conversion.units import optional_thousandths
+from app.conversion.work import replanning_seconds
 from app.errors import InputError, InvalidRequestError
 from app.plans.carried import Info, carry, info_of
 from app.plans.far_plans import FarPlans
@@ -188,6 +189,9 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
         far = None if estimates is None else FarPlans(problem, estimates)
         return Task(problem, None, *beside, far, places)
     terms = _terms(replan, problem)
+    going_on = replace(preparing, work="Legs and the plan to go on from",
+                       advice="send fewer customers or vehicles at once")
+    going_on.expect(replanning_seconds(terms.plan))
     try:
         return Task(problem, Replanning(problem, terms), *beside, places=places)
     except SettledPartError as error:
@@ -256,7 +260,7 @@ def _terms(replan: ReplanInput, problem: Problem) -> Terms:
         Vehicle(*problem.find_vehicle(type_id, number)) for name in replan.unavailable
         for type_id in types if (number := number_in(f"{type_id}-", name)) is not None)
     return Terms(plan, optional_thousandths(replan.freeze_before), pinned, unavailable,
-                 optional_thousandths(replan.parcels_back))
+                 optional_thousandths(replan.parcels_back), replan.keep_order)
 
 
 def _no_plan(problem: Problem, options: PlanOptions) -> PlanResult:

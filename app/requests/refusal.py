@@ -15,7 +15,6 @@ from app.requests.scan import (
 from app.requests.shapes import shapes_of
 from app.schemas.hints import with_hints
 from app.schemas.times import read_body
-from app.settings import MAX_CUSTOMERS
 
 MAX_COUNTED_ERRORS = 20_000
 """With more errors than this the single ones are not looked at."""
@@ -28,7 +27,7 @@ _ROW = re.compile(rb"\[[-+0-9.eE,\s]{100,}+\]")
 LEAST_BYTES = 2**14
 """Shorter bodies can't do harm."""
 
-MAX_PARTS, BYTES_PER_PART = 200_000 + 6 * MAX_CUSTOMERS, 200
+MAX_PARTS, BYTES_PER_PART = 200_000, 25
 """Most objects and arrays of a body: so many, and one more for so many bytes."""
 
 MAX_LOOSE = 400_000

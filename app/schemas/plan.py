@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.fields import Location
 from app.schemas.times import READ_ANY_INSTANT, PlanStart, TimeZone
+from app.settings import MAX_VEHICLES
 from model.problem import UNLIMITED
 
 MAX_INSTANT = UNLIMITED / 1000
@@ -142,7 +143,8 @@ class FoundInput(_Plan):
 class PlanInput(_Plan):
     """A plan, as `POST /plan` replied it."""
 
-    routes: tuple[RouteInput, ...] = Field(description="One entry per vehicle used.")
+    routes: Annotated[tuple[RouteInput, ...], Field(max_length=MAX_VEHICLES)] = Field(
+        description="One entry per vehicle used.")
     unassigned: tuple[LeftOutInput, ...] = Field((), description="Customers left out.")
     status: str | None = Field(None, description=NOT_READ)
     cost: Details = None

@@ -28,7 +28,9 @@ from app.schemas.day import Day, Times
 from app.schemas.plan import PlanInput
 from app.schemas.times import Currency, PlanStart, TimeZone
 from app.schemas.vehicle import VehicleTypeInput
-from app.settings import DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT
+from app.settings import (
+    DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
+)
 from model.problem import MAX_DIMENSIONS, MOST_INCOMPATIBLE
 
 MAX_VEHICLE_TYPES = 100
@@ -157,7 +159,8 @@ class OptionsInput(Input):
     )
     time_limit: Annotated[float, Field(ge=0, le=MAX_TIME_LIMIT)] = Field(
         1.0,
-        description="Seconds until the reply, validation included. 0: the policy's plan as it is.",
+        description="Seconds until the reply, validation included. 0: the policy's plan as it is. "
+        "Where it isn't stated, the time in which roads and geocoders answer comes on top.",
     )
     search_iterations: Annotated[int, Field(ge=0, le=10**12)] | None = Field(
         None,
@@ -216,7 +219,13 @@ class ReplanInput(Input):
     pin_all: bool = Field(
         False, description="Whether all customers of the plan stay with their vehicles."
     )
-    unavailable: Annotated[list[Name], Field(max_length=10_000)] = Field(
+    keep_order: bool = Field(
+        False,
+        description="Whether pinned customers keep their places in the order, too: whom their "
+        "truck serves before one of them in the plan given, nobody serves after, and the other "
+        "way round. New ones may come between.",
+    )
+    unavailable: Annotated[list[Name], Field(max_length=MAX_VEHICLES)] = Field(
         [],
         description="Vehicles, such as `truck-2`, that do nothing more from `freeze_before` on; "
         "whom they haven't begun to serve by then others serve.",

@@ -24,6 +24,7 @@ from app.schemas.fields import (
     Skills,
     Speed,
 )
+from app.settings import MAX_VEHICLES
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
 
@@ -125,7 +126,7 @@ class VehicleTypeInput(Input):
         description="Depots where a trip may end and the next begin, besides `depot`. Which one "
         "it is between two trips is the plan's choice.",
     )
-    count: int = Field(ge=1, le=10_000, description="Vehicles of this type.")
+    count: int = Field(ge=1, le=MAX_VEHICLES, description="Vehicles of this type.")
     capacity: Demand = Field(
         description="Largest load at any point of a trip, per dimension, drones' parcels "
         "included."

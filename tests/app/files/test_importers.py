@@ -240,6 +240,7 @@ def test_command_writes_what_plan_takes(tmp_path: Path, monkeypatch: pytest.Monk
         commands.cli, ["convert", instance, "--rounding", "dimacs", "--output", str(request)])
     assert (done.exit_code, done.output) == (0, "")
     planned = CliRunner().invoke(commands.cli, ["plan", str(request)])
+    assert planned.exit_code == 0, planned.output
     plan = json.loads(planned.stdout)
     assert plan["status"] == "complete"
     assert plan["cost"]["total"] == pytest.approx(2 * 5.3 + 2 * 1.4)

@@ -12,6 +12,7 @@ import pytest
 from app.load.bodies import ReceivedBody
 from app.main import create_app
 from app.plans.service import PlanService, plan_options, reply_to
+from app.requests.bounds import Bounds
 from app.requests.reading import read_request
 from app.schemas.request import OptionsInput
 from app.settings import DEFAULT_POLICY, Settings
@@ -211,7 +212,7 @@ def test_threads_are_the_requests_then_the_settings_and_no_more_than_cores(
 def test_service_searches_with_the_threads_of_its_settings(
         monkeypatch: pytest.MonkeyPatch, smallest: dict[str, Any], planner: Planner) -> None:
     monkeypatch.setattr("app.plans.service.num_cores", lambda: 8)
-    service = PlanService(planner, search_threads=3)
+    service = PlanService(planner, search_threads=3, bounds=Bounds(customers=10))
     service.start()
     eventually(lambda: service.readiness().is_ready)
     body = ReceivedBody(json.dumps(smallest).encode(), 0.0)
