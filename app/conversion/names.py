@@ -1,6 +1,8 @@
 """Names of vehicles and drones: those of their type or truck, and a number from 1."""
 
 import re
+from collections.abc import Collection
+from typing import NamedTuple
 
 
 def drones_of(vehicle_type: str, drone_type: str | None) -> str:
@@ -17,3 +19,23 @@ def number_in(prefix: str, name: str) -> int | None:
 def drone_number(name: str) -> int | None:
     """Return the 0-based number of a drone on its truck, at the end of its name."""
     return number_in("", name.rpartition("-")[2])
+
+
+class Named(NamedTuple):
+    """A vehicle of the fleet, or one of its drones."""
+
+    vehicle_type: str
+    number: int  # from 0
+    drone: int | None  # from 0; None: the vehicle itself
+
+
+def read_name(name: str, types: Collection[str]) -> Named | None:
+    """Return what a name such as `truck-2` or `truck-2/drone-1` means; None: no type is so called.
+    """
+    vehicle, _, number = name.rpartition("/drone-")
+    for stem, drone in ((name, None), (vehicle, number_in("", number))):
+        for type_id in types:
+            place = number_in(f"{type_id}-", stem)
+            if place is not None and (drone is not None or stem == name):
+                return Named(type_id, place, drone)
+    return None

@@ -1,6 +1,6 @@
 """What drivers told -> the plan to go on from."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from app.dispatches.retiming import Retimed, retime
@@ -8,6 +8,10 @@ from app.dispatches.schemas import FailedReply, GoingOnReply, StepKind, StepRepl
 from app.dispatches.standing import Standing, is_broken, of_steps
 from app.dispatches.steps import flight_id, stop_id
 from app.schemas.plan import PlanInput, RouteInput, TripInput
+
+
+GROUNDING = frozenset({"Did not come back", "Drone is broken"})
+"""What drivers tell of a drone that flies no more, as their page offers it."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +50,20 @@ def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float) -> 
             routes.append(driven)
     given = plan.model_copy(update={"routes": tuple(routes)})
     broken = [route.vehicle for route in routes if is_broken(vehicles[route.vehicle].standing)]
+    grounded = list(dict.fromkeys(drone for known in vehicles.values() for drone in _lost(known)))
     replan = {"plan": given.model_dump(mode="json", exclude_none=True), "freeze_before": now}
-    if broken:
-        replan["unavailable"] = broken
-    return GoingOnReply(replan=replan, broken=broken, told=told, failed=failed)
+    if broken or grounded:
+        replan["unavailable"] = [*broken, *grounded]
+    return GoingOnReply(replan=replan, broken=broken, grounded=grounded, told=told, failed=failed)
+
+
+def _lost(known: OnTheRoad) -> Iterator[str]:
+    """Yield the drones of a vehicle that fly no more, by their names."""
+    standing = of_steps(known.standing)
+    for step in known.steps:
+        if (step.drone is not None and _has_failed(standing, step.id)
+                and standing[step.id].reason in GROUNDING):
+            yield step.drone
 
 
 def _driven(route: RouteInput, trips: Sequence[Retimed],

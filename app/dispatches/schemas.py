@@ -233,6 +233,8 @@ class GoingOnReply(_Reply):
         "told, and now."
     )
     broken: list[str] = Field(description="Vehicles that have broken down: `unavailable`.")
+    grounded: list[str] = Field(
+        description="Drones that didn't come back or are broken: `unavailable`, too.")
     told: list[str] = Field(description="Vehicles whose drivers told something; others are held "
                             "to be where the plan has them.")
     failed: list[FailedReply] = Field(description="Customers who weren't served.")

@@ -1,6 +1,7 @@
 """What a request asks for: a plan from nothing, or one that goes on from another."""
 
 import time
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 
@@ -8,7 +9,7 @@ from pydantic_core import to_json
 
 from app.conversion.leg_origins import LegOrigin
 from app.conversion.locating import Located, located
-from app.conversion.names import number_in
+from app.conversion.names import read_name
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.problem import problem_of
 from app.conversion.ground import Ground
@@ -255,12 +256,21 @@ def _terms(replan: ReplanInput, problem: Problem) -> Terms:
     names = set(replan.pinned)
     pinned = frozenset(node for node, customer in enumerate(problem.customers, problem.num_depots)
                        if replan.pin_all or customer.id in names)
+    unavailable, grounded = set[Vehicle](), defaultdict[Vehicle, set[int]](set)
     types = {kind.type_id for kind in problem.vehicle_types}
-    unavailable = frozenset(
-        Vehicle(*problem.find_vehicle(type_id, number)) for name in replan.unavailable
-        for type_id in types if (number := number_in(f"{type_id}-", name)) is not None)
-    return Terms(plan, optional_thousandths(replan.freeze_before), pinned, unavailable,
-                 optional_thousandths(replan.parcels_back), replan.keep_order)
+    for name in replan.unavailable:
+        named = read_name(name, types)
+        if named is None:
+            raise ValueError(f"the fleet has no vehicle {name!r}")
+        vehicle = Vehicle(*problem.find_vehicle(named.vehicle_type, named.number))
+        if named.drone is None:
+            unavailable.add(vehicle)
+        else:
+            grounded[vehicle].add(named.drone)
+    return Terms(plan, optional_thousandths(replan.freeze_before), pinned, frozenset(unavailable),
+                 optional_thousandths(replan.parcels_back),
+                 {vehicle: frozenset(drones) for vehicle, drones in grounded.items()},
+                 replan.keep_order)
 
 
 def _no_plan(problem: Problem, options: PlanOptions) -> PlanResult:

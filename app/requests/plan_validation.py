@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from app.conversion.launches import launch_durations
-from app.conversion.names import drone_number, number_in
+from app.conversion.names import drone_number, number_in, read_name
 from app.conversion.places import stands_of
 from app.conversion.units import thousandths
 from app.errors import ErrorCode, InputError, json_path
@@ -226,18 +226,25 @@ class _Checker:
                              f"The plan serves {left_out.id!r}: remove it from one of the two.")
 
     def unavailable(self) -> Errors:
-        """Vehicles that the fleet doesn't have."""
+        """Vehicles and drones that the fleet doesn't have."""
         counts = Counter(self._replan.unavailable)
         for index, name in enumerate(self._replan.unavailable):
             path: Path = ("unavailable", index)
             if counts[name] > 1:
-                yield _error("DUPLICATE_VEHICLE", path, "The vehicle is listed more than once: "
-                             "remove all but one.")
-            if self._names.fleet is not None and not any(
-                    (number := number_in(f"{kind.id}-", name)) is not None and number < kind.count
-                    for kind in self._names.fleet.values()):
+                yield _error("DUPLICATE_VEHICLE", path, "It is listed more than once: remove all "
+                             "but one.")
+            fleet = self._names.fleet
+            named = None if fleet is None else read_name(name, fleet)
+            if fleet is not None and (named is None
+                                      or named.number >= fleet[named.vehicle_type].count):
                 yield _error("UNKNOWN_VEHICLE", path, f"The fleet has no vehicle {name!r}: use a "
                              "type's id, '-' and a number from 1 to its count.")
+            elif fleet is not None and named is not None and named.drone is not None:
+                count = sum(kind.count for kind in fleet[named.vehicle_type].drone_types)
+                if named.drone >= count:
+                    yield _error("UNKNOWN_DRONE", path,
+                                 f"Vehicles of {named.vehicle_type} have {count} drones: use the "
+                                 "vehicle's name, '/drone-' and a number from 1 to that.")
 
     def pinned(self) -> Errors:
         """Customers who can't stay with their vehicle."""

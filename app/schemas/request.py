@@ -228,7 +228,8 @@ class ReplanInput(Input):
     unavailable: Annotated[list[Name], Field(max_length=MAX_VEHICLES)] = Field(
         [],
         description="Vehicles, such as `truck-2`, that do nothing more from `freeze_before` on; "
-        "whom they haven't begun to serve by then others serve.",
+        "whom they haven't begun to serve by then others serve. Drones, such as "
+        "`truck-2/drone-1`, that are launched no more; flights that have begun end as planned.",
     )
     parcels_back: Instant | None = Field(
         None,

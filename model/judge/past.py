@@ -62,6 +62,8 @@ class Past:
     now: int = 0  # ms; nothing new happens before
     trips: Mapping[Vehicle, tuple[KnownTrip, ...]] = field(default_factory=dict)
     unavailable: frozenset[Vehicle] = frozenset()  # do nothing more
+    grounded: Mapping[Vehicle, frozenset[int]] = field(default_factory=dict)
+    """Drones, by number on their truck, that are launched no more."""
     pinned: Mapping[int, Vehicle] = field(default_factory=dict)  # customer -> who alone may serve
     returned: Mapping[int, int] = field(default_factory=dict)  # customer -> parcel is back then
     orders: Mapping[Vehicle, tuple[int, ...]] = field(default_factory=dict)

@@ -41,6 +41,7 @@ def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict
         elif begun is None and trip.stops and trip.stops[0].arrival < past.now:
             message = f"begins at {seconds(trip.stops[0].arrival)}, before {seconds(past.now)}"
             yield Violation("PAST", message, trip_path)
+        yield from _flight_violations(trip, begun, past, vehicle, trip_path)
         for node in _new_customers(trip, begun):
             if not problem.num_depots <= node < problem.num_nodes:
                 continue
@@ -55,6 +56,16 @@ def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict
             if begun is None and trip.stops and trip.stops[0].arrival < back:
                 message = f"the parcel of {name} is at the depot again at {seconds(back)}"
                 yield Violation("RETURN", message, trip_path)
+
+
+def _flight_violations(trip: Trip, begun: KnownTrip | None, past: Past, vehicle: Vehicle,
+                       path: str) -> Iterator[Violation]:
+    """Yield launches of drones that are grounded."""
+    known = 0 if begun is None else len(begun.sorties)
+    for index, sortie in enumerate(trip.sorties):
+        if index >= known and sortie.drone in past.grounded.get(vehicle, ()):
+            message = f"drone {sortie.drone + 1} is launched no more from {seconds(past.now)} on"
+            yield Violation("UNAVAILABLE", message, f"{path}.sorties[{index}]")
 
 
 def _order_violations(problem: Problem, route: Route, past: Past, vehicle: Vehicle,

@@ -35,7 +35,9 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
         kind = left.later(vehicle)
         if kind is None or used[kind] >= left.problem.vehicle_types[kind].count:
             continue
-        trips = [_moved(trip, here) for trip in _trips_left(problem, route, kept.get(vehicle))]
+        drones = left.drones_of(kind)
+        trips = [_moved(trip, here, drones)
+                 for trip in _trips_left(problem, route, kept.get(vehicle), drones)]
         trips = [trip for trip in trips if customers_of(trip)]
         own = left.problem.vehicle_types[kind]
         if trips:
@@ -45,24 +47,24 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
     return _scheduled(left, decisions)
 
 
-def _trips_left(problem: Problem, route: Route, kept: Kept | None) -> list[TripDecision]:
-    """Return the decisions of the trips that have not begun."""
+def _trips_left(problem: Problem, route: Route, kept: Kept | None,
+                drones: Sequence[int]) -> list[TripDecision]:
+    """Return the decisions of the trips that have not begun, flown by drones that are left."""
     kind = problem.vehicle_types[route.vehicle_type]
     trips = route.trips[0 if kept is None else len(kept.route.trips):]
     decisions = []
     for trip in trips:
-        flown = tuple(sortie for sortie in trip.sorties if sortie.drone < kind.num_drones)
-        decision = read_decision(Trip(trip.stops, flown), kind)
-        decisions.append(decision)
+        flown = tuple(sortie for sortie in trip.sorties if sortie.drone in drones)
+        decisions.append(read_decision(Trip(trip.stops, flown), kind))
     return decisions
 
 
-def _moved(decision: TripDecision, here: Mapping[int, int]) -> TripDecision:
-    """Return a trip with other nodes, without customers who have none."""
+def _moved(decision: TripDecision, here: Mapping[int, int], drones: Sequence[int]) -> TripDecision:
+    """Return a trip with other nodes and numbers of drones, without customers who have none."""
     decision = without(decision, {node for node in customers_of(decision) if node not in here})
     inner = tuple(here[node] for node in decision.nodes[1:-1])
-    sorties = tuple(replace(sortie, nodes=tuple(here[node] for node in sortie.nodes))
-                    for sortie in decision.sorties)
+    sorties = tuple(replace(sortie, nodes=tuple(here[node] for node in sortie.nodes),
+                            drone=drones.index(sortie.drone)) for sortie in decision.sorties)
     return TripDecision((decision.nodes[0], *inner, decision.nodes[-1]), sorties,
                         decision.operations, decision.start)
 
@@ -70,7 +72,8 @@ def _moved(decision: TripDecision, here: Mapping[int, int]) -> TripDecision:
 def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
                   here: Mapping[int, int]) -> RouteDecision:
     """Return how a vehicle goes on with the trip that it is on."""
-    own, rest = left.problem.vehicle_types[kind], _moved(planned, here)
+    own = left.problem.vehicle_types[kind]
+    rest = _moved(planned, here, left.drones_of(kind))
     nodes = (own.begins_at, *rest.nodes[1:-1], own.ends_at)
     return RouteDecision(kind, 0, (TripDecision(nodes, rest.sorties, rest.operations),))
 
@@ -139,9 +142,10 @@ def take_back(problem: Problem, past: Past, before: Solution, kept: Mapping[Vehi
         if worker is not None and worker.is_under_way:
             *done, last = trips[worker.vehicle]
             rest = _begun_at_once(left.problem, route)
-            trips[worker.vehicle] = (*done, _joined(last, rest, left.nodes))
+            trips[worker.vehicle] = (*done, _joined(last, rest, left.nodes, worker.drones))
             continue
-        mine = tuple(_whole(trip, left.nodes) for trip in route.trips)
+        drones = left.drones_of(route.vehicle_type)
+        mine = tuple(_whole(trip, left.nodes, drones) for trip in route.trips)
         if worker is None:
             others.append(Route(left.kinds[route.vehicle_type], 0, mine))
         else:
@@ -165,21 +169,21 @@ def _begun_at_once(problem: Problem, route: Route) -> Trip:
     return schedule_trip(problem, kind, replace(decision, start=None), kind.earliest)
 
 
-def _whole(trip: Trip, nodes: Sequence[int], offset: int = 0) -> Trip:
-    """Return a trip with other nodes, its sorties at stops `offset` later."""
+def _whole(trip: Trip, nodes: Sequence[int], drones: Sequence[int], offset: int = 0) -> Trip:
+    """Return a trip with other nodes and drones, its sorties at stops `offset` later."""
     stops = tuple(replace(stop, node=nodes[stop.node]) for stop in trip.stops)
     sorties = tuple(
-        replace(sortie, launch_stop=sortie.launch_stop + offset,
+        replace(sortie, drone=drones[sortie.drone], launch_stop=sortie.launch_stop + offset,
                 recovery_stop=sortie.recovery_stop + offset,
                 visits=tuple(replace(visit, node=nodes[visit.node]) for visit in sortie.visits))
         for sortie in trip.sorties)
     return Trip(stops, sorties)
 
 
-def _joined(begun: Trip, rest: Trip, nodes: Sequence[int]) -> Trip:
+def _joined(begun: Trip, rest: Trip, nodes: Sequence[int], drones: Sequence[int]) -> Trip:
     """Return a trip that goes on at its last stop but the depot as another from there."""
     position = len(begun.stops) - 2
-    rest = _whole(rest, nodes, position)
+    rest = _whole(rest, nodes, drones, position)
     here = replace(begun.stops[position], departure=rest.stops[0].departure)
     return Trip((*begun.stops[:position], here, *rest.stops[1:]),
                 (*begun.sorties, *rest.sorties))

@@ -1,6 +1,6 @@
 """What vehicles under way do in any case: the beginning of a new plan, up to the way home."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 
 from model.judge.energy import charges_at
@@ -66,7 +66,8 @@ def retimed(problem: Problem, decision: RouteDecision, known: tuple[KnownTrip, .
 def _kept(problem: Problem, route: Route, vehicle: Vehicle, past: Past) -> Kept:
     known = past.trips[vehicle]
     kind = problem.vehicle_types[vehicle.type]
-    trips = [read_decision(_settled(kind, trip, facts), kind)
+    grounded = past.grounded.get(vehicle, frozenset())
+    trips = [read_decision(_settled(kind, trip, facts, grounded), kind)
              for trip, facts in zip(route.trips[:len(known)], known, strict=True)]
     decision = RouteDecision(*vehicle, tuple(trips))
     if known[-1].rest != "anything":
@@ -83,8 +84,11 @@ def meeting_stop(trip: Trip, known: KnownTrip) -> int:
                          if index > bound and stop.node in met)])
 
 
-def _settled(kind: VehicleType, trip: Trip, known: KnownTrip) -> Trip:
-    """Return the part of a trip that is settled, with the times that tell its order."""
+def _settled(kind: VehicleType, trip: Trip, known: KnownTrip, grounded: Collection[int]) -> Trip:
+    """Return the part of a trip that is settled, with the times that tell its order.
+
+    Drones that are `grounded` fly what they have begun, and no more.
+    """
     stops = [Stop(stop.node, stop.arrival, 0, 0) for stop in known.stops]
     if known.rest != "anything":
         sorties = tuple(_as_sortie(sortie, len(stops)) for sortie in known.sorties)
@@ -100,7 +104,7 @@ def _settled(kind: VehicleType, trip: Trip, known: KnownTrip) -> Trip:
     planned = [sortie for sortie in trip.sorties if _identity(sortie) not in launched
                and bound <= sortie.launch_stop and sortie.recovery_stop <= meeting
                and (sortie.launch_stop < meeting or meeting == len(trip.stops) - 1)
-               and sortie.drone < kind.num_drones]
+               and sortie.drone < kind.num_drones and sortie.drone not in grounded]
     return Trip(tuple(stops), (*begun, *planned))
 
 
@@ -138,7 +142,8 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
     if not aboard:
         return kept
     ready, service_left = _free_from(problem, route, position, past.now)
-    rest = _rest(problem, vehicle, planned, meeting, served)
+    rest = _rest(problem, vehicle, planned, meeting, served,
+                 past.grounded.get(vehicle, frozenset()))
     planned_end = max(kept.end, _planned_end(problem, kept, ready, service_left, rest))
     return replace(kept, way_on=WayOn(position, ready, service_left, aboard, rest, planned_end))
 
@@ -193,16 +198,20 @@ def _free_from(problem: Problem, route: Route, position: int, now: int) -> tuple
     return ready, max(0, service_end - ready)
 
 
-def _rest(problem: Problem, vehicle: Vehicle, planned: Trip, meeting: int,
-          served: set[int]) -> TripDecision:
-    """Return how the plan goes on from a stop, but for those who are served before or no more."""
+def _rest(problem: Problem, vehicle: Vehicle, planned: Trip, meeting: int, served: set[int],
+          grounded: Collection[int]) -> TripDecision:
+    """Return how the plan goes on from a stop, but for those who are served before or no more.
+
+    Nor are those whom drones were to serve that are grounded.
+    """
     has_launched = any(sortie.launch_stop < meeting for sortie in planned.sorties)
     kind = with_drones_then(problem.vehicle_types[vehicle.type], has_launched)
     sorties = tuple(
         replace(sortie, launch_stop=sortie.launch_stop - meeting,
                 recovery_stop=sortie.recovery_stop - meeting)
         for sortie in planned.sorties
-        if kind.drones is not None and sortie.launch_stop >= meeting)
+        if kind.drones is not None and sortie.launch_stop >= meeting
+        and sortie.drone not in grounded)
     trip = Trip(planned.stops[meeting:], sorties)
     decision = read_decision(trip, kind)
     return without(decision, {-1, *served})

@@ -50,6 +50,13 @@ class Remainder:
         return [here for here, whole in enumerate(self.kinds) if whole == kind
                 and not (here in self.workers and self.workers[here].is_under_way)]
 
+    def drones_of(self, kind: int) -> Sequence[int]:
+        """Return what numbers drones of a type have in the whole problem, by number."""
+        worker = self.workers.get(kind)
+        if worker is not None:
+            return worker.drones
+        return range(self.problem.vehicle_types[kind].num_drones)
+
     def _find(self, vehicle: Vehicle, is_under_way: bool) -> int | None:
         return next((kind for kind, worker in self.workers.items() if worker.vehicle == vehicle
                      and worker.is_under_way == is_under_way), None)

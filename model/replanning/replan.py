@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from model.judge.check import Evaluation, check
 from model.judge.explain import Reason, explain_type, unexplained
@@ -46,6 +46,8 @@ class Terms:
     pinned: frozenset[int] = frozenset()  # customers who stay with their vehicles
     unavailable: frozenset[Vehicle] = frozenset()  # do nothing more
     parcels_back: int | None = None  # ms; when theirs are at the depot again; None: now
+    grounded: Mapping[Vehicle, frozenset[int]] = field(default_factory=dict)
+    """Drones, by number on their truck, that are launched no more."""
     keeps_order: bool = False  # whether pinned customers keep their places in the order, too
 
 
@@ -213,7 +215,9 @@ def _past(problem: Problem, terms: Terms) -> Past:
               if node in terms.pinned
               and (route.vehicle_type, route.vehicle) not in terms.unavailable}
     orders = orders_of(terms.plan) if terms.keeps_order and pinned else {}
-    return Past(terms.now or 0, known, terms.unavailable, pinned, orders=orders)
+    grounded = {vehicle: drones for vehicle, drones in terms.grounded.items()
+                if vehicle not in terms.unavailable}
+    return Past(terms.now or 0, known, terms.unavailable, grounded, pinned, orders=orders)
 
 
 def _as_given(plan: Solution, settled: Solution,

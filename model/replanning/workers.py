@@ -1,10 +1,11 @@
-"""Vehicles that have begun to work, or have customers of their own: each becomes a type.
+"""Vehicles that have begun to work, have customers of their own or not all drones: each is a type.
 
 One that can still deliver what it carries becomes two: for the trip that it is on, which goes on
 from the place where it is, and for later ones, which begin once that would be over by the plan
 given.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import le
@@ -34,6 +35,7 @@ class Worker:
     kind: VehicleType
     aboard: tuple[int, ...] = ()  # if any, nobody else is served
     place: int | None = None  # node of the whole problem where it goes on with its trip
+    drones: tuple[int, ...] = ()  # by number: what number it has in the whole problem
 
     @property
     def is_under_way(self) -> bool:
@@ -67,22 +69,34 @@ def find_workers(problem: Problem, past: Past,
                 returned.setdefault(node, min(route.end, MAX_QUANTITY))
         if later is not None:
             workers.append(later)
-    workers += _with_customers(problem, past, kept)
+    workers += _others(problem, past, kept)
     if len(workers) > MAX_OWN_TYPES:
-        raise TooManyTypesError(f"{len(workers)} routes are under way or have customers pinned "
-                                f"to them, and at most {MAX_OWN_TYPES} are allowed")
-    return workers, returned
+        raise TooManyTypesError(f"{len(workers)} routes are under way, have customers pinned to "
+                                f"them or grounded drones, and at most {MAX_OWN_TYPES} are allowed")
+    return [_with_drones_left(worker, past) for worker in workers], returned
 
 
-def _with_customers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[Worker]:
-    """Return the vehicles that have done nothing yet, and have customers pinned to them."""
+def _others(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[Worker]:
+    """Return who has done nothing yet, and has customers pinned to it or drones grounded."""
     workers = []
-    for vehicle in dict.fromkeys(past.pinned.values()):
+    for vehicle in dict.fromkeys((*past.pinned.values(), *past.grounded)):
         kind = from_now_on(problem.vehicle_types[vehicle.type], past.now)
         if vehicle not in kept and vehicle not in past.unavailable and kind is not None:
             workers.append(Worker(vehicle, replace(kind, id=vehicle_name(problem, vehicle),
                                                    count=1, numbers=())))
     return workers
+
+
+def _with_drones_left(worker: Worker, past: Past) -> Worker:
+    """Return a vehicle without the drones that are grounded, its others numbered anew."""
+    kind, grounded = worker.kind, past.grounded.get(worker.vehicle, frozenset())
+    left = [drone for drone in range(kind.num_drones) if drone not in grounded]
+    counts = Counter(map(kind.drone_index, left))
+    types = [replace(drones, count=counts[index])
+             for index, drones in enumerate(kind.drone_types) if counts[index]]
+    own = replace(kind, drones=types[0] if types else None, more_drones=tuple(types[1:]),
+                  charge_left=tuple(kind.charge_left[drone] for drone in left if kind.charge_left))
+    return replace(worker, kind=own, drones=tuple(left))
 
 
 def from_now_on(kind: VehicleType, now: int) -> VehicleType | None:

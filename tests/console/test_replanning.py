@@ -13,7 +13,7 @@ from tests.console.test_everyone import findings
 
 # Three customers east and three west of the hub, 5 km apart, a minute each kilometre; windows
 # have them visited from the nearest on.
-PROBLEM = {
+PROBLEM: dict[str, Any] = {
     "planar_unit": 1000,
     "depots": [{"id": "hub", "location": [0, 0]}],
     "customers": [{"id": f"{side}{number}", "location": [sign * 5 * number, number % 2],
@@ -26,9 +26,9 @@ PROBLEM = {
 NOW = 480  # both trucks are between their first and their second customer
 
 
-def begin(page: Page) -> None:
-    """Plan the problem and say at its clock that it is eight minutes past the start."""
-    open_file(page, "day.json", json.dumps(PROBLEM))
+def begin(page: Page, problem: dict[str, Any] = PROBLEM) -> None:
+    """Plan a problem and say at its clock that it is eight minutes past the start."""
+    open_file(page, "day.json", json.dumps(problem))
     planned(page, "6 of 6 served")
     page.get_by_label("Time of day").fill(str(NOW))
     page.get_by_role("button", name="Replan from here").first.click()
@@ -134,6 +134,26 @@ def test_others_serve_whom_a_broken_truck_had_not_reached(page: Page) -> None:
     expect(outcome).to_contain_text(f"{vehicle['W1']} does nothing more")
     expect(outcome).to_contain_text("Broken already, by what had happened")
     expect(outcome.locator("li").filter(has_text="E1:")).to_contain_text("0:05")
+
+
+def test_lost_drone_is_launched_no_more(page: Page) -> None:
+    drones = {"count": 1, "capacity": [1], "speed_kmh": 60, "endurance": 1800}
+    later = {"served_by": "drone", "time_window": {"earliest": 3000, "latest": 9000}}
+    customers = [customer | (later if customer["id"] == "W3" else {})
+                 for customer in PROBLEM["customers"]]
+    truck = PROBLEM["fleet"][0] | {"drones": drones}
+    begin(page, PROBLEM | {"customers": customers, "fleet": [truck]})
+    (flight,) = [sortie["drone"] for route in state(page, "state.plans.0.plan")["routes"]
+                 for trip in route["trips"] for sortie in trip["sorties"]
+                 if sortie["customers"][0]["id"] == "W3"]
+    page.get_by_label("A drone is lost").select_option(flight)
+    row = page.locator(".replan-vehicles tr").filter(has_text=flight)
+    expect(row).to_contain_text("launched no more")
+    expect(page.get_by_label("Parcels are back at")).to_have_count(0)
+    reply = plan_on(page)
+    assert flight not in [sortie["drone"] for route in reply["routes"] for trip in route["trips"]
+                          for sortie in trip["sorties"] if sortie["launch_time"] > NOW]
+    expect(page.locator("#replan-outcome")).to_contain_text(f"{flight} is launched no more")
 
 
 def test_what_can_not_be_replanned_is_said_where_it_belongs(

@@ -1,12 +1,14 @@
 """Planning on from what drivers told."""
 
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
-from app.dispatches.going_on import OnTheRoad, going_on
+from app import dispatches
+from app.dispatches.going_on import GROUNDING, OnTheRoad, going_on
 from app.dispatches.schemas import DispatchRequest, GoingOnReply
 from app.dispatches.standing import Told
 from app.dispatches.steps import StepMaker
@@ -99,6 +101,22 @@ def test_drone_that_was_not_launched_leaves_its_customers_open() -> None:
     reply = gone_on({"truck-1": told}, 30_150)
     assert route_of(reply, "truck-1")["sorties"] == []
     assert [(failed.customer, failed.is_open) for failed in reply.failed] == [("C", True)]
+
+
+@pytest.mark.parametrize(("step", "reason", "grounded"), [
+    (LAUNCH, "Drone is broken", ["truck-1/drone-1"]), (LAUNCH, "Too much wind", []),
+    (RECOVER, "Did not come back", ["truck-1/drone-1"]), (RECOVER, "Came back with the parcel", []),
+])
+def test_drone_that_is_lost_is_launched_no_more(step: str, reason: str,
+                                                grounded: list[str]) -> None:
+    told = {**done({DEPART: 30_000}), step: Told("failed", 30_450, reason)}
+    reply = gone_on({"truck-1": told}, 30_460)
+    assert reply.grounded == reply.replan.get("unavailable", []) == grounded
+
+
+def test_what_grounds_a_drone_is_what_the_page_offers() -> None:
+    page = (Path(dispatches.__file__).parent / "static" / "js" / "steps.js").read_text("utf-8")
+    assert [reason for reason in GROUNDING if f"'{reason}'" not in page] == []
 
 
 def test_stop_where_a_drone_is_met_stays_though_nobody_was_served() -> None:

@@ -221,6 +221,8 @@ def test_plans_that_do_not_fit_are_refused(searching: httpx.Client, street: Requ
 
 @pytest.mark.parametrize(("replan", "code", "path"), [
     ({"unavailable": ["truck-3"]}, "UNKNOWN_VEHICLE", ".unavailable[0]"),
+    ({"unavailable": ["truck-1/drone-1"]}, "UNKNOWN_DRONE", ".unavailable[0]"),
+    ({"unavailable": ["truck-3/drone-1"]}, "UNKNOWN_VEHICLE", ".unavailable[0]"),
     ({"unavailable": ["truck-1", "truck-1"]}, "DUPLICATE_VEHICLE", ".unavailable[1]"),
     ({"pinned": ["z"]}, "UNKNOWN_CUSTOMER", ".pinned[0]"),
     ({"pinned": ["d"]}, "NOT_PLANNED", ".pinned[0]"),

@@ -6,7 +6,9 @@ import {
   fromNothing,
   furtherFrom,
   goOnFrom,
+  dronesOnTheWay,
   idleVehicles,
+  isDrone,
   setBroken,
   setPinned,
   settledParts,
@@ -93,6 +95,19 @@ test('a broken vehicle keeps whom it has begun to serve, and loses the rest', ()
   assert.equal(choicesOf(request, 'A').mayCancel, false);
   assert.equal(choicesOf(request, 'G').isPlanned, false);
   assert.deepEqual(idleVehicles(request), ['van-3']);
+});
+
+test('drones of trucks on their way can be lost', () => {
+  const [van, ...others] = REQUEST.fleet;
+  const drones = [{ id: 'small', count: 2 }, { id: 'large', count: 1 }];
+  const request = goOnFrom({ ...REQUEST, fleet: [{ ...van, drones }, ...others] }, PLAN, 150);
+  assert.deepEqual(dronesOnTheWay(request).slice(0, 4),
+    ['van-1/drone-1', 'van-1/drone-2', 'van-1/drone-3', 'van-2/drone-1']);
+  const lost = setBroken(request, 'van-1/drone-2', true);
+  assert.deepEqual(lost.replan.unavailable, ['van-1/drone-2']);
+  assert.deepEqual(lost.replan.unavailable.map(isDrone), [true]);
+  assert.equal(isDrone('van-1'), false);
+  assert.equal(basisRoutes(lost)[0].progress.isBroken, false);
 });
 
 test('of a new plan the reply tells what was settled', () => {

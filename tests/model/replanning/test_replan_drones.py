@@ -79,6 +79,49 @@ def test_broken_truck_s_drone_comes_home_with_what_it_has_served(planner: Planne
     assert served(route_of(solution, ONE)) == {A}
 
 
+def test_drone_that_is_lost_is_launched_no_more(planner: Planner, street: Problem,
+                                               drones: DroneType) -> None:
+    problem, _ = _flying(street, replace(drones, count=2))
+    for node in (C, D):
+        problem = with_customer(problem, node, served_by="drone")
+    flights = (SortieDecision((C,), 1, 2, 0), SortieDecision((D,), 2, 3, 1))
+    trip = TripDecision((0, A, B, 0), flights)
+    plan = solution_of(problem, RouteDecision(0, 0, (trip,)))
+
+    def flown(now: int | None, *lost: int) -> list[tuple[int, int]]:
+        terms = Terms(plan, now, grounded={ONE: frozenset(lost)})
+        replanning = Replanning(problem, terms)
+        solution = replanning.plan(planner, OPTIONS).solution
+        assert replanning.check(solution).violations == ()
+        return sorted((sortie.visits[0].node, sortie.drone) for route in solution.routes
+                      if route.vehicle == ONE.number for trip in route.trips
+                      for sortie in trip.sorties)
+
+    # At 4 min drone 1 is on its way to c, and ends its flight.
+    assert flown(4 * MINUTE, 0) == [(C, 0), (D, 1)]
+    assert flown(4 * MINUTE, 1) == [(C, 0), (D, 0)]
+    assert flown(4 * MINUTE, 0, 1) == [(C, 0)]
+    # Before anything has happened, too.
+    assert {drone for _, drone in flown(None, 0)} == {1}
+    assert flown(None, 0, 1) == []
+    # A plan that launches it is refused.
+    refused = Replanning(problem, Terms(plan, 4 * MINUTE, grounded={ONE: frozenset({1})}))
+    assert ("UNAVAILABLE", "routes[0].trips[0].sorties[1]") in [
+        (item.code, item.path) for item in refused.check(plan).violations]
+
+
+def test_truck_of_drones_of_several_types_goes_on_with_those_that_are_left(
+        planner: Planner, street: Problem, drones: DroneType) -> None:
+    problem, _ = _flying(street, drones)
+    kind = replace(problem.vehicle_types[0], count=1, more_drones=(drones,))
+    problem = with_customer(replace(problem, vehicle_types=(kind,)), D, served_by="drone")
+    trip = TripDecision((0, A, B, 0), (SortieDecision((D,), 2, 3, 0),))
+    plan = solution_of(problem, RouteDecision(0, 0, (trip,)))
+    solution = replan(planner, problem, Terms(plan, 4 * MINUTE, grounded={ONE: frozenset({0})}))
+    assert [sortie.drone for sortie in solution.routes[0].trips[0].sorties
+            if sortie.visits[0].node == D] == [1]
+
+
 def test_idle_drone_may_be_launched_where_the_truck_stands_from_now_on(
         planner: Planner, tiny_problem: Callable[..., Problem], customers: tuple[Customer, ...],
         truck: VehicleType, drones: DroneType) -> None:

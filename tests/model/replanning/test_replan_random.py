@@ -124,6 +124,13 @@ def something_happens(rng: np.random.Generator, problem: Problem, latest: int) -
     return replace(problem, customers=tuple(customers), vehicle_types=kinds)
 
 
+def lost(rng: np.random.Generator, problem: Problem) -> dict[Vehicle, frozenset[int]]:
+    """Return drones of one vehicle of each type, none of some."""
+    return {Vehicle(index, int(rng.integers(kind.count))): frozenset(
+                range(int(rng.integers(kind.num_drones + 1))))
+            for index, kind in enumerate(problem.vehicle_types)}
+
+
 def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator,
                      allowed: Collection[str] = ("TIME_MISMATCH", "RELEASE")) -> None:
     """Plan a part of a problem, let things happen, and plan on.
@@ -155,7 +162,8 @@ def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator,
                        if rng.random() < 0.15)
     pinned = frozenset(node for node in served(*given.routes) if rng.random() < 0.1)
     keeps_order = rng.random() < 0.5
-    replanning = Replanning(problem, Terms(given, now, pinned, broken, keeps_order=keeps_order))
+    replanning = Replanning(problem, Terms(given, now, pinned, broken, grounded=lost(rng, problem),
+                                           keeps_order=keeps_order))
     result = replanning.plan(planner, OPTIONS)
     assert replanning.check(result.solution).violations == ()
     assert result.final_cost <= result.decoded_cost

@@ -44,7 +44,7 @@ export const DONE = {
   return: 'I am back',
 };
 
-/** Why steps fail most often, by their kind. */
+/** Why steps fail most often, by their kind. After some of them drones fly no more: GROUNDING. */
 export const REASONS = {
   stop: ['Nobody there', 'Refused', 'Wrong address', 'Damaged', 'No time left'],
   launch: ['Too much wind', 'Drone is broken', 'Battery is empty', 'No time left'],

@@ -6,6 +6,7 @@
  */
 
 import { clock } from './format.js';
+import { droneCount } from './drones.js';
 import { launchDurations } from './launches.js';
 import { removeIn, setIn } from './paths.js';
 
@@ -77,6 +78,18 @@ export function idleVehicles(request) {
   return request.fleet
     .flatMap(({ id, count }) => Array.from({ length: count }, (_, at) => `${id}-${at + 1}`))
     .filter((name) => !used.has(name));
+}
+
+/** Whether a name is that of a drone, not of its truck. */
+export function isDrone(name) {
+  return name.includes('/drone-');
+}
+
+/** Return the names of the drones that fly from the trucks of the plan given. */
+export function dronesOnTheWay(request) {
+  const types = new Map(request.fleet.map((type) => [type.id, type]));
+  return request.replan.plan.routes.flatMap(({ type, vehicle }) =>
+    Array.from({ length: droneCount(types.get(type)) }, (_, at) => `${vehicle}/drone-${at + 1}`));
 }
 
 /**

@@ -3,12 +3,15 @@
 import { select } from '../actions.js';
 import { clock, count, timesInWords } from '../core/format.js';
 import { getIn, parsePath } from '../core/paths.js';
+import { isDrone } from '../core/replanning.js';
 import { html } from '../libraries.js';
 
 /** The section. `entry` is a plan that goes on from another. */
 export function Outcome({ entry }) {
   const { settled, excused } = entry.plan.replan;
-  const broken = entry.request.replan?.unavailable ?? [];
+  const unavailable = entry.request.replan?.unavailable ?? [];
+  const broken = unavailable.filter((name) => !isDrone(name));
+  const lost = unavailable.filter(isDrone);
   const now = entry.request.replan?.freeze_before ?? null;
   return html`<section class="section" id="replan-outcome"><h3>What stayed as it was</h3>
     ${settled.length > 0
@@ -19,6 +22,8 @@ export function Outcome({ entry }) {
       : html`<p>Nothing had departed, so all was free.</p>`}
     ${broken.length > 0 && html`<p>${broken.join(', ')} ${broken.length > 1 ? 'do' : 'does'} nothing
       more: others serve whom ${broken.length > 1 ? 'they' : 'it'} hadn't reached.</p>`}
+    ${lost.length > 0 && html`<p>${lost.join(', ')} ${lost.length > 1 ? 'are' : 'is'} launched no
+      more.</p>`}
     ${excused.length > 0 && html`<h4>Broken already, by what had happened</h4>
       <ul>${excused.map((rule) => html`<li key=${rule.path + rule.code}>
         <${Place} entry=${entry} path=${rule.path} />${timesInWords(rule.message)}</li>`)}</ul>

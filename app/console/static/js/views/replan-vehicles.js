@@ -5,7 +5,9 @@ import { clock, count, parseClock } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
 import {
   basisRoutes,
+  dronesOnTheWay,
   idleVehicles,
+  isDrone,
   setBroken,
   setPinned,
   whereabouts,
@@ -38,7 +40,8 @@ export function Vehicles({ request, basis, errors }) {
   rows.sort((first, second) => order(first) - order(second));
   const used = new Set(states.map(({ route }) => route.vehicle));
   const others = unavailable.filter((name) => !used.has(name));
-  const idle = idleVehicles(request).filter((name) => !others.includes(name)).slice(0, MOST_IDLE);
+  const whole = (names) => names.filter((name) => !others.includes(name)).slice(0, MOST_IDLE);
+  const [idle, drones] = [idleVehicles(request), dronesOnTheWay(request)].map(whole);
   return html`<section class="section"><h3>Vehicles</h3>
     <table class="replan-vehicles"><thead><tr><th scope="col">Vehicle</th>
       <th scope="col">Keeps all</th><th scope="col">Broken</th></tr></thead>
@@ -48,12 +51,10 @@ export function Vehicles({ request, basis, errors }) {
       id=${`field-replan-unavailable-${unavailable.indexOf(name)}`}
       errors=${errorsAt(errors, ([, section, position]) =>
         section === 'unavailable' && unavailable[position] === name)} />`)}</tbody></table>
-    ${idle.length > 0 && html`<label>Another is broken: <select value=""
-      onChange=${(event) => edit(setBroken(request, event.target.value, true))}>
-      <option value="" disabled hidden>choose an unused vehicle</option>
-      ${idle.map((name) => html`<option key=${name} value=${name}>${name}</option>`)}</select>
-      </label>`}
-    ${unavailable.length > 0 && html`<${ParcelsBack} request=${request} errors=${errors} />`}
+    <${Broken} label="Another is broken:" hint="choose an unused vehicle" names=${idle}
+      request=${request} />
+    <${Broken} label="A drone is lost:" hint="choose a drone" names=${drones} request=${request} />
+    ${unavailable.some((name) => !isDrone(name)) && html`<${ParcelsBack} request=${request} errors=${errors} />`}
   </section>`;
 }
 
@@ -78,9 +79,19 @@ function Row({ row, request }) {
       onChange=${() => edit(setBroken(request, name, !progress.isBroken))} /></td></tr>`;
 }
 
-/** A vehicle that is broken and that the plan doesn't use. */
+/** A choice of what else is broken. */
+function Broken({ label, hint, names, request }) {
+  return names.length > 0 && html`<label>${label} <select value=""
+    onChange=${(event) => edit(setBroken(request, event.target.value, true))}>
+    <option value="" disabled hidden>${hint}</option>
+    ${names.map((name) => html`<option key=${name} value=${name}>${name}</option>`)}</select>
+    </label>`;
+}
+
+/** A drone that is lost, or a vehicle that is broken and that the plan doesn't use. */
 function BrokenRow({ name, request, id, errors }) {
-  return html`<tr><th scope="row">${name}<div class="help">broken; not used in the plan</div>
+  const state = isDrone(name) ? 'launched no more' : 'broken; not used in the plan';
+  return html`<tr><th scope="row">${name}<div class="help">${state}</div>
       <${Errors} errors=${errors} /></th><td></td>
     <td><input type="checkbox" id=${id} aria-label=${`${name} is broken`} checked
       onChange=${() => edit(setBroken(request, name, false))} /></td></tr>`;
