@@ -107,9 +107,22 @@ def require_tables(problem: Problem, bounds: Bounds, preparing: Preparing) -> No
     InvalidRequestError
         If they would take too much memory or time.
     """
+    computed = require_room(problem, bounds)
+    if computed > 0:
+        preparing.expect(legs_seconds(problem.num_nodes, computed, 0, True))
+
+
+def require_room(problem: Problem, bounds: Bounds) -> int:
+    """Return for how many ways to travel a search takes tables that nothing else does.
+
+    Raises
+    ------
+    InvalidRequestError
+        If they would take too much memory.
+    """
     computed = sum(travel.straight is not None for travel in problem.travel)
     if computed == 0 or not states_rarer_rules(problem):
-        return
+        return 0
     places = problem.num_nodes
     legs = computed * places**2
     if legs > bounds.legs:
@@ -119,7 +132,20 @@ def require_tables(problem: Problem, bounds: Bounds, preparing: Preparing) -> No
             f"{computed} ways to travel between {places} places are {legs} legs, and this service "
             f"holds {bounds.legs} at most (TANDEM_MAX_LEGS): send fewer customers, or state no "
             f"rule of those ({RARER_RULES}).")])
-    preparing.expect(legs_seconds(places, computed, 0, True))
+    return computed
+
+
+def lacks_room(request: PlanRequest, bounds: Bounds) -> bool:
+    """Tell whether a valid request is too large for tables, should its rules take them.
+
+    Legs on roads, and between addresses, are known only when the roads are asked.
+    """
+    places = places_of(request)
+    on_roads = (bounds.on_roads and request.coordinate_system == "geographic"
+                and request.roads != "none")
+    if on_roads or any(place.location is None for place in places):
+        return False
+    return Travels(request).count_computed() * len(places)**2 > bounds.legs
 
 
 def _most_under_way(replan: ReplanInput) -> int:
