@@ -5,6 +5,7 @@ memory that was in use before; the first touch of new memory may take as long ag
 sees.
 """
 
+from model.problem import Problem
 from model.search.regions.region import customers_of
 from model.solution import Solution
 from model.travel.visibility import FEW_EDGES
@@ -28,11 +29,16 @@ REPLANNED_ROUTE, REPLANNED_CUSTOMER = 4e-4, 1e-4
 """Seconds for each route, and each customer on it, of a plan to go on from: it is handed over,
 judged before and after, and replied."""
 
+RENUMBERED = 1.3e-8
+"""Seconds for each leg of a way to travel that isn't computed: what is left is numbered anew."""
 
-def replanning_seconds(plan: Solution) -> float:
+
+def replanning_seconds(problem: Problem, plan: Solution) -> float:
     """Estimate what going on from a plan takes beside legs and search."""
     served = sum(1 for route in plan.routes for _ in customers_of(route))
-    return REPLANNED_ROUTE * len(plan.routes) + REPLANNED_CUSTOMER * served
+    tables = sum(travel.straight is None for travel in problem.travel)
+    return (REPLANNED_ROUTE * len(plan.routes) + REPLANNED_CUSTOMER * served
+            + RENUMBERED * tables * problem.num_nodes**2)
 
 
 def legs_seconds(places: int, drives: int, flights: int, geographic: bool) -> float:

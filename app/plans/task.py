@@ -192,7 +192,7 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     terms = _terms(replan, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
-    going_on.expect(replanning_seconds(terms.plan))
+    going_on.expect(replanning_seconds(problem, terms.plan))
     try:
         return Task(problem, Replanning(problem, terms), *beside, places=places)
     except SettledPartError as error:

@@ -86,12 +86,14 @@ def test_areas_that_cross_too_often_are_refused(client: httpx.Client) -> None:
     assert "14400 times" in error["message"]
 
 
+@pytest.mark.parametrize("constant", ["REPLANNED_ROUTE", "REPLANNED_CUSTOMER", "RENUMBERED"])
 def test_a_plan_to_go_on_from_that_takes_too_long_is_refused_with_an_estimate(
-        client: httpx.Client, monkeypatch: pytest.MonkeyPatch, smallest: Request) -> None:
+        client: httpx.Client, monkeypatch: pytest.MonkeyPatch, smallest: Request,
+        constant: str) -> None:
     plan = client.post("/plan", json=smallest).json()
     going_on = smallest | {"replan": {"plan": plan}}
     assert client.post("/plan", json=going_on).status_code == 200
-    monkeypatch.setattr(work, "REPLANNED_ROUTE", 1000.0)
+    monkeypatch.setattr(work, constant, 1000.0)
     [error] = client.post("/plan", json=going_on).json()["errors"]
     assert error["code"] == "TOO_MUCH_WORK"
     assert error["message"].startswith("Legs and the plan to go on from take about")
