@@ -37,8 +37,8 @@ SLOW = (
         "vroom/test_planning.py",
         "vroom/test_windows.py")),
     *(f"tests/model/{name}" for name in (
-        "search/test_anneal.py", "search/test_improve.py", "search/test_kept.py",
-        "search/test_optimum.py", "search/test_starts.py", "test_planner.py",
+        "search/test_anneal.py", "search/test_computed_legs.py", "search/test_improve.py",
+        "search/test_kept.py", "search/test_optimum.py", "search/test_starts.py", "test_planner.py",
         "replanning/test_replan_random.py", "simulation/test_simulator.py")),
 )
 """What `make test-quick` leaves out: it starts other processes, or searches for seconds."""
@@ -57,10 +57,14 @@ def pytest_xdist_auto_num_workers() -> int:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the slow ones, those with PostgreSQL among them. In place."""
+    """Mark the slow ones, those with PostgreSQL among them, and have them begin. In place.
+
+    What is quick fills the cores at the end.
+    """
     for item in items:
         if item.nodeid.startswith(SLOW) or "[postgresql" in item.name:
             item.add_marker(pytest.mark.slow)
+    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
 
 
 TRIES = 5

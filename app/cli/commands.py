@@ -1,6 +1,7 @@
 """The `tandem` command."""
 
 import time
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
@@ -30,9 +31,10 @@ from app.requests.reading import read_request
 from app.schemas.fields import Rounding
 from app.settings import Settings
 from model.judge.check import Evaluation
+from model.kernel.compiled import is_cold
 from model.planner import Planner, load_planner
 from model.problem import Problem
-from model.search.compiling import compile_large
+from model.search.compiling import COMPILE_LARGE, LARGE, beside, compile_large
 from model.solution import COST_TERMS
 
 LEAST_PREPARING = 60.0
@@ -92,8 +94,10 @@ def list_settings() -> None:
 def warm() -> None:
     """Compile everything that planning needs, so that later starts are quick."""
     settings = Settings()
-    _warm_planner(settings)
-    if settings.max_customers > COMPUTED_FROM:
+    compiles_large = settings.max_customers > COMPUTED_FROM
+    with beside(COMPILE_LARGE) if compiles_large and is_cold((LARGE,)) else nullcontext():
+        _warm_planner(settings)
+    if compiles_large:
         typer.echo(f"compiling the search for more than {COMPUTED_FROM} places", err=True)
         compile_large()
     typer.echo("ready")

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from fastapi import FastAPI, Request
 from fastapi.routing import APIRoute
@@ -12,6 +12,8 @@ from pydantic import BaseModel
 from app.errors import MEDIA_TYPE, ProblemDocument
 
 SCHEMA_REF = "#/components/schemas/{model}"
+
+BODY = "requestBody"
 
 EXAMPLES_DIR = Path(__file__).parent / "examples"
 
@@ -79,15 +81,38 @@ def json_body(model: type[BaseModel], examples: Mapping[str, str] = {}) -> dict[
     examples
         Names of files in `app/schemas/examples` and what they show.
     """
-    content: dict[str, Any] = {"schema": model.model_json_schema(ref_template=SCHEMA_REF)}
-    content["schema"]["title"] = model.__name__
-    if examples:
-        content["examples"] = {
-            name: {"summary": summary,
-                   "value": json.loads((EXAMPLES_DIR / f"{name}.json").read_text("utf-8"))}
-            for name, summary in examples.items()
-        }
-    return {"requestBody": {"required": True, "content": {"application/json": content}}}
+    # FastAPI asks it for its items alone, when somebody asks for the description.
+    return cast("dict[str, Any]", _JsonBody(model, examples))
+
+
+class _JsonBody(Mapping[str, Any]):
+    """What `json_body` returns, made anew whenever it is looked at.
+
+    The schemas of all endpoints take a second to make, and most processes need none.
+    """
+
+    def __init__(self, model: type[BaseModel], examples: Mapping[str, str]) -> None:
+        self._model = model
+        self._examples = examples
+
+    def __getitem__(self, key: str) -> Any:
+        if key != BODY:
+            raise KeyError(key)
+        schema = self._model.model_json_schema(ref_template=SCHEMA_REF)
+        content: dict[str, Any] = {"schema": schema | {"title": self._model.__name__}}
+        if self._examples:
+            content["examples"] = {
+                name: {"summary": summary,
+                       "value": json.loads((EXAMPLES_DIR / f"{name}.json").read_text("utf-8"))}
+                for name, summary in self._examples.items()
+            }
+        return {"required": True, "content": {"application/json": content}}
+
+    def __iter__(self) -> Iterator[str]:
+        return iter((BODY,))
+
+    def __len__(self) -> int:
+        return 1
 
 
 def problems(*statuses: int, **described: str) -> dict[int | str, dict[str, Any]]:
@@ -148,7 +173,7 @@ def _bodies(description: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """Yield the JSON content of every operation's request."""
     for operations in description["paths"].values():
         for operation in operations.values():
-            content = operation.get("requestBody", {}).get("content", {})
+            content = operation.get(BODY, {}).get("content", {})
             if "application/json" in content:
                 yield content["application/json"]
 
@@ -160,7 +185,7 @@ def _add_refusals(description: dict[str, Any]) -> None:
         for operation in operations.values():
             if "security" not in operation:
                 continue
-            refusals = REFUSALS | (BODY_REFUSALS if "requestBody" in operation else {})
+            refusals = REFUSALS | (BODY_REFUSALS if BODY in operation else {})
             for status, reason in refusals.items():
                 operation["responses"].setdefault(
                     status, {"description": reason, "content": content})

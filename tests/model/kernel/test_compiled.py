@@ -79,6 +79,20 @@ def test_one_of_several_compiles_and_the_others_find_it_done(
     assert not come()
 
 
+def test_parts_that_have_none_in_common_are_compiled_side_by_side(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("model.kernel.compiled.compiled_folder", lambda: tmp_path)
+
+    def come() -> bool:
+        with first_to_compile(["third"]) as is_first:
+            return is_first
+
+    with first_to_compile(["one", "other"]) as is_first, ThreadPoolExecutor(1) as pool:
+        assert is_first
+        assert pool.submit(come).result(timeout=10)
+
+
 def test_where_one_has_died_the_next_compiles(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -110,6 +124,21 @@ def test_code_is_found_wherever_the_source_lies(tmp_path: Path) -> None:
             check=True, text=True, env={**os.environ, "PYTHONPATH": str(package.parent),
                                         "NUMBA_CACHE_DIR": str(tmp_path / "code")})
         assert done.stdout.strip() == hits
+
+
+def test_what_others_are_linked_from_is_read_when_one_is(tmp_path: Path) -> None:
+    script = (
+        "import numba, numpy as np; from model.kernel.clock import arrival_by_profile as one;"
+        "given = np.array([5]), np.array([3, 4]), 2, 9, 0;"
+        "alone = one(*given); library = next(iter(one.overloads.values())).library;"
+        "waits = library.linkable is not None;"
+        "other = numba.njit(lambda *given: one(*given));"
+        "print(waits, other(*given) == alone, library.linkable is None)")
+    for waits in (False, True):
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", script], cwd=ROOT, capture_output=True, check=True,
+            text=True, env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)})
+        assert done.stdout.strip() == f"{waits} True True"
 
 
 def test_nothing_is_kept_where_no_folder_can_be_written(tmp_path: Path) -> None:
