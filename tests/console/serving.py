@@ -64,8 +64,12 @@ def _wait_until_ready(process: subprocess.Popen[bytes], address: str, log: Path)
 
 @contextmanager
 def chromium() -> Iterator[Browser]:
-    """Yield Debian's Chromium, or the one that the variable CHROMIUM names."""
-    path = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    """Yield Debian's Chromium, or the one that the variable CHROMIUM names.
+
+    Where there is one without windows, that is taken: it opens a page in half of the time.
+    """
+    path = (os.environ.get("CHROMIUM") or shutil.which("chromium-headless-shell")
+            or shutil.which("chromium"))
     if path is None:
         raise RuntimeError("the console is tested with Chromium: .ci/prepare says how to get it")
     with sync_playwright() as playwright:

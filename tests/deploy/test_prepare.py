@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 CI = Path(__file__).parents[2] / ".ci"
-PROGRAMS = {"make": "make", "chromium": "chromium", "node": "nodejs", "curl": "curl"}
+BROWSER = "chromium-headless-shell"
+PROGRAMS = {"make": "make", BROWSER: BROWSER, "node": "nodejs", "curl": "curl"}
 PYTHON = ("python3", "python3-venv")
-PACKAGES = ("make", *PYTHON, "chromium", "nodejs", "curl", "postgresql")
+PACKAGES = ("make", *PYTHON, BROWSER, "nodejs", "curl", "postgresql")
 RUNS, FAILS = "exit 0", "exit 1"
 
 
@@ -100,8 +101,15 @@ def test_library_of_the_browsers_driver_is_missed_where_it_is_not_listed(
 
 def test_browser_may_be_chosen(machine: Machine) -> None:
     machine.add_all()
-    (machine.programs / "chromium").rename(machine.programs / "chrome")
+    (machine.programs / BROWSER).rename(machine.programs / "chrome")
     assert machine.run("prepare", CHROMIUM="chrome").returncode == 0
+    assert f"missing here: {BROWSER}.\n" in machine.run("prepare", CHROMIUM="other").stderr
+
+
+def test_browser_with_windows_will_do(machine: Machine) -> None:
+    machine.add_all()
+    (machine.programs / BROWSER).rename(machine.programs / "chromium")
+    assert machine.run("prepare").returncode == 0
 
 
 def test_python_is_not_missed_once_its_environment_is_made(machine: Machine) -> None:
