@@ -15,18 +15,15 @@ from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import first_plan, make_searcher, read_plan
 from model.search.ground import Ground, lay_ground
-from model.search.limits import ROUNDS, WHOLE, Limits, Span
-from model.search.moves.anneal import ANY, anneal
+from model.search.limits import WHOLE, Limits, Span
 from model.search.route.layout import World
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.temperature import Heat
+from model.search.worker import Worker
 from model.search.world import ALL_MOVES, Moves, as_searched, make_world, only_loads_limit
 from model.solution import Solution, renumbered
-
-SLICE = 0.003
-"""Seconds between two looks at the clock."""
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
 """Number of customers from which on a plan with drones begins with one by trucks alone, and the
@@ -54,9 +51,6 @@ STAY = 200
 
 Reading = Callable[[int, int], float]
 """Seconds that a plan of so many routes and sorties takes to read."""
-
-FIRST_SLICE = 8
-"""Turns before the first look at the clock."""
 
 STARTS_SHARE = 0.4
 """Share of the search in which each thread begins several times anew, where that pays."""
@@ -105,68 +99,12 @@ class Improved:
     whole: bool  # nothing was cut short
 
 
-@dataclass
-class _Worker:
-    """One thread's search."""
-
-    world: World
-    searcher: Searcher
-    limits: Limits
-    heat: Heat
-    span: Span = WHOLE
-    cooling: Span | None = None  # whose first temperature was set
-    turns: int = 0
-    pace: float = 0.0  # seconds a turn takes
-    cooled: float = 0.0  # share of the cooling that is left out
-
-    def run(self) -> None:
-        """Search for one round."""
-        most, end = self.limits.round_end(self.turns, self.span)
-        while self.turns < most and not self.limits.should_stop():
-            now = time.perf_counter()
-            if now >= end:
-                return
-            self._anneal(int(min(most - self.turns, self._slice(end - now))))
-
-    def expected(self) -> float:
-        """Return how many turns for each customer the search has in all, as far as is known."""
-        turns: float = self.limits.turns or 0
-        if self.limits.turns is None and self.pace > 0.0:
-            turns = (self.limits.deadline - self.limits.began) / self.pace
-        return turns / max(1, int(self.searcher.count.customers))
-
-    def _slice(self, seconds: float) -> float:
-        if self.limits.turns is not None and self.limits.deadline == math.inf:
-            return math.ceil(self.limits.turns / (4 * ROUNDS))
-        if self.pace == 0.0:
-            return FIRST_SLICE
-        return max(1.0, min(SLICE, seconds) / self.pace)
-
-    def _anneal(self, turns: int) -> None:
-        value, span = self.searcher.value, self.span
-        hot, cold = self.heat.ends(self.expected() * (span.end - span.begin), span.heat)
-        hot *= (cold / hot) ** self.cooled
-        if self.limits.turns is None:
-            value.temperature = hot * (cold / hot) ** span.share(self.limits.share(self.turns))
-            value.cooling = 1.0
-        elif span is not self.cooling:
-            # By turns alone, so that the clock changes nothing.
-            value.temperature = hot
-            value.cooling = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
-            self.cooling = span
-        began, before = time.perf_counter(), int(self.searcher.count.turn)
-        anneal(self.world, self.searcher, turns, ANY)
-        made = int(self.searcher.count.turn) - before
-        self.turns += made
-        self.pace = (time.perf_counter() - began) / max(1, made)
-
-
 @dataclass(frozen=True)
 class _Team:
     """All threads."""
 
     whole: Searcher
-    workers: list[_Worker]
+    workers: list[Worker]
     limits: Limits
     pool: ThreadPoolExecutor
     after_round: Callable[[int], None]  # told of the turns of all
@@ -181,7 +119,7 @@ class _Team:
             for worker, part in zip(self.workers, crew.spread(), strict=True):
                 worker.searcher, worker.span = part, span
                 part.count.stay = self.whole.count.stay
-            list(self.pool.map(_Worker.run, self.workers))
+            list(self.pool.map(Worker.run, self.workers))
             crew.gather()
             self.after_round(sum(worker.turns for worker in self.workers))
             rounds -= 1
@@ -284,7 +222,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(world, whole, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
-    workers = [_Worker(world, whole, limits, heat, cooled=config.cooled)
+    workers = [Worker(world, whole, limits, heat, cooled=config.cooled)
                for _ in range(config.threads)]
 
     node = numbering.node.tolist()

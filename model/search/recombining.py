@@ -1,0 +1,139 @@
+"""The better parts of two plans, put together.
+
+While it cools, a search changes its plan here and there, to and fro: hardly ever are all parts at
+their best at once. Routes of one plan that serve the same customers as some of another may take
+their place whatever the others are. So the smallest such parts of the plan as it is take their
+places in the best one wherever they cost less; the search goes on as it would have.
+
+References
+----------
+Whitley, Hains and Howe (2009), tunneling between optima: partition crossover for the traveling
+salesman problem, GECCO.
+"""
+
+import numpy as np
+
+from model.problem import BoolArray, FloatArray, IntArray
+from model.search.route.layout import ELSEWHERE, NOWHERE, Fleet, World
+from model.search.route.state import ALL, Searcher
+from model.search.sharing import OTHERS, ROUNDING
+
+
+def take_better_parts(world: World, searcher: Searcher) -> None:
+    """Let the best plan take over the parts of the plan as it is that cost less. In place.
+
+    Where that would take too many vehicles, those parts alone that need no more of any type.
+    """
+    now, best, slots = searcher.now, searcher.best, len(searcher.active)
+    nodes = np.arange(world.num_depots, world.num_nodes)
+    nodes = nodes[now.where["slot"][nodes] != ELSEWHERE]
+    # Who is left out is like a route, numbered behind them all.
+    one, other = (np.where(slot == NOWHERE, slots + nodes, slot)
+                  for slot in (_slots_in(best, slots)[nodes], now.where["slot"][nodes]))
+    old, new = _common_parts(one, other, slots + world.num_nodes)
+    saved = _costs(world, best, old) - _costs(world, now, new)
+    better = saved > ROUNDING
+    if not better.any():
+        return
+    used = _used(searcher, old, new, better)
+    if (used > world.type["count"][:world.num_types]).any() or used.sum() > slots:
+        for k in range(world.num_types):
+            better &= _routes(now, new, k) <= _routes(best, old, k)
+        used = _used(searcher, old, new, better)
+    best.used[:] = used
+    searcher.value.best -= float(saved[better].sum())
+    _exchange(searcher, better[old], better[new])
+
+
+def _slots_in(fleet: Fleet, slots: int) -> IntArray:
+    """Return (node,) the slot of each customer's route; NOWHERE if there is none."""
+    slot_of, routes, node = np.full(len(fleet.where), NOWHERE), fleet.route, fleet.stop["node"]
+    for slot, length in enumerate(routes["length"][:slots].tolist()):
+        slot_of[node[slot, :length]] = slot
+    for slot in np.flatnonzero(routes["sorties"][:slots]).tolist():
+        for sortie in fleet.sortie[slot, :routes["sorties"][slot]]:
+            slot_of[sortie["nodes"][:sortie["count"]]] = slot
+    return slot_of
+
+
+def _common_parts(one: IntArray, other: IntArray, size: int) -> tuple[IntArray, IntArray]:
+    """Return the smallest parts of two plans that serve the same customers.
+
+    Parameters
+    ----------
+    one, other
+        (customer,) the number of the customer's route in both, below `size`.
+
+    Returns
+    -------
+    (number,) twice: the least number that a route of the part has in the first; `size` if there is
+    no such route.
+    """
+    part = np.full(size, size)
+    part[one] = one
+    while True:
+        across = np.full(size, size)
+        np.minimum.at(across, other, part[one])
+        joined = part.copy()
+        np.minimum.at(joined, one, across[other])
+        if (joined == part).all():
+            return part, across
+        part = joined
+
+
+def _costs(world: World, fleet: Fleet, part: IntArray) -> FloatArray:
+    """Return (part,) what the routes of each part cost, and those whom it leaves out.
+
+    `part` (number,) is that of each slot's route, and behind them of each customer left out.
+    """
+    slots = len(part) - world.num_nodes
+    each = np.concatenate([fleet.cost[:slots], world.unassigned_cost + world.unassigned_more])
+    each[part == len(part)] = 0.0
+    return np.bincount(part, each, len(part) + 1).astype(np.float64)
+
+
+def _routes(fleet: Fleet, part: IntArray, k: int) -> IntArray:
+    """Return (part,) how many routes are of a type; `part` as in `_costs`."""
+    routes = fleet.route[:len(part) - len(fleet.where)]
+    of_type = (routes["type"] == k) & (routes["length"] > 0)
+    return np.bincount(part[:len(routes)][of_type], minlength=len(part) + 1)
+
+
+def _used(searcher: Searcher, old: IntArray, new: IntArray, better: BoolArray) -> IntArray:
+    """Return (type,) how many routes there are if parts of the best plan become the new ones."""
+    used = searcher.best.used.copy()
+    for fleet, part, sign in ((searcher.best, old, -1), (searcher.now, new, 1)):
+        slots = np.flatnonzero(better[part[:len(searcher.active)]])
+        used += sign * np.bincount(fleet.route["type"][slots], minlength=len(used))
+    return used
+
+
+def _exchange(searcher: Searcher, old: BoolArray, new: BoolArray) -> None:
+    """Let routes and customers left out take the places of others in the best plan. In place.
+
+    Both are marked (number,) as in `_costs`.
+    """
+    now, best, count, slots = searcher.now, searcher.best, searcher.count, len(searcher.active)
+    gone = np.flatnonzero(old[:slots])
+    for name in ("length", "sorties", "trips"):
+        best.route[name][gone] = 0
+    best.cost[gone] = 0.0
+    free = np.flatnonzero(best.route["length"][:slots] == 0)
+    for slot, to in zip(np.flatnonzero(new[:slots]).tolist(), free.tolist(), strict=False):
+        _copy(now, slot, best, to)
+    best.route["stamp"] = OTHERS
+    missing = searcher.best_missing[:count.best_missing]
+    missing = np.concatenate([missing[~old[slots + missing]], np.flatnonzero(new[slots:])])
+    searcher.best_missing[:len(missing)] = missing
+    count.best_missing, count.changed = len(missing), ALL
+
+
+def _copy(source: Fleet, slot: int, target: Fleet, to: int) -> None:
+    """Copy a route between fleets. In place."""
+    route = source.route[slot]
+    target.route[to], target.cost[to] = route, source.cost[slot]
+    target.early[to] = source.early[slot]
+    target.stop[to, :route["length"]] = source.stop[slot, :route["length"]]
+    target.halt[to, :, :route["length"]] = source.halt[slot, :, :route["length"]]
+    target.trip[to, :route["trips"]] = source.trip[slot, :route["trips"]]
+    target.sortie[to, :route["sorties"]] = source.sortie[slot, :route["sorties"]]

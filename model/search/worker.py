@@ -1,0 +1,102 @@
+"""One thread's search."""
+
+import math
+import time
+from dataclasses import dataclass
+
+from model.search.limits import ROUNDS, WHOLE, Limits, Span
+from model.search.moves.anneal import ANY, anneal
+from model.search.recombining import take_better_parts
+from model.search.route.layout import World
+from model.search.route.state import Searcher
+from model.search.temperature import Heat
+
+SLICE = 0.003
+"""Seconds between two looks at the clock."""
+
+FIRST_SLICE = 8
+"""Turns before the first look at the clock."""
+
+LOOKED_FROM = 0.5
+"""Share of a cooling from which on the better parts of plans are put together: while it is hot,
+plans have none in common."""
+
+TURNS_A_LOOK, MOST_LOOKS = 1000, 400
+"""Turns between two such looks, and one for each customer more, so that they take some two percent
+of the time; and how many there are at most in a search."""
+
+LOOK = 5e-6
+"""Seconds for each node that one may take."""
+
+
+@dataclass
+class Worker:
+    """One thread's search."""
+
+    world: World
+    searcher: Searcher
+    limits: Limits
+    heat: Heat
+    span: Span = WHOLE
+    cooling: Span | None = None  # whose first temperature was set
+    turns: int = 0
+    pace: float = 0.0  # seconds a turn takes
+    cooled: float = 0.0  # share of the cooling that is left out
+    looked: int = 0  # turns after which better parts were last looked for
+
+    def run(self) -> None:
+        """Search for one round."""
+        most, end = self.limits.round_end(self.turns, self.span)
+        while self.turns < most and not self.limits.should_stop():
+            now = time.perf_counter()
+            if now >= end:
+                return
+            due = self.looked + self._turns_to_look()
+            self._anneal(int(min(most - self.turns, due - self.turns, self._slice(end - now))))
+            if self.turns >= due:
+                self._look(end)
+
+    def expected(self) -> float:
+        """Return how many turns for each customer the search has in all, as far as is known."""
+        turns: float = self.limits.turns or 0
+        if self.limits.turns is None and self.pace > 0.0:
+            turns = (self.limits.deadline - self.limits.began) / self.pace
+        return turns / max(1, int(self.searcher.count.customers))
+
+    def _turns_to_look(self) -> int:
+        """Return after how many turns better parts are looked for again."""
+        customers = int(self.searcher.count.customers)
+        return math.ceil(max(TURNS_A_LOOK + customers, self.expected() * customers / MOST_LOOKS))
+
+    def _look(self, end: float) -> None:
+        """Let the best plan take over better parts, if it is cool and there is time. In place."""
+        self.looked = self.turns
+        spare = end - time.perf_counter()
+        if (self.span.share(self.limits.share(self.turns)) >= LOOKED_FROM
+                and spare > LOOK * self.world.num_nodes and not self.limits.should_stop()):
+            take_better_parts(self.world, self.searcher)
+
+    def _slice(self, seconds: float) -> float:
+        if self.limits.turns is not None and self.limits.deadline == math.inf:
+            return math.ceil(self.limits.turns / (4 * ROUNDS))
+        if self.pace == 0.0:
+            return FIRST_SLICE
+        return max(1.0, min(SLICE, seconds) / self.pace)
+
+    def _anneal(self, turns: int) -> None:
+        value, span = self.searcher.value, self.span
+        hot, cold = self.heat.ends(self.expected() * (span.end - span.begin), span.heat)
+        hot *= (cold / hot) ** self.cooled
+        if self.limits.turns is None:
+            value.temperature = hot * (cold / hot) ** span.share(self.limits.share(self.turns))
+            value.cooling = 1.0
+        elif span is not self.cooling:
+            # By turns alone, so that the clock changes nothing.
+            value.temperature = hot
+            value.cooling = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
+            self.cooling = span
+        began, before = time.perf_counter(), int(self.searcher.count.turn)
+        anneal(self.world, self.searcher, turns, ANY)
+        made = int(self.searcher.count.turn) - before
+        self.turns += made
+        self.pace = (time.perf_counter() - began) / max(1, made)
