@@ -1,10 +1,10 @@
 """A plan: routes of trips, with the sorties flown from them. Times in ms, nodes as in `Problem`."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, fields, replace
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Stop:
     """A place where the truck halts.
 
@@ -25,7 +25,7 @@ class Stop:
         return self.arrival + self.setup
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Visit:
     """A customer served by a drone."""
 
@@ -41,7 +41,7 @@ class Visit:
         return self.arrival + self.setup
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Sortie:
     """One drone flight, from launch to recovery, within one trip."""
 
@@ -54,7 +54,7 @@ class Sortie:
     recovery_time: int  # the end of recovery
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Trip:
     """Depot to depot on one loading."""
 
@@ -62,7 +62,7 @@ class Trip:
     sorties: tuple[Sortie, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Route:
     """All trips of one vehicle, in order."""
 
@@ -71,7 +71,7 @@ class Route:
     trips: tuple[Trip, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Solution:
     """A plan for a whole problem."""
 
@@ -89,6 +89,14 @@ def renumbered(plan: Solution, node: Callable[[int], int],
 
     Errors of `node` and `vehicle` (a `KeyError`, say, for what has no number) come through.
     """
+    return Solution(tuple(renumbered_routes(plan.routes, node, vehicle)),
+                    tuple(sorted(map(node, plan.unassigned))))
+
+
+def renumbered_routes(routes: Iterable[Route], node: Callable[[int], int],
+                      vehicle: Callable[[int, int], tuple[int, int]] = _as_it_is
+                      ) -> Iterator[Route]:
+    """Yield routes with other numbers, as `renumbered` does."""
     def trip(old: Trip) -> Trip:
         return Trip(tuple(Stop(node(stop.node), stop.arrival, stop.service_start, stop.departure,
                                stop.setup) for stop in old.stops),
@@ -99,13 +107,11 @@ def renumbered(plan: Solution, node: Callable[[int], int],
             Visit(node(visit.node), visit.arrival, visit.service_start, visit.departure,
                   visit.setup) for visit in old.visits]))
 
-    return Solution(
-        tuple(Route(*vehicle(route.vehicle_type, route.vehicle), tuple(map(trip, route.trips)))
-              for route in plan.routes),
-        tuple(sorted(map(node, plan.unassigned))))
+    for route in routes:
+        yield Route(*vehicle(route.vehicle_type, route.vehicle), tuple(map(trip, route.trips)))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Cost:
     """What a plan costs, by term."""
 

@@ -27,7 +27,8 @@ SOURCES = (
         "customer", "distances", "energy", "fleet", "overtime", "problem", "quantities")),
     *(f"kernel/{part}" for part in (
         "compiled", "records", "plain", "alarm", "copying", "instance", "start", "shift", "stop",
-        "energy", "flight", "load", "clock", "leg", "drone_types")),
+        "energy", "flight", "load", "clock", "leg", "drone_types", "cells",
+        "sparse")),
     *(f"travel/{part}" for part in ("visibility", "detours")),
     *(f"simulation/{part}" for part in (
         "vehicle_log", "cost", "meeting", "aboard", "transition", "trial", "simulator")),
@@ -40,7 +41,7 @@ SOURCES = (
         "evaluate", "cheapest_stop", "new_trips", "offers", "places")),
     *(f"search/moves/{part}" for part in (
         "ruin", "recreate", "exchange", "retype", "split", "resplit", "anneal")),
-    *(f"search/beginning/{part}" for part in ("construct", "savings", "translate")),
+    *(f"search/beginning/{part}" for part in ("construct", "savings", "either_way", "translate")),
     "search/sharing",
 )
 """Files with compiled functions, and those whose constants are compiled into them."""

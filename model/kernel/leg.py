@@ -78,6 +78,11 @@ TravelLegs = Stated | ComputedTravel
 LegRow = Stated | ComputedRow
 
 
+def are_the_same_back(legs: AllLegs, back: AllLegs) -> bool:
+    """Tell whether all legs are those back as well."""
+    return len(legs.table) == 1 if isinstance(legs, ComputedLegs) else legs is back
+
+
 def _stated_legs_of(legs: IntArray, m: int) -> TravelLegs:
     return Stated(legs[m])
 
@@ -151,6 +156,22 @@ def _computed_leg_from(inward: ComputedRow, node: int) -> Leg:
 
 leg_from = chosen_by_type(ComputedRow, _computed_leg_from, _stated_leg_at)
 """Return the leg from a node to that for which `legs_to` took the row: `leg_from(inward, node)`."""
+
+
+def _stated_nearness(inward: Stated, onward: Stated, node: int) -> int:
+    return min(inward.table[node, LEG_DISTANCE], onward.table[node, LEG_DISTANCE])
+
+
+def _computed_nearness(inward: ComputedRow, onward: ComputedRow, node: int) -> int:
+    if inward.computed:
+        # As far back, to the last bit.
+        return straight_leg(onward.here, onward.point[node], onward.law).distance
+    return min(inward.table[node, LEG_DISTANCE], onward.table[node, LEG_DISTANCE])
+
+
+nearness = chosen_by_type(ComputedRow, _computed_nearness, _stated_nearness)
+"""Return the shorter distance to or from a node: `nearness(inward, onward, node)`, rows of one
+travel that `legs_to` and `legs_from` took for the same node."""
 
 
 @inlined

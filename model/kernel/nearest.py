@@ -1,12 +1,11 @@
 """Who is nearest to whom, in a time that hardly depends on how many are equally near."""
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
-from model.kernel.pausing import Pause, matrix_blocks
-from model.problem import BoolArray, FloatArray, IntArray, Problem
+from model.kernel.cells import Cells, write_nearest_in
+from model.kernel.pausing import Pause, matrix_blocks, row_blocks
+from model.problem import BoolArray, FloatArray, Int32Array, IntArray, Problem
 
 FEW = 512
 """Up to how many columns equal entries cost nothing that matters."""
@@ -20,10 +19,13 @@ halves a row by comparing, and took ten times as long where most customers were 
 
 
 CELL = 64
-"""Most points in a cell."""
+"""Most points in a cell that is not halved."""
 
-CELLS_PER_RANK = 2
-"""By how many points more than are ranked a cell's are compared with at first."""
+NONE = -1
+"""Half of a cell that is not halved."""
+
+POINTS_AT_ONCE = 1024
+"""For how many points the nearest are found between two pauses."""
 
 
 def least_columns(weight: NDArray[np.floating], ranks: int) -> IntArray:
@@ -62,54 +64,37 @@ def _selected_by_keys(weight: NDArray[np.floating], ranks: int) -> IntArray:
     return least & np.int64(2**32 - 1)
 
 
-def nearest_points(points: FloatArray, ranks: int, pause: Pause) -> IntArray:
-    """Return the `ranks` points nearest to each of (point, axis), nearest first.
+def write_nearest_points(points: FloatArray, nearest: Int32Array, pause: Pause) -> None:
+    """Write which points are nearest to each of (point, axis), nearest first.
 
-    Points lie in cells of a k-d tree. Those of one are compared with all in cells near by, then
-    with all in cells no farther than the last of those found.
+    In place: `nearest` (point, rank), of which there are fewer than points.
     """
-    cells = list(_cells(points, np.arange(len(points))))
-    low, high = (np.array([edge(points[cell], axis=0) for cell in cells])
-                 for edge in (np.min, np.max))
-    nearest = np.empty((len(points), ranks), np.int64)
-    for cell, least, most in zip(cells, low, high, strict=True):
-        pause()
-        apart = _square(np.maximum(0.0, np.maximum(low - most, least - high)))
-        order = np.argsort(apart, kind="stable")
-        count = min(len(order), 2 + CELLS_PER_RANK * ranks // CELL)
-        reach = 0.0
-        while True:
-            others = np.concatenate([cells[index] for index in order[:count]])
-            away = _square(points[cell][:, None] - points[others])
-            away[cell[:, None] == others] = np.inf
-            if len(others) > ranks:
-                reach = float(np.partition(away, ranks - 1, axis=1)[:, ranks - 1].max())
-                enough = int(np.searchsorted(apart[order], reach))
-                if enough <= count:
-                    break
-                count = enough
-            else:
-                count = min(len(order), 2 * count)
-        nearest[cell] = others[least_columns(away, ranks)]
-    return nearest
+    cells = cells_of(points)
+    for places in row_blocks(len(points), POINTS_AT_ONCE, pause):
+        write_nearest_in(cells, places.start, places.stop, nearest)
 
 
-def _cells(points: FloatArray, members: IntArray) -> Iterator[IntArray]:
-    """Yield points in cells, halved across their longer side until they are small."""
-    if len(members) <= CELL:
-        yield members
-        return
-    inside = points[members]
-    axis = int(np.ptp(inside, axis=0).argmax())
-    half = len(members) // 2
-    order = np.argpartition(inside[:, axis], half)
-    yield from _cells(points, members[order[:half]])
-    yield from _cells(points, members[order[half:]])
-
-
-def _square(difference: FloatArray) -> FloatArray:
-    square: FloatArray = np.einsum("...i,...i->...", difference, difference)
-    return square
+def cells_of(points: FloatArray) -> Cells:
+    """Return points in cells, halved across their longest side until they are small."""
+    order, low, high, spans, halves = np.arange(len(points)), [], [], [], []
+    left = [(0, len(points), -1)]
+    while left:
+        first, last, parent = left.pop()
+        inside = points[order[first:last]]
+        low.append(inside.min(axis=0))
+        high.append(inside.max(axis=0))
+        spans.append((first, last))
+        halves.append([])
+        if parent >= 0:
+            halves[parent].append(len(halves) - 1)
+        if last - first > CELL:
+            half = (last - first) // 2
+            axis = int((high[-1] - low[-1]).argmax())
+            order[first:last] = order[first:last][np.argpartition(inside[:, axis], half)]
+            left += [(first, first + half, len(halves) - 1), (first + half, last, len(halves) - 1)]
+    return Cells(np.array(low), np.array(high), *np.array(spans).T.copy(),
+                 np.array([half or (NONE, NONE) for half in halves]), points[order],
+                 order.astype(np.int32))
 
 
 def write_nearest(problem: Problem, neighbours: IntArray, pause: Pause) -> None:

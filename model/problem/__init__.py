@@ -9,7 +9,8 @@ from model.problem.overtime import Overtime
 from model.problem.problem import Problem
 from model.problem.quantities import (
     FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MOST_INCOMPATIBLE, MS_PER_HOUR,
-    UNLIMITED, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, IntArray, UIntArray,
+    UNLIMITED, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, Int32Array, IntArray,
+    UIntArray,
 )
 from model.problem.straight import Points, StraightLegs
 from model.problem.travel import Travel
@@ -18,7 +19,7 @@ __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS", "MAX_POWER",
     "MAX_QUANTITY", "MICROJOULES_PER_WH", "MM_PER_KM", "MOST_INCOMPATIBLE", "MS_PER_HOUR",
     "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray", "Customer", "Depot", "DepotKind",
-    "DroneType", "Energy", "FloatArray", "IncompatibleGoods", "IntArray", "Overtime", "Pickups",
-    "Points", "Problem", "ServedBy", "SpeedProfile", "StraightLegs", "Travel", "UIntArray",
-    "VehicleType",
+    "DroneType", "Energy", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Overtime",
+    "Pickups", "Points", "Problem", "ServedBy", "SpeedProfile", "StraightLegs", "Travel",
+    "UIntArray", "VehicleType",
 ]

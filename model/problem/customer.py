@@ -9,7 +9,7 @@ DepotKind = Literal["depot", "start", "end", "nowhere"]
 ServedBy = Literal["truck", "drone", "either"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Depot:
     """A place where trips may begin or end."""
 
@@ -19,7 +19,7 @@ class Depot:
     site: int | None = None  # places with equal numbers are one place
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Customer:
     """Place with a demand, served once by a truck or a drone."""
 
@@ -72,7 +72,7 @@ class Customer:
         return self.pickup or (0,) * len(self.demand)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class IncompatibleGoods:
     """Goods no two of which may be carried on one trip, or by one vehicle on all its trips."""
 

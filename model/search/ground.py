@@ -7,11 +7,13 @@ import numpy as np
 
 from model.kernel.instance import Instance
 from model.kernel.leg import COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs
-from model.kernel.nearest import least_columns, nearest_points
+from model.kernel.nearest import least_columns, write_nearest_points
 from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Records
 from model.kernel.variants import Way, ways_of
-from model.problem import UNLIMITED, FloatArray, IntArray, Problem, StraightLegs
+from model.problem import (
+    UNLIMITED, FloatArray, Int32Array, IntArray, Problem, StraightLegs,
+)
 from model.search.numbering import Numbering, along_neighbours, as_stated
 
 NEAR_RUIN = 128
@@ -20,6 +22,9 @@ NEAR_RUIN = 128
 ROWS = 64
 """For how many customers neighbours are ranked together; pages for all at once would take longer to
 get."""
+
+RENUMBERED = 4096
+"""Whose neighbours get the search's numbers together."""
 
 NEAR_INSERTION = 40
 """Beside how many customers an insertion is tried where not everywhere is."""
@@ -34,8 +39,8 @@ class Ground(NamedTuple):
 
     leg: AllLegs
     back: AllLegs
-    near: IntArray
-    fit: IntArray
+    near: Int32Array
+    fit: Int32Array
     numbering: Numbering
 
 
@@ -50,15 +55,17 @@ def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on,
     numbering = as_stated(problem.num_nodes)
     if along:
         numbering = along_neighbours(near, problem.num_depots)
-        near, fit = (_numbers_of(ranked, numbering) for ranked in (near, fit))
+        near, fit = (_numbers_of(ranked, numbering, pause) for ranked in (near, fit))
     leg, back = _legs(problem, instance.setup[0], numbering, pause)
     return Ground(leg, back, near, fit, numbering)
 
 
-def _numbers_of(ranked: IntArray, numbering: Numbering) -> IntArray:
+def _numbers_of(ranked: Int32Array, numbering: Numbering, pause: Pause) -> Int32Array:
     """Return neighbours (node, rank), -1 for none, in the search's numbers."""
-    ranked = ranked[numbering.node]
-    numbers: IntArray = np.where(ranked >= 0, numbering.number[ranked], ranked)
+    number, numbers = numbering.number.astype(np.int32), np.empty_like(ranked)
+    for rows in row_blocks(len(ranked), RENUMBERED, pause):
+        others = ranked[numbering.node[rows]]
+        numbers[rows] = np.where(others >= 0, number[others], others)
     return numbers
 
 
@@ -81,7 +88,8 @@ def _legs(problem: Problem, setup: Records, numbering: Numbering, pause: Pause
         point["site"], point["setup_duration"] = setup["site"], setup["setup_duration"]
     tables = _tables(problem, stated, setup, numbering.node, pause)
     if len(stated) == len(ways):
-        return tables[0], tables[-1]
+        leg = tables[0]
+        return leg, leg if len(tables) == 1 else tables[1]
     legs = ComputedLegs(tables, _in_order(point, numbering), law)
     return legs, legs
 
@@ -129,19 +137,19 @@ def _symmetric(tables: IntArray, pause: Pause) -> bool:
                for table in tables for rows in row_blocks(len(table), ROWS, pause))
 
 
-def _near(problem: Problem, pause: Pause) -> IntArray:
+def _near(problem: Problem, pause: Pause) -> Int32Array:
     """Return each customer's closest others by the first type's drive, there or back.
 
     (node, rank), nearest first; -1 for depots and behind the last.
     """
     first, number = problem.num_depots, problem.num_customers
     ranks = max(1, min(NEAR_RUIN, number - 1))
-    near = np.full((problem.num_nodes, ranks), -1, np.int64)
+    near = np.full((problem.num_nodes, ranks), -1, np.int32)
     if number > 1:
         travel = problem.travel[problem.vehicle_types[0].travel]
         if travel.straight is not None:
-            near[first:] = first + nearest_points(travel.straight.points.at[first:], ranks,
-                                                  pause)
+            write_nearest_points(travel.straight.points.at[first:], near[first:], pause)
+            near[first:] += first
             return near
         duration = travel.duration[first:, first:]
         for rows in row_blocks(number, ROWS, pause):
@@ -151,7 +159,7 @@ def _near(problem: Problem, pause: Pause) -> IntArray:
     return near
 
 
-def _fit(problem: Problem, place: Records, near: IntArray, pause: Pause) -> IntArray:
+def _fit(problem: Problem, place: Records, near: Int32Array, pause: Pause) -> Int32Array:
     """Return those of each customer's neighbours whom a truck would best visit before or after.
 
     References
@@ -167,17 +175,20 @@ def _fit(problem: Problem, place: Records, near: IntArray, pause: Pause) -> IntA
         "window_earliest", "service_duration", "window_latest"))
     if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
         return fit
-    duration = problem.travel[problem.vehicle_types[0].travel].duration
+    travel = problem.travel[problem.vehicle_types[0].travel]
 
-    def detour(origin: IntArray, to: IntArray) -> FloatArray:
-        drive = duration[origin, to]
+    def detour(drive: IntArray, origin: IntArray, to: IntArray) -> FloatArray:
         wait = earliest[to] - (latest[origin] + service[origin]) - drive
         late = earliest[origin] + service[origin] + drive - latest[to]
         return (drive + WAITING_WEIGHT * np.maximum(wait, 0.0)
                 + LATENESS_WEIGHT * np.maximum(late, 0.0))
 
     for rows in row_blocks(number, ROWS, pause):
-        one, other = np.arange(first + rows.start, first + rows.stop)[:, None], near[first:][rows]
-        weight = np.minimum(detour(one, other), detour(other, one))
+        one = np.arange(first + rows.start, first + rows.stop)[:, None]
+        other = near[first:][rows].astype(np.int64)
+        there = back = travel.duration[one, other]
+        if travel.straight is None:
+            back = travel.duration[other, one]
+        weight = np.minimum(detour(there, one, other), detour(back, other, one))
         fit[first:][rows] = np.take_along_axis(other, least_columns(weight, ranks), axis=1)
     return fit

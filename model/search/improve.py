@@ -13,7 +13,8 @@ from model.kernel.instance import Instance
 from model.kernel.pausing import EndedError, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
-from model.search.beginning.translate import first_plan, make_searcher, read_plan
+from model.search.beginning.translate import left_out, make_searcher, read_routes
+from model.search.first_plan import first_plan
 from model.search.ground import Ground, lay_ground
 from model.search.limits import WHOLE, Limits, Span
 from model.search.route.layout import World
@@ -23,7 +24,7 @@ from model.search.starts import Starts
 from model.search.temperature import Heat
 from model.search.worker import Worker
 from model.search.world import ALL_MOVES, Moves, as_searched, make_world, only_loads_limit
-from model.solution import Solution, renumbered
+from model.solution import Solution, renumbered, renumbered_routes
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
 """Number of customers from which on a plan with drones begins with one by trucks alone, and the
@@ -228,7 +229,8 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     node = numbering.node.tolist()
 
     def best() -> Solution:
-        return renumbered(read_plan(world, whole), node.__getitem__)
+        routes = renumbered_routes(read_routes(world, whole), node.__getitem__)
+        return Solution(tuple(routes), tuple(sorted(node[each] for each in left_out(whole))))
 
     def after_round(turns: int) -> None:
         limits.reading = task.reading(*_size(whole))

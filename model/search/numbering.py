@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.instance import Instance
-from model.problem import IntArray
+from model.problem import Int32Array, IntArray
 
 
 class Numbering(NamedTuple):
@@ -22,7 +22,7 @@ def as_stated(num_nodes: int) -> Numbering:
     return Numbering(nodes, nodes)
 
 
-def along_neighbours(near: IntArray, num_depots: int) -> Numbering:
+def along_neighbours(near: Int32Array, num_depots: int) -> Numbering:
     """Number customers along a walk that goes on to the nearest who has no number yet.
 
     An insertion looks at a customer's legs to its neighbours. Where their numbers are close, so are
@@ -34,7 +34,7 @@ def along_neighbours(near: IntArray, num_depots: int) -> Numbering:
     return Numbering(node, np.argsort(node))
 
 
-def _walk(near: IntArray, num_depots: int) -> Iterator[int]:
+def _walk(near: Int32Array, num_depots: int) -> Iterator[int]:
     """Yield all customers; from where all neighbours were met, the walk begins anew."""
     was_met = [False] * len(near)
     for start in range(num_depots, len(near)):

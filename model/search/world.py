@@ -8,6 +8,7 @@ import numpy as np
 from model.kernel.alarm import silent
 from model.kernel.drone_types import all_kinds, any_aboard
 from model.kernel.instance import FAR, NO_PROFILE, Instance, pack
+from model.kernel.leg import are_the_same_back
 from model.kernel.plain import as_plain
 from model.kernel.records import Record, Records
 from model.problem import (
@@ -22,6 +23,10 @@ from model.search.route.layout import (
 
 SCAN_ALL_BELOW = 400
 """Number of customers from which insertions are tried beside neighbours only."""
+
+TURNED_FROM = 2000
+"""Number of customers from which on routes of the first plan are turned round as needed. With fewer
+the search has soon made more of any plan."""
 
 LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
 """How often a better place is overlooked: the last by the number of customers squared and that on a
@@ -156,6 +161,14 @@ def only_loads_limit(world: World) -> bool:
     served = world.place[0, world.num_depots:, 0]
     return not (world.general or world.num_types > 1 or served["window_earliest"].any()
                 or (served["window_latest"] < UNLIMITED).any())
+
+
+def may_be_turned(world: World) -> bool:
+    """Tell whether routes may as well be driven the other way, where so many are served."""
+    kind = world.type[0]
+    return (world.num_nodes - world.num_depots >= TURNED_FROM and only_loads_limit(world)
+            and len(world.amount[0]) == 0 and kind.begins_at == kind.ends_at
+            and kind.shift_latest >= UNLIMITED and are_the_same_back(world.leg, world.back))
 
 
 def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:

@@ -26,6 +26,9 @@ from model.search.route.rarer import tiers_of
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
 
+KEY_BITS = 62
+"""Of a key at most."""
+
 CHAIN = record("before", "behind", "route", "leave", "latest", "last", "length")
 """A customer in a chain: who comes before and behind; of its last, who comes first; the
 departure and the latest arrival; of its first, who comes last, and how many there are."""
@@ -43,38 +46,80 @@ def savings_routes(world: World, k: int) -> list[list[int]]:
     -------
     The customers of each route, in order.
     """
-    first, nodes = world.num_depots, np.arange(world.num_depots, world.num_nodes)
-    other = world.near[first:, :NEIGHBOURS]
-    known = other >= 0
-    one = np.broadcast_to(nodes[:, None], other.shape)[known]
-    other = other[known]
-    saving = np.empty(len(one), np.int64)
-    write_savings(world, k, one, other, saving)
-    order = np.argsort(-saving, kind="stable")
-    order = order[saving[order] > 0]
+    ranks = min(NEIGHBOURS, world.near.shape[1])
+    return routes_of(world, k, joined(world, k, ranks, ranked_pairs(world, k, ranks)))
+
+
+def ranked_pairs(world: World, k: int, ranks: int) -> IntArray:
+    """Return keys of customers and their nearest `ranks` neighbours, what saves most first.
+
+    Equal savings come in the order of the pairs. `pair` tells what a key stands for.
+    """
+    keys = np.empty((world.num_nodes - world.num_depots) * ranks, np.int64)
+    write_excess(world, k, ranks, keys)
+    largest = max(abs(int(keys.min(initial=0))), int(keys.max(initial=0)))
+    number_pairs(keys, max(0, largest.bit_length() + len(keys).bit_length() - KEY_BITS))
+    keys.sort()
+    return keys[:np.searchsorted(keys, 0)]
+
+
+def joined(world: World, k: int, ranks: int, keys: IntArray) -> Records:
+    """Return chains (node,) of customers, one behind the other, joined by such keys in order."""
     chain = np.zeros(world.num_nodes, CHAIN)
-    tiers = max(1, world.amount.shape[1])
-    join(world, k, one[order], other[order], chain, np.zeros((world.num_nodes, tiers), CARGO))
-    heads = [int(node) for node in nodes
-             if world.can[k, 0, node] and chain[node].before == NOWHERE]
-    return [_customers(chain, head) for head in heads]
+    join(world, k, ranks, keys, chain, cargo_of(world))
+    return chain
+
+
+def cargo_of(world: World) -> Records:
+    """Return room for what chains carry, (node, tier)."""
+    return np.zeros((world.num_nodes, max(1, world.amount.shape[1])), CARGO)
+
+
+def routes_of(world: World, k: int, chain: Records) -> list[list[int]]:
+    """Return the customers of each route, in order."""
+    first, behind = world.num_depots, chain["behind"].tolist()
+    heads = first + np.flatnonzero(world.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
+    return [_customers(behind, head) for head in heads.tolist()]
 
 
 @compiled
-def write_savings(world: World, k: int, one: IntArray, other: IntArray, saving: IntArray) -> None:
-    """Write how much less is driven if customers `other` follow `one`. In place."""
+def write_excess(world: World, k: int, ranks: int, excess: IntArray) -> None:
+    """Write how much more is driven if neighbours follow one another: less than 0, as a rule.
+
+    In place: customer by customer, to the nearest `ranks`; 0 where there are not as many.
+    """
     legs, kind = legs_of(world.leg, world.type[k].travel), world.type[k]
-    for index in range(len(one)):
-        a, b = one[index], other[index]
-        saving[index] = (leg(legs, a, kind.ends_at).distance
-                         + leg(legs, kind.begins_at, b).distance - leg(legs, a, b).distance)
+    for index in range(len(excess)):
+        a, b = pair(world, ranks, index)
+        excess[index] = 0
+        if b >= 0:
+            excess[index] = (leg(legs, a, b).distance - leg(legs, a, kind.ends_at).distance
+                             - leg(legs, kind.begins_at, b).distance)
 
 
-def _customers(chain: Records, node: int) -> list[int]:
+@compiled
+def number_pairs(excess: IntArray, coarse: int) -> None:
+    """Make keys of what pairs cost, but for its last `coarse` bits, and of their numbers. In place.
+
+    Sorted as they are, which processors do many at a time.
+    """
+    for index in range(len(excess)):
+        excess[index] = (excess[index] >> coarse) * len(excess) + index
+
+
+@inlined
+def pair(world: World, ranks: int, key: int) -> tuple[int, int]:
+    """Return the customer and the neighbour, -1 for none, that a number or key stands for."""
+    index = key % ((world.num_nodes - world.num_depots) * ranks)
+    a = world.num_depots + index // ranks
+    return a, int(world.near[a, index % ranks])
+
+
+def _customers(behind: list[int], node: int) -> list[int]:
     customers = []
     while node != NOWHERE:
         customers.append(node)
-        node = int(chain[node].behind)
+        node = behind[node]
     return customers
 
 
@@ -116,9 +161,9 @@ def may_join(kind: Record, front: Records, rear: Records) -> bool:
 
 
 @compiled
-def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records,
+def join(world: World, k: int, ranks: int, keys: IntArray, chain: Records,
          cargo: Records) -> None:
-    """Join the route that ends at `one` and that which begins at `other`, pair after pair.
+    """Join the route that ends at one and that which begins at the other, pair after pair.
 
     In place: `chain` (node,) and `cargo` (node, tier) are set up here.
     """
@@ -134,8 +179,8 @@ def join(world: World, k: int, one: IntArray, other: IntArray, chain: Records,
         link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
         leave = kind.shift_latest - leg(legs, node, end).duration
         link.latest = latest_arrival(place, leave)
-    for index in range(len(one)):
-        a, b = one[index], other[index]
+    for key in keys:
+        a, b = pair(world, ranks, key)
         if (chain[a].behind != NOWHERE or chain[b].before != NOWHERE
                 or not (world.can[k, 0, a] and world.can[k, 0, b])
                 or chain[a].leave + leg(legs, a, b).duration > chain[b].latest):

@@ -1,5 +1,6 @@
 """Plans to and from the routes of a search."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,6 @@ from model.kernel.instance import NONE, TIER
 from model.kernel.records import Record, one, read_rows, Records
 from model.kernel.stop import end_of_service, places_by_air, start_of_service
 from model.problem import FloatArray, IntArray, Problem
-from model.search.beginning.savings import savings_routes
 from model.search.insertion.evaluate import INFEASIBLE, serve_alone
 from model.search.insertion.offers import AT_ONE_STOP
 from model.search.moves.split import LINE
@@ -51,8 +51,9 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
                    seed: np.random.SeedSequence) -> Searcher:
     """Make room for a search: for so many routes, and stops, trips and sorties of one."""
     slots, stops, trips, sorties = sizes
-    now, before, best = (empty_fleet(world, slots, stops, trips, sorties) for _ in range(3))
     nodes, count = world.num_nodes, one(COUNTS)
+    now, before, best = (empty_fleet(world, slots, stops, trips, sorties, noted)
+                         for noted in (nodes, 0, 0))
     count.lean, count.focus = not world.general, NOWHERE
     room = (nodes, slots) if world.keeps else (0, 0)
     of_moves = room if world.general else (0, 0)
@@ -77,22 +78,6 @@ def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
 
 def _row(length: int) -> IntArray:
     return np.zeros(length, np.int64)
-
-
-def first_plan(problem: Problem, world: World) -> Solution:
-    """Return routes by savings where all vehicles are alike, none flies drones; else none.
-
-    What flies is up to `world`, in which drones may be left aside. Routes have no times yet.
-    """
-    everyone = tuple(range(world.num_depots, world.num_nodes))
-    if world.num_types > 1 or world.type[0].drones > 0:
-        return Solution((), everyone)
-    kind, = problem.vehicle_types
-    start, end = kind.begins_at, kind.ends_at
-    routes = sorted(savings_routes(world, 0), key=len, reverse=True)[: kind.count]
-    return Solution(tuple(
-        Route(0, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (start, *customers, end))),))
-        for number, customers in enumerate(routes)), everyone)
 
 
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
@@ -218,17 +203,24 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
 
 def read_plan(world: World, searcher: Searcher) -> Solution:
     """Return the best plan found, each trip begun as late as costs nothing."""
+    return Solution(tuple(read_routes(world, searcher)), left_out(searcher))
+
+
+def left_out(searcher: Searcher) -> tuple[int, ...]:
+    """Return the customers that the best plan leaves out."""
+    return tuple(sorted(searcher.best_missing[: searcher.count.best_missing].tolist()))
+
+
+def read_routes(world: World, searcher: Searcher) -> Iterator[Route]:
+    """Yield the routes of the best plan, as `read_plan` returns them."""
     best = searcher.best
     slots = np.flatnonzero(best.route["length"][: len(searcher.active)]).tolist()
     for slot in slots:
         finish_route(world, best, slot, searcher.acc)
-    routes = []
     numbers = [0] * world.num_types
     for slot, row in zip(slots, read_rows(best.route[slots]), strict=True):
-        routes.append(Route(row.type, numbers[row.type], _trips(world, best, slot, row)))
+        yield Route(row.type, numbers[row.type], _trips(world, best, slot, row))
         numbers[row.type] += 1
-    missing = searcher.best_missing[: searcher.count.best_missing]
-    return Solution(tuple(routes), tuple(sorted(int(node) for node in missing)))
 
 
 @compiled

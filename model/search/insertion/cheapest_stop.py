@@ -2,7 +2,7 @@
 
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.instance import FAR
-from model.kernel.leg import LegRow, leg_from, leg_to, legs_from, legs_to
+from model.kernel.leg import LegRow, leg_from, leg_to, legs_from, legs_to, nearness
 from model.kernel.load import release_of
 from model.kernel.records import Record, Records
 from model.kernel.stop import end_of_service, places_of, too_late
@@ -272,7 +272,7 @@ def is_too_far_beside(inward: LegRow, onward: LegRow, stops: Records, p: int, ot
     By the triangle inequality, with a stop between which and this one the customer would come that
     is no nearer; beside that, if it is, the same place is looked at as well.
     """
-    near = min(leg_from(inward, other).distance, leg_to(onward, other).distance)
+    near = nearness(inward, onward, other)
     return (2 * near - max(stops[p - 1].leg, stops[p].leg)) * rate >= best
 
 
@@ -281,7 +281,7 @@ def scan_beside(world: World, fleet: Fleet, node: int, best: float, enlarge: boo
                 move: Record, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where only distance counts. As `scan_lean`."""
     for rank in range(world.fit.shape[1]):
-        other = world.fit[node, rank]
+        other = int(world.fit[node, rank])
         slot = fleet.where[other].slot
         if slot < 0:
             continue
@@ -311,7 +311,7 @@ def scan_beside_lean(world: World, fleet: Fleet, node: int, best: float, enlarge
                      move: Record, rng: UIntArray) -> float:
     """Find the cheapest stop beside neighbours where all routes are lean. As `scan_lean`."""
     for rank in range(world.fit.shape[1]):
-        other = world.fit[node, rank]
+        other = int(world.fit[node, rank])
         slot, behind = fleet.where[other].slot, fleet.where[other].position
         if slot < 0:
             continue

@@ -182,7 +182,7 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
     best = scan_beside(world, now, node, best, enlarge, move, searcher.rng)
     bound.best, bound.blink = best, world.blink
     for rank in range(world.fit.shape[1]):
-        other = world.fit[node, rank]
+        other = int(world.fit[node, rank])
         slot = now.where[other].slot
         if slot < 0:
             continue

@@ -67,7 +67,7 @@ def try_near(world: World, searcher: Searcher, seed: int, first: int, total: int
     """
     absent, marked, chosen = searcher.absent, searcher.marked, 0
     for rank in range(-1, world.near.shape[1]):
-        node = seed if rank < 0 else world.near[seed, rank]
+        node = seed if rank < 0 else int(world.near[seed, rank])
         if node < 0 or chosen == total - first:
             break
         if (searcher.now.where[node].slot == NOWHERE and not world.must_serve[node]
@@ -153,7 +153,7 @@ def undo(searcher: Searcher) -> None:
         slot = searcher.touched[index]
         if now.route[slot].length > 0:
             now.used[now.route[slot].type] -= 1
-        copy_route(before, slot, now, slot, searcher.count.lean)
+        copy_route(before, index, now, slot, searcher.count.lean)
         if now.route[slot].length > 0:
             now.used[now.route[slot].type] += 1
             locate(now, slot)

@@ -89,7 +89,7 @@ def find_tail(world: World, searcher: Searcher, a: int, p: int, limit: float) ->
     node = now.stop[a, p].node
     chosen, place, best = NOWHERE, 0, limit
     for rank in range(min(NEIGHBOURS, world.near.shape[1])):
-        other = world.near[node, rank]
+        other = int(world.near[node, rank])
         if other < 0:
             break
         b, q = now.where[other].slot, now.where[other].position - 1

@@ -138,7 +138,7 @@ def partner(world: World, searcher: Searcher, slot: int, node: int) -> int:
     """
     now = searcher.now
     route, k = now.route[slot], now.route[slot].type
-    near = world.near[node, below(searcher.rng, min(NEIGHBOURS, world.near.shape[1]))]
+    near = int(world.near[node, below(searcher.rng, min(NEIGHBOURS, world.near.shape[1]))])
     # The end of the one route is the start of the other in a line.
     if (near < 0 or route.trips > 1 or ends_in_flight(now, slot)
             or world.type[k].begins_at != world.type[k].ends_at):

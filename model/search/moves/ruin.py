@@ -120,7 +120,7 @@ def choose(world: World, searcher: Searcher, longest: float, absent: IntArray, n
                     touched[num_touched] = slot
                     num_touched += 1
         rank += 1
-        customer = world.near[seed, rank] if rank < world.near.shape[1] else NOWHERE
+        customer = int(world.near[seed, rank]) if rank < world.near.shape[1] else NOWHERE
     return num_absent, num_touched, seed
 
 

@@ -44,7 +44,7 @@ NEIGHBOURLY, NEIGHBOURS = 0.8, 8
 def place_near(world: World, line: Records, count: int, one: int, rng: UIntArray) -> int:
     """Return a random place in the line, most often that of a near neighbour of place `one`."""
     if uniform(rng) < NEIGHBOURLY:
-        wanted = world.near[line[one].node, below(rng, min(NEIGHBOURS, world.near.shape[1]))]
+        wanted = int(world.near[line[one].node, below(rng, min(NEIGHBOURS, world.near.shape[1]))])
         for place in range(1, count + 1):
             if line[place].node == wanted:
                 return place

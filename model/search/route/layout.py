@@ -22,7 +22,8 @@ from model.kernel.leg import AllLegs
 from model.kernel.load import HALT
 from model.kernel.plain import ANY_RULE, as_plain, is_plain
 from model.kernel.records import Record, Records, record
-from model.problem import BoolArray, FloatArray, IntArray
+from model.kernel.sparse import sparse_rows
+from model.problem import BoolArray, FloatArray, Int32Array, IntArray
 
 MOST_VISITS = 8
 """Customers on a sortie that the search puts there at most."""
@@ -115,8 +116,8 @@ class World(NamedTuple):
     back: AllLegs  # the same, for those to a node
     profile_time: IntArray  # (type, change)
     profile_factor: IntArray  # (type, change + 1)
-    near: IntArray  # (node, rank) customers, nearest first, -1 behind the last
-    fit: IntArray  # (node, rank) customers whom a truck would visit before or after
+    near: Int32Array  # (node, rank) customers, nearest first, -1 behind the last
+    fit: Int32Array  # (node, rank) customers whom a truck would visit before or after
     stop: IntArray  # (1,) not 0 once the search must end, as `model.kernel.alarm` says
 
 
@@ -156,17 +157,21 @@ def clear_trip(trip: Record) -> None:
         trip.load[dimension] = 0
 
 
-def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int) -> Fleet:
-    """Allocate a fleet without routes. Pages are touched only where routes are."""
+def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int,
+                nodes: int) -> Fleet:
+    """Allocate a fleet without routes, which notes where so many nodes are.
+
+    Pages are touched only where routes are.
+    """
     routes = np.zeros(slots + 2, ROUTE)
     return Fleet(
         route=as_plain(routes) if is_plain(world.type[0]) else routes,
         cost=np.zeros(slots + 2),
         early=np.zeros(slots + 2),
-        stop=np.zeros((slots + 2, stops), STOP),
-        halt=np.zeros((slots + 2, world.amount.shape[1], stops), HALT),
-        trip=np.zeros((slots + 2, trips), TRIP),
-        sortie=np.zeros((slots + 2, sorties), SORTIE),
-        where=np.full(world.num_nodes, np.array((NOWHERE, NOWHERE, NOWHERE), PLACE)),
+        stop=sparse_rows((slots + 2, stops), STOP),
+        halt=sparse_rows((slots + 2, world.amount.shape[1], stops), HALT),
+        trip=sparse_rows((slots + 2, trips), TRIP),
+        sortie=sparse_rows((slots + 2, sorties), SORTIE),
+        where=np.full(nodes, np.array((NOWHERE, NOWHERE, NOWHERE), PLACE)),
         used=np.zeros(world.num_types, np.int64),
     )

@@ -248,7 +248,7 @@ def draw_customer(world: World, fleet: Fleet, focus: int, rng: UIntArray) -> int
         rank = below(rng, world.near.shape[1] + 1)
         node = focus
         if rank > 0:
-            node = world.near[focus, rank - 1]
+            node = int(world.near[focus, rank - 1])
         if node >= 0 and fleet.where[node].slot != ELSEWHERE:
             return node
     return any_customer(world, fleet, rng)

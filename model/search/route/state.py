@@ -24,8 +24,8 @@ class Searcher(NamedTuple):
     """Routes as they are, as they were before this turn, and as they were at their best."""
 
     now: Fleet
-    before: Fleet
-    best: Fleet
+    before: Fleet  # those touched this turn, as they are listed there; who is where is not noted
+    best: Fleet  # likewise not
     count: Record  # COUNTS
     value: Record  # VALUES
     rng: UIntArray  # (1,)
@@ -84,15 +84,15 @@ def copy_lean_stops(stops: Records, copies: Records, count: int) -> None:
 
 
 @inlined
-def is_same(fleet: Fleet, other: Fleet, slot: int) -> bool:
-    """Tell whether a route without sorties is the same in two fleets."""
-    route, before = fleet.route[slot], other.route[slot]
+def is_same(fleet: Fleet, slot: int, other: Fleet, at: int) -> bool:
+    """Tell whether a route without sorties is the same in two fleets, each in its slot."""
+    route, before = fleet.route[slot], other.route[at]
     length = route.length
     if (length != before.length or route.type != before.type
             or route.sorties + before.sorties > 0):
         return False
     for p in range(length):
-        stop, former = fleet.stop[slot, p], other.stop[slot, p]
+        stop, former = fleet.stop[slot, p], other.stop[at, p]
         if stop.node != former.node or stop.kind != former.kind:
             return False
     return True
@@ -151,10 +151,11 @@ def touch(searcher: Searcher, slot: int) -> None:
     """Keep a route as it is before it changes this turn. In place."""
     if searcher.now.route[slot].stamp == CHANGING:
         return
-    copy_route(searcher.now, slot, searcher.before, slot, searcher.count.lean)
+    count = searcher.count
+    copy_route(searcher.now, slot, searcher.before, count.touched, count.lean)
     searcher.now.route[slot].stamp = CHANGING
-    searcher.touched[searcher.count.touched] = slot
-    searcher.count.touched += 1
+    searcher.touched[count.touched] = slot
+    count.touched += 1
 
 
 @inlined
@@ -201,7 +202,7 @@ def served_cost(searcher: Searcher) -> float:
     cost = searcher.value.cost
     for index in range(searcher.count.touched):
         slot = searcher.touched[index]
-        cost += searcher.now.cost[slot] - searcher.before.cost[slot]
+        cost += searcher.now.cost[slot] - searcher.before.cost[index]
     return cost
 
 
@@ -244,8 +245,8 @@ def accept(searcher: Searcher, cost: float) -> None:
     for index in range(count.touched):
         slot = searcher.touched[index]
         stamp = count.stamp
-        if len(searcher.kept) > 0 and is_same(searcher.now, searcher.before, slot):
-            stamp = searcher.before.route[slot].stamp
+        if len(searcher.kept) > 0 and is_same(searcher.now, slot, searcher.before, index):
+            stamp = searcher.before.route[index].stamp
         searcher.now.route[slot].stamp = stamp
         if count.changed != ALL and not searcher.is_changed[slot]:
             searcher.is_changed[slot] = True

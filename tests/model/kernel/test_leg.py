@@ -6,7 +6,7 @@ import pytest
 from model.kernel.compiled import compiled
 from model.kernel.leg import (
     COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs, leg, leg_from, leg_to, legs_from, legs_of,
-    legs_to,
+    legs_to, nearness,
 )
 from model.problem import UNREACHABLE, IntArray, Points, StraightLegs, Travel
 
@@ -25,6 +25,15 @@ def look_up(legs: AllLegs, back: AllLegs, found: IntArray) -> None:
             found[0, here, there] = one.duration, one.distance
             found[1, here, there] = other.duration, other.distance
             found[2, there, here] = third.duration, third.distance
+
+
+@compiled
+def look_up_nearness(legs: AllLegs, back: AllLegs, found: IntArray) -> None:
+    """Write how near all places are, there or back, (node, node)."""
+    for here in range(len(found)):
+        onward, inward = legs_from(legs, 0, here), legs_to(back, 0, here)
+        for there in range(len(found)):
+            found[here, there] = nearness(inward, onward, there)
 
 
 def computed(legs: StraightLegs) -> ComputedLegs:
@@ -57,7 +66,7 @@ def drawn(seed: int) -> StraightLegs:
 
 
 def test_computed_legs_are_those_of_the_judge() -> None:
-    found = np.empty((3, COUNT, COUNT, 2), np.int64)
+    found, near = np.empty((3, COUNT, COUNT, 2), np.int64), np.empty((COUNT, COUNT), np.int64)
     for seed in range(60):
         legs = drawn(seed)
         travel = Travel.along(legs)
@@ -65,6 +74,9 @@ def test_computed_legs_are_those_of_the_judge() -> None:
         look_up(kernel, kernel, found)
         assert (found[..., 0] == travel.duration[:]).all(), seed
         assert (found[..., 1] == travel.distance[:]).all(), seed
+        assert (travel.distance[:] == travel.distance[:].T).all(), seed
+        look_up_nearness(kernel, kernel, near)
+        assert (near == travel.distance[:]).all(), seed
 
 
 @pytest.mark.parametrize("both_ways", [False, True])
@@ -75,3 +87,6 @@ def test_stated_legs_are_looked_up(both_ways: bool) -> None:
     found = np.empty((3, COUNT, COUNT, 2), np.int64)
     look_up(table, np.ascontiguousarray(table.transpose(0, 2, 1, 3)), found)
     assert (found == table).all()
+    near = np.empty((COUNT, COUNT), np.int64)
+    look_up_nearness(table, np.ascontiguousarray(table.transpose(0, 2, 1, 3)), near)
+    assert (near == np.minimum(table[0, ..., 1], table[0, ..., 1].T)).all()

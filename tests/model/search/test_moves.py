@@ -11,7 +11,7 @@ from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.beginning.savings import savings_routes
-from model.search.beginning.translate import first_plan
+from model.search.first_plan import first_plan
 from model.search.improve import Improved, SearchConfig, improve
 from model.search.world import Moves, make_world
 from model.solution import Solution

@@ -1,0 +1,87 @@
+"""Routes of a first plan are turned round where they may be, and where that is shorter."""
+
+from dataclasses import replace
+from itertools import chain
+
+import numpy as np
+import pytest
+
+from model.kernel.instance import pack
+from model.problem import UNLIMITED, Points, Problem, StraightLegs, Travel
+from model.search import world as worlds
+from model.search.beginning.either_way import shortest_routes
+from model.search.beginning.savings import joined, ranked_pairs, routes_of
+from model.search.first_plan import first_plan
+from model.search.world import make_world, may_be_turned
+from tests.model.search.test_moves import TRUCK, on_a_plane
+
+NUMBER, HELD = 300, 30
+"""Customers, and how many of them a truck holds."""
+
+
+def scattered(count: int = 1, seed: int = 0) -> Problem:
+    """Return a problem with customers scattered around the depot."""
+    places = np.random.default_rng(seed).uniform(-100, 100, (NUMBER, 2))
+    return on_a_plane(list(map(tuple, places)), replace(TRUCK, count=count,
+                                                        capacity=(1000 * HELD,)))
+
+
+def length(problem: Problem, routes: list[list[int]]) -> int:
+    """Return how far routes are."""
+    distance = problem.travel[0].distance
+    return sum(int(distance.item(origin, to)) for route in routes
+               for origin, to in zip([0, *route], [*route, 0], strict=True))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_everyone_is_on_one_route_that_holds_him(seed: int) -> None:
+    problem = scattered(seed=seed)
+    routes = shortest_routes(make_world(problem, pack([problem])), 0)
+    assert sorted(chain.from_iterable(routes)) == list(range(1, NUMBER + 1))
+    assert max(map(len, routes)) <= HELD
+
+
+def test_routes_are_turned_only_where_that_is_shorter() -> None:
+    turned = 0
+    for seed in range(3):
+        problem = scattered(seed=seed)
+        world = make_world(problem, pack([problem]))
+        ranks = world.near.shape[1]
+        one_way = routes_of(world, 0, joined(world, 0, ranks, ranked_pairs(world, 0, ranks)))
+        either_way = shortest_routes(world, 0)
+        assert len(either_way) <= len(one_way)  # there is a vehicle too few for either
+        if len(either_way) == len(one_way):
+            assert length(problem, either_way) <= length(problem, one_way)
+        turned += either_way != one_way
+    assert turned > 0
+
+
+def test_routes_are_turned_only_where_loads_alone_limit_them(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    def may(problem: Problem) -> bool:
+        return may_be_turned(make_world(problem, pack([problem])))
+
+    problem = scattered()
+    kind, = problem.vehicle_types
+    assert not may(problem)  # too few
+    monkeypatch.setattr(worlds, "TURNED_FROM", NUMBER)
+    assert may(problem)
+    first, *others = problem.customers
+    assert not may(replace(problem, customers=(replace(first, latest=10**9), *others)))
+    assert not may(replace(problem, customers=(replace(first, pickup=(1,)), *others)))
+    assert kind.latest == UNLIMITED
+    assert not may(replace(problem, vehicle_types=(replace(kind, latest=10**9),)))
+    duration, distance = problem.travel[0].arrays()
+    longer = distance.copy()
+    longer[1, 2] += 1
+    assert not may(replace(problem, travel=(Travel(duration, longer),)))
+    straight = Travel.along(StraightLegs(Points(problem.coordinates * 1000.0), 60.0))
+    assert may(replace(problem, travel=(straight,)))
+
+
+def test_first_plan_serves_each_customer_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(worlds, "TURNED_FROM", NUMBER)
+    problem = scattered(count=NUMBER)
+    plan = first_plan(problem, make_world(problem, pack([problem])))
+    served = [stop.node for route in plan.routes for stop in route.trips[0].stops[1:-1]]
+    assert sorted(served) == list(range(1, NUMBER + 1))
