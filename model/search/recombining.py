@@ -29,7 +29,8 @@ def take_better_parts(world: World, searcher: Searcher) -> None:
     nodes = nodes[now.where["slot"][nodes] != ELSEWHERE]
     # Who is left out is like a route, numbered behind them all.
     one, other = (np.where(slot == NOWHERE, slots + nodes, slot)
-                  for slot in (_slots_in(best, slots)[nodes], now.where["slot"][nodes]))
+                  for slot in (_slots_in(best, slots, world.num_nodes)[nodes],
+                               now.where["slot"][nodes]))
     old, new = _common_parts(one, other, slots + world.num_nodes)
     saved = _costs(world, best, old) - _costs(world, now, new)
     better = saved > ROUNDING
@@ -38,16 +39,16 @@ def take_better_parts(world: World, searcher: Searcher) -> None:
     used = _used(searcher, old, new, better)
     if (used > world.type["count"][:world.num_types]).any() or used.sum() > slots:
         for k in range(world.num_types):
-            better &= _routes(now, new, k) <= _routes(best, old, k)
+            better &= _routes(now, new, slots, k) <= _routes(best, old, slots, k)
         used = _used(searcher, old, new, better)
     best.used[:] = used
     searcher.value.best -= float(saved[better].sum())
     _exchange(searcher, better[old], better[new])
 
 
-def _slots_in(fleet: Fleet, slots: int) -> IntArray:
+def _slots_in(fleet: Fleet, slots: int, nodes: int) -> IntArray:
     """Return (node,) the slot of each customer's route; NOWHERE if there is none."""
-    slot_of, routes, node = np.full(len(fleet.where), NOWHERE), fleet.route, fleet.stop["node"]
+    slot_of, routes, node = np.full(nodes, NOWHERE), fleet.route, fleet.stop["node"]
     for slot, length in enumerate(routes["length"][:slots].tolist()):
         slot_of[node[slot, :length]] = slot
     for slot in np.flatnonzero(routes["sorties"][:slots]).tolist():
@@ -92,9 +93,9 @@ def _costs(world: World, fleet: Fleet, part: IntArray) -> FloatArray:
     return np.bincount(part, each, len(part) + 1).astype(np.float64)
 
 
-def _routes(fleet: Fleet, part: IntArray, k: int) -> IntArray:
+def _routes(fleet: Fleet, part: IntArray, slots: int, k: int) -> IntArray:
     """Return (part,) how many routes are of a type; `part` as in `_costs`."""
-    routes = fleet.route[:len(part) - len(fleet.where)]
+    routes = fleet.route[:slots]
     of_type = (routes["type"] == k) & (routes["length"] > 0)
     return np.bincount(part[:len(routes)][of_type], minlength=len(part) + 1)
 

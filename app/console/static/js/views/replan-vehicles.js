@@ -1,8 +1,8 @@
 /** Vehicles of the plan that is gone on from: where they are, whom they keep, which are broken. */
 
 import { edit, indexOf } from '../actions.js';
-import { clock, count, parseClock } from '../core/format.js';
-import { removeIn, setIn } from '../core/paths.js';
+import { count } from '../core/format.js';
+import { setIn } from '../core/paths.js';
 import {
   basisRoutes,
   dronesOnTheWay,
@@ -12,11 +12,12 @@ import {
   setPinned,
   whereabouts,
 } from '../core/replanning.js';
-import { html, useLayoutEffect, useState } from '../libraries.js';
+import { html } from '../libraries.js';
 import { takeTool } from '../map/draw-bar.js';
 import { useStore } from '../store.js';
 import { Badge, SelectButton } from './parts.js';
 import { Errors, errorsAt } from './replan-errors.js';
+import { ParcelsBack } from './replan-parcels.js';
 
 const MOST_IDLE = 200;
 
@@ -54,7 +55,8 @@ export function Vehicles({ request, basis, errors }) {
     <${Broken} label="Another is broken:" hint="choose an unused vehicle" names=${idle}
       request=${request} />
     <${Broken} label="A drone is lost:" hint="choose a drone" names=${drones} request=${request} />
-    ${unavailable.some((name) => !isDrone(name)) && html`<${ParcelsBack} request=${request} errors=${errors} />`}
+    ${unavailable.some((name) => !isDrone(name)) && html`<${ParcelsBack} request=${request}
+      errors=${errors} />`}
   </section>`;
 }
 
@@ -95,32 +97,6 @@ function BrokenRow({ name, request, id, errors }) {
       <${Errors} errors=${errors} /></th><td></td>
     <td><input type="checkbox" id=${id} aria-label=${`${name} is broken`} checked
       onChange=${() => edit(setBroken(request, name, false))} /></td></tr>`;
-}
-
-/** When parcels that broken vehicles carry can be loaded again. */
-function ParcelsBack({ request, errors }) {
-  const { parcels_back: value } = request.replan;
-  const [text, setText] = useState('');
-  // Before anything can be typed, which a later effect would take away.
-  useLayoutEffect(() => setText(clock(value, { precise: true })), [value]);
-  const mine = errorsAt(errors, (keys) => keys[1] === 'parcels_back');
-  const parsed = parseClock(text);
-  const isWrong = text.trim() !== '' && parsed === null;
-  const id = 'field-replan-parcels_back';
-  const commit = () => {
-    if (isWrong) return;
-    const keys = ['replan', 'parcels_back'];
-    edit(text.trim() === '' ? removeIn(request, keys) : setIn(request, keys, parsed));
-  };
-  return html`<div class=${mine.length || isWrong ? 'field invalid' : 'field'}>
-    <label for=${id}>Parcels are back at</label>
-    <input type="text" id=${id} value=${text} placeholder="at once" autocomplete="off"
-      aria-describedby=${`${id}-help`} onInput=${(event) => setText(event.target.value)}
-      onBlur=${commit} onKeyDown=${(event) => event.key === 'Enter' && commit()} />
-    <span class="unit">h:mm</span>
-    <p class="help" id=${`${id}-help`}>When what broken vehicles carry is at the depots again.</p>
-    ${isWrong && html`<p class="error">State a time of day such as 11:15.</p>`}
-    <${Errors} errors=${mine} /></div>`;
 }
 
 /** Customers who stay with their vehicles. */
