@@ -76,7 +76,8 @@ def write_nearest_points(points: FloatArray, nearest: Int32Array, pause: Pause) 
 
 def cells_of(points: FloatArray) -> Cells:
     """Return points in cells, halved across their longest side until they are small."""
-    order, low, high, spans, halves = np.arange(len(points)), [], [], [], []
+    order, low, high, spans = np.arange(len(points)), [], [], []
+    halves: list[list[int]] = []
     left = [(0, len(points), -1)]
     while left:
         first, last, parent = left.pop()
@@ -92,7 +93,8 @@ def cells_of(points: FloatArray) -> Cells:
             axis = int((high[-1] - low[-1]).argmax())
             order[first:last] = order[first:last][np.argpartition(inside[:, axis], half)]
             left += [(first, first + half, len(halves) - 1), (first + half, last, len(halves) - 1)]
-    return Cells(np.array(low), np.array(high), *np.array(spans).T.copy(),
+    firsts, lasts = np.array(spans).T.copy()
+    return Cells(np.array(low), np.array(high), firsts, lasts,
                  np.array([half or (NONE, NONE) for half in halves]), points[order],
                  order.astype(np.int32))
 

@@ -20,8 +20,8 @@ def nearest(points: FloatArray, ranks: int = RANKS) -> Int32Array:
 
 
 @pytest.mark.parametrize("axes", [2, 3])
-@pytest.mark.parametrize("across", [1e6, 8.0])
-def test_the_nearest_come_first(axes: int, across: float) -> None:
+@pytest.mark.parametrize("across", [1_000_000, 8])
+def test_the_nearest_come_first(axes: int, across: int) -> None:
     """By whole numbers, so that many are equally near where all are close together."""
     points = np.random.default_rng(axes).integers(0, across, (NUMBER, axes)).astype(np.float64)
     away = ((points[:, None] - points)**2).sum(axis=2)
