@@ -32,10 +32,12 @@ class Named(NamedTuple):
 def read_name(name: str, types: Collection[str]) -> Named | None:
     """Return what a name such as `truck-2` or `truck-2/drone-1` means; None: no type is so called.
     """
-    vehicle, _, number = name.rpartition("/drone-")
-    for stem, drone in ((name, None), (vehicle, number_in("", number))):
-        for type_id in types:
-            place = number_in(f"{type_id}-", stem)
-            if place is not None and (drone is not None or stem == name):
-                return Named(type_id, place, drone)
-    return None
+    for type_id in types:
+        number = number_in(f"{type_id}-", name)
+        if number is not None:
+            return Named(type_id, number, None)
+    vehicle, _, ending = name.rpartition("/drone-")
+    truck, drone = read_name(vehicle, types) if vehicle else None, number_in("", ending)
+    if truck is None or truck.drone is not None or drone is None:
+        return None
+    return truck._replace(drone=drone)

@@ -21,7 +21,6 @@ LEAST_TIME = 0.5
 """Seconds that may always pass before the search: a machine that is busy for a moment answers small
 requests late, and doesn't refuse them."""
 
-
 PATIENCE_WITH_OTHERS = 20.0
 """Seconds on top of a time limit that nobody stated, in which roads and geocoders may answer."""
 

@@ -24,7 +24,6 @@ EDGE, LOOK, LOOK_AT_FEW = 1e-7, 1e-7, 3e-8
 """Seconds for each edge seen from a place or corner, and for each line of sight between two of
 these: the last where areas have few edges."""
 
-
 REPLANNED_ROUTE, REPLANNED_CUSTOMER = 4e-4, 1e-4
 """Seconds for each route, and each customer on it, of a plan to go on from: it is handed over,
 judged before and after, and replied."""

@@ -9,7 +9,6 @@ from app.dispatches.standing import Standing, is_broken, of_steps
 from app.dispatches.steps import flight_id, stop_id
 from app.schemas.plan import PlanInput, RouteInput, TripInput
 
-
 GROUNDING = frozenset({"Did not come back", "Drone is broken"})
 """What drivers tell of a drone that flies no more, as their page offers it."""
 

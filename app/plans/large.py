@@ -15,6 +15,7 @@ from model.search.compiling import COMPILE_LARGE, LARGE, compile_large, is_compi
 
 logger = logging.getLogger(__name__)
 
+
 class LargeSearch:
     """The search for problems whose legs are computed. Safe to use from several threads."""
 

@@ -74,6 +74,10 @@ class Past:
         trips = self.trips.get(vehicle, ())
         return trips[-1] if trips and trips[-1].rest == "anything" else None
 
+    def grounded_on(self, vehicle: Vehicle) -> frozenset[int]:
+        """Return which of a vehicle's drones are launched no more."""
+        return self.grounded.get(vehicle, frozenset())
+
     def carriers(self) -> dict[int, Vehicle]:
         """Return who has the parcels that are on their way, customers served by now included."""
         return {node: vehicle for vehicle in self.trips

@@ -61,9 +61,9 @@ def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict
 def _flight_violations(trip: Trip, begun: KnownTrip | None, past: Past, vehicle: Vehicle,
                        path: str) -> Iterator[Violation]:
     """Yield launches of drones that are grounded."""
-    known = 0 if begun is None else len(begun.sorties)
+    known, grounded = 0 if begun is None else len(begun.sorties), past.grounded_on(vehicle)
     for index, sortie in enumerate(trip.sorties):
-        if index >= known and sortie.drone in past.grounded.get(vehicle, ()):
+        if index >= known and sortie.drone in grounded:
             message = f"drone {sortie.drone + 1} is launched no more from {seconds(past.now)} on"
             yield Violation("UNAVAILABLE", message, f"{path}.sorties[{index}]")
 

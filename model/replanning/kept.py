@@ -66,7 +66,7 @@ def retimed(problem: Problem, decision: RouteDecision, known: tuple[KnownTrip, .
 def _kept(problem: Problem, route: Route, vehicle: Vehicle, past: Past) -> Kept:
     known = past.trips[vehicle]
     kind = problem.vehicle_types[vehicle.type]
-    grounded = past.grounded.get(vehicle, frozenset())
+    grounded = past.grounded_on(vehicle)
     trips = [read_decision(_settled(kind, trip, facts, grounded), kind)
              for trip, facts in zip(route.trips[:len(known)], known, strict=True)]
     decision = RouteDecision(*vehicle, tuple(trips))
@@ -142,8 +142,7 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
     if not aboard:
         return kept
     ready, service_left = _free_from(problem, route, position, past.now)
-    rest = _rest(problem, vehicle, planned, meeting, served,
-                 past.grounded.get(vehicle, frozenset()))
+    rest = _rest(problem, vehicle, planned, meeting, served, past.grounded_on(vehicle))
     planned_end = max(kept.end, _planned_end(problem, kept, ready, service_left, rest))
     return replace(kept, way_on=WayOn(position, ready, service_left, aboard, rest, planned_end))
 

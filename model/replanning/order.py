@@ -15,6 +15,7 @@ from model.judge.past import Vehicle
 from model.problem import Customer, Problem
 from model.solution import Route, Solution, Stop
 
+
 def orders_of(plan: Solution) -> dict[Vehicle, tuple[int, ...]]:
     """Return whom each truck serves, in its order."""
     return {Vehicle(route.vehicle_type, route.vehicle): tuple(stop.node for stop in _stops(route))

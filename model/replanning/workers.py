@@ -89,7 +89,7 @@ def _others(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[
 
 def _with_drones_left(worker: Worker, past: Past) -> Worker:
     """Return a vehicle without the drones that are grounded, its others numbered anew."""
-    kind, grounded = worker.kind, past.grounded.get(worker.vehicle, frozenset())
+    kind, grounded = worker.kind, past.grounded_on(worker.vehicle)
     left = [drone for drone in range(kind.num_drones) if drone not in grounded]
     counts = Counter(map(kind.drone_index, left))
     types = [replace(drones, count=counts[index])

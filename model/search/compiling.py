@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from model.kernel.compiled import compiled_folder, first_to_compile
+from model.kernel.compiled import compiled_folder, first_to_compile, is_cold
 from model.kernel.instance import pack
 from model.problem import (
     Customer, Depot, DroneType, Points, Problem, StraightLegs, Travel, VehicleType,
@@ -56,8 +56,7 @@ def parts_for(problem: Problem | None) -> tuple[str, ...]:
 
 def is_compiled(part: str) -> bool:
     """Tell whether a part is there, for this process to load."""
-    folder = compiled_folder()
-    return folder is not None and (folder / part).exists()
+    return compiled_folder() is not None and not is_cold((part,))
 
 
 def compile_large() -> None:
