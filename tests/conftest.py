@@ -127,10 +127,15 @@ def free_port() -> int:
         return int(probe.getsockname()[1])
 
 
-def complete(coroutine: Coroutine[Any, Any, Result]) -> Result:
-    """Run a coroutine in a thread of its own: an open browser has its loop run in the tests'."""
+def apart(function: Callable[..., Result], *given: Any) -> Result:
+    """Call a function in a thread of its own: an open browser has its loop run in the tests'."""
     with ThreadPoolExecutor(1) as executor:
-        return executor.submit(asyncio.run, coroutine).result()
+        return executor.submit(function, *given).result()
+
+
+def complete(coroutine: Coroutine[Any, Any, Result]) -> Result:
+    """Run a coroutine in a thread of its own."""
+    return apart(asyncio.run, coroutine)
 
 
 def _street(places: Sequence[float], minutes_per_km: int) -> Travel:

@@ -15,6 +15,7 @@ from app.jobs.webhook import (
 )
 from app.settings import Settings
 from tests.app.jobs.receiving import Receiver, drip
+from tests.conftest import apart
 
 SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 
@@ -48,14 +49,16 @@ def test_name_of_a_private_address_is_not_called(
              (socket.AF_INET, socket.SOCK_STREAM, 6, "", (address, 80))]
     monkeypatch.setattr(socket, "getaddrinfo", lambda *_, **__: found)
     with pytest.raises(UnreachableError, match="private network"):
-        Caller(SecretStr(SECRET), may_call_private=False).call("https://a.example", "m", "{}")
+        apart(Caller(SecretStr(SECRET), may_call_private=False).call, "https://a.example", "m",
+              "{}")
 
 
 def test_host_that_is_not_there_is_unreachable() -> None:
     with socket.create_server(("127.0.0.1", 0)) as probe:
         port = probe.getsockname()[1]
     with pytest.raises(UnreachableError, match="ConnectError"):
-        Caller(SecretStr(SECRET), may_call_private=True).call(f"http://localhost:{port}", "m", "{}")
+        apart(Caller(SecretStr(SECRET), may_call_private=True).call, f"http://localhost:{port}",
+              "m", "{}")
 
 
 def redirect(connection: socket.socket, is_over: threading.Event) -> None:
@@ -68,7 +71,7 @@ def test_call_of_a_receiver_that_drips_ends_in_time() -> None:
         caller = Caller(SecretStr(SECRET), may_call_private=True, patience=0.5)
         began = time.monotonic()
         with pytest.raises(UnreachableError, match=r"more than 0\.5 s"):
-            caller.call(f"http://127.0.0.1:{receiver.port}", "m", "{}")
+            apart(caller.call, f"http://127.0.0.1:{receiver.port}", "m", "{}")
         assert time.monotonic() - began < 3
 
 
@@ -78,7 +81,7 @@ def test_name_that_is_slow_to_be_found_ends_in_time(monkeypatch: pytest.MonkeyPa
     caller = Caller(SecretStr(SECRET), may_call_private=True, patience=0.2)
     began = time.monotonic()
     with pytest.raises(UnreachableError, match="more than"):
-        caller.call("http://a.example", "m", "{}")
+        apart(caller.call, "http://a.example", "m", "{}")
     assert time.monotonic() - began < 5
     is_over.set()
 
@@ -86,8 +89,8 @@ def test_name_that_is_slow_to_be_found_ends_in_time(monkeypatch: pytest.MonkeyPa
 def test_redirect_is_not_followed() -> None:
     with Receiver(redirect) as receiver:
         with pytest.raises(UnreachableError, match="302"):
-            Caller(SecretStr(SECRET), may_call_private=True).call(
-                f"http://127.0.0.1:{receiver.port}", "m", "{}")
+            apart(Caller(SecretStr(SECRET), may_call_private=True).call,
+                  f"http://127.0.0.1:{receiver.port}", "m", "{}")
         assert receiver.num_calls == 1
 
 
@@ -107,8 +110,8 @@ def test_name_is_looked_up_once_and_what_was_checked_is_called(
 
         monkeypatch.setattr(socket, "getaddrinfo", turn)
         monkeypatch.setattr("app.jobs.webhook.is_public", lambda address: address == "127.0.0.1")
-        Caller(SecretStr(SECRET), may_call_private=False).call(
-            f"http://turning.example:{receiver.port}/hook", "m", "{}")
+        apart(Caller(SecretStr(SECRET), may_call_private=False).call,
+              f"http://turning.example:{receiver.port}/hook", "m", "{}")
         assert (receiver.num_calls, len(asked)) == (1, 1)
 
 
