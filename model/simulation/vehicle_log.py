@@ -296,7 +296,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
             node = log.stop[index].node
             arrival = start if index == first else travel_arrival(
                 setting, log.stop[index - 1].node, node, leave)
-            service_start = free = aloft = arrival
+            service_start = free = busy = arrival
             leave = leaves_first(setting.type, arrival) if index == first else arrival
             if node >= num_depots:
                 service_start, leave = _serve(setting, log, index, arrival, departure, write)
@@ -304,18 +304,23 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                     return False
             while op < log.count.ops and log.op[op].stop == index:
                 sortie = log.op[op].sortie
+                kind = setting.types[log.sortie[sortie].row]
                 if log.op[op].is_recovery:
-                    # Recoveries that take no time never hold up one another.
-                    begin = free if recoveries_take_time(setting.type) else aloft
-                    end, lasts = _replay_recovery(setting, log, sortie, node, begin, write)
+                    # What takes no time is never held up by what takes none either.
+                    takes_time = recoveries_take_time(kind)
+                    end, lasts = _replay_recovery(setting, log, sortie, node,
+                                                  free if takes_time else busy, write)
                     lasting = lasting and lasts
                 else:
-                    end = aloft = _replay_launch(setting, log, sortie, first, node, free,
-                                                 launched, departure, write)
+                    end = _replay_launch(setting, log, sortie, first, node, free, launched,
+                                         departure, write)
+                    takes_time = launch_begin(kind, end, launched) < end
+                    departure = min(departure, end)
                     launched += 1
                 if end < 0:
                     return False
-                free, departure = max(free, end), min(departure, aloft)
+                free = max(free, end)
+                busy = free if takes_time else busy
                 op += 1
             leave = max(leave, free)
             departure = min(departure, leave)

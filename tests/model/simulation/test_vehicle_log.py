@@ -132,3 +132,23 @@ def test_recoveries_that_take_no_time_never_hold_up_one_another(
     # Begun at once, b's drone would have been back at c first; now it is a's.
     assert [sortie.recovery_start // MINUTE for sortie in trip.sorties] == [23, 28]
     assert check(problem, solution).violations == ()
+
+
+def test_recoveries_that_take_no_time_never_wait_for_launches_that_take_none(
+        tiny_problem, customers, truck, drones) -> None:
+    a, b, c, d = customers
+    problem = tiny_problem(
+        replace(a, earliest=12 * MINUTE, service_duration=MINUTE),
+        replace(b, service_duration=8 * MINUTE),
+        replace(c, earliest=18 * MINUTE, service_duration=7 * MINUTE),
+        replace(d, earliest=21 * MINUTE, service_duration=7 * MINUTE),
+        truck=replace(truck, drones=replace(drones, count=4, launch_duration=0,
+                                            recovery_duration=0, endurance=15 * MINUTE)))
+    solution = extract(problem, pack([problem]), [encode_action(kind, target) for kind, target in (
+        (OPEN, 0), (LAUNCH, 1), (LAUNCH, 2), (LAUNCH, 3), (LAUNCH, 4), (RETURN, 0))])
+    (trip,) = solution.routes[0].trips
+    # Begun at once, b's drone would be back at 12, c's launch held back until 13, a's drone be back
+    # at 14, and d's launch held back until 17, which lets all begin 5 minutes later.
+    assert [(sortie.launch_time // MINUTE, sortie.recovery_start // MINUTE)
+            for sortie in trip.sorties] == [(5, 14), (5, 17), (17, 30), (17, 32)]
+    assert check(problem, solution).violations == ()
