@@ -139,7 +139,8 @@ class _Explainer:
         InvalidRequestError
             If it breaks a rule.
         """
-        evaluation = task.check(solution)
+        self._judged = task.judge_routes(solution)
+        evaluation = task.setting.judge(task.judged_problem, solution, self._judged)
         if evaluation.violations:
             found = [violation_reply(each, f"$.{PROBLEM}", f"$.{PLAN}")
                      for each in evaluation.violations]
@@ -171,7 +172,7 @@ class _Explainer:
         node = next(node for node, customer
                     in enumerate(self._problem.customers, self._problem.num_depots)
                     if customer.id == name)
-        bench = Bench(self._problem, self._solution, node, self._setting)
+        bench = Bench(self._problem, self._solution, node, self._setting, self._judged)
         share = ALTERNATIVES_SHARE * (0.3 if question.drones else 1.0)
         found = find_alternatives(bench, question.after(share))
         binding, in_time = find_binding(bench, found,
@@ -184,7 +185,8 @@ class _Explainer:
     def _of_drones(self, question: Question) -> tuple[Data, bool]:
         now = time.perf_counter()
         until = now + SORTIES_SHARE * (question.until - now)
-        worth = list(sorties_worth(self._problem, self._solution, self._setting, until))
+        worth = list(sorties_worth(self._problem, self._solution, self._setting, until,
+                                   self._judged))
         each = (question.until - time.perf_counter()) / 2
         searched = None
         if worth and self._task.replanning is None and each >= LEAST_SEARCH:

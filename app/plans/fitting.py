@@ -46,12 +46,13 @@ def answer_fit(body: ReceivedBody, bounds: Bounds,
     task = task_of(request.whole_problem, preparing_within(bounds, should_stop),
                    roads=roads.with_all_legs())
     solution = timed_plan(task, request.plan, (PLAN,))
-    evaluation = task.check(solution)
+    problem, judged = task.judged_problem, task.judge_routes(solution)
+    evaluation = task.setting.judge(problem, solution, judged)
     _require_readable(evaluation)
     now, limit = time.perf_counter(), request.options.time_limit
     until = max(body.received_at + TRYING_SHARE * limit, now + LEAST_TRYING * limit)
     node = _node_of(task, request)
-    bench = Bench(task.judged_problem, _with_customer(solution, node), node, task.setting)
+    bench = Bench(problem, _with_customer(solution, node), node, task.setting, judged)
     fits = find_fits(bench, request.count, until)
     reply: Data = {
         "customer": task.problem.customer_at(node).id,

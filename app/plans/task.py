@@ -30,7 +30,7 @@ from app.warnings.addresses import address_warnings
 from app.warnings.finding import warnings_of
 from app.warnings.warning import RequestWarning
 from model.judge.bench import Setting
-from model.judge.check import Evaluation, check
+from model.judge.check import Evaluation, JudgedRoute, check
 from model.judge.explain import Reason, explain
 from model.judge.past import Vehicle
 from model.judge.rules import Violation
@@ -105,6 +105,11 @@ class Task:
             return self.replanning.check(solution)
         self.learn_legs(solution)
         return check(self.problem, solution)
+
+    def judge_routes(self, solution: Solution) -> dict[int, JudgedRoute]:
+        """Judge each route of a plan alone, by its index, as `Setting.judge` takes them."""
+        self.learn_legs(solution)
+        return self.setting.judge_routes(self.judged_problem, solution)
 
     @property
     def judged_problem(self) -> Problem:

@@ -27,13 +27,14 @@ class Worth:
 
 
 def sorties_worth(problem: Problem, solution: Solution, setting: Setting | None = None,
-                  until: float = math.inf) -> Iterator[Worth]:
+                  until: float = math.inf,
+                  judged: Mapping[int, JudgedRoute] | None = None) -> Iterator[Worth]:
     """Yield what each sortie of a plan saves, as far as is found by an instant.
 
-    `until` is on `time.perf_counter`.
+    `until` is on `time.perf_counter`; `judged` are the plan's routes, if known.
     """
     setting = setting or Setting()
-    judged = setting.judge_routes(problem, solution)
+    judged = setting.judge_routes(problem, solution) if judged is None else judged
     cost = setting.judge(problem, solution, judged).cost.total
     for index, route in enumerate(solution.routes):
         for number, trip in enumerate(route.trips):
