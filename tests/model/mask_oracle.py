@@ -257,6 +257,8 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
             return False
         return later.ready <= max(halt.ready, customer.latest)
 
+    if _end(late) > _end(soon):
+        return False
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):
             return False
@@ -267,7 +269,11 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
                       > sortie.recovery_start - sortie.launch_time)
             if longer or not all(map(may_be, sortie.visits, flown.visits)):
                 return False
-    return late.trips[-1].stops[-1].departure <= soon.trips[-1].stops[-1].departure
+    return True
+
+
+def _end(route: Route) -> int:
+    return route.trips[-1].stops[-1].departure
 
 
 def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) -> bool:
@@ -286,8 +292,13 @@ def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) 
     if broken != {"WORKING_DURATION"} and not any_start:
         return False
     for start in range(soon.trips[0].stops[0].arrival, soon.trips[-1].stops[-1].departure, MINUTE):
-        route, judged = judge(problem, vehicle, start)
-        if judged.is_feasible and (any_start or costs_nothing(problem, soon, route)):
+        if not any_start:
+            late = _timed_route(problem, vehicle, start)
+            if _end(late) > _end(soon):  # and what begins later still doesn't end sooner
+                return False
+            if not costs_nothing(problem, soon, late):
+                continue
+        if judge(problem, vehicle, start)[1].is_feasible:
             return True
     return False
 

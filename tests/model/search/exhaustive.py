@@ -4,10 +4,11 @@ Every trip begins as late as costs nothing; drones are recovered in order of arr
 """
 
 import math
+from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from itertools import combinations, pairwise, permutations
 
 from model.judge.check import check
@@ -106,19 +107,34 @@ def _cost_begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> 
     """Return what a route costs whose trips begin as late as costs nothing."""
     kind = problem.vehicle_types[decision.vehicle_type]
     for index in range(len(decision.trips)):
-        first, end = soon.trips[index].stops[0].arrival, soon.trips[-1].stops[-1].departure
+        first, end = soon.trips[index].stops[0].arrival, _end(soon)
         # What begins later than that ends later, too.
         last = end - sum(_least_duration(problem, kind, trip) for trip in decision.trips[index:])
-        for start in range(last - (last - first) % STEP, first, -STEP):
-            trip = replace(decision.trips[index], start=start)
-            trips = (*decision.trips[:index], trip, *decision.trips[index + 1:])
-            late = schedule(problem, replace(decision, trips=trips))
+        starts = range(first + STEP, last + 1, STEP)
+        begun = partial(_begun, problem, decision, index)
+        # Nothing begun later ends sooner.
+        in_time = bisect_right(starts, end, key=lambda start: _end(begun(start)[1]))
+        for start in reversed(starts[:in_time]):
+            later, late = begun(start)
             if costs_nothing(problem, soon, late):
-                decision, soon = replace(decision, trips=trips), late
+                decision, soon = later, late
                 break
     evaluation = check(problem, Solution((soon,)))
     broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
     return math.inf if broken else evaluation.cost.total
+
+
+def _begun(problem: Problem, decision: RouteDecision, index: int,
+           start: int) -> tuple[RouteDecision, Route]:
+    """Return a route one trip of which begins at `start`, and with its times."""
+    trip = replace(decision.trips[index], start=start)
+    trips = (*decision.trips[:index], trip, *decision.trips[index + 1:])
+    later = replace(decision, trips=trips)
+    return later, schedule(problem, later)
+
+
+def _end(route: Route) -> int:
+    return route.trips[-1].stops[-1].departure
 
 
 def _trip_lists(problem: Problem, kind: VehicleType, nodes: Nodes,

@@ -155,7 +155,7 @@ def test_a_drone_held_at_the_depot_is_no_work_before_it_takes_off(late):
 @pytest.mark.parametrize("several", [False, True])
 @pytest.mark.parametrize("on_battery", [False, True])
 def test_the_mask_is_exact_where_launches_are_held_back(several: bool, on_battery: bool) -> None:
-    for seed in range(250 if not several and not on_battery else 120):
+    for seed in range(170 if not several and not on_battery else 80):
         rng = np.random.default_rng(seed)
         problem = draw_late(rng)
         if several:
@@ -183,7 +183,7 @@ def held(problem: Problem, solution: Solution) -> Iterator[int]:
 
 def test_random_rollouts_and_searches_hold_launches_and_pass_the_checker() -> None:
     by_policy = by_search = 0
-    for seed in range(150):
+    for seed in range(110):
         problem = draw_late(np.random.default_rng(seed))
         rollout = roll([problem], seed).rollouts[0]
         solution = extract(problem, pack([problem]), rollout.actions)
@@ -197,7 +197,7 @@ def test_random_rollouts_and_searches_hold_launches_and_pass_the_checker() -> No
 
 
 def test_plans_state_their_order_where_launches_and_recoveries_take_no_time() -> None:
-    for seed in range(300):
+    for seed in range(200):
         problem = draw_late(np.random.default_rng(seed))
         kinds = tuple(replace(kind, drones=replace(
             kind.drones, count=3, launch_duration=0, recovery_duration=0))
@@ -258,7 +258,7 @@ def is_served(problem: Problem) -> bool:
 
 def test_a_remedy_for_a_lone_customer_is_never_false_and_none_is_needed_where_one_fits() -> None:
     remedies = 0
-    for seed in range(150):
+    for seed in range(110):
         for problem, reason in lone_reasons(seed):
             if reason.code == "SEARCH":
                 assert is_served(problem), f"seed {seed}"
