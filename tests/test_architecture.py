@@ -8,6 +8,7 @@ from collections.abc import Callable
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -116,22 +117,31 @@ def name_of(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
 
 
+class Contents(NamedTuple):
+    """What these tests want to know of a file."""
+
+    modules: frozenset[str]  # imported anywhere, `from a import b` as `a` and `a.b`
+    lines: dict[str, int]  # of code, by function
+
+
 @cache
-def imported_modules(path: Path) -> frozenset[str]:
-    """Return the dotted names that a file imports anywhere, `from a import b` as `a` and `a.b`."""
-    found = set[str]()
+def contents(path: Path) -> Contents:
+    """Return what is imported and defined in a file, which is parsed once for all tests."""
+    modules, lines = set[str](), dict[str, int]()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            modules |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{name_of(path)} has a relative import"
-            found |= {node.module or "", *(f"{node.module}.{alias.name}" for alias in node.names)}
-    return frozenset(found)
+            modules |= {node.module or "", *(f"{node.module}.{alias.name}" for alias in node.names)}
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            lines[f"{node.lineno} {node.name}"] = code_lines(node)
+    return Contents(frozenset(modules), lines)
 
 
 def imported_packages(path: Path) -> set[str]:
     """Return the top-level packages that a file imports."""
-    return {module.split(".")[0] for module in imported_modules(path)}
+    return {module.split(".")[0] for module in contents(path).modules}
 
 
 @cache
@@ -145,9 +155,9 @@ def imported_files(package: str) -> dict[str, set[str]]:
     dotted = {f"{package}.{name.replace('/', '.')}": {name} for name in files}
     for path in sources(package):
         if path.stem == "__init__":
-            gathered = [dotted[module] for module in imported_modules(path) if module in dotted]
+            gathered = [dotted[module] for module in contents(path).modules if module in dotted]
             dotted[".".join(path.parent.relative_to(ROOT).parts)] = set().union(*gathered)
-    return {name: set().union(*(dotted.get(module, set()) for module in imported_modules(path)))
+    return {name: set().union(*(dotted.get(module, set()) for module in contents(path).modules))
             for name, path in files.items()}
 
 
@@ -192,7 +202,7 @@ def test_only_policies_and_training_use_torch() -> None:
     users = [name_of(path) for path in sources("app", "model")
              if name_of(path)[:-3].replace("/", ".") not in NETWORKS
              and any(module.startswith(("torch", *NETWORKS))
-                     for module in imported_modules(path))]
+                     for module in contents(path).modules)]
     assert users == []
 
 
@@ -291,17 +301,14 @@ def test_only_one_file_imports_the_compiler() -> None:
     assert importers == ["model/kernel/compiled.py"]
 
 
-@pytest.mark.parametrize("path", sources(*PACKAGES), ids=name_of)
-def test_file_is_short(path: Path) -> None:
-    assert len(path.read_text().splitlines()) <= MAX_FILE_LINES
+def test_files_are_short() -> None:
+    lines = {name_of(path): len(path.read_text().splitlines()) for path in sources(*PACKAGES)}
+    assert {name: number for name, number in lines.items() if number > MAX_FILE_LINES} == {}
 
 
-@pytest.mark.parametrize("path", sources(*PACKAGES), ids=name_of)
-def test_functions_are_short(path: Path) -> None:
-    functions = (node for node in ast.walk(ast.parse(path.read_text()))
-                 if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef))
-    long = {function.name: code_lines(function) for function in functions
-            if code_lines(function) > MAX_FUNCTION_LINES}
+def test_functions_are_short() -> None:
+    long = {name_of(path): function for path in sources(*PACKAGES)
+            for function, lines in contents(path).lines.items() if lines > MAX_FUNCTION_LINES}
     assert long == {}
 
 
@@ -318,6 +325,6 @@ def test_coroutines_are_run_where_no_browser_has_its_loop() -> None:
     assert by_themselves == []
 
 
-@pytest.mark.parametrize("path", sources(*PACKAGES), ids=name_of)
-def test_nothing_is_left_for_later(path: Path) -> None:
-    assert UNFINISHED not in path.read_text()
+def test_nothing_is_left_for_later() -> None:
+    assert [name_of(path) for path in sources(*PACKAGES)
+            if UNFINISHED in path.read_text()] == []
