@@ -6,6 +6,8 @@ Shares nothing with simulator and search, so that it can judge both.
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
+from operator import attrgetter
 from types import MappingProxyType
 
 from model.judge.metrics import (
@@ -42,19 +44,18 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN,
 
     `known` are routes, by index, that were judged before by `judge_route`, at the same path.
     """
-    violations = [*_assignment_violations(problem, solution), *_fleet_violations(problem, solution)]
+    routes = [known.get(index) or judge_route(problem, route, f"routes[{index}]", past)
+              for index, route in enumerate(solution.routes)]
+    violations = [*_assignment_violations(problem, solution, routes),
+                  *_fleet_violations(problem, solution)]
     if past is not EVERYTHING_OPEN:
         violations += past_violations(problem, solution, past)
-    metrics: list[RouteMetrics] = []
-    costs = [Cost(unassigned=unassigned_cost(problem, solution.unassigned))]
-    makespan = 0
-    for index, route in enumerate(solution.routes):
-        judged = known.get(index) or judge_route(problem, route, f"routes[{index}]", past)
+    for judged in routes:
         violations += judged.violations
-        metrics.append(judged.metrics)
-        costs.append(judged.cost)
-        makespan = max(makespan, judged.end)
-    return Evaluation(tuple(violations), _total(costs), tuple(metrics), makespan)
+    costs = [Cost(unassigned=unassigned_cost(problem, solution.unassigned)),
+             *[judged.cost for judged in routes]]
+    return Evaluation(tuple(violations), _total(costs), tuple([each.metrics for each in routes]),
+                      max([judged.end for judged in routes], default=0))
 
 
 @dataclass(frozen=True)
@@ -65,14 +66,15 @@ class JudgedRoute:
     metrics: RouteMetrics
     cost: Cost
     end: int  # ms, the last return
+    nodes: tuple[int, ...]  # of all whom it serves, or claims to
 
 
 def judge_route(problem: Problem, route: Route, path: str,
                 past: Past = EVERYTHING_OPEN) -> JudgedRoute:
     """Judge a route by the rules that concern it alone."""
-    violations = list(_unreadable(problem, route, path))
+    violations, nodes = list(_unreadable(problem, route, path)), tuple(_nodes(route))
     if violations:
-        return JudgedRoute(violations, RouteMetrics(), Cost(), 0)
+        return JudgedRoute(violations, RouteMetrics(), Cost(), 0, nodes)
     vehicle_type = problem.vehicle_types[route.vehicle_type]
     known = past.trips.get(Vehicle(route.vehicle_type, route.vehicle), ())
     trips = [_time(problem, vehicle_type, trip, f"{path}.trips[{number}]",
@@ -85,11 +87,18 @@ def judge_route(problem: Problem, route: Route, path: str,
         violations += trip_violations(problem, route.vehicle_type, trip)
     violations += route_violations(problem, vehicle_type, trips, measured, path,
                                    len(known) == len(trips))
-    return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure)
+    return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure, nodes)
+
+
+def _nodes(route: Route) -> Iterator[int]:
+    for trip in route.trips:
+        yield from [stop.node for stop in trip.stops[1:-1]]
+        for sortie in trip.sorties:
+            yield from [visit.node for visit in sortie.visits]
 
 
 def _total(costs: list[Cost]) -> Cost:
-    return Cost(*[sum([getattr(cost, term) for cost in costs]) for term in COST_TERMS])
+    return Cost(*map(sum, zip(*map(attrgetter(*COST_TERMS), costs), strict=True)))
 
 
 def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
@@ -103,19 +112,16 @@ def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
     return TimedTrip(decision, trip, measure_trip(problem, vehicle_type, trip), path)
 
 
-def _assignment_violations(problem: Problem, solution: Solution) -> Iterator[Violation]:
+def _assignment_violations(problem: Problem, solution: Solution,
+                           routes: list[JudgedRoute]) -> Iterator[Violation]:
     """Every customer is served once or unassigned."""
     first, end = problem.num_depots, problem.num_nodes
-    nodes: list[int] = list(solution.unassigned)
-    for route in solution.routes:
-        for trip in route.trips:
-            nodes += [stop.node for stop in trip.stops[1:-1]]
-            for sortie in trip.sorties:
-                nodes += [visit.node for visit in sortie.visits]
+    nodes = [*solution.unassigned, *chain.from_iterable([judged.nodes for judged in routes])]
     for index, node in enumerate(solution.unassigned):
         if not first <= node < end:
             yield Violation("UNKNOWN_NODE", f"node {node} is no customer", f"unassigned[{index}]")
-    if len(nodes) == end - first and set(nodes) == set(range(first, end)):
+    if len(nodes) == end - first == len(set(nodes)) and (
+            not nodes or (min(nodes) >= first and max(nodes) < end)):
         return
     times = Counter(nodes)
     for index, customer in enumerate(problem.customers):
@@ -132,20 +138,19 @@ def _fleet_violations(problem: Problem, solution: Solution) -> Iterator[Violatio
     """Every route has a vehicle of its own, and no more trips than that may make."""
     used: set[tuple[int, int]] = set()
     for index, route in enumerate(solution.routes):
-        path = f"routes[{index}]"
         if not 0 <= route.vehicle_type < len(problem.vehicle_types):
             continue
         vehicle_type = problem.vehicle_types[route.vehicle_type]
         if not 0 <= route.vehicle < vehicle_type.count:
             message = f"vehicle {route.vehicle} of {vehicle_type.count} of {vehicle_type.id}"
-            yield Violation("COUNT", message, path)
+            yield Violation("COUNT", message, f"routes[{index}]")
         if (route.vehicle_type, route.vehicle) in used:
             message = f"vehicle {route.vehicle} of {vehicle_type.id} has another route"
-            yield Violation("COUNT", message, path)
+            yield Violation("COUNT", message, f"routes[{index}]")
         used.add((route.vehicle_type, route.vehicle))
         if len(route.trips) > vehicle_type.max_trips:
             message = f"{len(route.trips)} trips, at most {vehicle_type.max_trips} are allowed"
-            yield Violation("MAX_TRIPS", message, path)
+            yield Violation("MAX_TRIPS", message, f"routes[{index}]")
 
 
 def _unreadable(problem: Problem, route: Route, path: str) -> Iterator[Violation]:
