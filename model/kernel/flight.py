@@ -73,9 +73,9 @@ def handling_duration(kind: Record) -> int:
 
 
 @inlined
-def recoveries_take_time(kind: Record) -> bool:
-    """Tell whether a recovery can hold up another."""
-    return kind.recovery_duration > 0
+def takes_no_time(kind: Record, is_recovery: bool, launched: int) -> bool:
+    """Tell whether a recovery, or else a launch, ends as it begins."""
+    return (kind.recovery_duration if is_recovery else launch_duration(kind, launched)) == 0
 
 
 @inlined

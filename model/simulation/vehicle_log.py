@@ -14,8 +14,8 @@ from model.kernel.compiled import compiled, inlined, pasted
 from model.kernel.drone_types import are_several
 from model.kernel.energy import battery_of, charged, charges_aboard, first_charge
 from model.kernel.flight import (
-    charged_launch, held_takeoff, launch_begin, left_after, recoveries_take_time, recovery_end,
-    take_off, within_endurance,
+    charged_launch, held_takeoff, launch_begin, left_after, recovery_end, take_off, takes_no_time,
+    within_endurance,
 )
 from model.kernel.instance import FAR, Instance
 from model.kernel.leg import lookup, matrices_of, matrix_among, matrix_of
@@ -234,9 +234,10 @@ def _replay_launch(setting: Setting, log: VehicleLog, index: int, first: int, no
 
 @inlined
 def _replay_recovery(setting: Setting, log: VehicleLog, index: int, node: int, free: int,
-                     write: bool) -> tuple[int, bool]:
+                     busy: int, write: bool) -> tuple[int, bool]:
     """Time one recovery begun at `free` or later; return its end, and whether the drone lasts.
 
+    One that takes no time is held up by what takes time alone, which is over at `busy`.
     If nothing is written, the end is -1 where it doesn't, or is in the air longer than logged.
     """
     sortie = log.sortie[index]
@@ -244,7 +245,7 @@ def _replay_recovery(setting: Setting, log: VehicleLog, index: int, node: int, f
     craft = craft_of(setting, sortie.row)
     home = lookup(craft.home, customer, node)
     back = sortie.trial_ready + home
-    begin = max(free, back)
+    begin = max(busy if takes_no_time(craft.type, True, 0) else free, back)
     # A sortie as long as before may wait where that takes more.
     left = left_after(craft.type, craft.node[customer],
                       lookup(craft.out, log.stop[sortie.launch_stop].node, customer), home,
@@ -286,8 +287,7 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
     op, leave, lasting = log.trip[first_trip].first_op, start, True
     for trip in range(first_trip, log.count.trips):
         first, launched, departure = log.trip[trip].first_stop, 0, FAR
-        further = trip + 1 < log.count.trips
-        behind = log.trip[trip + 1].first_stop if further else log.count.stops
+        behind = log.trip[trip + 1].first_stop if trip + 1 < log.count.trips else log.count.stops
         if trip > first_trip:
             start = max(log.trip[trip].release, leave + setting.type.reload_duration)
         if write:
@@ -304,23 +304,19 @@ def replay(setting: Setting, num_depots: int, log: VehicleLog, first_trip: int, 
                     return False
             while op < log.count.ops and log.op[op].stop == index:
                 sortie = log.op[op].sortie
-                kind = setting.types[log.sortie[sortie].row]
+                instant = takes_no_time(setting.types[log.sortie[sortie].row],
+                                        log.op[op].is_recovery, launched)
                 if log.op[op].is_recovery:
-                    # What takes no time is never held up by what takes none either.
-                    takes_time = recoveries_take_time(kind)
-                    end, lasts = _replay_recovery(setting, log, sortie, node,
-                                                  free if takes_time else busy, write)
+                    end, lasts = _replay_recovery(setting, log, sortie, node, free, busy, write)
                     lasting = lasting and lasts
                 else:
                     end = _replay_launch(setting, log, sortie, first, node, free, launched,
                                          departure, write)
-                    takes_time = launch_begin(kind, end, launched) < end
-                    departure = min(departure, end)
-                    launched += 1
+                    departure, launched = min(departure, end), launched + 1
                 if end < 0:
                     return False
                 free = max(free, end)
-                busy = free if takes_time else busy
+                busy = busy if instant else free
                 op += 1
             leave = max(leave, free)
             departure = min(departure, leave)
