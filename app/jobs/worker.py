@@ -34,9 +34,10 @@ from app.settings import Settings
 
 logger = logging.getLogger(__name__)
 
-POLLING, PATIENT_POLLING, FORMER_POLLING = 0.2, 1.0, 5.0
-"""Seconds between two looks into a queue, one whose jobs can wait, and one that nothing is added to
-any more. Looking is most of what many workers ask of the database."""
+POLLING, STUDY_POLLING, PATIENT_POLLING, FORMER_POLLING = 0.2, 0.5, 1.0, 30.0
+"""Seconds between two looks into the plans' queue, that of comparisons and sweeps, which take many
+plans' time, one whose jobs can wait, and one that nothing is added to any more. Looking is most of
+what many workers ask of the database, and all that an idle one does."""
 
 STUDIES_AT_ONCE, WEBHOOKS_AT_ONCE, WAITING_AT_ONCE, DIVIDED_AT_ONCE = 100, 20, 20, 4
 
@@ -142,7 +143,7 @@ class Worker:
         expiry = self._register()
         DBOS.launch()
         for queue, limit, polling in ((PLANS, self._settings.job_slots, POLLING),
-                                      (STUDIES, STUDIES_AT_ONCE, POLLING),
+                                      (STUDIES, STUDIES_AT_ONCE, STUDY_POLLING),
                                       (WAITING, WAITING_AT_ONCE, PATIENT_POLLING),
                                       (DIVIDED, DIVIDED_AT_ONCE, PATIENT_POLLING)):
             DBOS.register_queue(queue, worker_concurrency=limit, polling_interval_sec=polling)
