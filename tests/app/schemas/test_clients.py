@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
+from typer.testing import CliRunner
 
+from app.cli.commands import cli
 from tests.app.observe.server import Server, running
 
 ROOT = Path(__file__).parents[3]
@@ -78,9 +80,8 @@ def guarded(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Visitor]:
     """Return a server with jobs that asks for keys, and one of them."""
     settings = {"TANDEM_DATA_DIR": str(tmp_path_factory.mktemp("data")), "TANDEM_ROLE": "all",
                 "TANDEM_ACCESS": "keys"}
-    made = subprocess.run([sys.executable, "-m", "app", "keys", "create", "a client"], cwd=ROOT,
-                          env={**os.environ, **settings}, text=True, capture_output=True,
-                          check=True)
+    made = CliRunner().invoke(cli, ["keys", "create", "a client"], env=settings)
+    assert made.exit_code == 0, made.output
     with running(**settings) as server:
         yield Visitor(server, made.stdout.strip())
 
