@@ -5,12 +5,16 @@ from contextlib import contextmanager
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, expect
+from playwright.sync_api import (
+    Browser, BrowserContext, ConsoleMessage, Page, Request, ViewportSize, expect,
+)
 
 from tests.console.serving import chromium, serving
 
 WAIT_MS, OPENING_MS = 30_000, 120_000
 """For what a page does, and for opening one while other tests have all cores."""
+
+VIEWPORT: ViewportSize = {"width": 1440, "height": 900}
 
 expect.set_options(timeout=WAIT_MS)
 
@@ -29,6 +33,40 @@ def browser() -> Iterator[Browser]:
         yield browser
 
 
+class Complaints:
+    """What a page's console and network complain of.
+
+    Parameters
+    ----------
+    page
+        The page to listen to.
+    address
+        Of its service: whatever is asked elsewhere is complained of.
+    allow
+        Texts of errors that the test provokes.
+    """
+
+    def __init__(self, page: Page, address: str, allow: tuple[str, ...] = ()) -> None:
+        self.texts: list[str] = []
+        self._address = address
+        self._allow = allow
+        page.on("console", self._hear)
+        page.on("pageerror", lambda error: self._note(f"error: {error}"))
+        page.on("request", self._see)
+
+    def _note(self, text: str) -> None:
+        if not any(part in text for part in self._allow):
+            self.texts.append(text)
+
+    def _hear(self, message: ConsoleMessage) -> None:
+        if message.type in ("error", "warning"):
+            self._note(f"console {message.type}: {message.text}")
+
+    def _see(self, request: Request) -> None:
+        if not request.url.startswith((self._address, "data:", "blob:", "about:")):
+            self._note(f"asked elsewhere: {request.url}")
+
+
 @contextmanager
 def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
     """Yield a function that opens a page; what its console or network complain of is an error.
@@ -36,31 +74,27 @@ def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
     Keywords are those of a browser's context, such as `color_scheme`; `allow` are texts of errors
     that the test provokes.
     """
-    complaints: list[str] = []
+    complaints: list[Complaints] = []
     contexts: list[BrowserContext] = []
 
     def opener(address: str, allow: tuple[str, ...] = (), **options: Any) -> Page:
-        context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}} | options)
-        contexts.append(context)
-        context.set_default_navigation_timeout(OPENING_MS)
-        page = context.new_page()
-
-        def note(text: str) -> None:
-            if not any(part in text for part in allow):
-                complaints.append(text)
-
-        page.on("console", lambda message: note(f"console {message.type}: {message.text}")
-                if message.type in ("error", "warning") else None)
-        page.on("pageerror", lambda error: note(f"error: {error}"))
-        page.on("request", lambda request: note(f"asked elsewhere: {request.url}")
-                if not request.url.startswith((address, "data:", "blob:")) else None)
+        contexts.append(new_context(browser, **options))
+        page = contexts[-1].new_page()
+        complaints.append(Complaints(page, address, allow))
         page.goto(address)
         return page
 
     yield opener
     for context in contexts:
         context.close()
-    assert complaints == []
+    assert [text for each in complaints for text in each.texts] == []
+
+
+def new_context(browser: Browser, **options: Any) -> BrowserContext:
+    """Return what stands for a visitor's own browser."""
+    context = browser.new_context(**{"viewport": VIEWPORT} | options)
+    context.set_default_navigation_timeout(OPENING_MS)
+    return context
 
 
 @pytest.fixture
@@ -79,9 +113,37 @@ def console(browser: Browser, service: str) -> Iterator[Page]:
         yield page
 
 
+@pytest.fixture(scope="session")
+def visitor(browser: Browser) -> Iterator[BrowserContext]:
+    """Return one browser's visitor for all tests that begin with a console as it is at first.
+
+    Who comes again has the files of the console at hand: that is half of what opening it takes.
+    """
+    context = new_context(browser)
+    context.new_page()
+    yield context
+    context.close()
+
+
 @pytest.fixture
-def page(open_page: Callable[..., Page], service: str) -> Page:
-    """Return the console with its first example planned."""
-    page = open_page(service)
+def page(visitor: BrowserContext, service: str) -> Iterator[Page]:
+    """Return the console with its first example planned, to whoever has never been there."""
+    for former in visitor.pages[1:]:
+        former.close()
+    page = visitor.new_page()
+    forget(visitor, page, service)
+    complaints = Complaints(page, service)
+    page.goto(service)
     expect(page.locator("#total-cost")).to_be_visible()
-    return page
+    yield page
+    for one in visitor.pages[1:]:
+        one.close()
+    visitor.unroute_all()
+    assert complaints.texts == []
+
+
+def forget(visitor: BrowserContext, page: Page, address: str) -> None:
+    """Have a browser forget what it keeps for a service, but for the service's files. In place."""
+    session = visitor.new_cdp_session(page)
+    session.send("Storage.clearDataForOrigin", {"origin": address, "storageTypes": "all"})
+    session.detach()

@@ -241,8 +241,8 @@ def test_link_opens_a_plan_without_a_key(page: Page, open_page: Callable[..., Pa
 
 
 def test_browser_that_keeps_nothing_says_so(page: Page) -> None:
-    page.context.add_init_script("Object.defineProperty(window, 'indexedDB', { get() { "
-                                 "throw new DOMException('no', 'SecurityError'); } });")
+    page.add_init_script("Object.defineProperty(window, 'indexedDB', { get() { "
+                         "throw new DOMException('no', 'SecurityError'); } });")
     loaded_anew(page)
     refused(page, "keeps nothing here")
 
