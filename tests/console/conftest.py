@@ -21,8 +21,8 @@ expect.set_options(timeout=WAIT_MS)
 
 @pytest.fixture(scope="session")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Return the address of a service with its real planner."""
-    with serving(tmp_path_factory.mktemp("console")) as address:
+    """Return the address of a service with its real planner; see `tests.console.service`."""
+    with serving(tmp_path_factory.mktemp("console"), "tests.console.service") as address:
         yield address
 
 

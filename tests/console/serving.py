@@ -20,13 +20,15 @@ START_SECONDS = 600
 
 
 @contextmanager
-def serving(folder: Path, **settings: str) -> Iterator[str]:
+def serving(folder: Path, module: str = "app", **settings: str) -> Iterator[str]:
     """Serve with the real planner and yield the address.
 
     Parameters
     ----------
     folder
         For the service's data and its log.
+    module
+        What serves.
     settings
         Variables of the environment besides.
     """
@@ -39,7 +41,7 @@ def serving(folder: Path, **settings: str) -> Iterator[str]:
                     "TANDEM_MAX_CUSTOMERS": "3000"} | settings
     log = folder / "service.log"
     with log.open("wb") as output:
-        process = subprocess.Popen([sys.executable, "-m", "app", "serve", "--port", str(port)],
+        process = subprocess.Popen([sys.executable, "-m", module, "serve", "--port", str(port)],
                                    env=environment, stdout=output, stderr=subprocess.STDOUT)
     address = f"http://127.0.0.1:{port}"
     try:

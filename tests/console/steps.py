@@ -52,6 +52,14 @@ def open_advanced(page: Page) -> None:
     page.locator("details", has_text="Advanced").locator("summary").click()
 
 
+def let_search(page: Page, seconds: float) -> None:
+    """State for how long what is open is searched."""
+    page.evaluate("""async (seconds) => {
+      const { edit } = await import(`${location.origin}/console/js/actions.js`);
+      edit((request) => ({ ...request, options: { ...request.options, time_limit: seconds } }));
+    }""", seconds)
+
+
 def state(page: Page, expression: str) -> Any:
     """Return part of the console's state, such as `state.selection`."""
     return page.evaluate("""async (read) => {

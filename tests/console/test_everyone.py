@@ -6,7 +6,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
-from tests.console.steps import idle, open_example, open_tab, state
+from tests.console.steps import idle, let_search, open_example, open_tab, state
 
 TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes", "scenarios",
         "replan", "export", "drivers")
@@ -55,6 +55,7 @@ def test_everything_is_reached_by_keyboard(page: Page) -> None:
     assert state(page, "state.selection") != first
     page.keyboard.press("Escape")
     assert state(page, "state.selection") is None
+    let_search(page, 60)
     page.keyboard.press("p")
     expect(page.locator(".result-line")).to_contain_text("Improving")
     page.keyboard.press("s")
@@ -109,6 +110,7 @@ def test_service_with_keys_asks_for_one_and_forgets_it(
 
     page.route("**/plan", guard)
     page.route("**/jobs**", guard)
+    let_search(page, 1)
     page.get_by_role("button", name="Plan", exact=True).click()
     dialog = page.get_by_role("dialog", name="API key")
     dialog.get_by_label("Key").fill("tdm_wrong")

@@ -8,7 +8,8 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Error, Locator, Page, expect
 
-from tests.console.steps import idle, open_example, open_tab, state
+from tests.conftest import soon
+from tests.console.steps import idle, let_search, open_example, open_tab, state
 
 SMALL = "smallest"
 
@@ -140,17 +141,11 @@ def test_tab_that_lost_its_draft_goes_on_with_a_copy(page: Page) -> None:
 
 
 def test_what_was_being_planned_is_found_again(page: Page) -> None:
-    page.evaluate("""async () => {
-      const { edit } = await import(`${location.origin}/console/js/actions.js`);
-      edit((request) => ({ ...request, options: { ...request.options, time_limit: 600 } }));
-    }""")
+    idle(page)
+    let_search(page, 600)
     page.keyboard.press("p")
     expect(page.locator(".result-line")).to_contain_text("Improving")
-    page.wait_for_function("""async () => {
-      const { store } = await import(`${location.origin}/console/js/store.js`);
-      return store.get().run.job;
-    }""")
-    job = state(page, "state.run.job")
+    job = soon(lambda: state(page, "state.run.job"))
     edit(page, "Zoe")
     loaded_anew(page)
     expect(page.locator(".result-line")).to_contain_text("Improving")

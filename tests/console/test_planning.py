@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from playwright.sync_api import Page, Route, expect
 
-from tests.console.steps import idle, open_advanced, open_tab, state, stop_button
+from tests.console.steps import idle, let_search, open_advanced, open_tab, state, stop_button
 
 
 def set_option(page: Page, name: str, value: str) -> None:
@@ -80,6 +80,7 @@ def test_stream_that_breaks_is_taken_up_again(open_page: Callable[..., Page],
             route.continue_()
 
     page.route("**/events", break_once)
+    let_search(page, 1)
     page.get_by_role("button", name="Plan", exact=True).click()
     expect(page.locator(".result-line")).to_contain_text("Improving")
     idle(page)
