@@ -29,8 +29,10 @@ from benchmarks.rows import append_rows, read_rows
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.problem import (
-    MM_PER_KM, Customer, Depot, FloatArray, IntArray, Problem, Travel, VehicleType,
+    MM_PER_KM, Customer, Depot, FloatArray, IntArray, Points, Problem, StraightLegs, Travel,
+    VehicleType,
 )
+from model.problem.distances import ROUND
 from model.search import improve as search
 from model.search.ground import lay_ground
 from model.solution import Solution
@@ -46,7 +48,10 @@ PER_TOWN = 60
 
 DEMANDS, SHARES = (1, 2, 3), (0.5, 0.3, 0.2)
 
-WARM = "drawn-0-500-30-central"
+METRE_A_SECOND = 3.6
+"""Kilometres an hour."""
+
+WARM = "drawn-0-3000-30-central"
 """What is planned first, so that all is compiled."""
 
 
@@ -114,16 +119,13 @@ def read(path: Path) -> Stated:
 
 def as_problem(stated: Stated) -> Problem:
     """Return it as the planner takes it; a unit of distance costs 1, and is a metre."""
-    legs = np.empty((len(stated.place),) * 2, np.int64)
-    for node, place in enumerate(stated.place):
-        apart = np.sqrt(((stated.place - place) ** 2).sum(axis=1))
-        legs[node] = np.floor(apart + 0.5) * MODEL_UNITS
+    legs = StraightLegs(Points(stated.place.astype(np.float64), rounding=ROUND), METRE_A_SECOND)
     customers = tuple(Customer(str(node), (demand * MODEL_UNITS,))
                       for node, demand in enumerate(stated.demand.tolist()) if node)
     truck = VehicleType("truck", len(customers), (stated.capacity * MODEL_UNITS,), travel=0,
                         cost_per_km=MM_PER_KM / MODEL_UNITS)
-    return Problem((Depot("depot"),), customers, (truck,), (Travel(legs, legs),), stated.place,
-                   unassigned_cost=10.0 * float(legs.max()))
+    return Problem((Depot("depot"),), customers, (truck,), (Travel.along(legs),), stated.place,
+                   unassigned_cost=10.0 * legs.longest_distance())
 
 
 def best_known(folder: Path) -> dict[str, float]:
