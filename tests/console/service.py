@@ -1,29 +1,30 @@
-"""Serves as `tandem serve` does, but for the example that a console opens with.
+"""Serves as `tandem serve` does, but what may be searched for a second is searched for a moment.
 
-Nearly all tests open it, few look at how it is planned, and its search goes on when they are over.
+Nearly all tests ask for such plans, few look at how good they are, and a search goes on when
+whoever asked is gone.
 """
 
-import json
-import shutil
-from pathlib import Path
-from tempfile import TemporaryDirectory
+from dataclasses import replace
+from typing import Any
+from unittest.mock import patch
 
 from app.cli.commands import main
-from app.schemas import openapi
+from model.planner import Planner, PlanOptions, PlanResult
+from model.problem import Problem
 
-FIRST_EXAMPLE, SECONDS = "table1.json", 0.2
+SECOND, MOMENT = 1.0, 0.2
+
+plan_in_time = Planner.plan
 
 
-def serve_briefly() -> None:
-    """Serve, with that example searched for a moment."""
-    with TemporaryDirectory() as folder:
-        examples = Path(shutil.copytree(openapi.EXAMPLES_DIR, folder, dirs_exist_ok=True))
-        request = json.loads((examples / FIRST_EXAMPLE).read_text("utf-8"))
-        request["options"]["time_limit"] = SECONDS
-        (examples / FIRST_EXAMPLE).write_text(json.dumps(request), "utf-8")
-        openapi.EXAMPLES_DIR = examples
-        main()
+def plan_hurriedly(planner: Planner, problem: Problem, options: PlanOptions, *given: Any,
+                   **named: Any) -> PlanResult:
+    """Plan a problem as `Planner.plan` does, or sooner."""
+    if options.time_limit <= SECOND and options.search_iterations is None:
+        options = replace(options, time_limit=min(options.time_limit, MOMENT))
+    return plan_in_time(planner, problem, options, *given, **named)
 
 
 if __name__ == "__main__":
-    serve_briefly()
+    with patch.object(Planner, "plan", plan_hurriedly):
+        main()

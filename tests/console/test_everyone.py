@@ -110,7 +110,7 @@ def test_service_with_keys_asks_for_one_and_forgets_it(
 
     page.route("**/plan", guard)
     page.route("**/jobs**", guard)
-    let_search(page, 1)
+    let_search(page, 1.1)
     page.get_by_role("button", name="Plan", exact=True).click()
     dialog = page.get_by_role("dialog", name="API key")
     dialog.get_by_label("Key").fill("tdm_wrong")

@@ -80,7 +80,7 @@ def test_stream_that_breaks_is_taken_up_again(open_page: Callable[..., Page],
             route.continue_()
 
     page.route("**/events", break_once)
-    let_search(page, 1)
+    let_search(page, 1.1)
     page.get_by_role("button", name="Plan", exact=True).click()
     expect(page.locator(".result-line")).to_contain_text("Improving")
     idle(page)

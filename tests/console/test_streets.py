@@ -22,7 +22,7 @@ HUB = [24.9497, 60.1787]
 PLACES = {"station": [24.9425, 60.1704], "market": [24.9480, 60.1679], "park": [24.9437, 60.1664],
           "theatre": [24.9465, 60.1714]}
 
-COLOURS = """async () => {
+COLOURS = """() => {
   const seen = new Set();
   for (const canvas of document.querySelectorAll('.leaflet-tile-pane canvas')) {
     const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -87,7 +87,7 @@ def test_map_has_streets_and_thanks_their_makers(
     expect(page.get_by_text("© OpenStreetMap contributors")).to_be_visible()
     expect(page.locator(".leaflet-tile-pane canvas.leaflet-tile-loaded").first).to_be_visible()
     water = 0xC5DCEC if scheme == "light" else 0x14324A
-    page.wait_for_function(f"async () => (await ({COLOURS})()).includes({water})")
+    page.wait_for_function(f"() => ({COLOURS})().includes({water})")
     assert len(page.evaluate(COLOURS)) > 6
 
 
