@@ -112,29 +112,28 @@ def _tables(problem: Problem, ways: Sequence[Way], setup: Records, node: IntArra
     """Return the legs that were stated, (direction, table, node, node, 2)."""
     if not ways:
         return np.empty((1, 1, len(node), 0, 2), np.int64)
-    leg = np.empty((1, len(ways), len(node), len(node), 2), np.int64)
+    directions = 1 if all(_is_symmetric(problem, way, pause) for way in ways) else 2
+    legs = np.empty((directions, len(ways), len(node), len(node), 2), np.int64)
     for index, way in enumerate(ways):
         travel = problem.travel[way.travel]
         for rows in matrix_blocks(len(node), pause):
-            leg[0, index, rows, :, 0] = travel.duration[node[rows]][:, node]
-            leg[0, index, rows, :, 1] = travel.distance[node[rows]][:, node]
+            legs[0, index, rows, :, 0] = travel.duration[node[rows]][:, node]
+            legs[0, index, rows, :, 1] = travel.distance[node[rows]][:, node]
             if way.sets_up:
                 elsewhere = setup["site"][node[rows], None] != setup["site"][node]
-                leg[0, index, rows, :, 0] += elsewhere * setup["setup_duration"][node]
-    if _symmetric(leg[0], pause):
-        return leg
-    both = np.empty((2, *leg.shape[1:]), np.int64)
-    for index in range(len(ways)):
+                legs[0, index, rows, :, 0] += elsewhere * setup["setup_duration"][node]
+    for index in range(len(ways) if directions > 1 else 0):
         for rows in matrix_blocks(len(node), pause):
-            both[0, index, rows] = leg[0, index, rows]
-            both[1, index, rows] = leg[0, index, :, rows].transpose(1, 0, 2)
-    return both
+            legs[1, index, rows] = legs[0, index, :, rows].transpose(1, 0, 2)
+    return legs
 
 
-def _symmetric(tables: IntArray, pause: Pause) -> bool:
-    """Tell whether all tables (table, node, node, 2) are the same both ways."""
-    return all(bool((table[rows] == table[:, rows].transpose(1, 0, 2)).all())
-               for table in tables for rows in row_blocks(len(table), ROWS, pause))
+def _is_symmetric(problem: Problem, way: Way, pause: Pause) -> bool:
+    """Tell whether legs that were stated are the same both ways."""
+    return not way.sets_up and all(
+        bool((matrix[rows] == matrix[:, rows].T).all())
+        for matrix in problem.travel[way.travel].arrays()
+        for rows in row_blocks(len(matrix), ROWS, pause))
 
 
 def _near(problem: Problem, pause: Pause) -> Int32Array:
