@@ -105,16 +105,21 @@ def _opened(file: Path | None) -> sqlite3.Connection:
     if file is not None:
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
-            return _with_tables(sqlite3.connect(file, LONGEST_LOCK, check_same_thread=False))
+            return _with_tables(
+                sqlite3.connect(file, timeout=LONGEST_LOCK, check_same_thread=False))
         except (OSError, sqlite3.Error) as error:
             logger.warning("addresses are kept in memory alone: %s", error)
     return _with_tables(sqlite3.connect(":memory:", check_same_thread=False))
 
 
 def _with_tables(database: sqlite3.Connection) -> sqlite3.Connection:
-    database.execute("PRAGMA journal_mode = WAL")
-    database.execute("PRAGMA synchronous = NORMAL")
-    database.executescript(TABLES)
+    try:
+        database.execute("PRAGMA journal_mode = WAL")
+        database.execute("PRAGMA synchronous = NORMAL")
+        database.executescript(TABLES)
+    except sqlite3.Error:
+        database.close()
+        raise
     return database
 
 

@@ -30,7 +30,11 @@ def opened_addresses(settings: Settings) -> Addresses:
     if not sources:
         return NO_ADDRESSES
     cache = AnswerCache(settings.data_dir / CACHE)
-    return Addresses([_geocoder(source, cache) for source in sources], cache)
+    try:
+        return Addresses([_geocoder(source, cache) for source in sources], cache)
+    except GeocoderSettingError:
+        cache.close()
+        raise
 
 
 def _geocoder(source: Source, cache: AnswerCache) -> Geocoder:
