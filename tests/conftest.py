@@ -31,17 +31,23 @@ Result = TypeVar("Result")
 SLOW = (
     "tests/benchmarks/", "tests/console/", "tests/training/", "tests/test_end_to_end.py",
     *(f"tests/app/{name}" for name in (
-        "cli/test_plot.py", "jobs/test_crashes.py", "jobs/test_routes.py", "jobs/test_studies.py",
-        "load/test_overload.py", "load/test_shutdown.py", "observe/", "pictures/",
-        "plans/test_task.py", "schemas/test_clients.py", "test_api_fuzz.py",
-        "vroom/test_planning.py",
+        "access/", "addresses/test_servers.py", "cli/test_plot.py", "dispatches/", "jobs/", "kept/",
+        "load/", "observe/", "pictures/", "plans/test_task.py", "plans/test_warming.py",
+        "requests/test_bounds.py", "requests/test_wrong_bodies.py", "roads/",
+        "schemas/test_clients.py", "sheets/", "test_api_fuzz.py", "vroom/test_planning.py",
         "vroom/test_windows.py")),
     *(f"tests/model/{name}" for name in (
-        "search/test_anneal.py", "search/test_computed_legs.py", "search/test_improve.py",
-        "search/test_kept.py", "search/test_optimum.py", "search/test_starts.py", "test_planner.py",
-        "replanning/test_replan_random.py", "simulation/test_simulator.py")),
+        "kernel/test_compiled.py", "kernel/test_leg.py", "policy/test_features.py",
+        "replanning/test_replan_random.py", "search/test_anneal.py",
+        "search/test_battery_optimum.py", "search/test_bookkeeping.py",
+        "search/test_computed_legs.py", "search/test_free_launches.py", "search/test_improve.py",
+        "search/test_insertion.py", "search/test_kept.py", "search/test_moves.py",
+        "search/test_optimum.py", "search/test_plain.py", "search/test_recombining.py",
+        "search/test_starts.py", "search/test_swaps.py", "simulation/test_held_launches.py",
+        "simulation/test_simulator.py", "simulation/test_vehicle_log.py", "test_planner.py")),
 )
-"""What `make test-quick` leaves out: it starts other processes, or searches for seconds."""
+"""What `make test-quick` leaves out: it starts services or other processes, or plans and searches
+for seconds."""
 
 
 MOST_WORKERS = 8
