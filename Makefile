@@ -41,7 +41,7 @@ test: prepared .venv/testing ## Install what the tests need and run them
 	@$(BIN)/tandem warm
 	$(PYTEST)
 
-test-quick: .venv/testing ## Run most tests in under a minute, without browser and database
+test-quick: .venv/testing ## Run many tests in under a minute, without browser, database and services
 	@TANDEM_MAX_CUSTOMERS=$(QUICK_CUSTOMERS) $(BIN)/tandem warm
 	$(PYTEST) -m "not slow"
 
