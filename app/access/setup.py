@@ -13,7 +13,7 @@ from app.access.headers import SecurityHeaders
 from app.access.hosts import ANY, TrustedHosts, is_loopback
 from app.access.keys import KeyStore
 from app.access.limits import Limits, Rates
-from app.database.connections import make_engine
+from app.database.connections import close_for_good, make_engine
 from app.settings import Settings
 
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
@@ -54,7 +54,7 @@ def guarding(settings: Settings) -> Iterator[Guard]:
     try:
         yield Guard(KeyStore(engine), limits)
     finally:
-        engine.dispose()
+        close_for_good(engine)
 
 
 def control_access(app: FastAPI, settings: Settings) -> None:

@@ -14,6 +14,7 @@ from psycopg.errors import UndefinedColumn, UndefinedTable
 from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url, text
 from sqlalchemy.exc import ArgumentError, DBAPIError, InterfaceError, OperationalError
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
+from sqlalchemy.pool import ConnectionPoolEntry
 
 from app.settings import Settings
 
@@ -70,6 +71,19 @@ def make_engine(settings: Settings) -> Engine:
         return engine
     return create_engine(url, pool_pre_ping=True,
                          connect_args={"connect_timeout": CONNECT_SECONDS})
+
+
+def close_for_good(engine: Engine) -> None:
+    """Close all connections, those in use as soon as their threads give them back. In place.
+
+    A pool that is disposed of keeps the latter open until nobody knows it any longer.
+    """
+    event.listen(engine, "checkin", _close)
+    engine.dispose()
+
+
+def _close(_: Any, record: ConnectionPoolEntry) -> None:
+    record.invalidate()
 
 
 @contextmanager

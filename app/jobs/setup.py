@@ -9,6 +9,7 @@ from functools import partial
 from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
+from app.database.connections import close_for_good
 from app.database.durable import connect
 from app.jobs.asked import Asking, Awaiting
 from app.jobs.desk import JobDesk
@@ -106,7 +107,7 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
         stopping.set()
         starter.join()
         worker.stop()
-        queues.engine.dispose()
+        close_for_good(queues.engine)
 
 
 def _start(desk: JobDesk, worker: Worker | None, is_warm: Callable[[], bool],

@@ -14,7 +14,7 @@ from dbos import DBOS, DBOSConfig, EnqueueOptions, ScheduleInput, StepOptions
 from pydantic_core import to_json
 from sqlalchemy import Engine, event
 
-from app.database.connections import database_url, is_misfit, is_outage
+from app.database.connections import close_for_good, database_url, is_misfit, is_outage
 from app.database.durable import connect
 from app.jobs.divided import DividedWork
 from app.jobs.housekeeping import Housekeeper
@@ -117,7 +117,7 @@ class Worker:
             held.callback(identity.release)
             # Of its own, as it has to make no more of them when it has stopped.
             engine = connect(self._settings)
-            held.callback(_close_for_good, engine)
+            held.callback(_end, engine)
             held.callback(DBOS.destroy, destroy_registry=True)
             self._launch(engine, identity)
             self._held = held.pop_all()
@@ -264,14 +264,14 @@ def _identity(settings: Settings) -> Identity:
     return take_identity(worker, settings.data_dir / LOCKS)
 
 
-def _close_for_good(engine: Engine) -> None:
+def _end(engine: Engine) -> None:
     """Close all connections, and refuse to make others. In place.
 
     Workflows taken over by another process wait for its outcome in threads that would outlive this
     worker.
     """
     event.listen(engine, "do_connect", _refuse)
-    engine.dispose()
+    close_for_good(engine)
 
 
 def _refuse(*_: object) -> None:

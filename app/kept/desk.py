@@ -9,7 +9,7 @@ from typing import TypeVar
 from anyio import CapacityLimiter, to_thread
 from sqlalchemy.exc import SQLAlchemyError
 
-from app.database.connections import is_misfit, is_outage
+from app.database.connections import close_for_good, is_misfit, is_outage
 from app.database.durable import connect
 from app.database.migrations.running import SchemaError
 from app.kept.errors import KeptUnavailableError
@@ -77,4 +77,4 @@ def keeping_plans(settings: Settings) -> Iterator[KeptDesk]:
     try:
         yield KeptDesk(KeptStore(engine, room))
     finally:
-        engine.dispose()
+        close_for_good(engine)
