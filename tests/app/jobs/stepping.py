@@ -1,21 +1,15 @@
-"""A planner whose plans get better while time passes, and processes that serve it."""
+"""A planner whose plans get better while time passes, and what is asked of it."""
 
-import os
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Mapping
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import httpx
-import uvicorn
 
 from app.jobs.running import RegionTerms
-from app.main import create_app
-from app.settings import DEFAULT_POLICY, Settings
+from app.settings import DEFAULT_POLICY
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.warming import Tell, Warmth
@@ -23,9 +17,7 @@ from model.planner import ALONE, Elapsed, Listener, PlanCheckError, PlanOptions,
 from model.problem import Problem
 from model.search.improve import Progress
 from model.solution import Solution
-from tests.conftest import PATIENCE, eventually, free_port
-
-ROOT = Path(__file__).parents[3]
+from tests.conftest import eventually
 
 PAUSE = 0.02
 """Seconds between two improvements at least."""
@@ -117,48 +109,6 @@ def cost_of(problem: Problem, plan: Solution) -> float:
     return check(problem, plan).cost.total
 
 
-class Served:
-    """The service in a process of its own, with this planner or the true one."""
-
-    def __init__(self, log: Path, module: str = "tests.app.jobs.stepping",
-                 **settings: object) -> None:
-        self.port = free_port()
-        self._log = log
-        self._command = [sys.executable, "-m", module, "serve", "--port", str(self.port)]
-        stated = {f"TANDEM_{name.upper()}": str(value) for name, value in settings.items()}
-        self._environment: Mapping[str, str] = {**os.environ, "TANDEM_ROLE": "all", **stated}
-        self.client = httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE,
-                                   trust_env=False)
-        self.process: subprocess.Popen[bytes] | None = None
-
-    def start(self) -> None:
-        """Start the process and wait until it is ready."""
-        with self._log.open("a") as log:
-            self.process = subprocess.Popen(self._command, stdout=log, stderr=log, cwd=ROOT,
-                                            env=self._environment)
-        eventually(self._is_ready)
-
-    def kill(self) -> None:
-        """Kill the process as the kernel would."""
-        if self.process is not None:
-            self.process.kill()
-            self.process.wait()
-
-    def terminate(self) -> None:
-        """Have the process end in good order."""
-        if self.process is not None:
-            self.process.terminate()
-            self.process.wait(PATIENCE)
-
-    def _is_ready(self) -> bool:
-        assert self.process is not None
-        assert self.process.poll() is None, self._log.read_text()
-        try:
-            return self.client.get("/health/ready").status_code == 200
-        except httpx.TransportError:
-            return False
-
-
 def submit(client: httpx.Client, request: Mapping[str, Any], path: str = "/jobs",
            **more: Any) -> str:
     """Submit a job and return its id."""
@@ -178,7 +128,3 @@ def ended(client: httpx.Client, job: str) -> dict[str, Any]:
     """Wait for a job's end and return it."""
     return dict(eventually(lambda: (seen := read(client, job))["state"]
                            not in ("queued", "running") and seen))
-
-
-if __name__ == "__main__":
-    uvicorn.run(create_app(Settings(), SteppingPlanner()), port=int(sys.argv[-1]))

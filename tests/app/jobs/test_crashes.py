@@ -11,9 +11,8 @@ from sqlalchemy import create_engine, text
 from app.jobs.housekeeping import PATIENCE as RESCUED
 from app.settings import Settings
 from tests.app.jobs.conftest import Postgres
-from tests.app.jobs.stepping import (
-    NUM_CUSTOMERS, Served, ended, read, request_of, submit,
-)
+from tests.app.jobs.served import Served, truly
+from tests.app.jobs.stepping import NUM_CUSTOMERS, ended, read, request_of, submit
 from tests.conftest import eventually
 
 FULL_COST = 2.0 * NUM_CUSTOMERS
@@ -156,7 +155,7 @@ def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_pa
 def test_true_planner_goes_on_after_a_kill(tmp_path: Path, with_drones: dict[str, Any]) -> None:
     limit = 4.0
     request = with_drones | {"options": {"time_limit": limit}}
-    with served(tmp_path, module="app", data_dir=tmp_path, drain_seconds=0) as process:
+    with served(tmp_path, serve=truly, data_dir=tmp_path, drain_seconds=0) as process:
         job = submit(process.client, request)
         before = eventually(lambda: (seen := read(process.client, job))["progress"] > 0.4 and seen)
         process.kill()
