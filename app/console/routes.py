@@ -1,9 +1,16 @@
-"""The browser console: its page at `/`, its files below `/console/`."""
+"""The browser console: its page at `/`, its files below `/console/`.
 
+The page asks for its files below a name that stands for what is in them. Browsers keep them as long
+as that stays, and open the console with one request in place of a hundred.
+"""
+
+import hashlib
+import re
+from functools import cache
 from pathlib import Path
 
 from fastapi import APIRouter, FastAPI, Request
-from fastapi.responses import FileResponse, Response
+from fastapi.responses import HTMLResponse, Response
 from fastapi.staticfiles import StaticFiles
 from pydantic import BaseModel
 from starlette.types import Scope
@@ -35,13 +42,32 @@ class ConsoleConfig(BaseModel):
 
 
 class ConsoleFiles(StaticFiles):
-    """Files that browsers ask for again each time; libraries, whose names say which, they keep."""
+    """The console's files, below the edition that they are of or any other.
+
+    A page that was opened before the service was upgraded gets those of now: browsers ask for them
+    again each time.
+    """
 
     async def get_response(self, path: str, scope: Scope) -> Response:
-        response = await super().get_response(path, scope)
-        keep = path.startswith("vendor")
+        stated, _, rest = path.partition("/")
+        is_edition = EDITION.fullmatch(stated) is not None
+        response = await super().get_response(rest if is_edition else path, scope)
+        keep = is_edition and stated == edition()
         response.headers["Cache-Control"] = "max-age=31536000, immutable" if keep else "no-cache"
         return response
+
+
+EDITION = re.compile("[0-9a-f]{16}")
+
+
+@cache
+def edition() -> str:
+    """Return what stands for the files as they were when this was first asked."""
+    digest = hashlib.sha256()
+    for path in sorted(path for path in STATIC_DIR.rglob("*") if path.is_file()):
+        digest.update(f"{path.relative_to(STATIC_DIR)}\n".encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
 
 
 def mount_console(app: FastAPI) -> None:
@@ -51,9 +77,11 @@ def mount_console(app: FastAPI) -> None:
 
 
 @router.get("/")
-async def page() -> FileResponse:
+def page() -> HTMLResponse:
     """Return the page."""
-    return FileResponse(STATIC_DIR / "index.html", headers={"Cache-Control": "no-cache"})
+    html = (STATIC_DIR / "index.html").read_text("utf-8")
+    return HTMLResponse(html.replace('"console/', f'"console/{edition()}/'),
+                        headers={"Cache-Control": "no-cache"})
 
 
 @router.get("/console/config.json")

@@ -5,16 +5,12 @@ from contextlib import contextmanager
 from typing import Any
 
 import pytest
-from playwright.sync_api import (
-    Browser, BrowserContext, ConsoleMessage, Page, Request, ViewportSize, expect,
-)
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Request, expect
 
-from tests.console.serving import chromium, serving
+from tests.console.serving import chromium, new_context, serving
 
-WAIT_MS, OPENING_MS = 30_000, 120_000
-"""For what a page does, and for opening one while other tests have all cores."""
-
-VIEWPORT: ViewportSize = {"width": 1440, "height": 900}
+WAIT_MS = 30_000
+"""For what a page does."""
 
 expect.set_options(timeout=WAIT_MS)
 
@@ -88,13 +84,6 @@ def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
     for context in contexts:
         context.close()
     assert [text for each in complaints for text in each.texts] == []
-
-
-def new_context(browser: Browser, **options: Any) -> BrowserContext:
-    """Return what stands for a visitor's own browser."""
-    context = browser.new_context(**{"viewport": VIEWPORT} | options)
-    context.set_default_navigation_timeout(OPENING_MS)
-    return context
 
 
 @pytest.fixture

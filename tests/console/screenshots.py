@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 
 from playwright.sync_api import Browser, Page, expect
 
-from tests.console.serving import ROOT, chromium, serving
+from tests.console.serving import ROOT, chromium, new_context, serving
 from tests.console.steps import idle, open_example, open_tab, place_of, planned
 
 FOLDER = ROOT / "docs" / "screenshots"
@@ -95,7 +95,7 @@ VIEWS: dict[str, tuple[Callable[[Page], None], dict[str, int], str]] = {
 def take(browser: Browser, address: str, name: str) -> None:
     """Write the picture of one view."""
     prepare, size, scheme = VIEWS[name]
-    context = browser.new_context(viewport=size, color_scheme=scheme)
+    context = new_context(browser, viewport=size, color_scheme=scheme)
     page = context.new_page()
     page.goto(address)
     expect(page.locator("#total-cost")).to_be_visible()

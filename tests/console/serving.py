@@ -9,14 +9,24 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import httpx
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, ViewportSize, sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
 ARGUMENTS = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-sync")
 START_SECONDS = 600
+OPENING_MS = 120_000
+"""For opening a page while other tests have all cores."""
+
+VIEWPORT: ViewportSize = {"width": 1440, "height": 900}
+
+MODULES = """Object.defineProperty(window, 'modules', { get() {
+  return new URL('.', document.querySelector('script[type=module]').src).href.slice(0, -1);
+} });"""
+"""Where the console's modules are, for scripts of tests that import them."""
 
 
 @contextmanager
@@ -78,3 +88,11 @@ def chromium() -> Iterator[Browser]:
         browser = playwright.chromium.launch(executable_path=path, args=list(ARGUMENTS))
         yield browser
         browser.close()
+
+
+def new_context(browser: Browser, **options: Any) -> BrowserContext:
+    """Return what stands for a visitor's own browser."""
+    context = browser.new_context(**{"viewport": VIEWPORT} | options)
+    context.set_default_navigation_timeout(OPENING_MS)
+    context.add_init_script(MODULES)
+    return context

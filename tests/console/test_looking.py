@@ -101,7 +101,7 @@ def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
     open_file(console, "around.json", json.dumps(request))
     planned(console, "1 of 1 served")
     drawn, measured = console.evaluate("""async () => {
-      const load = (path) => import(`${location.origin}/console/js/${path}.js`);
+      const load = (path) => import(`${modules}/${path}.js`);
       const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
       const [{ flightLines }, { lengthOf }] = await Promise.all(
         ['core/flights', 'core/geometry'].map(load));
@@ -117,7 +117,7 @@ def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
 def test_windows_and_lateness_of_a_city_are_on_the_timeline(console: Page) -> None:
     open_example(console, "city_day")
     windows = console.evaluate("""async () => {
-      const load = (path) => import(`${location.origin}/console/js/${path}.js`);
+      const load = (path) => import(`${modules}/${path}.js`);
       const [{ store }, { indexOf, shownPlan }, { timelineRows, rowWindows }] =
         await Promise.all(['store', 'actions', 'core/timeline'].map(load));
       return timelineRows(indexOf(shownPlan(store.get()))).flatMap(rowWindows).length;

@@ -1,6 +1,7 @@
 """What one sees first: an example planned, at once, from this service alone."""
 
 import json
+import re
 from collections.abc import Callable
 
 import pytest
@@ -27,6 +28,14 @@ def test_page_weighs_little(open_page: Callable[..., Page], service: str) -> Non
                           "[entry.name, entry.decodedBodySize])")
     page_bytes = sum(size for name, size in sizes if "/console/" in name)
     assert 200_000 < page_bytes < MAX_PAGE_BYTES
+
+
+def test_who_comes_again_has_the_files_at_hand(page: Page, service: str) -> None:
+    page.goto(f"{service}/?again")
+    expect(page.locator("#total-cost")).to_be_visible()
+    fetched = page.evaluate("performance.getEntriesByType('resource')"
+                            ".filter((entry) => entry.transferSize > 0).map(({ name }) => name)")
+    assert [name for name in fetched if re.search(r"\.(js|css|svg)$", name)] == []
 
 
 @pytest.mark.by_clock

@@ -6,10 +6,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page
 
-from tests.console.steps import idle
 
 APPLY = """async (request) => {
-  const { applyRemedy } = await import(`${location.origin}/console/js/core/remedies.js`);
+  const { applyRemedy } = await import(`${modules}/core/remedies.js`);
   const plan = async (body) => (await fetch('plan', { method: 'POST', body: JSON.stringify(body),
     headers: { 'Content-Type': 'application/json' } })).json();
   const first = await plan(request);
@@ -56,26 +55,16 @@ PROBLEMS = {
 }
 
 
-@pytest.fixture(scope="module")
-def open_console(browser: Any, service: str) -> Any:
-    """Return a page to ask from."""
-    page = browser.new_page()
-    page.goto(service)
-    idle(page)
-    yield page
-    page.close()
-
-
 @pytest.mark.parametrize("words", PROBLEMS)
-def test_remedy_is_applied_and_serves_the_customer(open_console: Page, words: str) -> None:
-    remedy, unassigned = open_console.evaluate(APPLY, PROBLEMS[words])
+def test_remedy_is_applied_and_serves_the_customer(console: Page, words: str) -> None:
+    remedy, unassigned = console.evaluate(APPLY, PROBLEMS[words])
     assert re.search(words, remedy)
     assert unassigned == []
 
 
-def test_unknown_remedy_changes_nothing(open_console: Page) -> None:
-    assert open_console.evaluate("""async () => {
-      const { applyRemedy } = await import(`${location.origin}/console/js/core/remedies.js`);
+def test_unknown_remedy_changes_nothing(console: Page) -> None:
+    assert console.evaluate("""async () => {
+      const { applyRemedy } = await import(`${modules}/core/remedies.js`);
       const request = { fleet: [{ id: 'van' }], customers: [{ id: 'A' }] };
       return applyRemedy(request, 'A', { vehicle_type: 'van', remedy: 'fits on Sundays' });
     }""") is None

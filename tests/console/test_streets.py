@@ -34,7 +34,7 @@ COLOURS = """() => {
 }"""
 
 LEGS = """async () => {
-  const load = (path) => import(`${location.origin}/console/js/${path}.js`);
+  const load = (path) => import(`${modules}/${path}.js`);
   const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
   return indexOf(shownPlan(store.get())).vehicles[0].trips[0].stops.map(({ line }) => line);
 }"""

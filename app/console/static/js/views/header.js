@@ -9,13 +9,15 @@ import { openPlans } from '../keeping/kept.js';
 import { openFile } from './files.js';
 import { ProblemName } from './problem-name.js';
 
+const ICON = new URL('../../icon.svg', import.meta.url).href;
+
 /** The bar at the top. */
 export function Header() {
   const busy = useStore((state) => !['idle'].includes(state.run.state));
   const ready = useStore((state) => state.request !== null);
   const goesOn = useStore((state) => Boolean(state.request?.replan));
   return html`<header class="head">
-    <h1><img src="console/icon.svg" alt="" />Tandem</h1>
+    <h1><img src=${ICON} alt="" />Tandem</h1>
     ${ready && html`<${ProblemName} /><${Opener} />`}
     <button type="button" class="primary" disabled=${!ready} onClick=${plan}
       id="plan-button">${goesOn ? 'Plan on' : 'Plan'}</button>
