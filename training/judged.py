@@ -24,14 +24,13 @@ from torch import Tensor
 from torch.nn.functional import softplus
 from tqdm import tqdm
 
-from model.policy.attention import AttentionConfig, AttentionPolicy
 from model.policy.network import PolicyNetwork
 from training.config import TrainConfig
 from training.dataset import join
 from training.examples import Lesson, make_lesson
 from training.export import WEIGHTS
 from training.instances import generate, sample_variant
-from training.labels import NEWEST, Labelled, read
+from training.labels import NEWEST, Labelled, read, read_policy
 from training.learn import draw_weights, policy_gradient, shared_advantage, training_costs
 from training.rollout import make_batch, roll_out, sampler
 
@@ -160,7 +159,7 @@ class Run:
 
     def __init__(self, config: JudgedConfig, began_with: Path) -> None:
         self.config = config
-        self.policy = load(began_with / WEIGHTS)
+        self.policy = read_policy(began_with / WEIGHTS)
         self.old, self.average = deepcopy(self.policy), deepcopy(self.policy)
         self.optimizer = torch.optim.AdamW(self.policy.parameters(), lr=config.learning_rate,
                                            weight_decay=1e-6)
@@ -229,13 +228,6 @@ class Run:
         self.optimizer.load_state_dict(content["optimizer"])
         self.step, self.spread = content["step"], content["spread"]
         self.past_seconds = content["seconds"]
-
-
-def load(path: Path) -> AttentionPolicy:
-    """Read weights of `attention`."""
-    policy = AttentionPolicy(AttentionConfig())
-    policy.load_state_dict(torch.load(path, map_location="cpu", weights_only=True))
-    return policy
 
 
 def write(content: dict[str, Any], path: Path) -> None:

@@ -87,13 +87,19 @@ class Labelled:
     pairs: list[Pair]
 
 
+def read_policy(path: Path) -> AttentionPolicy:
+    """Return `attention` with the weights of a file, which may be a checkpoint."""
+    content = torch.load(path, map_location="cpu", weights_only=False)
+    policy = AttentionPolicy(AttentionConfig())
+    policy.load_state_dict(content.get("policy", content))
+    return policy
+
+
 class Actor:
     """A policy that plans and scores, by weights that may change."""
 
     def __init__(self, weights: Path) -> None:
-        policy = AttentionPolicy(AttentionConfig())
-        policy.load_state_dict(torch.load(weights, map_location="cpu", weights_only=True))
-        self.use(policy)
+        self.use(read_policy(weights))
 
     def use(self, policy: AttentionPolicy) -> None:
         """Plan by a policy from now on. In place."""

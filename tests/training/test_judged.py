@@ -8,8 +8,8 @@ import torch
 
 from training.examples import make_lesson
 from training.export import WEIGHTS
-from training.judged import JudgedConfig, Run, learn, load, logits_of, right_order, train
-from training.labels import Actor, Labelled, Origin, label, read, write
+from training.judged import JudgedConfig, Run, learn, logits_of, right_order, train
+from training.labels import Actor, Labelled, Origin, label, read, read_policy, write
 
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 
@@ -32,7 +32,7 @@ def plans_of(labels: Path) -> list[Labelled]:
 
 def test_pairs_come_into_the_right_order(labels: Path) -> None:
     plans = plans_of(labels)
-    policy, old = load(EXPORTED / WEIGHTS), load(EXPORTED / WEIGHTS)
+    policy, old = read_policy(EXPORTED / WEIGHTS), read_policy(EXPORTED / WEIGHTS)
     optimizer = torch.optim.Adam(policy.parameters(), lr=1e-3)
     losses, before = [], right_order(policy, plans)
     for _ in range(8):
@@ -48,7 +48,7 @@ def test_pairs_come_into_the_right_order(labels: Path) -> None:
 
 
 def test_old_policy_is_at_no_distance_from_itself(labels: Path) -> None:
-    policy = load(EXPORTED / WEIGHTS)
+    policy = read_policy(EXPORTED / WEIGHTS)
     lesson = make_lesson(plans_of(labels), np.random.default_rng(0))
     assert lesson is not None
     assert bool(lesson.calm.any())
