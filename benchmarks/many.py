@@ -1,6 +1,7 @@
 """Many customers and a plan for them without any search, by which what surrounds it is measured.
 
-Customers lie on a square, vehicles sweep it in strips, to and fro, so many customers each.
+Customers lie on a square, vehicles sweep it in strips, to and fro, so many customers each. And
+customers with windows for vehicles of several kinds, which are for the search to plan.
 """
 
 import random
@@ -32,6 +33,42 @@ def many_customers(number: int) -> Data:
         "fleet": [{"id": "truck", "count": -(-number // PER_ROUTE), "capacity": [10 * PER_ROUTE],
                    "speed_kmh": SPEED_M_S * 3.6, "costs": {"fixed": 100, "per_km": 1}}],
     }
+
+
+WORKING_DAY_S, WINDOW_S = 14 * 3600, 4 * 3600
+
+DRONE: Data = {"count": 1, "capacity": [4], "speed_kmh": 60, "endurance": 1800,
+               "launch_duration": 30, "recovery_duration": 30, "costs": {"per_km": 0.1}}
+
+
+def mixed_customers(number: int, has_drones: bool) -> Data:
+    """Return a request with windows, vehicles of two sizes, two trips each and perhaps drones.
+
+    Half of the vehicles carry twice what the others do and cost more; each may serve 12 customers
+    on average. With drones, each has one, and most of the lighter parcels may fly.
+    """
+    rng = random.Random(number)
+    side = SPACE_M * sqrt(number)
+    more = {"drones": DRONE} if has_drones else {}
+    return {
+        "depots": [{"id": "hub", "location": [side / 2, side / 2]}],
+        "customers": [_mixed_customer(rng, index, side, has_drones) for index in range(number)],
+        "fleet": [
+            {"id": name, "count": -(-number // 25), "capacity": [capacity], "speed_kmh": 60,
+             "costs": {"fixed": fixed, "per_km": per_km, "per_hour": 20}, "max_trips": 2,
+             "shift": {"earliest": 0, "latest": WORKING_DAY_S}, **more}
+            for name, capacity, fixed, per_km in (("large", 200, 100, 1), ("small", 100, 60, 0.7))],
+    }
+
+
+def _mixed_customer(rng: random.Random, index: int, side: float, has_drones: bool) -> Data:
+    opens = rng.randrange(5) * WINDOW_S // 2
+    demand = rng.randint(1, 9)
+    may_fly = has_drones and demand <= DRONE["capacity"][0] and rng.random() < 0.8
+    return {"id": f"c{index}", "demand": [demand], "service_duration": SERVICE_S,
+            "location": [round(rng.uniform(0, side), 1), round(rng.uniform(0, side), 1)],
+            "time_window": {"earliest": opens, "latest": opens + WINDOW_S},
+            "served_by": "either" if may_fly else "truck"}
 
 
 def swept(request: Data) -> list[list[int]]:
