@@ -14,6 +14,7 @@ import pytest
 import uvicorn
 from sqlalchemy import Connection, Engine, event
 
+from app.database.connections import make_engine
 from app.main import create_app
 from app.settings import DEFAULT_POLICY, Settings
 from model.judge.check import check
@@ -30,6 +31,16 @@ READY_SECONDS = 600.0
 """How long a service may take until it plans: the search may have to be compiled."""
 
 APP_DIR = Path(__file__).parents[2] / "app"
+
+
+@contextmanager
+def opened(settings: Settings) -> Iterator[Engine]:
+    """Yield the service's database, which nobody else closes: else a later test is told of it."""
+    engine = make_engine(settings)
+    try:
+        yield engine
+    finally:
+        engine.dispose()
 
 
 @pytest.fixture(scope="session", autouse=True)

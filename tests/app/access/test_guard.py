@@ -2,7 +2,7 @@
 
 import logging
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +13,8 @@ from sqlalchemy.exc import OperationalError
 
 from app.access.guard import REFRESH_SECONDS
 from app.access.keys import KeyStore, Scope
-from app.database.connections import make_engine
 from app.settings import Settings
-from tests.app.conftest import FirstFitPlanner, ready
+from tests.app.conftest import FirstFitPlanner, opened, ready
 from tests.conftest import soon
 
 Request = dict[str, Any]
@@ -30,9 +29,10 @@ def settings(tmp_path: Path) -> Settings:
 
 
 @pytest.fixture
-def store(settings: Settings) -> KeyStore:
+def store(settings: Settings) -> Iterator[KeyStore]:
     """Return the keys of the service."""
-    return KeyStore(make_engine(settings))
+    with opened(settings) as engine:
+        yield KeyStore(engine)
 
 
 @pytest.fixture

@@ -16,12 +16,14 @@ from sqlalchemy import Engine
 from app.access.keys import KeyStore, StoredKey, find_key
 from app.database.connections import FILE_NAME, database_url, make_engine
 from app.settings import Settings
+from tests.app.conftest import opened
 
 
 @pytest.fixture
-def engine(tmp_path: Path) -> Engine:
+def engine(tmp_path: Path) -> Iterator[Engine]:
     """Return a new database."""
-    return make_engine(Settings(data_dir=tmp_path / "data"))
+    with opened(Settings(data_dir=tmp_path / "data")) as engine:
+        yield engine
 
 
 @pytest.fixture

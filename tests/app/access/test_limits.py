@@ -11,9 +11,8 @@ from fastapi import Request
 
 from app.access.keys import KeyStore
 from app.access.limits import Limits, Rates, TooManyRequestsError, client_address
-from app.database.connections import make_engine
 from app.settings import Settings
-from tests.app.conftest import FirstFitPlanner, ready
+from tests.app.conftest import FirstFitPlanner, opened, ready
 
 Serve = Callable[..., httpx.Client]
 
@@ -56,7 +55,8 @@ def test_without_a_rate_nothing_is_counted(client: httpx.Client, smallest: dict[
 def test_each_key_has_its_own_rate(
         serve: Serve, smallest: dict[str, Any], tmp_path: Path) -> None:
     settings = Settings(access="keys", data_dir=tmp_path, plans_per_minute=1)
-    keys = [KeyStore(make_engine(settings)).create(name, ["plan"]) for name in "ab"]
+    with opened(settings) as engine:
+        keys = [KeyStore(engine).create(name, ["plan"]) for name in "ab"]
     client = ready(serve(FirstFitPlanner(), settings))
     statuses = [client.post("/plan", json=smallest, headers={"X-API-Key": key}).status_code
                 for key in keys * 2]
@@ -66,7 +66,8 @@ def test_each_key_has_its_own_rate(
 def test_wrong_keys_are_slowed_down_and_the_right_one_is_let_in_all_the_same(
         serve: Serve, smallest: dict[str, Any], tmp_path: Path) -> None:
     settings = Settings(access="keys", data_dir=tmp_path, wrong_keys_per_minute=5)
-    key = KeyStore(make_engine(settings)).create("ann", ["plan"])
+    with opened(settings) as engine:
+        key = KeyStore(engine).create("ann", ["plan"])
     client = ready(serve(FirstFitPlanner(), settings))
     wrong = [client.post("/plan", json=smallest, headers={"X-API-Key": f"wrong-{number}"})
              for number in range(8)]

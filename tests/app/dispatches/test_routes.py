@@ -12,12 +12,11 @@ from sqlalchemy import text, update
 
 from app.access.keys import KeyStore
 from app.access.tokens import digest_of
-from app.database.connections import make_engine
 from app.database.tables import DISPATCHES
 from app.dispatches.schemas import DispatchReply, DriverDay, EventsReply
 from app.dispatches.store import delete_expired, now_ms
 from app.settings import Settings
-from tests.app.conftest import FirstFitPlanner, ready, serving
+from tests.app.conftest import FirstFitPlanner, opened, ready, serving
 from tests.app.dispatches.days import (
     ADDRESS, DEPART, DOOR, FIRST, LAUNCH, PHONE, PLAN, PROBLEM, SECOND, Data, dispatched, event,
     holding, token_of,
@@ -224,16 +223,16 @@ def test_link_ends_with_the_day_of_the_plan(service: httpx.Client) -> None:
 def test_all_is_deleted_when_it_expires(service: httpx.Client, settings: Settings) -> None:
     sent, kept = dispatched(service), dispatched(service)
     told(service, token_of(sent["links"][0]), event("e1", DEPART, today(1)))
-    engine = make_engine(settings)
-    with engine.begin() as connection:
-        connection.execute(update(DISPATCHES).where(DISPATCHES.c.id == sent["id"])
-                           .values(expires_at=now_ms()))
-    delete_expired(engine)
-    with engine.connect() as connection:
-        for table in ("driver_links", "driver_events"):
-            rows = connection.execute(
-                text(f"SELECT count(*) FROM {table} WHERE dispatch = :id"), {"id": sent["id"]})
-            assert rows.scalar() == 0
+    with opened(settings) as engine:
+        with engine.begin() as connection:
+            connection.execute(update(DISPATCHES).where(DISPATCHES.c.id == sent["id"])
+                               .values(expires_at=now_ms()))
+        delete_expired(engine)
+        with engine.connect() as connection:
+            for table in ("driver_links", "driver_events"):
+                rows = connection.execute(
+                    text(f"SELECT count(*) FROM {table} WHERE dispatch = :id"), {"id": sent["id"]})
+                assert rows.scalar() == 0
     assert service.get(f"/dispatches/{sent['id']}").status_code == 404
     token = token_of(sent["links"][0])
     assert service.get("/drive/day", headers=holding(token)).status_code == 401
@@ -248,8 +247,7 @@ def test_tokens_are_kept_as_hashes_and_told_to_no_log(
     link = dispatched(service)["links"][0]
     token = token_of(link)
     assert service.get("/drive/day", headers=holding(token)).status_code == 200
-    engine = make_engine(settings)
-    with engine.connect() as connection:
+    with opened(settings) as engine, engine.connect() as connection:
         rows = connection.execute(text("SELECT * FROM driver_links WHERE id = :id"),
                                   {"id": link["id"]}).mappings().one()
     assert rows["digest"] == digest_of(token)
@@ -306,9 +304,9 @@ def test_drivers_need_no_key_and_owners_see_their_own_alone(serve: Serve, tmp_pa
     settings = Settings(data_dir=tmp_path, access="keys", drain_seconds=0,
                         max_dispatches_per_client=1, driver_requests_per_minute=2)
     client = ready(serve(FirstFitPlanner(), settings))
-    engine = make_engine(settings)
-    keys = KeyStore(engine)
-    mine, other = ({"X-API-Key": keys.create(name, ["jobs"])} for name in ("ann", "bob"))
+    with opened(settings) as engine:
+        mine, other = [{"X-API-Key": KeyStore(engine).create(name, ["jobs"])}
+                       for name in ("ann", "bob")]
     assert client.post("/dispatches", json={"problem": PROBLEM, "plan": PLAN}).status_code == 401
     client.headers = {**client.headers, **mine}
     sent = dispatched(client)

@@ -1,20 +1,19 @@
 """When a service says that it is ready, beside jobs."""
 
 import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 
 import httpx
 import pytest
 from dbos import DBOS
-from sqlalchemy import Engine, text
+from sqlalchemy import text
 
 from app.access.keys import KeyStore
-from app.database.connections import make_engine
 from app.database.migrations.running import newest, upgrade
 from app.database.migrations.version import VERSION_TABLE
 from app.settings import Settings
+from tests.app.conftest import opened
 from tests.app.jobs.conftest import Postgres
 from tests.app.jobs.stepping import SteppingPlanner, request_of
 from tests.conftest import eventually, free_port
@@ -122,13 +121,3 @@ def change(settings: Settings, statement: str) -> None:
     """Change the database."""
     with opened(settings) as engine, engine.begin() as connection:
         connection.execute(text(statement))
-
-
-@contextmanager
-def opened(settings: Settings) -> Iterator[Engine]:
-    """Yield connections to the database."""
-    engine = make_engine(settings)
-    try:
-        yield engine
-    finally:
-        engine.dispose()
