@@ -33,6 +33,10 @@ MOST_MISSING = 12
 TRIED_NEAR = 0.5
 """How likely each of those near the ruin is among them, where there are more."""
 
+BUILT_BESIDE_FROM = 2000
+"""From how many places on all who are inserted at the beginning come beside neighbours or on a new
+route, too: looking at all routes for each takes time that grows with the square."""
+
 RESPLITS = 30
 """Trips with one drone planned anew from their order each turn."""
 
@@ -214,7 +218,8 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
         spare = math.inf
         if not (building or retyped) and counts_up(world, searcher):
             spare = limit - cost_to_insert(world, searcher, first)
-        done = recreate(world, searcher, first, building or world.scan_all, spare)
+        everywhere = world.scan_all or (building and world.num_nodes < BUILT_BESIDE_FROM)
+        done = recreate(world, searcher, first, everywhere, spare)
         if rung(world.stop) and not building:
             undo(searcher)
             count.turn -= 1
