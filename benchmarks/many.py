@@ -64,7 +64,8 @@ def mixed_customers(number: int, has_drones: bool) -> Data:
 def _mixed_customer(rng: random.Random, index: int, side: float, has_drones: bool) -> Data:
     opens = rng.randrange(5) * WINDOW_S // 2
     demand = rng.randint(1, 9)
-    may_fly = has_drones and demand <= DRONE["capacity"][0] and rng.random() < 0.8
+    # Drawn also without drones, so that the customers are the same.
+    may_fly = rng.random() < 0.8 and has_drones and demand <= DRONE["capacity"][0]
     return {"id": f"c{index}", "demand": [demand], "service_duration": SERVICE_S,
             "location": [round(rng.uniform(0, side), 1), round(rng.uniform(0, side), 1)],
             "time_window": {"earliest": opens, "latest": opens + WINDOW_S},

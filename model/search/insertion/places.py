@@ -1,7 +1,7 @@
 """The cheapest insertion of a customer, on all routes or beside neighbours."""
 
 from model.kernel.alarm import rung
-from model.kernel.compiled import pasted
+from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.flight import endurance_of, held_until
 from model.kernel.shift import allows_stops
 from model.kernel.stop import opening
@@ -13,17 +13,21 @@ from model.search.insertion.offers import (
     offer_flight_trips, offer_joining, offer_sorties, offer_stops, offer_trips, offer_trips_apart,
     take_cheapest,
 )
-from model.search.route.edit import NEW_ROUTE, copy_move
+from model.kernel.records import Record
+from model.search.route.edit import NEW_FLIGHT, NEW_ROUTE, copy_move
 from model.search.route.ends import is_apart
 from model.search.route.goods import goods_may_follow, goods_may_join
 from model.search.route.layout import CHANGING, NOWHERE, World
-from model.search.route.randomness import uniform
+from model.search.route.randomness import below, uniform
 from model.search.route.refresh import stop_beside
 from model.search.route.state import Searcher
 from model.search.route.vehicles import may_fit, may_launch, stops_on
 
 MORE_TRIPS = 0.2
 """How often a customer who can go on a trip as it is may begin or split one."""
+
+DRAWN_FOR_TRIPS = 16
+"""On how many vehicles, where not all are looked at."""
 
 
 @pasted
@@ -155,20 +159,6 @@ def find_place(world: World, searcher: Searcher, node: int, enlarge: bool) -> fl
                          enlarge, searcher.kept, move, searcher.rng)
     bound.best, bound.blink = best, world.blink
     try_routes(world, searcher, node, enlarge)
-    if bound.best == INFEASIBLE or uniform(searcher.rng) < MORE_TRIPS:
-        for index in range(searcher.count.active):
-            slot = searcher.active[index]
-            k = now.route[slot].type
-            if (now.route[slot].trips >= world.type[k].max_trips or rung(world.stop)
-                    or not goods_may_follow(world, now, slot, node)):
-                continue
-            if world.can[k, 0, node] and is_apart(world, k):
-                offer_trips_apart(world, searcher, slot, node)
-            elif world.can[k, 0, node]:
-                offer_trips(world, searcher, slot, node)
-            if world.can[k, 1, node]:
-                offer_flight_trips(world, searcher, slot, node)
-        take_cheapest(world, searcher, node)
     return bound.best
 
 
@@ -206,3 +196,34 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
                 offer_sorties(world, searcher, slot, q, node)
     take_cheapest(world, searcher, node)
     return bound.best
+
+
+@inlined
+def opens_route(move: Record) -> bool:
+    """Tell whether an insertion is on a route of its own."""
+    return move.kind == NEW_ROUTE or move.kind == NEW_FLIGHT
+
+
+@spliced
+def try_trips(world: World, searcher: Searcher, node: int, number: int) -> float:
+    """Try a customer on a trip more of so many routes, or where one of theirs is split.
+
+    Follows `find_place` or `find_beside`; returns the cost of the cheapest insertion so far. Where
+    these are not all routes, they are drawn. In place: `searcher.move`.
+    """
+    now, active = searcher.now, searcher.count.active
+    first = below(searcher.rng, active) if number < active else 0
+    for index in range(first, first + min(number, active)):
+        slot = searcher.active[index if index < active else index - active]
+        k = now.route[slot].type
+        if (now.route[slot].trips >= world.type[k].max_trips or rung(world.stop)
+                or not goods_may_follow(world, now, slot, node)):
+            continue
+        if world.can[k, 0, node] and is_apart(world, k):
+            offer_trips_apart(world, searcher, slot, node)
+        elif world.can[k, 0, node]:
+            offer_trips(world, searcher, slot, node)
+        if world.can[k, 1, node]:
+            offer_flight_trips(world, searcher, slot, node)
+    take_cheapest(world, searcher, node)
+    return searcher.bound.best

@@ -134,6 +134,12 @@ def rarer_absences(world: World, searcher: Searcher) -> bool:
 
 
 @inlined
+def looks_everywhere(world: World, building: bool) -> bool:
+    """Tell whether customers are tried on all routes, not beside neighbours alone."""
+    return world.scan_all or (building and world.num_nodes < BUILT_BESIDE_FROM)
+
+
+@inlined
 def counts_up(world: World, searcher: Searcher) -> bool:
     """Tell whether what a turn has inserted so far costs no more than all that it will insert."""
     return world.adds_up and (searcher.count.missing == 0 or world.optional)
@@ -218,8 +224,7 @@ def anneal(world: World, searcher: Searcher, turns: int, order: int) -> None:
         spare = math.inf
         if not (building or retyped) and counts_up(world, searcher):
             spare = limit - cost_to_insert(world, searcher, first)
-        everywhere = world.scan_all or (building and world.num_nodes < BUILT_BESIDE_FROM)
-        done = recreate(world, searcher, first, everywhere, spare)
+        done = recreate(world, searcher, first, looks_everywhere(world, building), spare)
         if rung(world.stop) and not building:
             undo(searcher)
             count.turn -= 1

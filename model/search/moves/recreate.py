@@ -7,8 +7,10 @@ from model.kernel.load import demand_of, total, total_delivered, total_picked
 from model.kernel.stop import closing, width
 from model.problem import UIntArray
 from model.search.insertion.evaluate import INFEASIBLE, serve_alone
-from model.search.insertion.places import find_beside, find_place, try_new_route
-from model.search.route.edit import NEW_FLIGHT, NEW_ROUTE, apply
+from model.search.insertion.places import (
+    DRAWN_FOR_TRIPS, MORE_TRIPS, find_beside, find_place, opens_route, try_new_route, try_trips,
+)
+from model.search.route.edit import NEW_FLIGHT, apply
 from model.search.route.layout import MODE_LEAN, World
 from model.search.route.lean import insert_lean
 from model.search.route.randomness import below, uniform
@@ -103,7 +105,7 @@ def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bo
 def insert(world: World, searcher: Searcher, node: int) -> bool:
     """Insert a customer where `searcher.move` says. In place; False if that breaks a rule."""
     move, now = searcher.move, searcher.now
-    if move.kind == NEW_ROUTE or move.kind == NEW_FLIGHT:
+    if opens_route(move):
         return open_route(world, searcher, node, move.type, move.kind == NEW_FLIGHT)
     slot = move.slot
     touch(searcher, slot)
@@ -125,6 +127,12 @@ def insert(world: World, searcher: Searcher, node: int) -> bool:
     return done
 
 
+@inlined
+def several_trips(searcher: Searcher) -> bool:
+    """Tell whether there is room for several trips of a vehicle, as `_sizes` makes it."""
+    return searcher.now.trip.shape[1] > 2
+
+
 @pasted
 def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare: float) -> bool:
     """Insert the absent customers from number `first` on, each where it costs least.
@@ -138,7 +146,7 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare
     left = first
     for index in range(first, count.absent):
         node = absent[index]
-        cost = INFEASIBLE
+        cost, tried = INFEASIBLE, 0
         if rung(world.stop):
             absent[left] = node
             left += 1
@@ -147,8 +155,15 @@ def recreate(world: World, searcher: Searcher, first: int, scan_all: bool, spare
             cost = try_new_route(world, searcher, node)
         elif not scan_all:
             cost = find_beside(world, searcher, node, enlarge)
+            if several_trips(searcher) and (
+                    opens_route(searcher.move) or uniform(searcher.rng) < MORE_TRIPS):
+                tried = DRAWN_FOR_TRIPS
         if cost == INFEASIBLE:
             cost = find_place(world, searcher, node, enlarge)
+            if world.general and (cost == INFEASIBLE or uniform(searcher.rng) < MORE_TRIPS):
+                tried = count.active
+        if tried > 0:
+            cost = try_trips(world, searcher, node, tried)
         left_out = world.unassigned_cost + world.unassigned_more[node]
         wanted = cost < left_out or (opening and index == first)
         if cost == INFEASIBLE or not wanted or not insert(world, searcher, node):

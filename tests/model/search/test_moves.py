@@ -328,6 +328,22 @@ def test_thousands_begin_with_a_plan_that_is_not_far_from_good() -> None:
     assert better.cost < begun.cost < 1.35 * better.cost
 
 
+def test_thousands_begin_with_several_trips_a_vehicle_and_more_are_found() -> None:
+    places = np.random.default_rng(4).uniform(-30.0, 30.0, (BUILT_BESIDE_FROM, 2)).tolist()
+    problem = on_a_plane(list(map(tuple, places)), replace(
+        SMALL, count=400, fixed_cost=50.0, capacity=(10_000,), max_trips=4))
+    instance = pack([problem])
+    begun = improve(problem, instance, Solution((), ()), SearchConfig(turns=0)).solution
+    assert check(problem, begun).violations == ()
+    assert begun.unassigned == ()
+    assert sum(len(route.trips) for route in begun.routes) > 3 * len(begun.routes)
+    single = Solution(tuple(replace(route, trips=(trip,))
+                            for route in begun.routes for trip in route.trips), ())
+    joined = improve(problem, instance, single, SearchConfig(turns=40_000)).solution
+    assert check(problem, joined).violations == ()
+    assert len(joined.routes) < 0.9 * len(single.routes)
+
+
 @pytest.mark.parametrize("seed", [1, 2, 4, 9])
 def test_vehicles_that_drive_for_nothing_are_all_used(seed: int) -> None:
     # To take one of them for a full one of the others then costs less than nothing.
