@@ -1,17 +1,21 @@
 """Tiny problems whose answers were worked out by hand."""
 
 import asyncio
+import os
 import socket
 import threading
 import time
 from collections.abc import Callable, Coroutine, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from copy import deepcopy
 from inspect import signature
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 import pytest
+from filelock import FileLock
 
 from model.kernel.cores import num_cores
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
@@ -109,6 +113,25 @@ def own_data_dir(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         # Services that take no more compile no search for computed legs, of which few tests know.
         patch.setenv("TANDEM_MAX_CUSTOMERS", "3000")
         yield
+
+
+@pytest.fixture(scope="session")
+def shared_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder of all processes that run tests, for what takes long and is made once."""
+    base = tmp_path_factory.getbasetemp()
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
+@contextmanager
+def made_once(path: Path) -> Iterator[Path | None]:
+    """Yield where to make a file or folder, None if it is there. Others wait meanwhile."""
+    with FileLock(path.with_name(f"{path.name}.lock")):
+        if path.exists():
+            yield None
+        else:
+            unfinished = path.with_name(f"{path.name}.part")
+            yield unfinished
+            unfinished.rename(path)
 
 
 def eventually(happens: Callable[[], Any], seconds: float = PATIENCE) -> Any:

@@ -12,7 +12,7 @@ from app.cli.commands import main
 from model.planner import Planner, PlanOptions, PlanResult
 from model.problem import Problem
 
-SECOND, MOMENT = 1.0, 0.2
+SECOND, MOMENT = 1.0, 0.05
 
 plan_in_time = Planner.plan
 

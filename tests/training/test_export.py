@@ -15,18 +15,19 @@ from model.policy.rollouts import (
     ACTION_WIDTH, CLIP, SHAPES, SHARE, STEP_WEIGHTS, candidate_scores, read_weights,
 )
 from training.export import WEIGHTS, Encoder, Step, example_inputs, export
+from tests.conftest import made_once
 from training.policies import POLICIES
 
 STEP_INPUTS = ("here", "candidate", "feature", "allowed", "glob", "hidden")
 
 
 @pytest.fixture(scope="module", params=POLICIES)
-def exported(request: pytest.FixtureRequest,
-             tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+def exported(request: pytest.FixtureRequest, shared_folder: Path) -> tuple[str, Path]:
     torch.manual_seed(2)
-    folder = tmp_path_factory.mktemp(request.param)
-    policy = POLICIES[request.param]()
-    export(policy, folder, {"note": "untrained"})
+    folder = shared_folder / f"exported-{request.param}"
+    with made_once(folder) as unfinished:
+        if unfinished is not None:
+            export(POLICIES[request.param](), unfinished, {"note": "untrained"})
     return request.param, folder
 
 

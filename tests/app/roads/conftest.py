@@ -15,14 +15,13 @@ from urllib.request import urlopen
 
 import numpy as np
 import pytest
-from filelock import FileLock
 
 from app.roads.building import Build, build_roads
 from app.roads.setting import Extract
 from app.roads.tools import Tools
 from model.problem import FloatArray
 from tests.app.roads.wheels import ROOT, VALHALLA, WHEELS, pinned, unpacked
-from tests.conftest import free_port
+from tests.conftest import free_port, made_once
 
 HELSINKI = ROOT / "examples" / "helsinki.osm.pbf"
 HELSINKI_BOX = (24.9352, 60.1642, 24.9534, 60.1791)
@@ -156,17 +155,15 @@ def osrm_on_path(osrm_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(scope="session")
-def prepared(tools: Tools, tmp_path_factory: pytest.TempPathFactory) -> Extract:
+def prepared(tools: Tools, shared_folder: Path) -> Extract:
     """Return Helsinki's centre as `tandem roads build` prepares it for cars, once for all."""
-    base = tmp_path_factory.getbasetemp()
-    folder = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
-    extract = Extract(folder / "prepared" / "helsinki.osm.pbf", "car")
-    with FileLock(folder / "prepared.lock"):
-        if not extract.path.exists():
-            extract.path.parent.mkdir()
-            shutil.copy(HELSINKI, extract.path)
-        build_roads(extract, tools)
-    return extract
+    folder, name = shared_folder / "prepared", "helsinki.osm.pbf"
+    with made_once(folder) as unfinished:
+        if unfinished is not None:
+            unfinished.mkdir()
+            shutil.copy(HELSINKI, unfinished / name)
+            build_roads(Extract(unfinished / name, "car"), tools)
+    return Extract(folder / name, "car")
 
 
 @pytest.fixture(scope="session")

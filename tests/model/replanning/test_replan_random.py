@@ -196,51 +196,51 @@ def replan_later(planner: Planner, problem: Problem, plan: Solution, now: int,
     assert_unchanged(problem, plan, result.solution, now, broken)
 
 
-@pytest.mark.parametrize("seed", range(120))
+@pytest.mark.parametrize("seed", range(60))
 def test_tiny_plans_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 5))
     replan_and_check(planner, draw_tiny(rng), rng)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(30))
 def test_tiny_plans_whose_launches_are_held_back_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 8))
     replan_and_check(planner, draw_late(rng), rng)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(30))
 def test_tiny_plans_go_on_in_overtime(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     replan_and_check(planner, with_duty(rng, draw_tiny(rng)), rng)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_tiny_plans_that_pick_up_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 12))
     replan_and_check(planner, with_pickups(rng, with_duty(rng, draw_tiny(rng))), rng)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_tiny_plans_go_on_by_the_table(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 9))
     replan_and_check(planner, with_table(rng, draw_tiny(rng)), rng)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_tiny_plans_on_batteries_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     draw = draw_late if seed % 2 else draw_tiny
     replan_and_check(planner, with_energy(rng, draw(rng)), rng)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_tiny_plans_with_few_batteries_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 13))
     problem = with_turnaround(rng, draw_tiny(rng, drone_share=1.0))
     replan_and_check(planner, with_energy(rng, problem) if seed % 2 else problem, rng)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(30))
 def test_tiny_plans_on_charged_batteries_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 14))
     problem = with_charging(rng, draw_tiny(rng, drone_share=1.0), begun_share=0.0)
@@ -249,7 +249,7 @@ def test_tiny_plans_on_charged_batteries_go_on(planner: Planner, seed: int) -> N
 
 
 @pytest.mark.parametrize("change", [with_open_ends, with_reloads, with_open_reloads])
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(10))
 def test_tiny_plans_go_on_from_place_to_place(
         planner: Planner, seed: int,
         change: Callable[[np.random.Generator, Problem], Problem]) -> None:
@@ -268,7 +268,7 @@ def with_all_at_once(rng: np.random.Generator, problem: Problem) -> Problem:
 
 @pytest.mark.parametrize("change", [
     with_own_durations, with_goods, with_setups, with_limits_aboard, with_all_at_once])
-@pytest.mark.parametrize("seed", range(25))
+@pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],
         seed: int) -> None:

@@ -15,7 +15,7 @@ from model.search.world import make_world
 from model.solution import Solution
 from training.instances import generate
 
-TURNS, SEEDS = 1500, 10
+TURNS, SEEDS = 1500, 6
 
 
 def found(problem: Problem, world: World, seed: int) -> float:

@@ -40,7 +40,7 @@ def late_problem(seed: int) -> Problem:
 
 def test_whoever_can_be_served_is_served_whenever_launches_may_be() -> None:
     served = impossible = 0
-    for seed in range(80):
+    for seed in range(40):
         problem = late_problem(seed)
         # Now and then one search ends where one customer bars the way for another.
         if not all(searched(problem, 1000, chance).unassigned for chance in range(4)):
@@ -48,5 +48,5 @@ def test_whoever_can_be_served_is_served_whenever_launches_may_be() -> None:
         else:
             assert not can_serve_all(problem), f"seed {seed}"
             impossible += 1
-    assert served > 20
-    assert impossible > 10
+    assert served > 10
+    assert impossible > 5

@@ -45,8 +45,8 @@ def search(problem: Problem, start: Solution, turns: int, **options: int) -> Imp
 
 def varied() -> Iterator[tuple[int, Problem]]:
     """Yield numbered problems of all variants, and tiny ones that mix all rules."""
-    problems = random_problems(seed=5, count=240)
-    problems += [draw_tiny(np.random.default_rng(seed), 0.6) for seed in range(160)]
+    problems = random_problems(seed=5, count=120)
+    problems += [draw_tiny(np.random.default_rng(seed), 0.6) for seed in range(80)]
     yield from enumerate(problems)
 
 

@@ -27,7 +27,7 @@ MINUTE = 60_000
 TURNS = 300, 6_000
 """Few first, since they mostly do."""
 
-SHARE = 12
+SHARE = 6
 """Problems of many that are solved together, so that several processes share them."""
 
 Customers = tuple[Customer, ...]
@@ -289,11 +289,11 @@ def missed_seeds(draw: Callable[[np.random.Generator], Problem], seeds: range) -
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     # What many plans of two drones are compared with takes seconds each.
     dear = two_drones, long_sorties, drones_both_ways, small_and_large_drones
-    number = 2 if draw in dear else 4
+    number = 1 if draw in dear else 2
     assert missed_seeds(draw, range(number)) == []
 
 
-@pytest.mark.parametrize("first", range(0, 48, SHARE))
+@pytest.mark.parametrize("first", range(0, 24, SHARE))
 def test_search_finds_the_cheapest_plan_where_all_rules_mix(first: int) -> None:
     assert missed_seeds(all_rules, range(first, first + SHARE)) == []
 
