@@ -9,9 +9,8 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 from sqlalchemy import text
 
-from app.database.connections import make_engine
 from app.settings import Settings
-from tests.app.conftest import FirstFitPlanner, ready, serving
+from tests.app.conftest import FirstFitPlanner, opened, ready, serving
 from tests.app.dispatches.days import (
     DEPART, FIRST, LAUNCH, PLAN, PROBLEM, dispatched, event, holding,
 )
@@ -45,7 +44,7 @@ def phone(browser: Browser) -> Iterator[BrowserContext]:
     context.close()
 
 
-def opened(phone: BrowserContext, link: Data) -> Page:
+def open_page(phone: BrowserContext, link: Data) -> Page:
     """Open a link as a page that was not open before."""
     page = phone.new_page()
     page.goto(link["url"])
@@ -64,7 +63,7 @@ def test_day_is_driven_without_network_and_caught_up(
         client: httpx.Client, settings: Settings, phone: BrowserContext) -> None:
     sent = dispatched(client, time_zone="Europe/Berlin")
     link = sent["links"][0]
-    page = opened(phone, link)
+    page = open_page(phone, link)
     expect(page.get_by_role("status")).to_have_text("All is sent.")
     page.evaluate("navigator.serviceWorker.ready.then(() => true)")
     phone.set_offline(True)
@@ -72,13 +71,13 @@ def test_day_is_driven_without_network_and_caught_up(
     mark(page, "Launch drone-1 to C", "Launched")
     expect(page.get_by_role("status")).to_contain_text("2 not sent yet")
     page.close()
-    page = opened(phone, link)
+    page = open_page(phone, link)
     expect(page.get_by_role("status")).to_contain_text("2 not sent yet")
     mark(page, "A", "Failed")
     page.get_by_role("button", name="Nobody there").click()
     page.get_by_role("button", name="It failed").click()
     expect(page.get_by_role("status")).to_contain_text("3 not sent yet")
-    other = opened(phone, link)
+    other = open_page(phone, link)
     phone.set_offline(False)
     # Both may send, and both do when they hear of the network.
     for tab in (page, other):
@@ -88,7 +87,7 @@ def test_day_is_driven_without_network_and_caught_up(
     assert [(step["id"], step["state"], step["reason"]) for step in standing] == [
         (DEPART, "done", None), (LAUNCH, "done", None),
         (FIRST, "failed", "Nobody there")]
-    with make_engine(settings).connect() as connection:
+    with opened(settings) as engine, engine.connect() as connection:
         rows = connection.execute(text(
             "SELECT step FROM driver_events WHERE dispatch = :id ORDER BY number"), sent).all()
     assert [step for step, in rows] == [DEPART, LAUNCH, FIRST]
@@ -96,7 +95,7 @@ def test_day_is_driven_without_network_and_caught_up(
 
 def test_change_of_the_day_reaches_the_phone(client: httpx.Client, phone: BrowserContext) -> None:
     sent = dispatched(client)
-    page = opened(phone, sent["links"][0])
+    page = open_page(phone, sent["links"][0])
     expect(page.locator("li.step")).to_have_count(6)
     client.post(f"/dispatches/{sent['id']}/plan", json={
         "problem": PROBLEM, "plan": {"routes": PLAN["routes"][1:]}}).raise_for_status()
@@ -110,7 +109,7 @@ def test_change_of_the_day_reaches_the_phone(client: httpx.Client, phone: Browse
 def test_page_shows_all_that_a_driver_needs_to_everyone(
         client: httpx.Client, phone: BrowserContext) -> None:
     link = dispatched(client, time_zone="Asia/Tokyo")["links"][0]
-    page = opened(phone, link)
+    page = open_page(phone, link)
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     page.locator("li.launch .head").click()
@@ -140,7 +139,7 @@ def test_link_that_is_over_leaves_nothing_on_the_phone(
         client: httpx.Client, phone: BrowserContext) -> None:
     sent = dispatched(client)
     link = sent["links"][0]
-    page = opened(phone, link)
+    page = open_page(phone, link)
     client.delete(f"/dispatches/{sent['id']}/links/{link['id']}")
     page.reload()
     expect(page.get_by_role("alert")).to_contain_text("revoked")

@@ -201,18 +201,13 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
     row.type, row.length, row.sorties = route.vehicle_type, len(stops), len(sorties)
 
 
-def read_plan(world: World, searcher: Searcher) -> Solution:
-    """Return the best plan found, each trip begun as late as costs nothing."""
-    return Solution(tuple(read_routes(world, searcher)), left_out(searcher))
-
-
 def left_out(searcher: Searcher) -> tuple[int, ...]:
     """Return the customers that the best plan leaves out."""
     return tuple(sorted(searcher.best_missing[: searcher.count.best_missing].tolist()))
 
 
 def read_routes(world: World, searcher: Searcher) -> Iterator[Route]:
-    """Yield the routes of the best plan, as `read_plan` returns them."""
+    """Yield the routes of the best plan found, each trip begun as late as costs nothing."""
     best = searcher.best
     slots = np.flatnonzero(best.route["length"][: len(searcher.active)]).tolist()
     for slot in slots:

@@ -3,6 +3,7 @@
 from model.kernel.alarm import rung
 from model.kernel.compiled import inlined, pasted, spliced
 from model.kernel.flight import endurance_of, held_until
+from model.kernel.records import Record
 from model.kernel.shift import allows_stops
 from model.kernel.stop import opening
 from model.search.insertion.cheapest_stop import (
@@ -13,7 +14,6 @@ from model.search.insertion.offers import (
     offer_flight_trips, offer_joining, offer_sorties, offer_stops, offer_trips, offer_trips_apart,
     take_cheapest,
 )
-from model.kernel.records import Record
 from model.search.route.edit import NEW_FLIGHT, NEW_ROUTE, copy_move
 from model.search.route.ends import is_apart
 from model.search.route.goods import goods_may_follow, goods_may_join

@@ -14,7 +14,7 @@ from model.kernel.alarm import Alarm, silent
 from model.kernel.instance import pack
 from model.problem import FULL_SPEED, Problem, SpeedProfile
 from model.search.beginning.construct import begin_anew, insert_missing
-from model.search.beginning.translate import make_searcher, read_plan
+from model.search.beginning.translate import make_searcher
 from model.search.improve import Improved, SearchConfig, improve
 from model.search.moves.anneal import ANY, anneal
 from model.search.moves.recreate import BY_FAR
@@ -22,6 +22,7 @@ from model.search.route.state import Searcher
 from model.search.world import make_world
 from model.solution import Solution
 from tests.conftest import soon
+from tests.model.search.found import read_plan
 from training.instances import generate
 
 MOST_SECONDS = 1.0

@@ -12,11 +12,12 @@ from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.instance import pack
 from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel, VehicleType
 from model.search.beginning.construct import begin_anew
-from model.search.beginning.translate import make_searcher, read_plan
+from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
 from model.search.route.layout import World
 from model.search.world import make_world
 from model.solution import Route, Solution
+from tests.model.search.found import read_plan
 
 MINUTE = 60_000
 CUSTOMERS = 7

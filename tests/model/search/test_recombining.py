@@ -12,7 +12,7 @@ from model.kernel.instance import pack
 from model.problem import Problem
 from model.search import worker
 from model.search.beginning.construct import begin_anew
-from model.search.beginning.translate import make_searcher, read_plan
+from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
 from model.search.moves.anneal import ANY, anneal
 from model.search.recombining import take_better_parts
@@ -21,6 +21,7 @@ from model.search.route.state import Searcher
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import generate
+from tests.model.search.found import read_plan
 
 Routes = dict[frozenset[int], float]
 

@@ -7,7 +7,7 @@ from model.judge.check import check
 from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew, insert_missing
-from model.search.beginning.translate import make_searcher, read_plan
+from model.search.beginning.translate import make_searcher
 from model.search.improve import (
     MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, START_TURNS_BY_TYPES, STARTS_SHARE,
     SearchConfig, improve,
@@ -21,6 +21,7 @@ from model.search.starts import Starts
 from model.search.world import make_world
 from model.solution import Solution
 from training.instances import VARIANTS, generate
+from tests.model.search.found import read_plan
 
 TRUCKS = [name for name in VARIANTS
           if name not in ("drone", "table1", "mixed", "various", "particular")]
