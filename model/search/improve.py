@@ -31,7 +31,8 @@ BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
 share of the time that this takes."""
 
 MOST_BEGINNING = 0.05
-"""Share of the time after which no other type of vehicle is tried at the beginning."""
+"""Share of the time after which no other type of vehicle is tried at the beginning; thousands of
+customers have what other plans have, since the search is far from done with what it begins with."""
 
 BEGINNING_SHARE = 0.3
 """Share of the time after which no other plan by insertion is tried, where there is one of all."""
@@ -259,11 +260,14 @@ def _begin(world: World, whole: Searcher, fresh: bool, limits: Limits) -> None:
     if limits.turns is None:
         deadline = limits.began + (limits.deadline - limits.began) * BEGINNING_SHARE
     # Savings are far better than insertion there, which in large problems takes its time.
-    by_savings = whole.count.stay > 0 and only_loads_limit(world)
+    in_parts = whole.count.stay > 0
+    by_savings = in_parts and only_loads_limit(world)
     with Alarm(deadline, limits.should_stop) as alarm:
-        begin_anew(world, whole, fresh and not by_savings, world._replace(stop=alarm.flag))
-    if fresh and world.mixed:
-        _begin_by_types(world, whole, limits)
+        hurried = world._replace(stop=alarm.flag)
+        begin_anew(world, whole, fresh and not by_savings, hurried)
+        if fresh and world.mixed:
+            _begin_by_types(hurried, whole, limits,
+                            BEGINNING_SHARE if in_parts else MOST_BEGINNING)
 
 
 def _search(team: _Team, world: World, crew: Crew,
@@ -293,15 +297,16 @@ def _search(team: _Team, world: World, crew: Crew,
         team.search(crew, rest)
 
 
-def _begin_by_types(world: World, whole: Searcher, limits: Limits) -> None:
+def _begin_by_types(world: World, whole: Searcher, limits: Limits, most: float) -> None:
     """Plan anew by vehicles of one type after another as far as they go. In place: the best plan.
 
     What a route costs its first customer says nothing of how many more a larger vehicle serves.
+    None is tried after a share of `most`.
     """
     alone = whole.alone
     dearest = float(alone[np.isfinite(alone)].max(initial=0.0))
     for k in range(world.num_types):
-        if limits.turns is None and limits.share(0) > MOST_BEGINNING:
+        if limits.turns is None and limits.share(0) > most:
             return
         others_last = alone + dearest
         others_last[k] = alone[k]

@@ -1,7 +1,9 @@
 """Small problems where one kind of move is needed, and found."""
 
+import time
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +14,8 @@ from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.beginning.savings import savings_routes
 from model.search.first_plan import first_plan
-from model.search.improve import Improved, SearchConfig, improve
+from model.search.ground import Ground, lay_ground
+from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.search.moves.anneal import BUILT_BESIDE_FROM
 from model.search.world import Moves, make_world
 from model.solution import Solution
@@ -326,6 +329,27 @@ def test_thousands_begin_with_a_plan_that_is_not_far_from_good() -> None:
     assert begun.solution.unassigned == ()
     better = improve(problem, instance, begun.solution, SearchConfig(turns=40_000))
     assert better.cost < begun.cost < 1.35 * better.cost
+
+
+def test_thousands_begin_with_the_same_plan_where_laying_the_ground_took_its_time(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    # A tenth of the time was over: no plan by one type after another was tried any more.
+    places = np.random.default_rng(3).uniform(-30.0, 30.0, (BUILT_BESIDE_FROM, 2)).tolist()
+    problem = on_a_plane(list(map(tuple, places)),
+                         replace(SMALL, count=150, fixed_cost=2.0, capacity=(12_000,)),
+                         replace(LARGE, count=60, fixed_cost=30.0, capacity=(24_000,)))
+    instance, nothing = pack([problem]), Solution((), ())
+    begun = improve(problem, instance, nothing, SearchConfig(turns=0))
+
+    def slowly(*args: Any, **options: Any) -> Ground:
+        time.sleep(1.0)
+        return lay_ground(*args, **options)
+
+    monkeypatch.setattr("model.search.improve.lay_ground", slowly)
+    told: list[Progress] = []
+    late = improve(problem, instance, nothing, SearchConfig(), time.perf_counter() + 10.0,
+                   lambda: bool(told), told.append)
+    assert late.first_cost == begun.first_cost
 
 
 def test_thousands_begin_with_several_trips_a_vehicle_and_more_are_found() -> None:
