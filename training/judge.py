@@ -5,7 +5,7 @@ some decision in between is to blame, and halving finds it.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
@@ -48,6 +48,7 @@ class Judgement:
     mistakes: list[Mistake]
     fine: np.ndarray  # (action,) no decision nearby costs anything
     completions: int  # that it took
+    worth: dict[int, float] = field(default_factory=dict)  # by length of a beginning: its cost
 
 
 class Judge:
@@ -76,7 +77,7 @@ class Judge:
                 fine[lower:upper] = True
             mistakes += [mistake for low, high in self._steep(lower, upper)
                          if (mistake := self._confirmed(low, high)) is not None]
-        return Judgement(mistakes, fine, self.completions)
+        return Judgement(mistakes, fine, self.completions, dict(self._cost))
 
     def _cut_at(self, place: int) -> int:
         while not is_cut(self._actions, place):

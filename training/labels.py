@@ -9,7 +9,7 @@ import time
 import zipfile
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
 
@@ -23,7 +23,7 @@ from model.policy.features import step
 from model.policy.observation import Observation, empty_observation
 from model.policy.rollouts import StepWeights, candidate_scores, roll_out
 from model.policy.tokens import Float32Array
-from model.problem import IntArray, Problem
+from model.problem import FloatArray, IntArray, Problem
 from model.simulation.simulator import apply_route, reset
 from training.completion import Setting, can_complete
 from training.deviations import judge_by_policy
@@ -85,6 +85,10 @@ class Labelled:
     actions: IntArray
     fine: np.ndarray  # (action,) no decision nearby costs anything
     pairs: list[Pair]
+    # Lengths of beginnings that the search completed, ascending, and what the whole plans cost then;
+    # none of a plan that the policy judged by itself.
+    cuts: IntArray = field(default_factory=lambda: np.zeros(0, np.int64))
+    worth: FloatArray = field(default_factory=lambda: np.zeros(0))
 
 
 def read_policy(path: Path) -> AttentionPolicy:
@@ -169,8 +173,10 @@ def label(actor: Actor, origin: Origin, effort: float = 1.0) -> tuple[Labelled, 
         layouts = [batch, make_batch([problem], [origin.variant], rng)]
         judgement = judge_by_policy(actor, layouts, actions, rng)
     pairs = [to_pair(actor, batch, actions, mistake) for mistake in judgement.mistakes]
-    return Labelled(origin, actions, judgement.fine,
-                    [pair for pair in pairs if pair is not None]), judgement
+    cuts = sorted(judgement.worth)
+    return Labelled(
+        origin, actions, judgement.fine, [pair for pair in pairs if pair is not None],
+        np.array(cuts, np.int64), np.array([judgement.worth[cut] for cut in cuts])), judgement
 
 
 def draw_origin(rng: np.random.Generator) -> Origin:
@@ -196,7 +202,10 @@ def write(path: Path, plans: Sequence[Labelled]) -> None:
             plan=np.array([index for index, _ in pairs], np.int32),
             step=np.array([pair.step for _, pair in pairs], np.int32),
             rise=np.array([pair.rise for _, pair in pairs], np.float32),
-            path=np.array([pair.path for _, pair in pairs], np.int32).reshape(-1, PATH))
+            path=np.array([pair.path for _, pair in pairs], np.int32).reshape(-1, PATH),
+            cuts=np.array([len(plan.cuts) for plan in plans]),
+            cut=np.concatenate([plan.cuts for plan in plans]).astype(np.int32),
+            worth=np.concatenate([plan.worth for plan in plans]))
     part.replace(path)
 
 
@@ -205,7 +214,7 @@ def read(path: Path) -> list[Labelled]:
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
             rows = {name: stored[name] for name in stored.files}
-        ends = np.cumsum(rows["length"])
+        ends, last = np.cumsum(rows["length"]), np.cumsum(rows["cuts"])
         pairs: list[list[Pair]] = [[] for _ in ends]
         for plan, number, rise, codes in zip(rows["plan"], rows["step"], rows["rise"],
                                              rows["path"], strict=True):
@@ -213,8 +222,11 @@ def read(path: Path) -> list[Labelled]:
         return [Labelled(Origin(str(rows["variant"][index]), int(rows["size"][index]),
                                 int(rows["seed"][index])),
                          rows["action"][end - length:end].astype(np.int64),
-                         rows["fine"][end - length:end], pairs[index])
-                for index, (end, length) in enumerate(zip(ends, rows["length"], strict=True))]
+                         rows["fine"][end - length:end], pairs[index],
+                         rows["cut"][behind - cuts:behind].astype(np.int64),
+                         rows["worth"][behind - cuts:behind])
+                for index, (end, length, behind, cuts) in enumerate(zip(
+                    ends, rows["length"], last, rows["cuts"], strict=True))]
     except (OSError, ValueError, KeyError, EOFError, IndexError, zipfile.BadZipFile, zlib.error):
         return []
 

@@ -97,10 +97,23 @@ def test_plans_are_read_as_they_were_written(labelled: Labelled, tmp_path: Path)
     for plan, other in zip(plans, (labelled, bare, labelled), strict=True):
         assert np.array_equal(plan.actions, other.actions)
         assert np.array_equal(plan.fine, other.fine)
+        assert np.array_equal(plan.cuts, other.cuts)
+        assert np.array_equal(plan.worth, other.worth)
         for mine, theirs in zip(plan.pairs, other.pairs, strict=True):
             assert mine.step == theirs.step
             assert np.array_equal(mine.path, theirs.path)
             assert mine.rise == pytest.approx(theirs.rise)
+
+
+def test_worth_of_beginnings_ends_at_what_the_plan_costs(labelled: Labelled) -> None:
+    setting = Setting.of(ORIGIN.problem())
+    assert labelled.cuts[0] == 0
+    assert labelled.cuts[-1] == len(labelled.actions)
+    assert labelled.worth[-1] == pytest.approx(cost_of(setting, labelled.actions))
+    # What is decided can't make the best end of a plan cheaper, but for what a search misses.
+    assert np.all(np.diff(labelled.worth) > -0.01 * labelled.worth[-1])
+    longer = [completed(setting, labelled.actions[:cut]) for cut in labelled.cuts.tolist()]
+    assert labelled.worth == pytest.approx(longer, rel=0.01)
 
 
 def test_damaged_file_is_passed_over(labelled: Labelled, tmp_path: Path) -> None:
