@@ -4,14 +4,15 @@ A beginning is worth what the search makes of it at best. Where that rises from 
 some decision in between is to blame, and halving finds it.
 """
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 
 from model.problem import UNLIMITED, IntArray, Problem
-from model.simulation.simulator import NUM_KINDS, RETURN
+from model.simulation.simulator import DRIVE, NUM_KINDS, OPEN, RETURN
 from training.completion import (
     Routes, Setting, complete, cost_of, is_cut, open_type, to_actions, to_routes, what_is_left,
 )
@@ -152,6 +153,69 @@ class Judge:
             taken.append(match[1])
         actions = to_actions(self._setting.problem, taken + left, begun is not None)
         self._keep(upper, np.concatenate([self._actions[:lower], actions]))
+
+    def compare(self, steps: Sequence[int],
+                choices: Sequence[Sequence[int]]) -> Iterator[list[float]]:
+        """Yield what plans cost at best that go on by one choice or another.
+
+        Parameters
+        ----------
+        steps
+            Numbers of actions, descending.
+        choices
+            Codes that are legal there. Which type to open next is not known to cost anything where
+            the search would open one later; elsewhere that is told as nan.
+        """
+        later = len(self._actions)
+        for step, codes in zip(steps, choices, strict=True):
+            cut = self._cut_at(step)
+            self._look(cut, later, 1)
+            later = cut
+            yield [self._chosen(cut, step, code) for code in codes]
+
+    def _chosen(self, cut: int, step: int, code: int) -> float:
+        """Return what a plan costs that makes a choice after its first actions. In place.
+
+        It begins with the plan of the last cut before.
+        """
+        begun = open_type(self._actions[:cut])
+        routes = to_routes(self._plan[cut][cut:], begun)
+        target, what = divmod(code, NUM_KINDS)
+        if what == OPEN:
+            return self._cost[cut] if target in [kind for kind, _ in routes] else math.nan
+        if what == RETURN:
+            routes = routes[1:]
+        elif step > cut:
+            own = next((route for route in routes if target in route[1]), routes[0])
+            routes.remove(own)
+            kind = int(self._actions[cut]) // NUM_KINDS
+            routes.insert(0, (kind, own[1]))
+        routes = [(kind, [node for node in nodes if what != DRIVE or node != target])
+                  for kind, nodes in routes]
+        beginning = np.append(self._actions[:step], code)
+        plan = self._completed(beginning, routes)
+        cost = cost_of(self._setting, plan)
+        if cost < self._cost[cut]:
+            self._plan[cut], self._cost[cut] = plan, cost
+        return cost
+
+    def _completed(self, beginning: IntArray, routes: Routes) -> IntArray:
+        """Return a plan with a beginning, and with routes that the search begins with."""
+        self.completions += 1
+        rest = what_is_left(self._setting, beginning)
+        if rest is None:
+            return beginning
+        is_open = rest.open_kind is not None
+        left = dict(zip(rest.kinds[is_open:],
+                        (kind.count for kind in rest.problem.vehicle_types[is_open:]), strict=True))
+        kept = routes[:is_open]
+        for kind, nodes in routes[is_open:]:
+            if nodes and left.get(kind, 0) > 0:
+                left[kind] -= 1
+                kept.append((kind, nodes))
+        turns = FIRST_TURNS + TURNS_EACH * rest.problem.num_customers
+        routes = complete(rest, kept, int(turns * self._effort), self.completions)
+        return np.concatenate([beginning, to_actions(self._setting.problem, routes, is_open)])
 
     def _look(self, cut: int, begun_with: int, effort: int) -> None:
         """Complete what was decided before a cut, from the plan of a later one on. In place."""

@@ -1,4 +1,4 @@
-"""Train `attention` further by labels: which decision would have been better, and by how much.
+"""Train a policy further by labels: which decision would have been better, and by how much.
 
 Run with `python -m training.judged --folder runs/judged --labels runs/labels`, beside
 `training.labels`, which plans by the newest weights. A run that finds its checkpoint goes on from
@@ -24,14 +24,15 @@ from torch import Tensor
 from torch.nn.functional import softplus
 from tqdm import tqdm
 
-from model.policy.network import PolicyNetwork
+from model.policy.network import MASKED, PolicyNetwork
 from training.config import TrainConfig
 from training.dataset import join
 from training.examples import Lesson, make_lesson
 from training.export import WEIGHTS
 from training.instances import generate, sample_variant
-from training.labels import NEWEST, Labelled, read, read_policy
+from training.labels import NEWEST, Labelled, read
 from training.learn import draw_weights, policy_gradient, shared_advantage, training_costs
+from training.policies import POLICIES
 from training.rollout import make_batch, roll_out, sampler
 
 HELD_OUT = 20
@@ -39,6 +40,9 @@ HELD_OUT = 20
 
 REREAD_EVERY, NEWEST_EVERY, SAVE_EVERY = 30.0, 1200.0, 120.0
 """Seconds between looks for new labels, newer weights to plan by, checkpoints."""
+
+LABELLING = "attention"
+"""The policy that `training.labels` plans by, and whose newest weights it is told."""
 
 CPU = torch.device("cpu")
 STOP = threading.Event()
@@ -49,6 +53,7 @@ STOP = threading.Event()
 class JudgedConfig:
     """A run."""
 
+    policy: str = LABELLING
     seed: int = 0
     learning_rate: float = 1e-4
     warm_up: int = 50  # steps
@@ -56,6 +61,8 @@ class JudgedConfig:
     plans: int = 16  # in a step
     shown: float = 0.1  # weight of the search's decisions after the better choice
     calm: float = 10.0  # of the distance from the policy it began with, where nothing was wrong
+    ordered: float = 1.0  # weight of pairs
+    compared: float = 1.0  # weight of choices that were tried
     reinforce_every: int = 4  # steps; 0: never
     problems: int = 6  # in a step of REINFORCE
     rollouts: int = 8  # of each
@@ -111,6 +118,8 @@ class Seen:
     pair: float
     shown: float
     calm: float
+    compared: float
+    best: float  # share of trials whose cheapest choice is preferred, by what it saves
     order: float  # share of pairs in the right order
     pairs: int
 
@@ -119,7 +128,8 @@ def logits_of(policy: PolicyNetwork, lesson: Lesson) -> Tensor:
     """Score the candidates of all decisions, (plan, decision, candidate)."""
     memory = policy.encode(*lesson.batch.encoder_inputs(CPU))
     here, candidate, feature, allowed, glob = lesson.inputs
-    hidden = memory.new_zeros(*here.shape, 0)
+    plan = torch.arange(len(here))[:, None]
+    hidden = policy.remember(memory, lesson.past)[plan, lesson.stretch, lesson.step]
     return policy.score(memory, here, candidate, feature, allowed, glob, hidden)
 
 
@@ -137,11 +147,41 @@ def learn(policy: PolicyNetwork, old: PolicyNetwork, lesson: Lesson,
         with torch.no_grad():
             before = torch.log_softmax(logits_of(old, lesson), dim=2)
         calm = mean((before.exp() * (before - log_probability)).sum(dim=2), lesson.calm)
-    loss = pair + config.shown * shown + config.calm * calm
+    compared, best = compare(logits, lesson)
+    loss = (config.ordered * pair + config.shown * shown + config.calm * calm
+            + config.compared * compared)
     pairs = int(is_pair.sum())
     right = float(((margin > 0) & is_pair).sum()) / max(1, pairs)
     return loss, Seen(float(loss.detach()), float(pair.detach()), float(shown.detach()),
-                      float(calm.detach()), right, pairs)
+                      float(calm.detach()), float(compared.detach()),
+                      best, right, pairs)
+
+
+def compare(logits: Tensor, lesson: Lesson) -> tuple[Tensor, float]:
+    """Return the loss of choices that were tried, and by how much of their spread it is right.
+
+    Each pair of choices counts by what lies between them, and the cheapest counts against all that
+    were not tried together, which the policy liked less.
+    """
+    known = ~lesson.rise.isnan()
+    rise = torch.where(known, lesson.rise, 0.0)
+    score = logits.gather(2, lesson.tried)
+    both = known[..., :, None] & known[..., None, :]
+    apart = rise[..., None, :] - rise[..., :, None]
+    weight = torch.where(both & (apart > 0), (apart / 0.005).clamp_max(4.0), 0.0)
+    margin = score[..., :, None] - score[..., None, :]
+    pairs = (weight * softplus(-margin)).sum()
+    is_trial = known.sum(dim=2) > 1
+    untried = logits.scatter(2, lesson.tried, MASKED).logsumexp(dim=2)
+    cheapest = torch.where(known, lesson.rise, torch.inf).argmin(dim=2, keepdim=True)
+    ahead = score.gather(2, cheapest)[..., 0] - untried
+    others = torch.where(is_trial, softplus(-ahead), 0.0).sum()
+    with torch.no_grad():
+        chosen = torch.where(known, score, -torch.inf).argmax(dim=2, keepdim=True)
+        lost = rise.gather(2, chosen)[..., 0].clamp_max(0.05)
+        most = rise.amax(dim=2).clamp_max(0.05)
+        best = 1 - float((lost * is_trial).sum() / (most * is_trial).sum().clamp_min(1e-9))
+    return (pairs + others) / is_trial.sum().clamp_min(1), best
 
 
 def pick(values: Tensor, index: Tensor) -> Tensor:
@@ -159,7 +199,8 @@ class Run:
 
     def __init__(self, config: JudgedConfig, began_with: Path) -> None:
         self.config = config
-        self.policy = read_policy(began_with / WEIGHTS)
+        self.policy = POLICIES[config.policy]()
+        self.policy.load_state_dict(torch.load(began_with / WEIGHTS, weights_only=True))
         self.old, self.average = deepcopy(self.policy), deepcopy(self.policy)
         self.optimizer = torch.optim.AdamW(self.policy.parameters(), lr=config.learning_rate,
                                            weight_decay=1e-6)
@@ -215,10 +256,10 @@ class Run:
 
     def save(self, path: Path) -> None:
         """Write the checkpoint whole or not at all."""
-        write({"config": {**asdict(self.config), "policy": "attention"},
-               "policy": self.average.state_dict(), "last": self.policy.state_dict(),
-               "old": self.old.state_dict(), "optimizer": self.optimizer.state_dict(),
-               "step": self.step, "spread": self.spread, "seconds": self.seconds()}, path)
+        write({"config": asdict(self.config), "policy": self.average.state_dict(),
+               "last": self.policy.state_dict(), "old": self.old.state_dict(),
+               "optimizer": self.optimizer.state_dict(), "step": self.step,
+               "spread": self.spread, "seconds": self.seconds()}, path)
 
     def load(self, path: Path) -> None:
         """Go on from a checkpoint. In place."""
@@ -237,9 +278,15 @@ def write(content: dict[str, Any], path: Path) -> None:
 
 
 @torch.no_grad()
-def right_order(policy: PolicyNetwork, plans: Sequence[Labelled], at_once: int = 32) -> float:
-    """Return in which share of the mistakes of plans the policy prefers the better choice."""
-    right = total = 0
+def right_order(policy: PolicyNetwork, plans: Sequence[Labelled],
+                at_once: int = 32) -> tuple[float, float]:
+    """Return how often a policy is right where it was judged.
+
+    In which share of the mistakes of plans it prefers the better choice, and how much of what lies
+    between choices that were tried it saves; 0 where there are none.
+    """
+    right = total = trials = 0
+    saved = 0.0
     ordered = sorted(plans, key=lambda plan: plan.origin.size)
     for first in range(0, len(ordered), at_once):
         lesson = make_lesson(ordered[first:first + at_once], np.random.default_rng(0), False)
@@ -248,7 +295,10 @@ def right_order(policy: PolicyNetwork, plans: Sequence[Labelled], at_once: int =
             better = pick(logits, lesson.right) > pick(logits, lesson.wrong)
             right += int((better & (lesson.weight > 0)).sum())
             total += int((lesson.weight > 0).sum())
-    return right / max(1, total)
+            number = int(((~lesson.rise.isnan()).sum(dim=2) > 1).sum())
+            saved += compare(logits, lesson)[1] * number
+            trials += number
+    return right / max(1, total), saved / max(1, trials)
 
 
 def train(config: JudgedConfig, folder: Path, labels: Path, began_with: Path, minutes: float,
@@ -278,14 +328,16 @@ def train(config: JudgedConfig, folder: Path, labels: Path, began_with: Path, mi
         bar.update()
         is_validated = run.step % validate_every == 0
         if row or is_validated:
-            held_out = right_order(run.average, buffer.held_out) if is_validated else None
+            order, best = (right_order(run.average, buffer.held_out) if is_validated
+                           else (None, None))
             log(folder / "judged.csv", {
                 "step": run.step, "seconds": run.seconds(), "plans": len(buffer.plans),
-                **dict.fromkeys(Seen.__dataclass_fields__), **row, "held_out": held_out})
+                **dict.fromkeys(Seen.__dataclass_fields__), **row, "held_out": order,
+                "held_out_best": best})
         if time.monotonic() - saved > SAVE_EVERY:
             run.save(folder / "checkpoint.pt")
             saved = time.monotonic()
-        if time.monotonic() - told > NEWEST_EVERY:
+        if config.policy == LABELLING and time.monotonic() - told > NEWEST_EVERY:
             write(run.average.state_dict(), labels / NEWEST)
             told = time.monotonic()
     run.save(folder / "checkpoint.pt")
@@ -305,21 +357,26 @@ def log(path: Path, row: dict[str, float | None]) -> None:
 def main(
     folder: Annotated[Path, typer.Option(help="where checkpoint and log go")],
     labels: Annotated[Path, typer.Option(help="of training.labels")],
-    begin_with: Annotated[Path, typer.Option(help="folder of an exported policy")]
-    = Path("model/weights/attention"),
+    policy: Annotated[str, typer.Option(help="which one learns")] = LABELLING,
+    begin_with: Annotated[Path | None, typer.Option(help="folder of an exported policy, if not "
+                                                         "the one of its name")] = None,
     minutes: float = 60.0, seed: int = 0, learning_rate: float = 1e-4, plans: int = 16,
-    shown: float = 0.1, calm: float = 10.0, reinforce_every: int = 4,
+    shown: float = 0.1, calm: float = 10.0, ordered: float = 1.0, compared: float = 1.0,
+    reinforce_every: int = 4,
     decay: Annotated[str, typer.Option(help="steps first:last of the decay")] = "1000000:1000000",
     max_steps: Annotated[int | None, typer.Option(help="stop at this step")] = None,
 ) -> None:
     """Learn from labels; goes on from the checkpoint in FOLDER if there is one."""
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     first, last = (int(step) for step in decay.split(":"))
-    config = JudgedConfig(seed=seed, learning_rate=learning_rate, plans=plans, shown=shown,
-                          calm=calm, reinforce_every=reinforce_every, decay=(first, last))
+    config = JudgedConfig(policy=policy, seed=seed, learning_rate=learning_rate, plans=plans,
+                          shown=shown, calm=calm, ordered=ordered, compared=compared,
+                          reinforce_every=reinforce_every,
+                          decay=(first, last))
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: STOP.set())
-    train(config, folder, labels, begin_with, minutes, max_steps)
+    train(config, folder, labels, begin_with or Path("model/weights") / policy, minutes,
+          max_steps)
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ from model.policy.tokens import Float32Array
 from model.problem import FloatArray, IntArray, Problem
 from model.simulation.simulator import apply_route, reset
 from training.completion import Setting, can_complete
-from training.deviations import judge_by_policy
+from training.deviations import go_on, judge_by_policy
 from training.export import WEIGHTS
 from training.instances import DEFAULT_CONFIG, generate
 from training.judge import PATH, Judge, Judgement, Mistake
@@ -43,6 +43,12 @@ SHARES = {"uniform": 0.3, "vrptw": 0.15, "appointed": 0.08, "soft": 0.06, "heter
 
 SIZES = (20, 100)
 """Fewest and most customers; their logarithm is uniform."""
+
+TRIED = 5
+"""Choices that are tried at one decision: the likeliest and the plan's own."""
+
+MOST_TRIALS = 12
+"""Decisions of a plan at which others are tried, drawn at random."""
 
 PLANS_A_FILE = 40
 
@@ -78,6 +84,15 @@ class Pair:
 
 
 @dataclass(frozen=True)
+class Trial:
+    """What each of some choices comes to at one decision."""
+
+    step: int  # number of the action
+    codes: IntArray  # (TRIED,) of the choices, NONE behind the last
+    costs: FloatArray  # (TRIED,) of the plans that go on by them, at best; nan where it isn't known
+
+
+@dataclass(frozen=True)
 class Labelled:
     """A judged plan."""
 
@@ -85,10 +100,11 @@ class Labelled:
     actions: IntArray
     fine: np.ndarray  # (action,) no decision nearby costs anything
     pairs: list[Pair]
-    # Lengths of beginnings that the search completed, ascending, and what the whole plans cost then;
+    # Lengths of beginnings that the search completed, ascending, and what whole plans cost then;
     # none of a plan that the policy judged by itself.
     cuts: IntArray = field(default_factory=lambda: np.zeros(0, np.int64))
     worth: FloatArray = field(default_factory=lambda: np.zeros(0))
+    trials: list[Trial] = field(default_factory=list)
 
 
 def read_policy(path: Path) -> AttentionPolicy:
@@ -161,6 +177,35 @@ def to_pair(actor: Actor, batch: Batch, actions: IntArray, mistake: Mistake) -> 
     return Pair(mistake.step, mistake.rise, padded)
 
 
+def try_others(actor: Actor, problem: Problem, batch: Batch, actions: IntArray,
+               rng: np.random.Generator, effort: float = 1.0) -> list[Trial]:
+    """Return what the likeliest choices come to at some decisions of a plan.
+
+    By the search, or by the policy itself in two symmetries where the search can't tell.
+    """
+    steps = np.sort(rng.permutation(len(actions)))[::-1]
+    _, _, ranked = go_on(actor, batch, [actions[:step] for step in steps], 1)
+    chosen = [(int(step), list(dict.fromkeys([*codes[:TRIED - 1], int(actions[step])])))
+              for step, codes in zip(steps, ranked, strict=True) if len(codes) > 1]
+    drawn = np.sort(rng.permutation(len(chosen))[:MOST_TRIALS])
+    at, codes = [chosen[place][0] for place in drawn], [chosen[place][1] for place in drawn]
+    if can_complete(problem):
+        found = list(Judge(Setting(problem, batch.instance), actions, effort).compare(at, codes))
+    else:
+        beginnings = [np.append(actions[:step], code)
+                      for step, some in zip(at, codes, strict=True) for code in some]
+        layouts = (batch, make_batch([problem], [""], rng))
+        costs = np.mean([go_on(actor, layout, beginnings)[1] for layout in layouts], axis=0)
+        ends = np.cumsum([len(some) for some in codes])
+        found = [part.tolist() for part in np.split(costs, ends[:-1])] if beginnings else []
+    return [Trial(step, _padded(some, NONE).astype(np.int64), _padded(costs, np.nan))
+            for step, some, costs in zip(at, codes, found, strict=True)]
+
+
+def _padded(values: Sequence[float], by: float) -> FloatArray:
+    return np.array([*values, *[by] * (TRIED - len(values))], np.float64)
+
+
 def label(actor: Actor, origin: Origin, effort: float = 1.0) -> tuple[Labelled, Judgement]:
     """Plan a problem and judge the plan, by the policy alone where the search can't complete it."""
     rng = np.random.default_rng((origin.seed, 1))
@@ -179,6 +224,16 @@ def label(actor: Actor, origin: Origin, effort: float = 1.0) -> tuple[Labelled, 
         np.array(cuts, np.int64), np.array([judgement.worth[cut] for cut in cuts])), judgement
 
 
+def label_by_trials(actor: Actor, origin: Origin, effort: float = 1.0) -> Labelled:
+    """Plan a problem and try other choices at some decisions."""
+    rng = np.random.default_rng((origin.seed, 2))
+    problem = origin.problem()
+    batch = make_batch([problem], [origin.variant])
+    actions = actor.plan(batch, HOT * float(rng.random() < 0.5), rng)
+    return Labelled(origin, actions, np.zeros(len(actions), np.bool_), [],
+                    trials=try_others(actor, problem, batch, actions, rng, effort))
+
+
 def draw_origin(rng: np.random.Generator) -> Origin:
     """Draw where a problem comes from."""
     names = tuple(SHARES)
@@ -190,6 +245,7 @@ def draw_origin(rng: np.random.Generator) -> Origin:
 def write(path: Path, plans: Sequence[Labelled]) -> None:
     """Write plans whole or not at all."""
     pairs = [(index, pair) for index, plan in enumerate(plans) for pair in plan.pairs]
+    trials = [(index, trial) for index, plan in enumerate(plans) for trial in plan.trials]
     part = path.with_suffix(".part")
     with part.open("wb") as file:
         np.savez_compressed(
@@ -205,7 +261,11 @@ def write(path: Path, plans: Sequence[Labelled]) -> None:
             path=np.array([pair.path for _, pair in pairs], np.int32).reshape(-1, PATH),
             cuts=np.array([len(plan.cuts) for plan in plans]),
             cut=np.concatenate([plan.cuts for plan in plans]).astype(np.int32),
-            worth=np.concatenate([plan.worth for plan in plans]))
+            worth=np.concatenate([plan.worth for plan in plans]),
+            tried=np.array([index for index, _ in trials], np.int32),
+            tried_at=np.array([trial.step for _, trial in trials], np.int32),
+            choice=np.array([trial.codes for _, trial in trials], np.int32).reshape(-1, TRIED),
+            comes_to=np.array([trial.costs for _, trial in trials]).reshape(-1, TRIED))
     part.replace(path)
 
 
@@ -219,12 +279,16 @@ def read(path: Path) -> list[Labelled]:
         for plan, number, rise, codes in zip(rows["plan"], rows["step"], rows["rise"],
                                              rows["path"], strict=True):
             pairs[plan].append(Pair(int(number), float(rise), codes.astype(np.int64)))
+        trials: list[list[Trial]] = [[] for _ in ends]
+        for plan, number, codes, costs in zip(rows["tried"], rows["tried_at"], rows["choice"],
+                                              rows["comes_to"], strict=True):
+            trials[plan].append(Trial(int(number), codes.astype(np.int64), costs))
         return [Labelled(Origin(str(rows["variant"][index]), int(rows["size"][index]),
                                 int(rows["seed"][index])),
                          rows["action"][end - length:end].astype(np.int64),
                          rows["fine"][end - length:end], pairs[index],
                          rows["cut"][behind - cuts:behind].astype(np.int64),
-                         rows["worth"][behind - cuts:behind])
+                         rows["worth"][behind - cuts:behind], trials[index])
                 for index, (end, length, behind, cuts) in enumerate(zip(
                     ends, rows["length"], last, rows["cuts"], strict=True))]
     except (OSError, ValueError, KeyError, EOFError, IndexError, zipfile.BadZipFile, zlib.error):
@@ -238,6 +302,8 @@ def main(
     minutes: float = 60.0, seed: int = 1,
     effort: Annotated[float, typer.Option(help="times the usual turns of the search")] = 1.0,
     max_plans: Annotated[int | None, typer.Option(help="stop after so many plans")] = None,
+    trials: Annotated[bool, typer.Option(help="try other choices at some decisions, whatever they "
+                                              "cost, instead")] = False,
 ) -> None:
     """Make labels until the time is over; goes on behind the files that are there."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -251,7 +317,9 @@ def main(
             read_at = newest.stat().st_mtime
             actor = Actor(newest)
         rng = np.random.default_rng((seed, number, len(plans)))
-        plans.append(label(actor, draw_origin(rng), effort)[0])
+        origin = draw_origin(rng)
+        plans.append(label_by_trials(actor, origin, effort) if trials
+                     else label(actor, origin, effort)[0])
         made += 1
         bar.update()
         if len(plans) == PLANS_A_FILE:

@@ -1,5 +1,6 @@
 """Learning from judged decisions: pairs come into the right order, runs go on."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,8 +9,10 @@ import torch
 
 from training.examples import make_lesson
 from training.export import WEIGHTS
-from training.judged import JudgedConfig, Run, learn, logits_of, right_order, train
-from training.labels import Actor, Labelled, Origin, label, read, read_policy, write
+from training.judged import JudgedConfig, Run, compare, learn, logits_of, right_order, train
+from training.labels import (
+    NEWEST, Actor, Labelled, Origin, label, label_by_trials, read, read_policy, write,
+)
 
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 
@@ -34,7 +37,7 @@ def test_pairs_come_into_the_right_order(labels: Path) -> None:
     plans = plans_of(labels)
     policy, old = read_policy(EXPORTED / WEIGHTS), read_policy(EXPORTED / WEIGHTS)
     optimizer = torch.optim.Adam(policy.parameters(), lr=1e-3)
-    losses, before = [], right_order(policy, plans)
+    losses, before = [], right_order(policy, plans)[0]
     for _ in range(8):
         lesson = make_lesson(plans, np.random.default_rng(0), symmetric=False)
         assert lesson is not None
@@ -44,7 +47,34 @@ def test_pairs_come_into_the_right_order(labels: Path) -> None:
         loss.backward()
         optimizer.step()
     assert losses[-1] < 0.7 * losses[0]
-    assert right_order(policy, plans) > before + 0.3
+    assert right_order(policy, plans)[0] > before + 0.3
+
+
+def test_cheapest_choices_come_to_be_preferred() -> None:
+    actor = Actor(EXPORTED / WEIGHTS)
+    plans = [label_by_trials(actor, Origin("vrptw", 14, seed), 0.3) for seed in range(5)]
+    policy = read_policy(EXPORTED / WEIGHTS)
+    optimizer = torch.optim.Adam(policy.parameters(), lr=1e-3)
+    losses, before = [], right_order(policy, plans)[1]
+    for _ in range(12):
+        lesson = make_lesson(plans, np.random.default_rng(0), symmetric=False)
+        assert lesson is not None
+        loss, saved = compare(logits_of(policy, lesson), lesson)
+        losses.append(float(loss.detach()))
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+    assert losses[-1] < 0.5 * losses[0]
+    assert before < saved <= 1
+    assert right_order(policy, plans)[1] > before
+
+
+def test_where_no_others_were_tried_none_are_compared(labels: Path) -> None:
+    lesson = make_lesson(plans_of(labels), np.random.default_rng(0))
+    assert lesson is not None
+    logits = logits_of(read_policy(EXPORTED / WEIGHTS), lesson)
+    assert lesson.rise.isnan().all()
+    assert compare(logits, lesson)[0] == 0
 
 
 def test_old_policy_is_at_no_distance_from_itself(labels: Path) -> None:
@@ -78,6 +108,16 @@ def test_mean_of_weights_follows_the_policy(labels: Path, tmp_path: Path) -> Non
     old, mean, last = (network.state_dict()["here.weight"]
                        for network in (run.old, run.average, run.policy))
     assert 0 < (mean - old).norm() < (last - old).norm()
+
+
+def test_pointer_learns_from_the_same_labels(labels: Path, tmp_path: Path) -> None:
+    run = train(replace(CONFIG, policy="pointer"), tmp_path, labels, EXPORTED.parent / "pointer",
+                5.0, 4)
+    assert run.policy.hidden_size > 0
+    assert not (labels / NEWEST).exists()
+    for mine, before in zip(run.policy.parameters(), run.old.parameters(), strict=True):
+        assert torch.isfinite(mine).all()
+        assert not torch.equal(mine, before)
 
 
 def test_no_labels_is_an_error(tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 """Labels say what is true, come back as they were written, and are replayed as they were made."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,15 +8,16 @@ import pytest
 import torch
 
 from model.policy.attention import AttentionConfig, AttentionPolicy
+from model.simulation.simulator import LAUNCH, NUM_KINDS, OPEN
 from training.completion import (
     Setting, complete, cost_of, open_type, to_actions, to_routes, what_is_left,
 )
 from training.deviations import go_on
-from training.examples import make_lesson
+from training.examples import make_lesson, places
 from training.judge import LEAST_RISE, PATH
 from training.judged import Buffer
 from training.labels import (
-    Labelled, Origin, Pair, draw_origin, label, main, read, write, Actor, NONE,
+    Labelled, Origin, Pair, draw_origin, label, label_by_trials, main, read, write, Actor, NONE,
 )
 from training.rollout import Simulation, make_batch
 
@@ -89,8 +91,58 @@ def test_lesson_sees_what_the_plan_saw(labelled: Labelled) -> None:
     assert len(found) == int((lesson.weight[0] > 0).sum())
 
 
-def test_plans_are_read_as_they_were_written(labelled: Labelled, tmp_path: Path) -> None:
-    bare = Labelled(Origin("soft", 7, 8), labelled.actions[:3], labelled.fine[:3], [])
+def test_choices_cost_what_they_come_to(actor: Actor) -> None:
+    setting, judged = Setting.of(ORIGIN.problem()), 0
+    for trial in label_by_trials(actor, ORIGIN).trials:
+        before = label_by_trials(actor, ORIGIN).actions[:trial.step]
+        for code, cost in zip(trial.codes.tolist(), trial.costs.tolist(), strict=True):
+            if code != NONE and not np.isnan(cost) and code % NUM_KINDS != OPEN:
+                longer = completed(setting, np.append(before, code))
+                assert cost == pytest.approx(longer, rel=0.01)
+                judged += 1
+    assert judged > 2 * len(label_by_trials(actor, ORIGIN).trials) > 10
+
+
+@pytest.mark.parametrize("variant", ["hetero", "drone"])
+def test_types_to_open_and_flights_are_tried_too(actor: Actor, variant: str) -> None:
+    trials = [trial for seed in range(4)
+              for trial in label_by_trials(actor, Origin(variant, 12, seed)).trials]
+    known = np.concatenate([trial.codes[~np.isnan(trial.costs)] for trial in trials])
+    assert np.sum(known % NUM_KINDS == (OPEN if variant == "hetero" else LAUNCH)) > 5
+    assert all(np.nanmin(trial.costs) > 0 for trial in trials)
+
+
+def test_lesson_has_what_was_tried(actor: Actor) -> None:
+    plan = label_by_trials(actor, ORIGIN)
+    lesson = make_lesson([plan], np.random.default_rng(0), symmetric=False)
+    assert lesson is not None
+    assert not lesson.calm.any()
+    assert not lesson.shown.any()
+    found = sorted(tuple(sorted(rise[~rise.isnan()].tolist())) for rise in lesson.rise[0])
+    costs = [trial.costs[~np.isnan(trial.costs)] for trial in plan.trials]
+    told = sorted(tuple(sorted((cost / cost.min() - 1).tolist())) for cost in costs)
+    assert len(found) == len(told)
+    for one, other in zip(found, told, strict=True):
+        assert one == pytest.approx(other, abs=1e-6)
+
+
+@pytest.mark.parametrize("variant", ["mixed", "drone", "multitrip"])
+def test_places_are_where_vehicles_decide(actor: Actor, variant: str) -> None:
+    batch = make_batch([Origin(variant, 12, 5).problem()], [variant])
+    actions = actor.plan(batch, 1.0, np.random.default_rng(2))
+    simulation = Simulation(batch, range(1), 1, 1)
+    choice, here = np.zeros(1, np.int64), []
+    for code in actions.tolist():
+        count = simulation.step(choice)
+        choice[0] = simulation.seen.action[0, :count].tolist().index(code)
+        here.append(int(simulation.seen.here[0]))
+    simulation.close()
+    assert here == places(batch.instance, 0, actions)[:-1].tolist()
+
+
+def test_plans_are_read_as_they_were_written(actor: Actor, labelled: Labelled,
+                                             tmp_path: Path) -> None:
+    bare = replace(label_by_trials(actor, ORIGIN), origin=Origin("soft", 7, 8))
     write(tmp_path / "a.npz", [labelled, bare, labelled])
     plans = read(tmp_path / "a.npz")
     assert [plan.origin for plan in plans] == [ORIGIN, bare.origin, ORIGIN]
@@ -99,10 +151,14 @@ def test_plans_are_read_as_they_were_written(labelled: Labelled, tmp_path: Path)
         assert np.array_equal(plan.fine, other.fine)
         assert np.array_equal(plan.cuts, other.cuts)
         assert np.array_equal(plan.worth, other.worth)
-        for mine, theirs in zip(plan.pairs, other.pairs, strict=True):
+        for mine, theirs in zip(plan.trials, other.trials, strict=True):
             assert mine.step == theirs.step
-            assert np.array_equal(mine.path, theirs.path)
-            assert mine.rise == pytest.approx(theirs.rise)
+            assert np.array_equal(mine.codes, theirs.codes)
+            assert np.array_equal(mine.costs, theirs.costs, equal_nan=True)
+        for one, its in zip(plan.pairs, other.pairs, strict=True):
+            assert one.step == its.step
+            assert np.array_equal(one.path, its.path)
+            assert one.rise == pytest.approx(its.rise)
 
 
 def test_worth_of_beginnings_ends_at_what_the_plan_costs(labelled: Labelled) -> None:
