@@ -153,6 +153,22 @@ class AttentionPolicy(nn.Module):
         Products run over all tokens, of which the candidates' are picked: that is cheaper than to
         gather keys and values for each candidate.
         """
+        query, slots, action, pointer = self._ask(memory, here, candidate, feature, allowed, glob)
+        dot = (query @ pointer.transpose(-1, -2)).gather(-1, candidate)
+        asked = slots.of_decision(self.action_query(query))
+        extra = slots.fill(self.action_score(torch.relu(self.action_mix(action) + asked)))[..., 0]
+        score = dot / math.sqrt(self.config.width) + extra
+        logits = self.config.clip * torch.tanh(score / self.config.clip * 2)
+        return logits.masked_fill(~allowed, MASKED)
+
+    def situation(self, memory: Tensor, here: Tensor, candidate: Tensor, feature: Tensor,
+                  allowed: Tensor, glob: Tensor) -> Tensor:
+        """Return what the policy makes of the present state, (*problem, decision, width)."""
+        return self._ask(memory, here, candidate, feature, allowed, glob)[0]
+
+    def _ask(self, memory: Tensor, here: Tensor, candidate: Tensor, feature: Tensor,
+             allowed: Tensor, glob: Tensor) -> tuple[Tensor, _Slots, Tensor, Tensor]:
+        """Return the query of each decision, and what it is compared with."""
         width, share_width = self.config.width, self.config.action_width
         place, key, value, pointer, share = memory.split([width] * 4 + [share_width], dim=-1)
         query = take(place, here) + self.globe(glob)
@@ -160,12 +176,7 @@ class AttentionPolicy(nn.Module):
         action = torch.relu(slots.of_token(share) + self.action(slots.pick(feature)))
         glimpsed = self._glimpse(query, key, value, candidate,
                                  slots.fill(self.glimpse_bias(action)), allowed)
-        query = query + self.glimpse_output(glimpsed)
-        dot = (query @ pointer.transpose(-1, -2)).gather(-1, candidate) / math.sqrt(width)
-        asked = slots.of_decision(self.action_query(query))
-        extra = slots.fill(self.action_score(torch.relu(self.action_mix(action) + asked)))[..., 0]
-        logits = self.config.clip * torch.tanh((dot + extra) / self.config.clip * 2)
-        return logits.masked_fill(~allowed, MASKED)
+        return query + self.glimpse_output(glimpsed), slots, action, pointer
 
     def decision_weights(self) -> dict[str, Tensor]:
         """Return what `score` multiplies with, as `rollouts.StepWeights` names and lays it."""
