@@ -138,10 +138,10 @@ def bands(value: Value, policy: AttentionPolicy,
                 off.append(errors(value, states).expm1().abs().numpy())
             left.append(states.glob[..., 0][chosen].numpy())
     error, share = np.concatenate(off), np.concatenate(left)
-    for low, high in ((0.0, 0.25), (0.25, 0.5), (0.5, 0.75), (0.75, 0.999), (0.999, 1.1)):
-        own = error[(share >= low) & (share < high)]
+    for low, high in ((0.0, 0.25), (0.25, 0.5), (0.5, 0.75), (0.75, 1.0)):
+        own = error[(share > low) & (share <= high)]
         if len(own):
-            yield f"{low:.0%} to {min(high, 1):.0%}", len(own), float(own.mean()), float(
+            yield f"{low:.0%} to {high:.0%}", len(own), float(own.mean()), float(
                 np.median(own))
     yield "all", len(error), float(error.mean()), float(np.median(error))
 
