@@ -188,7 +188,8 @@ def _rises(trial: Trial | None, legal: Sequence[int]) -> tuple[IntArray, FloatAr
     if not known.any():
         return unknown
     costs = np.where(known, trial.costs, np.inf)
-    tried = [legal.index(code) if code in legal else 0 for code in trial.codes.tolist()]
+    first = legal.index(int(trial.codes[known.argmax()]))  # in place of what isn't legal
+    tried = [legal.index(code) if code in legal else first for code in trial.codes.tolist()]
     return np.array(tried), np.where(known, costs / costs.min() - 1, np.nan)
 
 

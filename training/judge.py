@@ -163,8 +163,8 @@ class Judge:
         steps
             Numbers of actions, descending.
         choices
-            Codes that are legal there. Which type to open next is not known to cost anything where
-            the search would open one later; elsewhere that is told as nan.
+            Codes that are legal there. To open a type costs nothing more if the search opens one
+            at any time, since vehicles may come in any order; else its cost is told as nan.
         """
         later = len(self._actions)
         for step, codes in zip(steps, choices, strict=True):

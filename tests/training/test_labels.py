@@ -122,6 +122,7 @@ def test_lesson_has_what_was_tried(actor: Actor) -> None:
     costs = [trial.costs[~np.isnan(trial.costs)] for trial in plan.trials]
     told = sorted(tuple(sorted((cost / cost.min() - 1).tolist())) for cost in costs)
     assert len(found) == len(told)
+    assert lesson.inputs[3].gather(2, lesson.tried).all()
     for one, other in zip(found, told, strict=True):
         assert one == pytest.approx(other, abs=1e-6)
 
