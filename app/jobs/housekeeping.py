@@ -102,6 +102,19 @@ class Housekeeper:
                 self._rescue(job_id, row)
         self._sightings = sightings
 
+    def hand_on(self, name: str) -> None:
+        """Give to others what a process of a name still holds, which takes no more. In place.
+
+        What it put back it may have taken again itself before.
+        """
+        try:
+            taken = self._queues.taken(name)
+            rows = {row.id: row for row in self._store.find_all(taken)}
+            for job_id in taken:
+                self._rescue(job_id, rows.get(job_id))
+        except DBAPIError as error:
+            logger.warning("jobs wait until %s is held to be dead: %s", name, type(error).__name__)
+
     def expire(self) -> None:
         """Delete what expired, and what the queues remember of old jobs. In place."""
         for expire in self._also_expire:

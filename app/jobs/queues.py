@@ -79,11 +79,11 @@ class Queues:
         """Take jobs out of their queues. In place."""
         self.client.cancel_workflows(list(ids))
 
-    def taken(self) -> list[str]:
-        """Return the jobs that some process took."""
+    def taken(self, by: str | None = None) -> list[str]:
+        """Return the jobs that some process took, or the one of a name."""
         found = self.client.list_workflows(
             status="PENDING", name=[PLAN_WORKFLOW, STUDY_WORKFLOW], load_input=False,
-            load_output=False, application_name=APPLICATION)
+            load_output=False, application_name=APPLICATION, executor_id=by)
         return [workflow.workflow_id for workflow in found]
 
     def alive(self, ids: Collection[str]) -> set[str]:

@@ -118,6 +118,7 @@ class Worker:
             # Of its own, as it has to make no more of them when it has stopped.
             engine = connect(self._settings)
             held.callback(_end, engine)
+            held.callback(self._housekeeper.hand_on, identity.name)
             held.callback(DBOS.destroy, destroy_registry=True)
             self._launch(engine, identity)
             self._held = held.pop_all()

@@ -62,6 +62,21 @@ def office(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Office]:
     engine.dispose()
 
 
+def test_what_an_ending_process_still_holds_goes_to_others_at_once(office: Office) -> None:
+    ours, theirs = office.job(), office.job()
+    office.begin(ours)
+    office.store.release(ours, office.row(ours).attempt)
+    office.begin(theirs)
+    with office.queues.engine.begin() as connection:
+        connection.exec_driver_sql("UPDATE workflow_status SET executor_id = 'other' "
+                                   f"WHERE workflow_uuid = '{theirs}'")
+    office.housekeeper().hand_on("gone")
+    assert office.queues.taken() == [theirs]
+    assert office.queues.alive([ours, theirs]) == {ours, theirs}
+    assert office.row(ours).state == "queued"
+    assert office.row(theirs).state == "running"
+
+
 def test_job_without_sign_of_life_is_given_to_others(office: Office) -> None:
     job = office.job()
     taken = office.begin(job)
