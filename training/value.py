@@ -28,7 +28,7 @@ from training.labels import Labelled, read_policy
 from training.rollout import make_batch
 
 HIDDEN = 128
-"""Width of the head's one hidden layer."""
+"""Width of the head's two hidden layers."""
 
 STATES = 6
 """Of one plan in a step."""
@@ -76,7 +76,7 @@ class States:
     glob: Tensor
     spent: Tensor
     worth: Tensor  # (plan, decision)
-    is_state: Tensor  # (plan, decision) False = padding
+    is_state: Tensor  # (plan, decision) False = padding, or worth nothing
 
 
 def look(policy: AttentionPolicy, plans: Sequence[Labelled],
@@ -113,14 +113,14 @@ def look(policy: AttentionPolicy, plans: Sequence[Labelled],
         width = policy.config.width
         mask = torch.from_numpy(batch.tokens.mask)[..., None].float()
         places = (memory[..., :width] * mask).sum(dim=1) / mask.sum(dim=1)
-    return States(situation, places, glob, numbers[0][at], numbers[1][at], lesson.calm)
+    known = numbers[1][at]
+    return States(situation, places, glob, numbers[0][at], known, lesson.calm & (known > 0))
 
 
 def errors(value: Value, states: States) -> Tensor:
     """Return the logarithms of what the head says by what is true, (state,)."""
     told = value(states.situation, states.mean, states.glob, states.spent)
-    chosen = states.is_state & (states.worth > 0)
-    return (told[chosen].clamp_min(1e-6) / states.worth[chosen]).log()
+    return (told[states.is_state].clamp_min(1e-6) / states.worth[states.is_state]).log()
 
 
 def bands(value: Value, policy: AttentionPolicy,
@@ -133,10 +133,9 @@ def bands(value: Value, policy: AttentionPolicy,
     for first in range(0, len(ordered), PLANS):
         states = look(policy, ordered[first:first + PLANS], rng)
         if states is not None:
-            chosen = states.is_state & (states.worth > 0)
             with torch.no_grad():
                 off.append(errors(value, states).expm1().abs().numpy())
-            left.append(states.glob[..., 0][chosen].numpy())
+            left.append(states.glob[..., 0][states.is_state].numpy())
     error, share = np.concatenate(off), np.concatenate(left)
     for low, high in ((0.0, 0.25), (0.25, 0.5), (0.5, 0.75), (0.75, 1.0)):
         own = error[(share > low) & (share <= high)]

@@ -87,11 +87,8 @@ class Housekeeper:
             The time on `time.monotonic`.
         """
         self._also_forget(now)
-        taken = self._queues.taken()
-        rows = {row.id: row for row in self._store.find_all(taken)}
         sightings = {}
-        for job_id in taken:
-            row = rows.get(job_id)
+        for job_id, row in self._taken().items():
             mark = None if row is None else (row.attempt, row.revision)
             seen = self._sightings.get(job_id)
             if seen is None or seen.mark != mark:
@@ -108,10 +105,8 @@ class Housekeeper:
         What it put back it may have taken again itself before.
         """
         try:
-            taken = self._queues.taken(name)
-            rows = {row.id: row for row in self._store.find_all(taken)}
-            for job_id in taken:
-                self._rescue(job_id, rows.get(job_id))
+            for job_id, row in self._taken(name).items():
+                self._rescue(job_id, row)
         except DBAPIError as error:
             logger.warning("jobs wait until %s is held to be dead: %s", name, type(error).__name__)
 
@@ -132,6 +127,12 @@ class Housekeeper:
             for job_id in set(batch) - self._queues.alive(batch):
                 if self._store.finish(job_id, None, "failed", error=LOST):
                     logger.error("job %s was lost by its queue", job_id)
+
+    def _taken(self, by: str | None = None) -> dict[str, JobRow | None]:
+        """Return the rows of jobs that some process took, or the one of a name; None: deleted."""
+        taken = self._queues.taken(by)
+        rows = {row.id: row for row in self._store.find_all(taken)}
+        return {job_id: rows.get(job_id) for job_id in taken}
 
     def _rescue(self, job_id: str, row: JobRow | None) -> None:
         """Have a job begun again by any process. In place."""

@@ -92,15 +92,15 @@ def test_lesson_sees_what_the_plan_saw(labelled: Labelled) -> None:
 
 
 def test_choices_cost_what_they_come_to(actor: Actor) -> None:
-    setting, judged = Setting.of(ORIGIN.problem()), 0
-    for trial in label_by_trials(actor, ORIGIN).trials:
-        before = label_by_trials(actor, ORIGIN).actions[:trial.step]
+    setting, judged, plan = Setting.of(ORIGIN.problem()), 0, label_by_trials(actor, ORIGIN)
+    for trial in plan.trials:
+        before = plan.actions[:trial.step]
         for code, cost in zip(trial.codes.tolist(), trial.costs.tolist(), strict=True):
             if code != NONE and not np.isnan(cost) and code % NUM_KINDS != OPEN:
                 longer = completed(setting, np.append(before, code))
                 assert cost == pytest.approx(longer, rel=0.01)
                 judged += 1
-    assert judged > 2 * len(label_by_trials(actor, ORIGIN).trials) > 10
+    assert judged > 2 * len(plan.trials) > 10
 
 
 @pytest.mark.parametrize("variant", ["hetero", "drone"])
