@@ -231,6 +231,7 @@ def test_a_wrong_setting_stops_the_start_and_says_what_to_write(roads: str, word
     assert "sesame" not in str(raised.value)
 
 
+@pytest.mark.usefixtures("osrm_on_path")
 def test_the_command_line_names_what_is_wrong_with_the_setting(tmp_path: Path) -> None:
     (tmp_path / "problem.json").write_text(json.dumps(helsinki_request(1)))
     done = CliRunner().invoke(cli, ["check", str(tmp_path / "problem.json"),
