@@ -109,7 +109,8 @@ def plans(problem: Problem, policy: Policy, way: Way, turns: int | None = None) 
     first = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     if way.start == "policy":
         scene = prepare(policy, problem, instance)
-        first = extract(problem, instance, decode(policy, scene, DecodeConfig()).actions)
+        decoded = decode(policy, scene, DecodeConfig(most_views=1))
+        first = extract(problem, instance, decoded.actions)
     improved = improve(problem, instance, first, search_config(way, turns),
                        deadline).solution
     return [first, improved] if way.start == "policy" else [improved]

@@ -25,7 +25,7 @@ def config(instance: Published, seconds: float, seed: int, policy: str) -> Decod
     """Return how many plans to draw in about `seconds`; a single one is the greedy plan."""
     greedy = decoding_seconds(instance.num_customers, None)
     samples = int(SAMPLES_FOR_GREEDY[policy] * (seconds / greedy - 1))
-    return DecodeConfig("sample", samples, seed=seed) if samples > 1 else DecodeConfig()
+    return DecodeConfig("sample", samples, seed=seed) if samples > 1 else DecodeConfig(most_views=1)
 
 
 def solve(instance: Published, seconds: float, seed: int, policy: str) -> PeerAnswer:

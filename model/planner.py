@@ -198,7 +198,7 @@ class Planner:
         whole = True  # no clock cut the policy short
         if by_policy:
             give_up = _give_up(began, deadline, searches)
-            start = self._decode(problem, instance, options, give_up, listener)
+            start = self._decode(problem, instance, options, give_up, listener, searches)
             decoded = time.perf_counter()
             whole = decoded < give_up
             by_policy = start is not None
@@ -223,11 +223,14 @@ class Planner:
         return _result(last, how, begun, options, improved, whole, elapsed)
 
     def _decode(self, problem: Problem, instance: Instance, options: PlanOptions,
-                give_up: float, listener: Listener) -> Solution | None:
+                give_up: float, listener: Listener, searches: bool) -> Solution | None:
         """Return the policy's plan; None if there is none by the time to give up."""
         policy = self._policies[options.policy]
         config = DecodeConfig(options.decoding, options.num_samples, options.temperature,
                               options.seed)
+        if searches:
+            # In the time for more views a search comes further.
+            config = replace(config, most_views=1)
         with Alarm(give_up, listener.should_stop) as alarm:
             if alarm.has_rung:
                 return None

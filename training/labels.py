@@ -138,8 +138,9 @@ class Actor:
     def plan(self, batch: Batch, temperature: float, rng: np.random.Generator) -> IntArray:
         """Return the actions of a plan, greedy at temperature 0."""
         self._encoded = batch, self.memory(batch)
-        return roll_out(self._weights, self._encoded[1], batch.instance, batch.scale,
-                        batch.tokens.type, [temperature], rng).actions
+        plan, = roll_out(self._weights, self._encoded[1], batch.instance, batch.scale,
+                         batch.tokens.type, [temperature], rng)
+        return plan.actions
 
     def scores(self, batch: Batch, seen: Observation, r: int) -> Float32Array:
         """Return the scores of what a rollout of the only problem of a batch sees."""

@@ -4,8 +4,10 @@ import json
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import cache
+from itertools import chain
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 import onnxruntime as ort
@@ -16,8 +18,9 @@ from model.kernel.cores import num_cores
 from model.kernel.instance import Instance
 from model.policy.features import step
 from model.policy.observation import Observation, empty_observation
+from model.policy.route_pool import RoutePool
 from model.policy.rollouts import (
-    NOTHING, STEP_WEIGHTS, Rollout, StepWeights, read_weights, roll_out,
+    NOTHING, STEP_WEIGHTS, Rollout, StepWeights, cost_of, read_weights, roll_out,
 )
 from model.policy.tokens import Float32Array, Scales, Tokens, scales, tokens
 from model.problem import BoolArray, IntArray, Problem
@@ -30,16 +33,23 @@ ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.Inva
 NO_ACTION = -1
 
 BLOCK = 16
-"""Samples planned side by side, in one thread, so that memory is bounded."""
+"""Samples of a policy whose step isn't compiled that are planned side by side, in one thread, so
+that memory is bounded. They don't go on from one another: all blocks are planned on all cores."""
+
+LINE = 8
+"""Samples of a policy whose step is compiled that are planned one after another, in one thread, and
+go on from the best so far."""
 
 LANES = 2
-"""Blocks of samples planned at the same time, each with its own random numbers. The next go on from
-the best of all, so that more at a time would be sooner and worse. A policy whose step isn't
-compiled, whose samples don't go on from one another, plans them all on all cores."""
+"""Lines of samples at the same time, each with its own random numbers. The next go on from the best
+by routes of all, so that more at a time, or longer ones, would be sooner and worse."""
 
 SYMMETRIES = tuple((swapped, x, y) for swapped in (False, True) for x in (1, -1) for y in (1, -1))
-"""Ways to lay the same plane before the policy: axes swapped or not, and their signs. Blocks of
-samples take turns at them, since a policy errs differently on each."""
+"""Ways to lay the same plane before the policy: axes swapped or not, and their signs. There is a
+greedy plan for each, and blocks of samples take turns, since a policy errs differently on each."""
+
+VIEWED_CUSTOMERS = 800
+"""Customers in all views of a greedy plan, so that fewer are planned where one takes longer."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +60,7 @@ class DecodeConfig:
     num_samples: int = 64
     temperature: float = 1.0
     seed: int = 0
+    most_views: int = len(SYMMETRIES)  # from which to plan greedily, if nothing is sampled
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +130,7 @@ def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
 
 def decode(policy: Policy, scene: Scene, config: DecodeConfig,
            deadline: float | None = None, stop: IntArray | None = None) -> Rollout:
-    """Plan by the policy; return the cheapest of the rollouts.
+    """Plan by the policy; return the cheapest plan by routes of all rollouts.
 
     Parameters
     ----------
@@ -128,47 +139,80 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
     scene
         The problem, prepared by the same policy.
     config
-        Greedy or sampled; the same seed gives the same plan.
+        Greedy or sampled; the same seed gives the same plan. Where several samples are asked for,
+        greedy plans are among them.
     deadline
         On `time.perf_counter`; no block of samples begins later, but the first. None: no limit.
     stop
         Flag of an alarm at which rollouts are given up; `NOTHING` is returned if all are.
     """
-    flag = silent() if stop is None else stop
-    if config.decoding == "greedy":
-        return _decode_block(policy, scene, [0.0], np.random.default_rng(config.seed), NOTHING,
-                             flag)
     if config.num_samples < 1 or config.temperature <= 0:
         raise ValueError(f"num_samples, temperature: {config.num_samples!r}, "
                          f"{config.temperature!r} are not allowed")
-    firsts = range(0, config.num_samples, BLOCK)
-    seeds = np.random.SeedSequence(config.seed).spawn(len(firsts))
+    flag = silent() if stop is None else stop
+    rounds = _rounds(policy, scene, config)
+    blocks = sum(map(len, rounds))
+    seeds = iter(np.random.SeedSequence(config.seed).spawn(blocks + len(rounds)))
+    routes, found = RoutePool(scene.instance), NOTHING
 
-    lanes = len(firsts) if policy.step_weights is None else LANES
-    found = NOTHING
-
-    def plan_block(first: int, seed: np.random.SeedSequence) -> Rollout:
-        if flag[0] or (first > 0 and deadline is not None and time.perf_counter() >= deadline):
-            return found
-        symmetry = first // BLOCK % len(SYMMETRIES)
-        seen = scene if symmetry == 0 else replace(
+    @cache
+    def seen_from(symmetry: int) -> Scene:
+        return scene if symmetry == 0 else replace(
             scene, memory=encode(policy, scene.tokens, symmetry))
-        temperatures = [config.temperature] * min(BLOCK, config.num_samples - first)
-        if config.num_samples > 1:
-            temperatures[0] = 0.0
-        return _decode_block(policy, seen, temperatures, np.random.default_rng(seed), found, flag)
 
-    with ThreadPoolExecutor(min(lanes, len(firsts), num_cores())) as pool:
-        for begin in range(0, len(firsts), lanes):
-            now = slice(begin, begin + lanes)
-            found = min(pool.map(plan_block, firsts[now], seeds[now]),
-                        key=lambda rollout: rollout.cost)
+    def plan(block: _Block, seed: np.random.SeedSequence) -> list[Rollout]:
+        is_late = deadline is not None and time.perf_counter() >= deadline
+        if flag[0] or (is_late and not block.is_first):
+            return []
+        return _decode_block(policy, seen_from(block.symmetry), block.temperatures,
+                             np.random.default_rng(seed), found, flag)
+
+    with ThreadPoolExecutor(min(max(map(len, rounds)), num_cores())) as pool:
+        for now in rounds:
+            # All of them, before what they go on from changes.
+            planned = list(pool.map(plan, now, [next(seeds) for _ in now]))
+            for rollout in chain.from_iterable(planned):
+                routes.add(rollout.actions)
+                found = min(found, rollout, key=cost_of)
+            if blocks > 1:
+                found = routes.improved(found, np.random.default_rng(next(seeds)), flag)
     return found
 
 
+class _Block(NamedTuple):
+    """Rollouts in one thread."""
+
+    symmetry: int  # one of SYMMETRIES
+    temperatures: list[float]
+    is_first: bool = False
+
+
+def _rounds(policy: Policy, scene: Scene, config: DecodeConfig) -> list[list[_Block]]:
+    """Return the blocks that are planned at the same time, those of each round."""
+    views = VIEWED_CUSTOMERS // max(1, int(scene.instance.size[0].customers))
+    views = min(max(views, 1), len(SYMMETRIES))
+    if config.decoding == "greedy":
+        return [_greedy(min(views, config.most_views))]
+    if config.num_samples == 1:
+        return [[_Block(0, [config.temperature], is_first=True)]]
+    samples = max(config.num_samples - views, 1)
+    is_compiled = policy.step_weights is not None
+    size = LINE if is_compiled else BLOCK
+    drawn = [_Block(index % len(SYMMETRIES), [config.temperature] * min(size, samples - first))
+             for index, first in enumerate(range(0, samples, size))]
+    lanes = LANES if is_compiled else len(drawn)
+    return [_greedy(views), *(drawn[first:first + lanes] for first in range(0, len(drawn), lanes))]
+
+
+def _greedy(views: int) -> list[_Block]:
+    """Return greedy plans from so many views."""
+    return [_Block(symmetry, [0.0], symmetry == 0) for symmetry in range(views)]
+
+
 def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
-                  rng: np.random.Generator, so_far: Rollout, stop: IntArray) -> Rollout:
-    """Plan a rollout by each temperature; return the cheapest of them and that so far.
+                  rng: np.random.Generator, so_far: Rollout,
+                  stop: IntArray) -> list[Rollout]:
+    """Plan a rollout by each temperature.
 
     Those of a policy whose step is compiled go on from the best so far. An alarm ends them.
     """
@@ -184,7 +228,7 @@ def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
     actions = []
     for _ in range(max_steps(instance)):
         if stop[0]:
-            return so_far
+            return []
         most = step(instance, scene.scale, state, scene.tokens.type, 0, rows, rows, choice, seen)
         if most == 0:
             break
@@ -194,11 +238,9 @@ def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
         disturbed(logits, np.where(warmth > 0.0, warmth, 1.0), noise).argmax(axis=1, out=choice)
         actions.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
     cost = by_term(state.cost[:rows]).sum(axis=1)
-    best = int(cost.argmin())
-    if cost[best] >= so_far.cost:
-        return so_far
-    of_best = np.array([step_actions[best] for step_actions in actions])
-    return Rollout(of_best[of_best != NO_ACTION], float(cost[best]))
+    by_rollout = np.array(actions).reshape(-1, rows).T
+    return [Rollout(taken[taken != NO_ACTION], float(cost[r]))
+            for r, taken in enumerate(by_rollout)]
 
 
 def disturbed(logits: Float32Array, temperature: Float32Array,

@@ -10,7 +10,7 @@ from model.kernel.instance import Instance
 from model.problem import IntArray
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN
 
-LEAST_ANEW, MOST_ANEW = 0.15, 0.7
+LEAST_ANEW, MOST_ANEW = 0.15, 0.9
 """Bounds of the share of its customers that are planned anew, whose logarithm is uniform."""
 
 
@@ -31,14 +31,10 @@ def part_to_keep(instance: Instance, actions: IntArray, rng: np.random.Generator
     -------
     Codes of the actions kept, those of whole vehicles first.
     """
-    kind, node = actions % NUM_KINDS, actions // NUM_KINDS
-    vehicle = np.cumsum(kind == OPEN) - 1
-    services = np.flatnonzero((kind == DRIVE) | (kind == LAUNCH))
-    if len(services) == 0:
+    vehicle, services = _vehicles(actions), _services(actions)
+    nearest_first = vehicles_nearby(instance, actions, rng)
+    if len(nearest_first) == 0:
         return actions[:0]
-    drive = instance.duration[0, 0, node[rng.choice(services)], node[services]]
-    _, first = np.unique(vehicle[services[np.argsort(drive, kind="stable")]], return_index=True)
-    nearest_first = np.argsort(first, kind="stable")
     anew = np.cumsum(np.bincount(vehicle[services])[nearest_first])
     wanted = LEAST_ANEW * (MOST_ANEW / LEAST_ANEW) ** rng.random() * len(services)
     last = int(np.searchsorted(anew, wanted))
@@ -46,3 +42,35 @@ def part_to_keep(instance: Instance, actions: IntArray, rng: np.random.Generator
     of_last = actions[vehicle == nearest_first[last]]
     share = (anew[last] - wanted) / (anew[last] - (anew[last - 1] if last > 0 else 0))
     return np.concatenate([actions[whole], of_last[: int(len(of_last) * share)]])
+
+
+def vehicles_nearby(instance: Instance, actions: IntArray, rng: np.random.Generator) -> IntArray:
+    """Return the vehicles of a plan, those first that serve who is nearest to a customer drawn.
+
+    Parameters
+    ----------
+    instance
+        The problem, packed alone.
+    actions
+        Codes of all actions of the plan, from the first on.
+    rng
+        Draws the customer.
+    """
+    vehicle, services = _vehicles(actions), _services(actions)
+    if len(services) == 0:
+        return services
+    node = actions // NUM_KINDS
+    drive = instance.duration[0, 0, node[rng.choice(services)], node[services]]
+    _, first = np.unique(vehicle[services[np.argsort(drive, kind="stable")]], return_index=True)
+    return np.argsort(first, kind="stable")
+
+
+def _vehicles(actions: IntArray) -> IntArray:
+    """Return (action,) the number of the vehicle that acts, counted from 0 on."""
+    return np.cumsum(actions % NUM_KINDS == OPEN) - 1
+
+
+def _services(actions: IntArray) -> IntArray:
+    """Return which actions serve a customer."""
+    kind = actions % NUM_KINDS
+    return np.flatnonzero((kind == DRIVE) | (kind == LAUNCH))

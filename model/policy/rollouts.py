@@ -89,10 +89,9 @@ NOTHING = Rollout(np.zeros(0, np.int64), math.inf)
 GIVEN_UP = -1
 """Number of actions of a rollout that was not ended."""
 
-FROM_SCRATCH = 8
-"""Rollouts that plan all before others keep a part of the best."""
-HOTTER = 1.3
-"""Times the temperature of those that do: what is likely is in the best already."""
+HOTTER = 2.0
+"""Times the temperature of rollouts that keep a part: what is likely is in the best already, and a
+good route is of use in whatever plan it was drawn."""
 
 
 class Desk(NamedTuple):
@@ -337,8 +336,8 @@ def candidate_scores(weights: StepWeights, memory: Float32Array, seen: Observati
 
 def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, scale: Scales,
              type_token: Float32Array, temperatures: Sequence[float], rng: np.random.Generator,
-             so_far: Rollout = NOTHING, stop: IntArray | None = None) -> Rollout:
-    """Plan a problem several times; return the cheapest plan.
+             so_far: Rollout = NOTHING, stop: IntArray | None = None) -> list[Rollout]:
+    """Plan a problem several times; return the plans.
 
     Parameters
     ----------
@@ -349,12 +348,11 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
     instance, scale, type_token
         The problem, packed alone, and what `model.policy.tokens` says of it.
     temperatures
-        Of each rollout that plans all; 0 for the likeliest action at each step.
+        Of each rollout if it plans all; 0 for the likeliest action at each step.
     rng
         For all others.
     so_far
-        What was found before. Where nothing was, the first `FROM_SCRATCH` rollouts plan all; every
-        other keeps a part of the cheapest so far.
+        What was found before. Rollouts that draw keep a part of the cheapest so far.
     stop
         Flag of an alarm at which the rest is given up.
     """
@@ -363,10 +361,10 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
     state = reset(instance, np.zeros(rows, np.int64))
     seen = empty_observation(rows, instance.node.shape[2], instance.type.shape[1])
     actions = np.empty(max_steps(instance), np.int64)
-    scratch = FROM_SCRATCH if so_far is NOTHING else 0
+    plans = []
     for r, temperature in enumerate(temperatures):
         kept = NOTHING.actions
-        if r >= scratch and temperature > 0:
+        if so_far is not NOTHING and temperature > 0:
             kept = part_to_keep(instance, so_far.actions, rng)
             temperature *= HOTTER
         actions[: len(kept)] = kept
@@ -375,6 +373,11 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
         if count == GIVEN_UP:
             break
         cost = float(by_term(state.cost[r : r + 1]).sum())
-        if cost < so_far.cost:
-            so_far = Rollout(actions[:count].copy(), cost)
-    return so_far
+        plans.append(Rollout(actions[:count].copy(), cost))
+        so_far = min(so_far, plans[-1], key=cost_of)
+    return plans
+
+
+def cost_of(rollout: Rollout) -> float:
+    """Return what a plan costs, to compare plans by."""
+    return rollout.cost

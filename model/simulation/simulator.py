@@ -21,7 +21,7 @@ from model.kernel.records import Record, Records
 from model.kernel.shift import allows_sorties, allows_stops
 from model.kernel.start import counted_from, has_begun, leaves_first
 from model.kernel.stop import end_of_service, start_of_service, too_late
-from model.problem import IntArray
+from model.problem import FloatArray, IntArray
 from model.simulation.aboard import given_by_flight, holds_all, may_carry, may_launch
 from model.simulation.meeting import (
     NO_VEHICLE, leave_for, next_drone, order_is_open, soonest_takeoff,
@@ -286,6 +286,24 @@ def apply_route(instance: Instance, state: State, r: int, actions: IntArray, fir
         apply(instance, state, r, actions[index])
         index += 1
     return index
+
+
+@compiled
+def price_routes(instance: Instance, state: State, r: int, actions: IntArray, cost: FloatArray,
+                 price: FloatArray) -> None:
+    """Write what each vehicle costs, (vehicle, term), as if there were no other. In place.
+
+    `actions` are legal ones of some plan; `cost` is the state's, as a table of numbers.
+    """
+    vehicle = done = 0
+    while done < len(actions):
+        cost[r] = 0.0
+        state.used[r] = 0
+        done = apply_route(instance, state, r, actions, done)
+        close_vehicle(instance, state, r)
+        clear_vehicle(state.vehicle[r])
+        price[vehicle] = cost[r]
+        vehicle += 1
 
 
 @compiled

@@ -66,7 +66,19 @@ def test_more_samples_are_never_worse(policy: Policy, problem: Problem) -> None:
 
 def test_cold_samples_follow_the_greedy_plan(policy: Policy, problem: Problem) -> None:
     assert (plan(policy, problem, DecodeConfig("sample", 1, temperature=1e-4))
-            == plan(policy, problem, DecodeConfig()))
+            == plan(policy, problem, DecodeConfig(most_views=1)))
+
+
+def test_views_and_routes_of_all_samples_make_plans_cheaper(policy: Policy) -> None:
+    costs = np.zeros((6, 3))
+    for number, row in enumerate(costs):
+        problem = generate(np.random.default_rng(number), 30, "vrptw")
+        scene = prepare(policy, problem, pack([problem]))
+        drawn = DecodeConfig("sample", 40)
+        row[:] = [decode(policy, scene, config).cost
+                  for config in (DecodeConfig(most_views=1), DecodeConfig(), drawn)]
+        assert row[0] >= row[1] >= row[2]
+    assert (np.diff(np.log(costs).mean(axis=0)) < -0.005).all()
 
 
 def test_one_block_is_planned_even_past_the_deadline(policy: Policy, problem: Problem) -> None:

@@ -1,0 +1,175 @@
+"""The cheapest plan by routes of all samples, whichever plans they were drawn for.
+
+Vehicles don't meet in the decision process: routes of several samples are a plan if together they
+serve nobody twice and need no more vehicles of a type than there are. Most samples have some good
+routes and some bad ones; the cheapest choice is a problem of set partitioning.
+
+References
+----------
+Balinski and Quandt (1964), on an integer program for a delivery problem, Operations Research 12.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from model.kernel.alarm import silent
+from model.kernel.instance import Instance
+from model.policy.partition import cheapest_partition
+from model.policy.resampling import vehicles_nearby
+from model.policy.rollouts import Rollout
+from model.problem import BoolArray, FloatArray, IntArray
+from model.simulation.cost import by_term
+from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, price_routes, reset
+
+REGION = 100
+"""Customers whose routes are chosen together, at most: the time for more grows fast."""
+
+MOST_ROUTES = 1500
+"""Routes that are kept; of more the older half is forgotten, but for the best plan's."""
+
+LEAST_SAVING = 1e-9
+"""Share of the cost by which a plan has to be cheaper, so that it isn't but otherwise rounded."""
+
+
+class Route(NamedTuple):
+    """What a vehicle does."""
+
+    actions: IntArray  # (action,) codes, from its opening on
+    type: int  # of the vehicle
+    nodes: IntArray  # (customer,) sorted
+    cost: float
+
+
+class RoutePool:
+    """The cheapest route seen for each type of vehicle and set of customers.
+
+    Parameters
+    ----------
+    instance
+        The problem, packed alone.
+    """
+
+    def __init__(self, instance: Instance) -> None:
+        self._instance = instance
+        self._state = reset(instance, np.zeros(1, np.int64))
+        self._routes: dict[tuple[int, bytes], Route] = {}
+        self._by_actions: dict[bytes, tuple[int, bytes]] = {}
+
+    def add(self, actions: IntArray) -> None:
+        """Add the routes of a plan, given the codes of all its actions. In place."""
+        new = [codes for codes in _split(actions) if codes.tobytes() not in self._by_actions]
+        if not new:
+            return
+        terms = by_term(self._state.cost)
+        price = np.zeros((len(new), terms.shape[1]))
+        price_routes(self._instance, self._state, 0, np.concatenate(new), terms, price)
+        for codes, cost in zip(new, price.sum(axis=1).tolist(), strict=True):
+            kind = codes % NUM_KINDS
+            nodes = np.sort(codes[(kind == DRIVE) | (kind == LAUNCH)] // NUM_KINDS)
+            route = Route(codes, int(codes[0] // NUM_KINDS), nodes, cost)
+            key = route.type, nodes.tobytes()
+            self._by_actions[codes.tobytes()] = key
+            if key not in self._routes or cost < self._routes[key].cost:
+                self._routes[key] = route
+
+    def improved(self, best: Rollout, rng: np.random.Generator,
+                 stop: IntArray | None = None) -> Rollout:
+        """Return the cheapest plan that is found by the routes seen, at most as dear as `best`.
+
+        Parameters
+        ----------
+        best
+            A plan whose routes were added.
+        rng
+            Draws the customers near whom routes are chosen anew where there are more than `REGION`.
+        stop
+            Flag of an alarm at which the best so far is returned.
+        """
+        flag = silent() if stop is None else stop
+        self._forget(best)
+        for _ in range(-(-int(self._instance.size[0].customers) // REGION)):
+            if flag[0] or len(best.actions) == 0:
+                break
+            best = self._improved_near(best, rng, flag)
+        return best
+
+    def _forget(self, best: Rollout) -> None:
+        """Forget the older half of the routes, if there are too many. In place."""
+        if len(self._routes) > MOST_ROUTES:
+            newer = list(self._routes.items())[-MOST_ROUTES // 2:]
+            self._routes, self._by_actions = dict(newer), {}
+            self.add(best.actions)
+
+    def _improved_near(self, best: Rollout, rng: np.random.Generator, stop: IntArray) -> Rollout:
+        routes = [self._routes[self._by_actions[codes.tobytes()]]
+                  for codes in _split(best.actions)]
+        anew, customers = np.zeros(len(routes), np.bool_), 0
+        for vehicle in vehicles_nearby(self._instance, best.actions, rng).tolist():
+            customers += len(routes[vehicle].nodes)
+            if customers > REGION and anew.any():
+                break
+            anew[vehicle] = True
+        kept = [route for route, is_anew in zip(routes, anew.tolist(), strict=True) if not is_anew]
+        old = [route for route, is_anew in zip(routes, anew.tolist(), strict=True) if is_anew]
+        chosen = self._cheapest(kept, old, stop)
+        if chosen is None:
+            return best
+        plan = [*kept, *chosen]
+        cost = self._cost(plan, ~_served(self._instance, plan))
+        if cost >= best.cost * (1.0 - LEAST_SAVING):
+            return best
+        return Rollout(np.concatenate([route.actions for route in plan]), cost)
+
+    def _cheapest(self, kept: Sequence[Route], old: Sequence[Route],
+                  stop: IntArray) -> list[Route] | None:
+        """Return the cheapest routes in the place of old ones beside those kept; None if none."""
+        may_serve = ~_served(self._instance, kept)
+        left_out = np.flatnonzero(may_serve & ~_served(self._instance, old))[REGION:]
+        may_serve[left_out] = False
+        routes = [route for route in self._routes.values() if may_serve[route.nodes].all()]
+        nodes = np.flatnonzero(may_serve)
+        row_of = np.searchsorted(nodes, np.arange(len(may_serve)))
+        room = self._instance.type["count"][0] - _by_type(self._instance, kept)
+        columns = [np.append(row_of[route.nodes], len(nodes) + route.type) for route in routes]
+        columns += list(np.arange(len(nodes))[:, None])  # those who leave a customer out
+        price = np.append([route.cost for route in routes], self._penalties(may_serve))
+        known = self._cost(old, may_serve & ~_served(self._instance, old))
+        if known <= 0.0:
+            return None
+        chosen = cheapest_partition(columns, price, np.append(np.full(len(nodes), -1), room),
+                                    known, stop)
+        if chosen is None:
+            return None
+        return [routes[index] for index in np.flatnonzero(chosen[:len(routes)]).tolist()]
+
+    def _cost(self, routes: Sequence[Route], left_out: BoolArray) -> float:
+        return sum(route.cost for route in routes) + float(self._penalties(left_out).sum())
+
+    def _penalties(self, left_out: BoolArray) -> FloatArray:
+        """Return what it costs to leave out each of some customers, given as (node,)."""
+        penalties: FloatArray = (self._instance.unassigned_cost[0]
+                                 + self._instance.unassigned_more[0, left_out])
+        return penalties
+
+
+def _split(actions: IntArray) -> list[IntArray]:
+    """Return the codes of each vehicle."""
+    return np.split(actions, np.flatnonzero(actions % NUM_KINDS == OPEN)[1:])
+
+
+def _served(instance: Instance, routes: Sequence[Route]) -> BoolArray:
+    """Return (node,) whom routes serve; depots, and what isn't there, count as served."""
+    size = instance.size[0]
+    served = np.ones(instance.node.shape[2], np.bool_)
+    served[size.depots:size.depots + size.customers] = False
+    for route in routes:
+        served[route.nodes] = True
+    return served
+
+
+def _by_type(instance: Instance, routes: Sequence[Route]) -> IntArray:
+    """Return (type,) how many routes there are."""
+    types = np.array([route.type for route in routes], np.int64)
+    return np.bincount(types, minlength=instance.type.shape[1])
