@@ -5,17 +5,23 @@ prices don't rule out.
 """
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-import highspy
 import numpy as np
 
 from model.problem import BoolArray, FloatArray, IntArray
+
+if TYPE_CHECKING:
+    import highspy
 
 KNOWN = 100.0
 """What the choice known costs in the units of a program: tolerances are absolute."""
 
 MOST_NODES = 20
 """Of the tree of a choice that prices leave open, so that its time is bounded."""
+
+FEASIBLE = 2
+"""HiGHS's status of a solution that keeps all bounds."""
 
 WHOLE = 1e-6
 """How far from a whole number a variable may be, and above a bound that isn't to be missed."""
@@ -70,8 +76,11 @@ def _chosen(columns: Sequence[IntArray], cost: FloatArray, room: IntArray,
 
 
 def _program(columns: Sequence[IntArray], cost: FloatArray, room: IntArray,
-             is_whole: bool) -> highspy.Highs:
+             is_whole: bool) -> "highspy.Highs":
     """Return the program of a choice, of whole columns or of shares of them."""
+    # Not before it is needed: OR-Tools, which benchmarks load, has another library by its name.
+    import highspy
+
     program = highspy.HighsLp()
     program.num_col_, program.num_row_ = len(columns), len(room)
     program.col_cost_ = cost
@@ -98,17 +107,16 @@ def _program(columns: Sequence[IntArray], cost: FloatArray, room: IntArray,
     return solver
 
 
-def _solved(solver: highspy.Highs, stop: IntArray) -> FloatArray | None:
+def _solved(solver: "highspy.Highs", stop: IntArray) -> FloatArray | None:
     """Return the solution of a program, (column,), or None if none is found."""
 
-    def look(event: highspy.highs.HighsCallbackEvent) -> None:
+    def look(event: "highspy.highs.HighsCallbackEvent") -> None:
         if stop[0]:
             event.interrupt()
 
     solver.cbSimplexInterrupt += look
     solver.cbMipInterrupt += look
     solver.run()
-    found = solver.getInfo().primal_solution_status
-    if stop[0] or found != highspy.SolutionStatus.kSolutionStatusFeasible:
+    if stop[0] or solver.getInfo().primal_solution_status != FEASIBLE:
         return None
     return np.array(solver.getSolution().col_value)

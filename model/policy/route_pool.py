@@ -156,7 +156,8 @@ class RoutePool:
 
 def _split(actions: IntArray) -> list[IntArray]:
     """Return the codes of each vehicle."""
-    return np.split(actions, np.flatnonzero(actions % NUM_KINDS == OPEN)[1:])
+    opened = np.flatnonzero(actions % NUM_KINDS == OPEN)
+    return np.split(actions, opened)[1:]
 
 
 def _served(instance: Instance, routes: Sequence[Route]) -> BoolArray:

@@ -81,6 +81,16 @@ def test_views_and_routes_of_all_samples_make_plans_cheaper(policy: Policy) -> N
     assert (np.diff(np.log(costs).mean(axis=0)) < -0.005).all()
 
 
+@pytest.mark.parametrize("config", [DecodeConfig(), DecodeConfig("sample", 40)])
+def test_nobody_is_served_where_nothing_can_be_carried(policy: Policy, problem: Problem,
+                                                       config: DecodeConfig) -> None:
+    small = replace(problem, vehicle_types=tuple(
+        replace(kind, capacity=(0,) * len(kind.capacity)) for kind in problem.vehicle_types))
+    decoded = decode(policy, prepare(policy, small, pack([small])), config)
+    assert len(decoded.actions) == 0
+    assert decoded.cost == pytest.approx(small.num_customers * small.unassigned_cost)
+
+
 def test_one_block_is_planned_even_past_the_deadline(policy: Policy, problem: Problem) -> None:
     late = time.perf_counter() - 1
     only_first = plan(policy, problem, DecodeConfig("sample", 3 * BLOCK), late)

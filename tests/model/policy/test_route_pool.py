@@ -124,4 +124,8 @@ def test_the_best_so_far_is_kept_after_an_alarm() -> None:
 
 def test_nothing_comes_of_nothing() -> None:
     problem, = random_problems(1, 1)
-    assert RoutePool(pack([problem])).improved(NOTHING, np.random.default_rng(0)) is NOTHING
+    pool = RoutePool(pack([problem]))
+    assert pool.improved(NOTHING, np.random.default_rng(0)) is NOTHING
+    nobody = Rollout(np.zeros(0, np.int64), 7.0)
+    pool.add(nobody.actions)
+    assert pool.improved(nobody, np.random.default_rng(0)) is nobody
