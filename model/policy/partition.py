@@ -47,9 +47,8 @@ def cheapest_partition(columns: Sequence[IntArray], cost: FloatArray, room: IntA
     chosen = _chosen(columns, cost * (KNOWN / known), room, stop)
     # A solver's word isn't taken for it.
     if chosen is not None:
-        met = np.bincount(np.concatenate([column for column, is_chosen
-                                          in zip(columns, chosen.tolist(), strict=True)
-                                          if is_chosen]), minlength=len(room))
+        rows = [columns[index] for index in np.flatnonzero(chosen).tolist()]
+        met = np.bincount(np.concatenate([np.zeros(0, np.int64), *rows]), minlength=len(room))
         if not np.where(room < 0, met == 1, met <= room).all():
             return None
     return chosen

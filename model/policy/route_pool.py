@@ -18,7 +18,7 @@ from model.kernel.alarm import silent
 from model.kernel.instance import Instance
 from model.policy.partition import cheapest_partition
 from model.policy.resampling import vehicles_nearby
-from model.policy.rollouts import Rollout
+from model.policy.rollouts import NOTHING, Rollout
 from model.problem import BoolArray, FloatArray, IntArray
 from model.simulation.cost import by_term
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, price_routes, reset
@@ -120,7 +120,7 @@ class RoutePool:
         cost = self._cost(plan, ~_served(self._instance, plan))
         if cost >= best.cost * (1.0 - LEAST_SAVING):
             return best
-        return Rollout(np.concatenate([route.actions for route in plan]), cost)
+        return Rollout(np.concatenate([NOTHING.actions, *(route.actions for route in plan)]), cost)
 
     def _cheapest(self, kept: Sequence[Route], old: Sequence[Route],
                   stop: IntArray) -> list[Route] | None:

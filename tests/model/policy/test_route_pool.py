@@ -1,6 +1,7 @@
 """Plans made of the routes of several plans."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -120,6 +121,15 @@ def test_the_best_so_far_is_kept_after_an_alarm() -> None:
     for plan in plans:
         pool.add(plan.actions)
     assert pool.improved(plans[0], np.random.default_rng(0), np.ones(1, np.int64)) is plans[0]
+
+
+def test_nobody_is_served_where_that_costs_less() -> None:
+    problem = max(random_problems(53, 20), key=lambda problem: problem.num_customers)
+    free = replace(problem, unassigned_cost=0.0, customers=tuple(
+        replace(customer, unassigned_cost=1e-6) for customer in problem.customers))
+    found = improved(free, rolled(free, 2))
+    assert len(found.actions) == 0
+    assert found.cost == pytest.approx(1e-6 * free.num_customers)
 
 
 def test_nothing_comes_of_nothing() -> None:
