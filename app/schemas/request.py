@@ -141,10 +141,10 @@ class OptionsInput(Input):
     policy: Name = Field(DEFAULT_POLICY, description="Policy that builds the plan.")
     decoding: Literal["greedy", "sample"] = Field(
         "greedy",
-        description="`greedy` takes the likeliest decision each time, for up to 100 customers in "
-        "eight views of the plane if no search follows; `sample` draws `num_samples` plans, those "
-        "among them. The cheapest plan by routes of all is kept. Most plans that `attention` draws "
-        "keep a part of the best so far.",
+        description="`greedy` takes the likeliest decision each time, for up to 300 customers in "
+        "two to eight views of the plane if no search follows; `sample` draws `num_samples` plans, "
+        "those among them. The cheapest plan by routes of all is kept. Most plans that `attention` "
+        "draws keep a part of the best so far.",
     )
     num_samples: int = Field(64, ge=1, le=MAX_NUM_SAMPLES, description="Plans drawn when sampling.")
     temperature: Annotated[float, Field(ge=0.01, le=100)] = Field(

@@ -48,7 +48,7 @@ SYMMETRIES = tuple((swapped, x, y) for swapped in (False, True) for x in (1, -1)
 """Ways to lay the same plane before the policy: axes swapped or not, and their signs. There is a
 greedy plan for each, and blocks of samples take turns, since a policy errs differently on each."""
 
-VIEWED_CUSTOMERS = 800
+VIEWED_CUSTOMERS = 600
 """Customers in all views of a greedy plan, so that fewer are planned where one takes longer."""
 
 
