@@ -7,19 +7,15 @@ pointer` does so for the other policy. Problems come from the seed: take another
 chosen by one.
 """
 
-from concurrent.futures import ProcessPoolExecutor
 from functools import cache, partial
 from itertools import product
-from multiprocessing import get_context
 from typing import Annotated
 
-import numpy as np
 import typer
 
 from app.settings import Settings
 from benchmarks.policies import cheapest_insertion
-from benchmarks.weights import CLASSES, Case, rows
-from model.judge.check import check
+from benchmarks.weights import CLASSES, Case, costs_by_class, judged_costs, print_table
 from model.kernel.instance import pack
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.search.improve import SearchConfig, improve
@@ -50,11 +46,7 @@ def plan_costs(case: Case, policy: str, turns: int) -> tuple[float, ...]:
     if turns:
         config = SearchConfig(turns=turns * problem.num_customers, seed=case.number)
         plans.append(improve(problem, instance, cheapest_insertion(problem), config).solution)
-    judged = [check(problem, plan) for plan in plans]
-    for evaluation in judged:
-        if evaluation.violations:
-            raise ValueError(f"{case}: {evaluation.violations[0].message}")
-    return tuple(evaluation.cost.total for evaluation in judged)
+    return judged_costs(case, problem, plans)
 
 
 def main(
@@ -64,18 +56,11 @@ def main(
     policy: str = "attention", seed: int = 1, processes: int = 2,
 ) -> None:
     """Print the table in Markdown."""
-    cases = [Case(name, seed, number)
-             for name, number in product(classes.split(","), range(problems))]
-    with ProcessPoolExecutor(processes, get_context("spawn")) as executor:
-        found = list(executor.map(partial(plan_costs, policy=policy, turns=turns), cases,
-                                  chunksize=4))
-    costs = {name: np.array([cost for case, cost in zip(cases, found, strict=True)
-                             if case.name == name]) for name in classes.split(",")}
-    header = ["class", "problems", *(f"{name}, %" for name in list(WAYS)[1:])]
-    header += [f"{name} above the search, %" for name in WAYS] if turns else []
-    print("| " + " | ".join(header) + " |\n|" + " --- |" * len(header))
-    for row in rows(costs, len(WAYS)):
-        print("| " + " | ".join(row) + " |")
+    found = costs_by_class(partial(plan_costs, policy=policy, turns=turns),
+                           [Case(name, seed, number)
+                            for name, number in product(classes.split(","), range(problems))],
+                           processes)
+    print_table(found, list(WAYS))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ standard error, and how far the plans of all are above a long search. Problems c
 which no training uses: take another to confirm what was chosen by one.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import cache, partial
@@ -26,6 +26,7 @@ from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
+from model.solution import Solution
 from training.instances import DEFAULT_CONFIG, VALIDATION_SIZES, VARIANTS, generate
 from training.labels import Actor
 from training.rollout import make_batch
@@ -76,6 +77,17 @@ def plan_costs(case: Case, weights: Sequence[Path], turns: int) -> tuple[float, 
         config = SearchConfig(turns=turns * problem.num_customers, seed=case.number)
         plans.append(improve(problem, pack([problem]), cheapest_insertion(problem),
                              config).solution)
+    return judged_costs(case, problem, plans)
+
+
+def judged_costs(case: Case, problem: Problem, plans: Sequence[Solution]) -> tuple[float, ...]:
+    """Return what plans of a case cost.
+
+    Raises
+    ------
+    ValueError
+        If a plan breaks a rule.
+    """
     judged = [check(problem, plan) for plan in plans]
     for evaluation in judged:
         if evaluation.violations:
@@ -114,18 +126,30 @@ def main(
     seed: int = 1, processes: int = 2,
 ) -> None:
     """Print the table in Markdown."""
-    cases = [Case(name, seed, number)
-             for name, number in product(classes.split(","), range(problems))]
+    found = costs_by_class(partial(plan_costs, weights=weights, turns=turns),
+                           [Case(name, seed, number)
+                            for name, number in product(classes.split(","), range(problems))],
+                           processes)
+    print_table(found, [path.parent.name for path in weights])
+
+
+def costs_by_class(plan: Callable[[Case], tuple[float, ...]], cases: Sequence[Case],
+                   processes: int) -> dict[str, np.ndarray]:
+    """Return (problem, way) what `plan` says of the cases, by class, in the order of `cases`."""
     with ProcessPoolExecutor(processes, get_context("spawn")) as executor:
-        found = list(executor.map(partial(plan_costs, weights=weights, turns=turns), cases,
-                                  chunksize=8))
-    costs = {name: np.array([cost for case, cost in zip(cases, found, strict=True)
-                             if case.name == name]) for name in classes.split(",")}
-    names = [path.parent.name for path in weights]
+        found = list(executor.map(plan, cases, chunksize=4))
+    return {name: np.array([cost for case, cost in zip(cases, found, strict=True)
+                            if case.name == name])
+            for name in dict.fromkeys(case.name for case in cases)}
+
+
+def print_table(costs: dict[str, np.ndarray], names: Sequence[str]) -> None:
+    """Print `rows` in Markdown; `names` of all ways, a search behind them has none."""
     header = ["class", "problems", *(f"{name}, %" for name in names[1:])]
-    header += [f"{name} above the search, %" for name in names] if turns else []
+    if next(iter(costs.values())).shape[1] > len(names):
+        header += [f"{name} above the search, %" for name in names]
     print("| " + " | ".join(header) + " |\n|" + " --- |" * len(header))
-    for row in rows(costs, len(weights)):
+    for row in rows(costs, len(names)):
         print("| " + " | ".join(row) + " |")
 
 

@@ -126,8 +126,9 @@ class RoutePool:
                   stop: IntArray) -> list[Route] | None:
         """Return the cheapest routes in the place of old ones beside those kept; None if none."""
         may_serve = ~_served(self._instance, kept)
-        left_out = np.flatnonzero(may_serve & ~_served(self._instance, old))[REGION:]
-        may_serve[left_out] = False
+        left_out = may_serve & ~_served(self._instance, old)
+        too_many = np.flatnonzero(left_out)[REGION:]
+        may_serve[too_many] = left_out[too_many] = False
         routes = [route for route in self._routes.values() if may_serve[route.nodes].all()]
         nodes = np.flatnonzero(may_serve)
         row_of = np.searchsorted(nodes, np.arange(len(may_serve)))
@@ -135,7 +136,7 @@ class RoutePool:
         columns = [np.append(row_of[route.nodes], len(nodes) + route.type) for route in routes]
         columns += list(np.arange(len(nodes))[:, None])  # those who leave a customer out
         price = np.append([route.cost for route in routes], self._penalties(may_serve))
-        known = self._cost(old, may_serve & ~_served(self._instance, old))
+        known = self._cost(old, left_out)
         if known <= 0.0:
             return None
         chosen = cheapest_partition(columns, price, np.append(np.full(len(nodes), -1), room),
