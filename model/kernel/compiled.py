@@ -38,7 +38,7 @@ SOURCES = (
         "layout", "rarer", "craft", "ends", "randomness", "goods", "batteries", "block", "routes",
         "freshness", "vehicles", "halts", "lean", "refresh", "edit", "state")),
     *(f"search/insertion/{part}" for part in (
-        "evaluate", "cheapest_stop", "new_trips", "offers", "places")),
+        "evaluate", "cheapest_stop", "passing", "new_trips", "offers", "places")),
     *(f"search/moves/{part}" for part in (
         "ruin", "recreate", "exchange", "retype", "split", "resplit", "anneal")),
     *(f"search/beginning/{part}" for part in ("construct", "savings", "either_way", "translate")),

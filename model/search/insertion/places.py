@@ -14,6 +14,7 @@ from model.search.insertion.offers import (
     offer_flight_trips, offer_joining, offer_sorties, offer_stops, offer_trips, offer_trips_apart,
     take_cheapest,
 )
+from model.search.insertion.passing import scan_passing_lean
 from model.search.route.edit import NEW_FLIGHT, NEW_ROUTE, copy_move
 from model.search.route.ends import is_apart
 from model.search.route.goods import goods_may_follow, goods_may_join
@@ -168,7 +169,9 @@ def find_beside(world: World, searcher: Searcher, node: int, enlarge: bool) -> f
     now, bound, move = searcher.now, searcher.bound, searcher.move
     best = try_new_route(world, searcher, node)
     if not world.general:
-        return scan_beside_lean(world, now, node, best, enlarge, move, searcher.rng)
+        best = scan_beside_lean(world, now, node, best, enlarge, move, searcher.rng)
+        return scan_passing_lean(world, now, searcher.active, searcher.count.active, node, best,
+                                 enlarge, move, searcher.rng)
     best = scan_beside(world, now, node, best, enlarge, move, searcher.rng)
     bound.best, bound.blink = best, world.blink
     for rank in range(world.fit.shape[1]):
