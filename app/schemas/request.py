@@ -142,9 +142,9 @@ class OptionsInput(Input):
     decoding: Literal["greedy", "sample"] = Field(
         "greedy",
         description="`greedy` takes the likeliest decision each time, for up to 300 customers in "
-        "two to eight views of the plane if no search follows; `sample` draws `num_samples` plans, "
-        "those among them. The cheapest plan by routes of all is kept. Most plans that `attention` "
-        "draws keep a part of the best so far.",
+        "several views of the plane if no search follows; `sample` draws `num_samples` plans, "
+        "those of all views among them. The cheapest plan by routes of all is kept. Most plans "
+        "that `attention` draws keep a part of the best so far.",
     )
     num_samples: int = Field(64, ge=1, le=MAX_NUM_SAMPLES, description="Plans drawn when sampling.")
     temperature: Annotated[float, Field(ge=0.01, le=100)] = Field(

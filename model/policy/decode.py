@@ -49,7 +49,7 @@ SYMMETRIES = tuple((swapped, x, y) for swapped in (False, True) for x in (1, -1)
 greedy plan for each, and blocks of samples take turns, since a policy errs differently on each."""
 
 VIEWED_CUSTOMERS = 600
-"""Customers in all views of a greedy plan, so that fewer are planned where one takes longer."""
+"""Customers in all views of greedy plans, so that fewer are planned where one takes longer."""
 
 
 @dataclass(frozen=True)
@@ -191,22 +191,31 @@ def _rounds(policy: Policy, scene: Scene, config: DecodeConfig) -> list[list[_Bl
     """Return the blocks that are planned at the same time, those of each round."""
     views = VIEWED_CUSTOMERS // max(1, int(scene.instance.size[0].customers))
     views = min(max(views, 1), len(SYMMETRIES))
+    is_compiled = policy.step_weights is not None
     if config.decoding == "greedy":
-        return [_greedy(min(views, config.most_views))]
+        return _greedy(min(views, config.most_views), is_compiled)
     if config.num_samples == 1:
         return [[_Block(0, [config.temperature], is_first=True)]]
     samples = max(config.num_samples - views, 1)
-    is_compiled = policy.step_weights is not None
+    # Parts of the best, planned greedily, would let many samples go on from too much of one plan.
+    greedy = _greedy(views, is_compiled and samples < views)
     size = LINE if is_compiled else BLOCK
     drawn = [_Block(index % len(SYMMETRIES), [config.temperature] * min(size, samples - first))
              for index, first in enumerate(range(0, samples, size))]
     lanes = LANES if is_compiled else len(drawn)
-    return [_greedy(views), *(drawn[first:first + lanes] for first in range(0, len(drawn), lanes))]
+    return [*greedy, *(drawn[first:first + lanes] for first in range(0, len(drawn), lanes))]
 
 
-def _greedy(views: int) -> list[_Block]:
-    """Return greedy plans from so many views."""
-    return [_Block(symmetry, [0.0], symmetry == 0) for symmetry in range(views)]
+def _greedy(views: int, in_parts: bool) -> list[list[_Block]]:
+    """Return the blocks of greedy plans, about as much work as a plan from each of so many views.
+
+    Parts of the best plan planned anew are worth as much as half of the views, which have to be
+    encoded and planned as a whole.
+    """
+    parts = views // 2 if in_parts else 0
+    whole = [_Block(symmetry, [0.0], symmetry == 0) for symmetry in range(views - parts)]
+    lines = [_Block(symmetry, [0.0] * parts) for symmetry in range(min(LANES, len(whole)))]
+    return [whole, lines] if parts > 0 else [whole]
 
 
 def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],

@@ -13,8 +13,12 @@ from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN
 LEAST_ANEW, MOST_ANEW = 0.15, 0.9
 """Bounds of the share of its customers that are planned anew, whose logarithm is uniform."""
 
+MOST_ANEW_GREEDILY = 0.6
+"""The upper bound where nothing is drawn: most of what is larger was planned likewise before."""
 
-def part_to_keep(instance: Instance, actions: IntArray, rng: np.random.Generator) -> IntArray:
+
+def part_to_keep(instance: Instance, actions: IntArray, most_anew: float,
+                 rng: np.random.Generator) -> IntArray:
     """Return the actions of a plan that a further sample begins with.
 
     Parameters
@@ -23,6 +27,8 @@ def part_to_keep(instance: Instance, actions: IntArray, rng: np.random.Generator
         The problem, packed alone.
     actions
         Codes of all actions of the plan, from the first on.
+    most_anew
+        Upper bound of the share of its customers that are left out; `LEAST_ANEW` is the lower.
     rng
         Chooses a customer and a share. The vehicles that serve those nearest are left out until
         they serve the share; what would be too much of the last, it does first.
@@ -36,7 +42,7 @@ def part_to_keep(instance: Instance, actions: IntArray, rng: np.random.Generator
     if len(nearest_first) == 0:
         return actions[:0]
     anew = np.cumsum(np.bincount(vehicle[services])[nearest_first])
-    wanted = LEAST_ANEW * (MOST_ANEW / LEAST_ANEW) ** rng.random() * len(services)
+    wanted = LEAST_ANEW * (most_anew / LEAST_ANEW) ** rng.random() * len(services)
     last = int(np.searchsorted(anew, wanted))
     whole = np.isin(vehicle, nearest_first[last + 1 :])
     of_last = actions[vehicle == nearest_first[last]]

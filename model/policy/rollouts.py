@@ -18,7 +18,7 @@ from model.policy.features import step
 from model.policy.observation import (
     NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, empty_observation,
 )
-from model.policy.resampling import part_to_keep
+from model.policy.resampling import MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep
 from model.policy.tokens import Float32Array, Scales
 from model.problem import IntArray
 from model.simulation.cost import by_term
@@ -352,7 +352,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
     rng
         For all others.
     so_far
-        What was found before. Rollouts that draw keep a part of the cheapest so far.
+        What was found before. Rollouts keep a part of the cheapest so far.
     stop
         Flag of an alarm at which the rest is given up.
     """
@@ -364,8 +364,9 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
     plans = []
     for r, temperature in enumerate(temperatures):
         kept = NOTHING.actions
-        if so_far is not NOTHING and temperature > 0:
-            kept = part_to_keep(instance, so_far.actions, rng)
+        if so_far is not NOTHING:
+            most_anew = MOST_ANEW if temperature > 0 else MOST_ANEW_GREEDILY
+            kept = part_to_keep(instance, so_far.actions, most_anew, rng)
             temperature *= HOTTER
         actions[: len(kept)] = kept
         count = _roll_out(weights, memory, instance, scale, state, type_token, seen, r,

@@ -1,9 +1,12 @@
 """Parts of a plan that further samples keep."""
 
 import numpy as np
+import pytest
 
 from model.kernel.instance import pack
-from model.policy.resampling import LEAST_ANEW, MOST_ANEW, part_to_keep
+from model.policy.resampling import (
+    LEAST_ANEW, MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep,
+)
 from model.problem import IntArray
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, apply, reset
 from tests.model.rollouts import legal, random_problems, roll
@@ -35,22 +38,23 @@ def test_what_is_kept_is_legal_from_the_first_action_on() -> None:
     for problem, rollout in zip(problems, roll(problems, 5).rollouts, strict=True):
         instance = pack([problem])
         for _ in range(5):
-            kept = part_to_keep(instance, np.array(rollout.actions), rng)
+            kept = part_to_keep(instance, np.array(rollout.actions), MOST_ANEW, rng)
             state = reset(instance, np.zeros(1, np.int64))
             for action in kept.tolist():
                 assert action in legal(problem, instance, state)
                 apply(instance, state, 0, action)
 
 
-def test_the_share_planned_anew_is_as_drawn() -> None:
+@pytest.mark.parametrize("most", [MOST_ANEW, MOST_ANEW_GREEDILY])
+def test_the_share_planned_anew_is_as_drawn(most: float) -> None:
     problem = max(random_problems(23, 40), key=lambda problem: problem.num_customers)
     actions = np.array(roll([problem], 2).rollouts[0].actions)
     rng = np.random.default_rng(0)
-    shares = [1 - services(part_to_keep(pack([problem]), actions, rng)) / services(actions)
-              for _ in range(500)]
+    kept = [part_to_keep(pack([problem]), actions, most, rng) for _ in range(500)]
+    shares = [1 - services(part) / services(actions) for part in kept]
     slack = 2 / services(actions)
     assert LEAST_ANEW - slack <= min(shares) < LEAST_ANEW + 0.1
-    assert MOST_ANEW - 0.1 < max(shares) <= MOST_ANEW + slack
+    assert most - 0.1 < max(shares) <= most + slack
 
 
 def test_vehicles_planned_anew_are_the_nearest_to_a_customer() -> None:
@@ -62,7 +66,7 @@ def test_vehicles_planned_anew_are_the_nearest_to_a_customer() -> None:
     drive = problem.travel[0].duration
     rng = np.random.default_rng(1)
     for _ in range(50):
-        kept = {node_of(action) for action in part_to_keep(pack([problem]), actions, rng)
+        kept = {node_of(action) for action in part_to_keep(pack([problem]), actions, MOST_ANEW, rng)
                 if is_service(action)}
         whole = [mine for mine in nodes.values() if mine <= kept]
         anew = [mine for mine in nodes.values() if not mine <= kept]
@@ -75,4 +79,4 @@ def test_vehicles_planned_anew_are_the_nearest_to_a_customer() -> None:
 def test_nothing_of_an_empty_plan_is_kept() -> None:
     problem, = random_problems(1, 1)
     nothing = np.zeros(0, np.int64)
-    assert len(part_to_keep(pack([problem]), nothing, np.random.default_rng(0))) == 0
+    assert len(part_to_keep(pack([problem]), nothing, MOST_ANEW, np.random.default_rng(0))) == 0
