@@ -4,7 +4,9 @@
 
 Plans CVRPLIB's instances of a folder with `best_known.csv`, and problems of the same kind that are
 drawn: by seed, customers, what a vehicle holds, and whether the depot lies `central` or
-`eccentric`. One thread. What legs and neighbours take is told, and comes before the budget.
+`eccentric`. One thread. What legs and neighbours take is told, and comes before the budget. With
+`--filo2` and the path of that program, built from its source, it plans each problem next, in as
+much processor time, of which all that it does counts.
 """
 
 import csv
@@ -23,6 +25,8 @@ from rich.console import Console
 from rich.table import Table
 
 from app.files.importers import read_instance_file
+from benchmarks import peer_filo2
+from benchmarks.peers import timed_plan
 from benchmarks.published import MODEL_UNITS
 from benchmarks.results import gap_percent
 from benchmarks.rows import append_rows, read_rows
@@ -59,13 +63,14 @@ WARM = "drawn-0-3000-30-central"
 class Row:
     """A judged run."""
 
+    solver: str
     instance: str
     n: int
     budget_s: float
     seed: int
     legs_s: float  # for legs and neighbours, before the budget
     wall_s: float
-    turns: int
+    turns: int  # 0 of others
     routes: int
     cost: float
     best_known: float
@@ -134,10 +139,12 @@ def best_known(folder: Path) -> dict[str, float]:
         return {row["instance"]: float(row["best_known"]) for row in csv.DictReader(lines)}
 
 
-def runs(folder: Path, name: str, budgets: list[float], seeds: int) -> Iterator[Row]:
+def runs(folder: Path, name: str, budgets: list[float], seeds: int,
+         filo2: Path | None = None) -> Iterator[Row]:
     """Plan an instance by all budgets and seeds, which count from 1."""
     path = folder / f"{name}.vrp"
-    problem = as_problem(read(path) if path.exists() else drawn(name))
+    stated = read(path) if path.exists() else drawn(name)
+    problem = as_problem(stated)
     known = best_known(folder).get(name, math.nan)
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
@@ -151,24 +158,47 @@ def runs(folder: Path, name: str, budgets: list[float], seeds: int) -> Iterator[
                 found = search.improve(problem, instance, nobody, search.SearchConfig(seed),
                                        began + budget)
             wall = time.perf_counter() - began
-            judged = check(problem, found.solution)
-            if judged.violations or found.solution.unassigned:
-                raise ValueError(f"{name}: the plan breaks a rule, or leaves somebody out")
-            cost = judged.cost.total
-            yield Row(name, problem.num_customers, budget, seed, legs, wall, found.turns,
+            cost = judged_cost(problem, found.solution)
+            yield Row("tandem", name, problem.num_customers, budget, seed, legs, wall, found.turns,
                       len(found.solution.routes), cost, known, gap_percent(cost, known),
                       resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+            if filo2 is not None:
+                routes, took = peer_filo2.solve(filo2, stated.place, stated.demand,
+                                                stated.capacity, budget, seed)
+                cost = judged_cost(problem, timed_plan(
+                    problem, [(0, [nodes]) for nodes in routes]))
+                yield Row("filo2", name, problem.num_customers, budget, seed, 0.0, took, 0,
+                          len(routes), cost, known, gap_percent(cost, known),
+                          resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024)
+
+
+def judged_cost(problem: Problem, plan: Solution) -> float:
+    """Return what a plan of all customers costs.
+
+    Raises
+    ------
+    ValueError
+        If it breaks a rule, or leaves somebody out.
+    """
+    judged = check(problem, plan)
+    if judged.violations or plan.unassigned:
+        raise ValueError("the plan breaks a rule, or leaves somebody out")
+    return judged.cost.total
 
 
 def table(rows: list[Row]) -> Table:
     """Return the means over seeds."""
-    columns = Table("instance", "customers", "s", "gap %", "cost", "turns", "legs s", "MB")
-    for key in sorted({(row.n, row.instance, row.budget_s) for row in rows}):
-        same = [row for row in rows if (row.n, row.instance, row.budget_s) == key]
+    columns = Table("instance", "customers", "s", "solver", "took s", "gap %", "cost", "routes",
+                    "turns", "legs s", "MB")
+    def key_of(row: Row) -> tuple[int, str, float, str]:
+        return row.n, row.instance, row.budget_s, row.solver
+    for key in sorted({key_of(row) for row in rows}):
+        same = [row for row in rows if key_of(row) == key]
         def mean(name: str, same: list[Row] = same) -> float:
             return float(np.mean([getattr(row, name) for row in same]))
-        columns.add_row(key[1], str(key[0]), f"{key[2]:g}", f"{mean('gap_percent'):.2f}",
-                        f"{mean('cost'):.0f}", f"{mean('turns'):.0f}", f"{mean('legs_s'):.1f}",
+        columns.add_row(key[1], str(key[0]), f"{key[2]:g}", key[3], f"{mean('wall_s'):.1f}",
+                        f"{mean('gap_percent'):.2f}", f"{mean('cost'):.0f}",
+                        f"{mean('routes'):.1f}", f"{mean('turns'):.0f}", f"{mean('legs_s'):.1f}",
                         f"{max(row.memory_mb for row in same):.0f}")
     return columns
 
@@ -176,6 +206,7 @@ def table(rows: list[Row]) -> Table:
 def main(folder: Path, instances: Annotated[str, typer.Option()] = "Leuven2,Antwerp1",
          seconds: Annotated[str, typer.Option()] = "10,60",
          seeds: Annotated[int, typer.Option()] = 1,
+         filo2: Annotated[Path | None, typer.Option(help="the program, to run beside")] = None,
          output: Annotated[Path, typer.Option()] = Path("runs/bench/large.csv"),
          processor_time: Annotated[bool, typer.Option(
              "--processor-time", help="budgets of processor time")] = False) -> None:
@@ -185,7 +216,7 @@ def main(folder: Path, instances: Annotated[str, typer.Option()] = "Leuven2,Antw
     list(runs(folder, WARM, [1.0], 1))
     for name in instances.split(","):
         append_rows(output, Row, runs(folder, name, [float(each) for each in seconds.split(",")],
-                                      seeds))
+                                      seeds, filo2))
     Console().print(table(read_rows(output, Row)))
 
 
