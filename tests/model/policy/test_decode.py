@@ -13,6 +13,7 @@ import pytest
 from model.judge.check import check
 from model.kernel.alarm import Alarm
 from model.kernel.instance import pack
+from model.policy import decode as decoding
 from model.policy.decode import (
     BLOCK, SYMMETRIES, DecodeConfig, Policy, decode, disturbed, encode, load_policy, prepare,
 )
@@ -79,6 +80,17 @@ def test_views_and_routes_of_all_samples_make_plans_cheaper(policy: Policy) -> N
                   for config in (DecodeConfig(most_views=1), DecodeConfig(), drawn)]
         assert row[0] >= row[1] >= row[2]
     assert (np.diff(np.log(costs).mean(axis=0)) < -0.005).all()
+
+
+def test_samples_are_drawn_less_widely_where_drones_fly(monkeypatch: pytest.MonkeyPatch) -> None:
+    policy = load_policy(WEIGHTS / "attention")
+    flown, driven = (generate(np.random.default_rng(5), 20, name) for name in ("drone", "cvrp"))
+    both = [plan(policy, problem, DecodeConfig("sample", 20)) for problem in (flown, driven)]
+    cooler = decoding.COOLER_WITH_DRONES
+    monkeypatch.setattr(decoding, "COOLER_WITH_DRONES", 1.0)
+    assert plan(policy, flown, DecodeConfig("sample", 20)) != both[0]
+    assert plan(policy, flown, DecodeConfig("sample", 20, temperature=cooler)) == both[0]
+    assert plan(policy, driven, DecodeConfig("sample", 20)) == both[1]
 
 
 @pytest.mark.parametrize("config", [DecodeConfig(), DecodeConfig("sample", 40)])
