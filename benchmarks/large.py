@@ -26,11 +26,10 @@ from rich.table import Table
 
 from app.files.importers import read_instance_file
 from benchmarks import peer_filo2
-from benchmarks.peers import timed_plan
+from benchmarks.peers import cost_of_all, timed_plan
 from benchmarks.published import MODEL_UNITS
 from benchmarks.results import gap_percent
 from benchmarks.rows import append_rows, read_rows
-from model.judge.check import check
 from model.kernel.instance import pack
 from model.problem import (
     MM_PER_KM, Customer, Depot, FloatArray, IntArray, Points, Problem, StraightLegs, Travel,
@@ -158,32 +157,18 @@ def runs(folder: Path, name: str, budgets: list[float], seeds: int,
                 found = search.improve(problem, instance, nobody, search.SearchConfig(seed),
                                        began + budget)
             wall = time.perf_counter() - began
-            cost = judged_cost(problem, found.solution)
+            cost = cost_of_all(name, problem, found.solution)
             yield Row("tandem", name, problem.num_customers, budget, seed, legs, wall, found.turns,
                       len(found.solution.routes), cost, known, gap_percent(cost, known),
                       resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
             if filo2 is not None:
                 routes, took = peer_filo2.solve(filo2, stated.place, stated.demand,
                                                 stated.capacity, budget, seed)
-                cost = judged_cost(problem, timed_plan(
-                    problem, [(0, [nodes]) for nodes in routes]))
+                plan = timed_plan(problem, [(0, [nodes]) for nodes in routes])
+                cost = cost_of_all(name, problem, plan)
                 yield Row("filo2", name, problem.num_customers, budget, seed, 0.0, took, 0,
                           len(routes), cost, known, gap_percent(cost, known),
                           resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024)
-
-
-def judged_cost(problem: Problem, plan: Solution) -> float:
-    """Return what a plan of all customers costs.
-
-    Raises
-    ------
-    ValueError
-        If it breaks a rule, or leaves somebody out.
-    """
-    judged = check(problem, plan)
-    if judged.violations or plan.unassigned:
-        raise ValueError("the plan breaks a rule, or leaves somebody out")
-    return judged.cost.total
 
 
 def table(rows: list[Row]) -> Table:

@@ -100,6 +100,20 @@ def judge(problem: Problem, routes: Iterable[PeerRoute]) -> Verdict:
                    evaluation.is_feasible, missing)
 
 
+def cost_of_all(name: str, problem: Problem, plan: Solution) -> float:
+    """Return what a plan of all customers costs, of a problem by some name.
+
+    Raises
+    ------
+    ValueError
+        If it breaks a rule, or leaves somebody out.
+    """
+    judged = check(problem, plan)
+    if judged.violations or plan.unassigned:
+        raise ValueError(f"{name}: the plan breaks a rule, or leaves somebody out")
+    return judged.cost.total
+
+
 def stated_cost(instance: Published, routes: Iterable[PeerRoute]) -> float:
     """Return what a plan costs by the instance's own numbers, without a look at its problem."""
     cost, left_out = 0, set(instance.customers)

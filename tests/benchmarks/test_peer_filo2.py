@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.large import as_problem, drawn, judged_cost, read
+from benchmarks.large import as_problem, drawn, read
 from benchmarks.peer_filo2 import solve
-from benchmarks.peers import timed_plan
+from benchmarks.peers import cost_of_all, timed_plan
 
 PROGRAM = """#!{python}
 import pathlib, sys
@@ -23,7 +23,7 @@ with pathlib.Path("{log}").open("a") as log:
     print(iterations, options["--seed"], file=log)
 instance = pathlib.Path(sys.argv[1]).read_text()
 pathlib.Path("{copy}").write_text(instance)
-number = int(instance.split("DIMENSION :")[1].split()[0])
+number = int(instance.split("DIMENSION:")[1].split()[0])
 routes = [f"Route #{{node}}: {{node}}" for node in range(1, number)]
 (folder / f"problem.vrp_seed-{{options['--seed']}}.vrp.sol").write_text(
     "\\n".join([*routes, "Cost 0"]))
@@ -41,8 +41,8 @@ def test_what_it_plans_is_judged(tmp_path: Path) -> None:
     assert 0.0 < took < sum(os.times()[2:4]) - before
     problem = as_problem(stated)
     there_and_back = 2 * np.rint(np.hypot(*(stated.place[1:] - stated.place[0]).T)).sum()
-    assert judged_cost(problem, timed_plan(problem, [(0, [nodes]) for nodes in routes])) \
-        == there_and_back
+    plan = timed_plan(problem, [(0, [nodes]) for nodes in routes])
+    assert cost_of_all("drawn", problem, plan) == there_and_back
     again = read(copy)
     assert (again.place == stated.place).all()
     assert (again.demand == stated.demand).all()
