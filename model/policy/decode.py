@@ -48,10 +48,6 @@ SYMMETRIES = tuple((swapped, x, y) for swapped in (False, True) for x in (1, -1)
 """Ways to lay the same plane before the policy: axes swapped or not, and their signs. There is a
 greedy plan for each, and blocks of samples take turns, since a policy errs differently on each."""
 
-COOLER_WITH_DRONES = 0.7
-"""Times the temperature of samples that keep a part, where drones fly: less of what is drawn widely
-is of use there."""
-
 VIEWED_CUSTOMERS = 600
 """Customers in all views of greedy plans, so that fewer are planned where one takes longer."""
 
@@ -204,9 +200,7 @@ def _rounds(policy: Policy, scene: Scene, config: DecodeConfig) -> list[list[_Bl
     # Parts of the best, planned greedily, would let many samples go on from too much of one plan.
     greedy = _greedy(views, is_compiled and samples < views)
     size = LINE if is_compiled else BLOCK
-    flown = bool((scene.instance.type["drones"] > 0).any())
-    warmth = config.temperature * (COOLER_WITH_DRONES if is_compiled and flown else 1.0)
-    drawn = [_Block(index % len(SYMMETRIES), [warmth] * min(size, samples - first))
+    drawn = [_Block(index % len(SYMMETRIES), [config.temperature] * min(size, samples - first))
              for index, first in enumerate(range(0, samples, size))]
     lanes = LANES if is_compiled else len(drawn)
     return [*greedy, *(drawn[first:first + lanes] for first in range(0, len(drawn), lanes))]

@@ -89,9 +89,9 @@ NOTHING = Rollout(np.zeros(0, np.int64), math.inf)
 GIVEN_UP = -1
 """Number of actions of a rollout that was not ended."""
 
-HOTTER = 2.0
+HOTTER, HOTTER_WITH_DRONES = 2.0, 1.4
 """Times the temperature of rollouts that keep a part: what is likely is in the best already, and a
-good route is of use in whatever plan it was drawn."""
+good route is of use in whatever plan it was drawn. Less of it where drones fly."""
 
 
 class Desk(NamedTuple):
@@ -361,13 +361,14 @@ def roll_out(weights: StepWeights, memory: Float32Array, instance: Instance, sca
     state = reset(instance, np.zeros(rows, np.int64))
     seen = empty_observation(rows, instance.node.shape[2], instance.type.shape[1])
     actions = np.empty(max_steps(instance), np.int64)
+    hotter = HOTTER_WITH_DRONES if (instance.type["drones"] > 0).any() else HOTTER
     plans = []
     for r, temperature in enumerate(temperatures):
         kept = NOTHING.actions
         if so_far is not NOTHING:
             most_anew = MOST_ANEW if temperature > 0 else MOST_ANEW_GREEDILY
             kept = part_to_keep(instance, so_far.actions, most_anew, rng)
-            temperature *= HOTTER
+            temperature *= hotter
         actions[: len(kept)] = kept
         count = _roll_out(weights, memory, instance, scale, state, type_token, seen, r,
                           float(temperature), rng, len(kept), actions, flag)
