@@ -95,7 +95,7 @@ LEG_TABLES = {"leg", "back", "legs", "flights", "inward", "onward", "drive", "fl
               "distance"}
 """Names of tables of legs and of rows of one, whose elements `kernel/leg` reads alone."""
 LEGS_AT_ONCE = {"kernel/instance", "kernel/nearest", "kernel/variants", "policy/resampling",
-                "policy/tokens", "search/ground", "search/world"}
+                "policy/tokens", "search/ground", "search/groundwork", "search/world"}
 """What fills a table, or reads a whole one in plain Python."""
 
 MAX_FILE_LINES = 400

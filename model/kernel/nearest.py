@@ -5,18 +5,7 @@ from numpy.typing import NDArray
 
 from model.kernel.cells import Cells, write_nearest_in
 from model.kernel.pausing import Pause, matrix_blocks, row_blocks
-from model.problem import BoolArray, FloatArray, Int32Array, IntArray, Problem
-
-FEW = 512
-"""Up to how many columns equal entries cost nothing that matters."""
-
-LOOKS = 64
-"""Entries of a row by which its ties are estimated."""
-
-TIED = 0.1
-"""Share of a row from which on equal entries keep the library's selection of the least busy: it
-halves a row by comparing, and took ten times as long where most customers were at one place."""
-
+from model.problem import FloatArray, Int32Array, IntArray, Problem
 
 CELL = 64
 """Most points in a cell that is not halved."""
@@ -29,35 +18,12 @@ POINTS_AT_ONCE = 1024
 
 
 def least_columns(weight: NDArray[np.floating], ranks: int) -> IntArray:
-    """Return the columns of the least entries of each row, least first; none may be negative."""
-    tied = _tied(weight, ranks)
-    if not tied.any():
-        return _selected(weight, ranks)
-    columns = np.empty((len(weight), ranks), np.int64)
-    columns[~tied] = _selected(weight[~tied], ranks)
-    columns[tied] = _selected_by_keys(weight[tied], ranks)
-    return columns
+    """Return the columns of the least entries of each row, least first; none may be negative.
 
-
-def _tied(weight: NDArray[np.floating], ranks: int) -> BoolArray:
-    """Mark the rows in which many entries are about as small as the last one selected."""
-    rows, number = weight.shape
-    if number <= FEW:
-        return np.zeros(rows, np.bool_)
-    looks = np.sort(weight[:, ::number // LOOKS], axis=1)
-    last = looks[:, ranks * looks.shape[1] // number, None]
-    tied: BoolArray = np.count_nonzero(weight == last, axis=1) > TIED * number
-    return tied
-
-
-def _selected(weight: NDArray[np.floating], ranks: int) -> IntArray:
-    chosen = np.argpartition(weight, ranks - 1, axis=1)[:, :ranks]
-    order = np.argsort(np.take_along_axis(weight, chosen, axis=1), axis=1, kind="stable")
-    return np.take_along_axis(chosen, order, axis=1)
-
-
-def _selected_by_keys(weight: NDArray[np.floating], ranks: int) -> IntArray:
-    """Select by keys of which no two are equal: an entry's bits, which rise with it, its column."""
+    Entries are rounded to single precision. Of equal ones the first come first, by keys of an
+    entry's bits, which rise with it, and its column: the library selects among keys of which no two
+    are equal several at a time, and sorts them so, but takes ten times as long where many are.
+    """
     keys = weight.astype(np.float32).view(np.int32).astype(np.int64) << 32
     keys |= np.arange(weight.shape[1])
     least = np.sort(np.partition(keys, ranks - 1, axis=1)[:, :ranks], axis=1)

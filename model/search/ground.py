@@ -11,9 +11,8 @@ from model.kernel.nearest import least_columns, write_nearest_points
 from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Records
 from model.kernel.variants import Way, ways_of
-from model.problem import (
-    UNLIMITED, FloatArray, Int32Array, IntArray, Problem, StraightLegs,
-)
+from model.problem import UNLIMITED, Int32Array, IntArray, Problem, StraightLegs, Travel
+from model.search.groundwork import write_legs, write_misfit
 from model.search.numbering import Numbering, along_neighbours, as_stated
 
 NEAR_RUIN = 128
@@ -28,11 +27,6 @@ RENUMBERED = 4096
 
 NEAR_INSERTION = 40
 """Beside how many customers an insertion is tried where not everywhere is."""
-
-WAITING_WEIGHT = 0.2
-LATENESS_WEIGHT = 1.0
-"""What waiting and lateness weigh against driving between neighbours."""
-
 
 class Ground(NamedTuple):
     """What a problem's search sees, whatever it may do."""
@@ -50,13 +44,16 @@ def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on,
 
     `along` numbers customers along their neighbours.
     """
-    near = _near(problem, pause)
-    fit = _fit(problem, instance.node[0, 0, :, 0], near, pause)
+    returns = [travel.straight is not None or _is_symmetric(travel, pause)
+               for travel in problem.travel]
+    same_back = returns[problem.vehicle_types[0].travel]
+    near = _near(problem, same_back, pause)
+    fit = _fit(problem, instance.node[0, 0, :, 0], near, same_back, pause)
     numbering = as_stated(problem.num_nodes)
     if along:
         numbering = along_neighbours(near, problem.num_depots)
         near, fit = (_numbers_of(ranked, numbering, pause) for ranked in (near, fit))
-    leg, back = _legs(problem, instance.setup[0], numbering, pause)
+    leg, back = _legs(problem, returns, instance.setup[0], numbering, pause)
     return Ground(leg, back, near, fit, numbering)
 
 
@@ -69,9 +66,12 @@ def _numbers_of(ranked: Int32Array, numbering: Numbering, pause: Pause) -> Int32
     return numbers
 
 
-def _legs(problem: Problem, setup: Records, numbering: Numbering, pause: Pause
-          ) -> tuple[AllLegs, AllLegs]:
-    """Return all legs in the search's numbers, and those back; `setup` has the SETUP of nodes."""
+def _legs(problem: Problem, returns: Sequence[bool], setup: Records, numbering: Numbering,
+          pause: Pause) -> tuple[AllLegs, AllLegs]:
+    """Return all legs in the search's numbers, and those back; `setup` has the SETUP of nodes.
+
+    `returns` says of which matrices legs are the same both ways.
+    """
     ways = ways_of(problem)
     law, point = np.zeros(len(ways), LAW), np.zeros(problem.num_nodes, POINT)
     stated: list[Way] = []
@@ -86,7 +86,8 @@ def _legs(problem: Problem, setup: Records, numbering: Numbering, pause: Pause
                 point[axis] = at
     if len(setup):
         point["site"], point["setup_duration"] = setup["site"], setup["setup_duration"]
-    tables = _tables(problem, stated, setup, numbering.node, pause)
+    directions = 1 if all(returns[way.travel] and not way.sets_up for way in stated) else 2
+    tables = _tables(problem, stated, directions, setup, numbering.node, pause)
     if len(stated) == len(ways):
         leg = tables[0]
         return leg, leg if len(tables) == 1 else tables[1]
@@ -107,18 +108,16 @@ def _law(straight: StraightLegs, way: Way) -> tuple[int | float, ...]:
             straight.nowhere, int(way.sets_up), points.metres, straight.pace)
 
 
-def _tables(problem: Problem, ways: Sequence[Way], setup: Records, node: IntArray,
-            pause: Pause) -> IntArray:
+def _tables(problem: Problem, ways: Sequence[Way], directions: int, setup: Records,
+            node: IntArray, pause: Pause) -> IntArray:
     """Return the legs that were stated, (direction, table, node, node, 2)."""
     if not ways:
         return np.empty((1, 1, len(node), 0, 2), np.int64)
-    directions = 1 if all(_is_symmetric(problem, way, pause) for way in ways) else 2
     legs = np.empty((directions, len(ways), len(node), len(node), 2), np.int64)
     for index, way in enumerate(ways):
-        travel = problem.travel[way.travel]
+        duration, distance = map(np.ascontiguousarray, problem.travel[way.travel].arrays())
         for rows in matrix_blocks(len(node), pause):
-            legs[0, index, rows, :, 0] = travel.duration[node[rows]][:, node]
-            legs[0, index, rows, :, 1] = travel.distance[node[rows]][:, node]
+            write_legs(duration, distance, node, rows.start, legs[0, index, rows])
             if way.sets_up:
                 elsewhere = setup["site"][node[rows], None] != setup["site"][node]
                 legs[0, index, rows, :, 0] += elsewhere * setup["setup_duration"][node]
@@ -128,18 +127,17 @@ def _tables(problem: Problem, ways: Sequence[Way], setup: Records, node: IntArra
     return legs
 
 
-def _is_symmetric(problem: Problem, way: Way, pause: Pause) -> bool:
+def _is_symmetric(travel: Travel, pause: Pause) -> bool:
     """Tell whether legs that were stated are the same both ways."""
-    return not way.sets_up and all(
-        bool((matrix[rows] == matrix[:, rows].T).all())
-        for matrix in problem.travel[way.travel].arrays()
-        for rows in row_blocks(len(matrix), ROWS, pause))
+    return all(bool((matrix[rows] == matrix[:, rows].T).all())
+               for matrix in travel.arrays()
+               for rows in row_blocks(len(matrix), ROWS, pause))
 
 
-def _near(problem: Problem, pause: Pause) -> Int32Array:
+def _near(problem: Problem, same_back: bool, pause: Pause) -> Int32Array:
     """Return each customer's closest others by the first type's drive, there or back.
 
-    (node, rank), nearest first; -1 for depots and behind the last.
+    (node, rank), nearest first; -1 for depots and behind the last. `same_back`: either is as long.
     """
     first, number = problem.num_depots, problem.num_customers
     ranks = max(1, min(NEAR_RUIN, number - 1))
@@ -152,14 +150,19 @@ def _near(problem: Problem, pause: Pause) -> Int32Array:
             return near
         duration = travel.duration[first:, first:]
         for rows in row_blocks(number, ROWS, pause):
-            drive = np.minimum(duration[rows], duration[:, rows].T).astype(np.float32)
+            drive = duration[rows].astype(np.float32)
+            if not same_back:
+                np.minimum(drive, duration[:, rows].T, out=drive)
             drive[np.arange(len(drive)), np.arange(rows.start, rows.stop)] = np.inf
             near[first:][rows] = least_columns(drive, ranks) + first
     return near
 
 
-def _fit(problem: Problem, place: Records, near: Int32Array, pause: Pause) -> Int32Array:
+def _fit(problem: Problem, place: Records, near: Int32Array, same_back: bool, pause: Pause
+         ) -> Int32Array:
     """Return those of each customer's neighbours whom a truck would best visit before or after.
+
+    `same_back`: drives take as long there as back.
 
     References
     ----------
@@ -175,19 +178,13 @@ def _fit(problem: Problem, place: Records, near: Int32Array, pause: Pause) -> In
     if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
         return fit
     travel = problem.travel[problem.vehicle_types[0].travel]
-
-    def detour(drive: IntArray, origin: IntArray, to: IntArray) -> FloatArray:
-        wait = earliest[to] - (latest[origin] + service[origin]) - drive
-        late = earliest[origin] + service[origin] + drive - latest[to]
-        return (drive + WAITING_WEIGHT * np.maximum(wait, 0.0)
-                + LATENESS_WEIGHT * np.maximum(late, 0.0))
-
     for rows in row_blocks(number, ROWS, pause):
         one = np.arange(first + rows.start, first + rows.stop)[:, None]
         other = near[first:][rows].astype(np.int64)
-        there = back = travel.duration[one, other]
-        if travel.straight is None:
-            back = travel.duration[other, one]
-        weight = np.minimum(detour(there, one, other), detour(back, other, one))
+        there = back = np.ascontiguousarray(travel.duration[one, other])
+        if not same_back:
+            back = np.ascontiguousarray(travel.duration[other, one])
+        weight = np.empty(other.shape)
+        write_misfit(there, back, other, first + rows.start, earliest, service, latest, weight)
         fit[first:][rows] = np.take_along_axis(other, least_columns(weight, ranks), axis=1)
     return fit

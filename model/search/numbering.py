@@ -1,12 +1,12 @@
 """The search's own numbers for customers: those near each other are so in memory, too."""
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from model.kernel.instance import Instance
 from model.problem import Int32Array, IntArray
+from model.search.groundwork import walk
 
 
 class Numbering(NamedTuple):
@@ -30,20 +30,8 @@ def along_neighbours(near: Int32Array, num_depots: int) -> Numbering:
     `near` as in `World`.
     """
     node = np.arange(len(near))
-    node[num_depots:] = list(_walk(near, num_depots))
+    walk(near, num_depots, node)
     return Numbering(node, np.argsort(node))
-
-
-def _walk(near: Int32Array, num_depots: int) -> Iterator[int]:
-    """Yield all customers; from where all neighbours were met, the walk begins anew."""
-    was_met = [False] * len(near)
-    for start in range(num_depots, len(near)):
-        at = -1 if was_met[start] else start
-        while at >= 0:
-            was_met[at] = True
-            yield at
-            at = next((other for other in near[at].tolist()
-                       if other >= 0 and not was_met[other]), -1)
 
 
 def renumbered(instance: Instance, numbering: Numbering) -> Instance:

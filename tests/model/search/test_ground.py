@@ -1,0 +1,61 @@
+"""The legs that the search sees, and whom it tries beside a customer, are those of the problem."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.kernel.instance import pack
+from model.problem import Problem, Travel
+from model.search.ground import NEAR_INSERTION, lay_ground
+from model.search.groundwork import LATENESS_WEIGHT, WAITING_WEIGHT
+from training.instances import generate
+
+SOME = 90
+
+
+def one_way(variant: str) -> Problem:
+    """Return a problem whose legs there and back differ."""
+    problem = generate(np.random.default_rng(8), SOME, variant)
+    rng = np.random.default_rng(9)
+    longer = rng.integers(1, 1000, problem.travel[0].duration.shape)
+    np.fill_diagonal(longer, 0)
+    travel = tuple(Travel(legs.duration[:] + longer, legs.distance[:] + longer)
+                   for legs in problem.travel)
+    return replace(problem, travel=travel)
+
+
+@pytest.mark.parametrize("column_first", [False, True])
+def test_legs_are_numbered_like_customers(column_first: bool) -> None:
+    problem = one_way("vrptw")
+    if column_first:
+        problem = replace(problem, travel=tuple(
+            Travel(np.asfortranarray(legs.duration[:]), np.asfortranarray(legs.distance[:]))
+            for legs in problem.travel))
+    ground = lay_ground(problem, pack([problem]), along=True)
+    node = ground.numbering.node
+    assert node.tolist() != list(range(problem.num_nodes))
+    for index, legs in enumerate(problem.travel):
+        stated = np.stack([legs.duration[:], legs.distance[:]], axis=-1)[node][:, node]
+        assert (ground.leg[index] == stated).all()
+        assert (ground.back[index] == stated.transpose(1, 0, 2)).all()
+
+
+def test_neighbours_who_fit_are_those_with_the_least_driving_waiting_and_lateness() -> None:
+    problem = one_way("vrptw")
+    ground = lay_ground(problem, pack([problem]))
+    drive, depots = problem.travel[0].duration[:], problem.num_depots
+
+    def misfit(origin: int, to: int) -> float:
+        one, other = (problem.customers[node - depots] for node in (origin, to))
+        way = int(drive[origin, to])
+        wait = other.earliest - (one.latest + one.service_duration) - way
+        late = one.earliest + one.service_duration + way - other.latest
+        return way + WAITING_WEIGHT * max(wait, 0) + LATENESS_WEIGHT * max(late, 0)
+
+    for node in range(depots, problem.num_nodes, 7):
+        ranked = sorted(min(misfit(node, int(other)), misfit(int(other), node))
+                        for other in ground.near[node] if other >= 0)
+        found = [min(misfit(node, int(other)), misfit(int(other), node))
+                 for other in ground.fit[node]]
+        assert found == pytest.approx(ranked[:NEAR_INSERTION])
