@@ -2,24 +2,27 @@
 
 from model.problem import Problem
 from model.search.beginning.either_way import shortest_routes
-from model.search.beginning.savings import savings_routes
+from model.search.beginning.savings import by_nearest, savings_routes
 from model.search.route.layout import World
-from model.search.world import may_be_turned
+from model.search.world import are_alike, may_be_turned
 from model.solution import Route, Solution, Stop, Trip
 
 
 def first_plan(problem: Problem, world: World) -> Solution:
-    """Return routes by savings where all vehicles are alike, none flies drones; else none.
+    """Return routes by savings where no vehicle flies drones and all hold and cost the same.
 
-    What flies is up to `world`, in which drones may be left aside. Routes have no times yet.
+    Where they begin and end at several places, customers are served from the nearest. What flies is
+    up to `world`, in which drones may be left aside. Routes have no times yet.
     """
     everyone = tuple(range(world.num_depots, world.num_nodes))
-    if world.num_types > 1 or world.type[0].drones > 0:
+    if world.type["drones"][:world.num_types].any() or not are_alike(world):
         return Solution((), everyone)
-    kind, = problem.vehicle_types
-    start, end = kind.begins_at, kind.ends_at
     join = shortest_routes if may_be_turned(world) else savings_routes
-    routes = sorted(join(world, 0), key=len, reverse=True)[: kind.count]
+    if world.num_types > 1:
+        world = world._replace(can=by_nearest(world))
     return Solution(tuple(
-        Route(0, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (start, *customers, end))),))
-        for number, customers in enumerate(routes)), everyone)
+        Route(k, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (
+            kind.begins_at, *customers, kind.ends_at))),))
+        for k, kind in enumerate(problem.vehicle_types)
+        for number, customers in enumerate(
+            sorted(join(world, k), key=len, reverse=True)[:kind.count])), everyone)

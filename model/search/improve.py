@@ -220,7 +220,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, world, plan, seeds[0])
     whole.count.stay = STAY if problem.num_customers >= IN_PARTS_FROM else 0
-    _begin(world, whole, fresh, limits)
+    _begin(world, whole, fresh, fresh and bool(plan.routes), limits)
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(world, whole, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
@@ -251,21 +251,22 @@ def _size(whole: Searcher) -> tuple[int, int]:
     return int(np.count_nonzero(used)), int(routes["sorties"][used].sum())
 
 
-def _begin(world: World, whole: Searcher, fresh: bool, limits: Limits) -> None:
+def _begin(world: World, whole: Searcher, fresh: bool, by_savings: bool, limits: Limits) -> None:
     """Insert the customers left out; if nothing was given, plan all anew where that is better.
 
-    In place. Where the clock ends the search, it ends other beginnings early, once there is one.
+    In place. `by_savings`: what there is was made so. Where the clock ends the search, it ends
+    other beginnings early, once there is one.
     """
     deadline = math.inf
     if limits.turns is None:
         deadline = limits.began + (limits.deadline - limits.began) * BEGINNING_SHARE
     # Savings are far better than insertion there, which in large problems takes its time.
     in_parts = whole.count.stay > 0
-    by_savings = in_parts and only_loads_limit(world)
+    is_best = by_savings and in_parts and only_loads_limit(world)
     with Alarm(deadline, limits.should_stop) as alarm:
         hurried = world._replace(stop=alarm.flag)
-        begin_anew(world, whole, fresh and not by_savings, hurried)
-        if fresh and world.mixed:
+        begin_anew(world, whole, fresh and not is_best, hurried)
+        if fresh and world.mixed and not by_savings:
             _begin_by_types(hurried, whole, limits,
                             BEGINNING_SHARE if in_parts else MOST_BEGINNING)
 

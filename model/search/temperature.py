@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from model.search.beginning.translate import leg_cost
 from model.search.route.layout import World
 from model.search.route.state import Searcher, missing_cost
-from model.search.world import only_loads_limit
+from model.search.world import are_alike, only_loads_limit
 
 HOT, COLD = 1.0, 0.1
 """First temperature by what a customer costs, last by what a leg between customers does."""
@@ -53,9 +53,10 @@ class Heat:
         served = max(1, int(searcher.count.customers) - missing)
         cost = float(searcher.value.cost) - missing_cost(world, searcher)
         drones = world.type["drones"][:world.num_types]
+        in_parts = searcher.count.stay > 0 and are_alike(world) and only_loads_limit(world)
         return cls(cost / served, leg_cost(world, searcher), world.num_types,
-                   bool((drones > 0).any()), bool((drones == 1).any()),
-                   searcher.count.stay > 0 and only_loads_limit(world), from_trucks, hot, cold)
+                   bool((drones > 0).any()), bool((drones == 1).any()), in_parts, from_trucks,
+                   hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:
         """Return the first and the last temperature.
@@ -80,5 +81,5 @@ class Heat:
     def _haste(self, turns: float) -> float:
         """Return the share of the first temperature that there is time for."""
         if self.types > 1:
-            return 1.0  # the start by insertion is too far from good
+            return 1.0  # which of them drive is far from good at first
         return min(1.0, max(LEAST_HEAT, math.sqrt(turns / FULL_HEAT)))

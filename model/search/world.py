@@ -156,10 +156,18 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     return mode
 
 
+def are_alike(world: World) -> bool:
+    """Tell whether all vehicles hold and cost the same, wherever and whenever they drive."""
+    kinds, rates = world.type[:world.num_types], world.rate[:world.num_types]
+    return bool((rates == rates[:1]).all()) and all(
+        bool((kinds[field] == kinds[:1][field]).all())
+        for field in ("travel", "capacity", "pickup_order"))
+
+
 def only_loads_limit(world: World) -> bool:
-    """Tell whether trucks all alike make one trip each, whenever they like."""
+    """Tell whether trucks make one trip each, whenever they like."""
     served = world.place[0, world.num_depots:, 0]
-    return not (world.general or world.num_types > 1 or served["window_earliest"].any()
+    return not (world.general or served["window_earliest"].any()
                 or (served["window_latest"] < UNLIMITED).any())
 
 
@@ -167,8 +175,9 @@ def may_be_turned(world: World) -> bool:
     """Tell whether routes may as well be driven the other way, where so many are served."""
     kind = world.type[0]
     return (world.num_nodes - world.num_depots >= TURNED_FROM and only_loads_limit(world)
-            and len(world.amount[0]) == 0 and kind.begins_at == kind.ends_at
-            and kind.shift_latest >= UNLIMITED and are_the_same_back(world.leg, world.back))
+            and world.num_types == 1 and len(world.amount[0]) == 0
+            and kind.begins_at == kind.ends_at and kind.shift_latest >= UNLIMITED
+            and are_the_same_back(world.leg, world.back))
 
 
 def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:

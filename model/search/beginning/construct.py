@@ -47,13 +47,13 @@ def begin_anew(world: World, searcher: Searcher, freely: bool,
                hurried: World | None = None) -> None:
     """Insert the customers left out; `freely`, plan all anew if that is better. In place.
 
-    The latter in a `hurried` world, which is the same and may end sooner, once nobody is left out.
+    The latter in a `hurried` world, which is the same and may end sooner: a search then has more of
+    the time, which finds room for those left out, too.
     """
     if searcher.count.missing > 0:
         insert_missing(world, searcher, BY_FAR)
-    if freely:
-        left_out = searcher.count.missing > 0
-        _construct(world if hurried is None or left_out else hurried, searcher)
+    if freely and (hurried is None or hurried.stop[0] == 0):
+        _construct(world if hurried is None else hurried, searcher)
 
 
 def begin_again(world: World, searcher: Searcher) -> None:

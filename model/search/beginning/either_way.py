@@ -68,8 +68,7 @@ def join_either_way(world: World, k: int, ranks: int, keys: IntArray, chain: Rec
         set_up_cargo(world, node, cargo[node])
     for key in keys:
         a, b = pair(world, ranks, key)
-        if (is_amid(chain[a]) or is_amid(chain[b])
-                or not (world.can[k, 0, a] and world.can[k, 0, b])):
+        if is_amid(chain[a]) or is_amid(chain[b]):
             continue
         one, other = route_of(chain, a), route_of(chain, b)
         length = chain[one].length + chain[other].length

@@ -18,8 +18,8 @@ from model.kernel.load import (
 from model.kernel.records import Record, Records, record
 from model.kernel.shift import allows_stops
 from model.kernel.start import leaves_first
-from model.kernel.stop import end_of_service, latest_arrival, places_of
-from model.problem import IntArray
+from model.kernel.stop import end_of_service, latest_arrival, places_of, service_duration
+from model.problem import BoolArray, IntArray
 from model.search.route.layout import NOWHERE, World
 from model.search.route.rarer import tiers_of
 
@@ -29,9 +29,10 @@ NEIGHBOURS = 64
 KEY_BITS = 62
 """Of a key at most."""
 
-CHAIN = record("before", "behind", "route", "leave", "latest", "last", "length")
+CHAIN = record("before", "behind", "route", "leave", "latest", "last", "length", "busy")
 """A customer in a chain: who comes before and behind; of its last, who comes first; the
-departure and the latest arrival; of its first, who comes last, and how many there are."""
+departure and the latest arrival; of its first, who comes last, how many there are, and how long to
+serve them and to drive from one to the next takes."""
 
 CARGO = record("delivers", "picks", delivered=TIER, picked=TIER, most=TIER)
 """What a chain carries, by its first customer."""
@@ -40,7 +41,8 @@ CARGO = record("delivers", "picks", delivered=TIER, picked=TIER, most=TIER)
 def savings_routes(world: World, k: int) -> list[list[int]]:
     """Join the customers that a truck of type `k` may serve to routes.
 
-    Loads, stops, hard windows and the shift are kept; what else is asked for is not looked at.
+    Loads, stops, hard windows, the shift and the working duration are kept; what else is asked for
+    is not looked at.
 
     Returns
     -------
@@ -59,8 +61,7 @@ def ranked_pairs(world: World, k: int, ranks: int) -> IntArray:
     write_excess(world, k, ranks, keys)
     largest = max(abs(int(keys.min(initial=0))), int(keys.max(initial=0)))
     number_pairs(keys, max(0, largest.bit_length() + len(keys).bit_length() - KEY_BITS))
-    keys.sort()
-    return keys[:np.searchsorted(keys, 0)]
+    return np.sort(keys[keys < 0])
 
 
 def joined(world: World, k: int, ranks: int, keys: IntArray) -> Records:
@@ -82,19 +83,50 @@ def routes_of(world: World, k: int, chain: Records) -> list[list[int]]:
     return [_customers(behind, head) for head in heads.tolist()]
 
 
+def by_nearest(world: World) -> BoolArray:
+    """Return whom each type may serve, (row, 2, node), if each customer is one type's alone.
+
+    It is that from whose depots the way there and back is shortest, the first of equals.
+    """
+    nearest = np.zeros(world.num_nodes, np.int64)
+    write_nearest_types(world, nearest)
+    can = world.can.copy()
+    can[:world.num_types, 0] &= nearest == np.arange(world.num_types)[:, None]
+    return can
+
+
+@compiled
+def write_nearest_types(world: World, nearest: IntArray) -> None:
+    """Write which type's trucks drive least for a customer alone. In place: `nearest` (node,)."""
+    for node in range(world.num_depots, world.num_nodes):
+        least = -1
+        for k in range(world.num_types):
+            if world.can[k, 0, node]:
+                legs, kind = legs_of(world.leg, world.type[k].travel), world.type[k]
+                way = (leg(legs, kind.begins_at, node).distance
+                       + leg(legs, node, kind.ends_at).distance)
+                if least < 0 or way < least:
+                    least, nearest[node] = way, k
+
+
 @compiled
 def write_excess(world: World, k: int, ranks: int, excess: IntArray) -> None:
     """Write how much more is driven if neighbours follow one another: less than 0, as a rule.
 
-    In place: customer by customer, to the nearest `ranks`; 0 where there are not as many.
+    In place: customer by customer, to the nearest `ranks`; 0 where there are not as many, and where
+    the type may not serve both.
     """
     legs, kind = legs_of(world.leg, world.type[k].travel), world.type[k]
-    for index in range(len(excess)):
-        a, b = pair(world, ranks, index)
-        excess[index] = 0
-        if b >= 0:
-            excess[index] = (leg(legs, a, b).distance - leg(legs, a, kind.ends_at).distance
-                             - leg(legs, kind.begins_at, b).distance)
+    excess[:] = 0
+    for a in range(world.num_depots, world.num_nodes):
+        if not world.can[k, 0, a]:
+            continue
+        to_end, first = leg(legs, a, kind.ends_at).distance, (a - world.num_depots) * ranks
+        for rank in range(ranks):
+            b = world.near[a, rank]
+            if b >= 0 and world.can[k, 0, b]:
+                excess[first + rank] = (leg(legs, a, b).distance - to_end
+                                        - leg(legs, kind.begins_at, b).distance)
 
 
 @compiled
@@ -173,7 +205,7 @@ def join(world: World, k: int, ranks: int, keys: IntArray, chain: Records,
     for node in range(world.num_depots, world.num_nodes):
         place, link = places[node], chain[node]
         link.before, link.behind, link.route, link.last = NOWHERE, NOWHERE, node, node
-        link.length = 1
+        link.length, link.busy = 1, service_duration(place)
         set_up_cargo(world, node, cargo[node])
         ready = max(leaves_first(kind, kind.shift_earliest), release_of(place))
         link.leave = end_of_service(place, ready + leg(legs, start, node).duration)
@@ -181,19 +213,31 @@ def join(world: World, k: int, ranks: int, keys: IntArray, chain: Records,
         link.latest = latest_arrival(place, leave)
     for key in keys:
         a, b = pair(world, ranks, key)
+        way = leg(legs, a, b).duration
         if (chain[a].behind != NOWHERE or chain[b].before != NOWHERE
-                or not (world.can[k, 0, a] and world.can[k, 0, b])
-                or chain[a].leave + leg(legs, a, b).duration > chain[b].latest):
+                or chain[a].leave + way > chain[b].latest):
             continue
         head, tail = chain[a].route, chain[b].last
         length = chain[head].length + chain[b].length
-        if (head != b and allows_stops(kind, length)
-                and may_join(kind, cargo[head], cargo[b])):
+        if (head != b and allows_stops(kind, length) and may_join(kind, cargo[head], cargo[b])
+                and working(kind, legs, chain, a, b) <= kind.max_working_duration):
+            chain[head].busy += way + chain[b].busy
             link_up(places, legs, chain, a, b, head, tail)
             chain[head].length = length
             for tier in range(cargo.shape[1]):
                 joined = followed(chain_cargo(cargo[head, tier]), chain_cargo(cargo[b, tier]))
                 set_chain_cargo(cargo[head, tier], joined)
+
+
+@inlined
+def working(kind: Record, legs: TravelLegs, chain: Records, a: int, b: int) -> int:
+    """Return how long a vehicle works at least that drives the route to `a` and that from `b`."""
+    head, tail, way = chain[a].route, chain[b].last, leg(legs, a, b).duration
+    latest = min(chain[head].latest, chain[b].latest - way - chain[head].busy)
+    leaves = max(chain[tail].leave, chain[a].leave + way + chain[b].busy)
+    busy = max(chain[head].busy + way + chain[b].busy, leaves - latest)
+    return (leg(legs, kind.begins_at, head).duration + busy
+            + leg(legs, tail, kind.ends_at).duration)
 
 
 @compiled

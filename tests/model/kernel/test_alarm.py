@@ -110,6 +110,18 @@ def test_an_insertion_of_all_leaves_out_whom_there_is_no_time_for() -> None:
     assert read_plan(world, searcher).unassigned == ()
 
 
+@pytest.mark.parametrize("has_rung", [False, True])
+def test_no_other_plan_is_begun_once_there_is_no_time(has_rung: bool) -> None:
+    problem = problem_of("vrptw")
+    world = make_world(problem, pack([problem]))
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    flag = silent()
+    flag[0] = has_rung
+    begin_anew(world, searcher, True, world._replace(stop=flag))
+    assert read_plan(world, searcher).unassigned == ()
+    assert (searcher.count.turn == 1) == has_rung
+
+
 def one_long_trip(num_customers: int, steps: int) -> Problem:
     """Return a problem whose every insertion times one long trip again, by a speed profile."""
     problem = problem_of("soft", num_customers)

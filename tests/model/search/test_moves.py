@@ -12,12 +12,10 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
-from model.search.beginning.savings import savings_routes
-from model.search.first_plan import first_plan
 from model.search.ground import Ground, lay_ground
 from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.search.moves.anneal import BUILT_BESIDE_FROM
-from model.search.world import Moves, make_world
+from model.search.world import Moves
 from model.solution import Solution
 
 MINUTE = 60_000
@@ -56,42 +54,6 @@ def improved_cost(problem: Problem, start: Solution, turns: int, seed: int) -> f
     evaluation = check(problem, found.solution)
     assert evaluation.violations == ()
     return evaluation.cost.total
-
-
-def test_savings_join_what_lies_on_the_way() -> None:
-    problem = on_a_plane([(1, 0), (2, 0), (3, 0), (-1, 0), (-2, 0)], TRUCK)
-    world = make_world(problem, pack([problem]))
-    routes = sorted(sorted(route) for route in savings_routes(world, 0))
-    assert routes == [[1, 2, 3], [4, 5]]
-
-
-def test_savings_keep_to_capacity_and_windows() -> None:
-    problem = on_a_plane([(1, 0), (2, 0), (3, 0)], replace(TRUCK, count=3, capacity=(2000,)))
-    world = make_world(problem, pack([problem]))
-    assert sorted(map(sorted, savings_routes(world, 0))) == [[1], [2, 3]]
-    near, middle, far = problem.customers
-    early = (replace(near, latest=MINUTE), replace(middle, latest=2 * MINUTE),
-             replace(far, latest=3 * MINUTE))
-    problem = replace(problem, customers=early, vehicle_types=(TRUCK,))
-    assert savings_routes(make_world(problem, pack([problem])), 0) == [[1, 2, 3]]
-    problem = replace(problem, customers=(near, replace(middle, latest=2 * MINUTE),
-                                          replace(far, latest=3 * MINUTE)))
-    windows = replace(problem, customers=(replace(near, earliest=9 * MINUTE),
-                                          *problem.customers[1:]))
-    assert savings_routes(make_world(windows, pack([windows])), 0) == [[2, 3, 1]]
-
-
-def test_savings_begin_the_search_only_where_all_vehicles_are_alike() -> None:
-    places = [(1.0, 0.0), (2.0, 0.0)]
-    van = replace(TRUCK, id="van", capacity=(1000,))
-    with_drone = replace(TRUCK, drones=DroneType(1, (1000,), 0))
-    for kinds, joined in (((TRUCK,), True), ((TRUCK, van), False), ((with_drone,), False),
-                          ((replace(TRUCK, max_trips=2),), True)):
-        problem = on_a_plane(places, *kinds)
-        first = first_plan(problem, make_world(problem, pack([problem])))
-        assert (len(first.routes) == 1) == joined
-        grounded = make_world(problem, pack([problem]), Moves(loops=False, crossings=False))
-        assert (len(first_plan(problem, grounded).routes) == 1) == (kinds != (TRUCK, van))
 
 
 @pytest.mark.parametrize("count", [1, 2])
