@@ -79,10 +79,15 @@ def _is_plain(kind: VehicleType) -> bool:
 def state_after(setting: Setting, actions: IntArray) -> State:
     """Return the state after actions, in one row."""
     state = reset(setting.instance, np.zeros(1, np.int64))
+    apply_all(setting.instance, state, 0, actions)
+    return state
+
+
+def apply_all(instance: Instance, state: State, r: int, actions: IntArray) -> None:
+    """Let a row of a state take actions, one after another. In place."""
     done = 0
     while done < len(actions):
-        done = apply_route(setting.instance, state, 0, actions, done)
-    return state
+        done = apply_route(instance, state, r, actions, done)
 
 
 def cost_of(setting: Setting, actions: IntArray) -> float:

@@ -15,7 +15,8 @@ from model.policy.observation import Observation, empty_observation
 from model.policy.tokens import Float32Array
 from model.problem import FloatArray, IntArray
 from model.simulation.cost import by_term
-from model.simulation.simulator import apply_route, max_steps, reset
+from model.simulation.simulator import max_steps, reset
+from training.completion import apply_all
 from training.judge import LEAST_RISE, NO_RISE, PATH, Judgement, Mistake
 from training.rollout import Batch
 
@@ -48,9 +49,7 @@ def go_on(actor: Scorer, batch: Batch, beginnings: Sequence[IntArray],
     choice, after = np.zeros(rows, np.int64), [list[int]() for _ in range(rows)]
     ranked = [list[int]() for _ in range(rows)]
     for r, actions in enumerate(beginnings):
-        done = 0
-        while done < len(actions):
-            done = apply_route(batch.instance, state, r, actions, done)
+        apply_all(batch.instance, state, r, actions)
     for _ in range(max_steps(batch.instance) if decisions is None else decisions):
         if step(batch.instance, batch.scale, state, batch.tokens.type, 0, rows, rows, choice,
                 seen) == 0:

@@ -12,8 +12,9 @@ from model.kernel.instance import Instance
 from model.policy.features import step
 from model.policy.observation import Observation, empty_observation
 from model.problem import FloatArray, IntArray, Problem
-from model.simulation.simulator import LAUNCH, NUM_KINDS, OPEN, apply_route, reset
+from model.simulation.simulator import LAUNCH, NUM_KINDS, OPEN, reset
 from model.simulation.transition import State
+from training.completion import apply_all
 from training.labels import NONE, TRIED, Labelled, Origin, Trial
 from training.rollout import Batch, make_batch
 
@@ -112,9 +113,7 @@ def begun(batch: Batch, rows: Sequence[Stretch]) -> State:
     """Return the states in which stretches begin."""
     state = reset(batch.instance, np.array([row.plan for row in rows]))
     for r, row in enumerate(rows):
-        done = 0
-        while done < len(row.before):
-            done = apply_route(batch.instance, state, r, row.before, done)
+        apply_all(batch.instance, state, r, row.before)
     return state
 
 

@@ -24,8 +24,8 @@ from model.policy.observation import Observation, empty_observation
 from model.policy.rollouts import StepWeights, candidate_scores, roll_out
 from model.policy.tokens import Float32Array
 from model.problem import FloatArray, IntArray, Problem
-from model.simulation.simulator import apply_route, reset
-from training.completion import Setting, can_complete
+from model.simulation.simulator import reset
+from training.completion import Setting, apply_all, can_complete
 from training.deviations import go_on, judge_by_policy
 from training.export import WEIGHTS
 from training.instances import DEFAULT_CONFIG, generate
@@ -153,9 +153,7 @@ class Actor:
         """Return which of some codes the policy prefers after actions; None if none is legal."""
         state = reset(batch.instance, np.zeros(1, np.int64))
         seen = empty_observation(1, batch.instance.node.shape[2], batch.instance.type.shape[1])
-        done = 0
-        while done < len(actions):
-            done = apply_route(batch.instance, state, 0, actions, done)
+        apply_all(batch.instance, state, 0, actions)
         count = step(batch.instance, batch.scale, state, batch.tokens.type, 0, 1, 1,
                      np.zeros(1, np.int64), seen)
         legal = seen.action[0, :count].tolist()
@@ -210,9 +208,7 @@ def _padded(values: Sequence[float], by: float) -> FloatArray:
 def label(actor: Actor, origin: Origin, effort: float = 1.0) -> tuple[Labelled, Judgement]:
     """Plan a problem and judge the plan, by the policy alone where the search can't complete it."""
     rng = np.random.default_rng((origin.seed, 1))
-    problem = origin.problem()
-    batch = make_batch([problem], [origin.variant])
-    actions = actor.plan(batch, HOT * float(rng.random() < 0.5), rng)
+    problem, batch, actions = _planned(actor, origin, rng)
     if can_complete(problem):
         judgement = Judge(Setting(problem, batch.instance), actions, effort).judge()
     else:
@@ -228,11 +224,17 @@ def label(actor: Actor, origin: Origin, effort: float = 1.0) -> tuple[Labelled, 
 def label_by_trials(actor: Actor, origin: Origin, effort: float = 1.0) -> Labelled:
     """Plan a problem and try other choices at some decisions."""
     rng = np.random.default_rng((origin.seed, 2))
-    problem = origin.problem()
-    batch = make_batch([problem], [origin.variant])
-    actions = actor.plan(batch, HOT * float(rng.random() < 0.5), rng)
+    problem, batch, actions = _planned(actor, origin, rng)
     return Labelled(origin, actions, np.zeros(len(actions), np.bool_), [],
                     trials=try_others(actor, problem, batch, actions, rng, effort))
+
+
+def _planned(actor: Actor, origin: Origin, rng: np.random.Generator
+             ) -> tuple[Problem, Batch, IntArray]:
+    """Draw a problem and plan it, greedily or not."""
+    problem = origin.problem()
+    batch = make_batch([problem], [origin.variant])
+    return problem, batch, actor.plan(batch, HOT * float(rng.random() < 0.5), rng)
 
 
 def draw_origin(rng: np.random.Generator) -> Origin:
