@@ -37,7 +37,7 @@ from model.problem import (
 )
 from model.problem.distances import ROUND
 from model.search import improve as search
-from model.search.ground import lay_ground
+from model.search.ground.lay import lay_ground
 from model.solution import Solution
 
 AREA = 10_000

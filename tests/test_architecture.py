@@ -83,7 +83,7 @@ DESCRIBING = {
     "policy/tokens": set.union(*HOMES.values()),
     "policy/features": {".capacity", ".demand", ".endurance"},
     "kernel/leg": {".setup_duration", ".site"},
-    "search/ground": {".service_duration", ".setup_duration", ".site", ".window_earliest",
+    "search/ground/lay": {".service_duration", ".setup_duration", ".site", ".window_earliest",
                       ".window_latest"},
     "search/world": set.union(*HOMES.values()),
     "search/beginning/translate": {".capacity", ".demand", ".max_sorties", ".max_stops",
@@ -95,7 +95,7 @@ LEG_TABLES = {"leg", "back", "legs", "flights", "inward", "onward", "drive", "fl
               "distance"}
 """Names of tables of legs and of rows of one, whose elements `kernel/leg` reads alone."""
 LEGS_AT_ONCE = {"kernel/instance", "kernel/nearest", "kernel/variants", "policy/resampling",
-                "policy/tokens", "search/ground", "search/groundwork", "search/world"}
+                "policy/tokens", "search/ground/lay", "search/ground/tables", "search/world"}
 """What fills a table, or reads a whole one in plain Python."""
 
 MAX_FILE_LINES = 400

@@ -42,7 +42,7 @@ SOURCES = (
     *(f"search/moves/{part}" for part in (
         "ruin", "recreate", "exchange", "retype", "split", "resplit", "anneal")),
     *(f"search/beginning/{part}" for part in ("construct", "savings", "either_way", "translate")),
-    "search/groundwork", "search/sharing",
+    "search/ground/tables", "search/sharing",
 )
 """Files with compiled functions, and those whose constants are compiled into them."""
 

@@ -7,7 +7,7 @@ so the actions of any of them are legal in any order.
 import numpy as np
 
 from model.kernel.instance import Instance
-from model.problem import IntArray
+from model.problem import BoolArray, IntArray
 from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN
 
 LEAST_ANEW, MOST_ANEW = 0.15, 0.9
@@ -37,10 +37,10 @@ def part_to_keep(instance: Instance, actions: IntArray, most_anew: float,
     -------
     Codes of the actions kept, those of whole vehicles first.
     """
-    vehicle, services = _vehicles(actions), _services(actions)
-    nearest_first = vehicles_nearby(instance, actions, rng)
-    if len(nearest_first) == 0:
+    vehicle, services = _vehicles(actions), np.flatnonzero(serves(actions))
+    if len(services) == 0:
         return actions[:0]
+    nearest_first = _nearby(instance, actions[services] // NUM_KINDS, vehicle[services], rng)
     anew = np.cumsum(np.bincount(vehicle[services])[nearest_first])
     wanted = LEAST_ANEW * (most_anew / LEAST_ANEW) ** rng.random() * len(services)
     last = int(np.searchsorted(anew, wanted))
@@ -62,12 +62,17 @@ def vehicles_nearby(instance: Instance, actions: IntArray, rng: np.random.Genera
     rng
         Draws the customer.
     """
-    vehicle, services = _vehicles(actions), _services(actions)
+    services = np.flatnonzero(serves(actions))
     if len(services) == 0:
         return services
-    node = actions // NUM_KINDS
-    drive = instance.duration[0, 0, node[rng.choice(services)], node[services]]
-    _, first = np.unique(vehicle[services[np.argsort(drive, kind="stable")]], return_index=True)
+    return _nearby(instance, actions[services] // NUM_KINDS, _vehicles(actions)[services], rng)
+
+
+def _nearby(instance: Instance, node: IntArray, vehicle: IntArray,
+            rng: np.random.Generator) -> IntArray:
+    """As `vehicles_nearby`; `node` and `vehicle` are who is served, and by whom."""
+    drive = instance.duration[0, 0, rng.choice(node), node]
+    _, first = np.unique(vehicle[np.argsort(drive, kind="stable")], return_index=True)
     return np.argsort(first, kind="stable")
 
 
@@ -76,7 +81,7 @@ def _vehicles(actions: IntArray) -> IntArray:
     return np.cumsum(actions % NUM_KINDS == OPEN) - 1
 
 
-def _services(actions: IntArray) -> IntArray:
-    """Return which actions serve a customer."""
+def serves(actions: IntArray) -> BoolArray:
+    """Tell which actions serve a customer."""
     kind = actions % NUM_KINDS
-    return np.flatnonzero((kind == DRIVE) | (kind == LAUNCH))
+    return (kind == DRIVE) | (kind == LAUNCH)

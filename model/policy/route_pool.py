@@ -17,11 +17,11 @@ import numpy as np
 from model.kernel.alarm import silent
 from model.kernel.instance import Instance
 from model.policy.partition import cheapest_partition
-from model.policy.resampling import vehicles_nearby
+from model.policy.resampling import serves, vehicles_nearby
 from model.policy.rollouts import NOTHING, Rollout
 from model.problem import BoolArray, FloatArray, IntArray
 from model.simulation.cost import by_term
-from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, price_routes, reset
+from model.simulation.simulator import NUM_KINDS, OPEN, price_routes, reset
 
 REGION = 100
 """Customers whose routes are chosen together, at most: the time for more grows fast."""
@@ -66,8 +66,7 @@ class RoutePool:
         price = np.zeros((len(new), terms.shape[1]))
         price_routes(self._instance, self._state, 0, np.concatenate(new), terms, price)
         for codes, cost in zip(new, price.sum(axis=1).tolist(), strict=True):
-            kind = codes % NUM_KINDS
-            nodes = np.sort(codes[(kind == DRIVE) | (kind == LAUNCH)] // NUM_KINDS)
+            nodes = np.sort(codes[serves(codes)] // NUM_KINDS)
             route = Route(codes, int(codes[0] // NUM_KINDS), nodes, cost)
             key = route.type, nodes.tobytes()
             self._by_actions[codes.tobytes()] = key

@@ -15,7 +15,7 @@ from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.first_plan import first_plan
-from model.search.ground import Ground, lay_ground
+from model.search.ground.lay import Ground, lay_ground
 from model.search.limits import WHOLE, Limits, Span
 from model.search.route.layout import World
 from model.search.route.state import Searcher

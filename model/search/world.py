@@ -14,8 +14,8 @@ from model.kernel.records import Record, Records
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem, Travel,
 )
-from model.search.ground import Ground, lay_ground
-from model.search.numbering import renumbered
+from model.search.ground.lay import Ground, lay_ground
+from model.search.ground.numbering import renumbered
 from model.search.route.layout import (
     MODE_APART, MODE_LEAN, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE,
     MODE_TIMED, MOST_VISITS, World,

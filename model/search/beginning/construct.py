@@ -48,12 +48,15 @@ def begin_anew(world: World, searcher: Searcher, freely: bool,
     """Insert the customers left out; `freely`, plan all anew if that is better. In place.
 
     The latter in a `hurried` world, which is the same and may end sooner: a search then has more of
-    the time, which finds room for those left out, too.
+    the time, which finds room for those left out, too. But where nobody has to be served, a plan
+    for few may be far cheaper than one that was begun for all.
     """
     if searcher.count.missing > 0:
         insert_missing(world, searcher, BY_FAR)
-    if freely and (hurried is None or hurried.stop[0] == 0):
-        _construct(world if hurried is None else hurried, searcher)
+    if hurried is None or world.optional:
+        hurried = world
+    if freely and hurried.stop[0] == 0:
+        _construct(hurried, searcher)
 
 
 def begin_again(world: World, searcher: Searcher) -> None:

@@ -18,8 +18,11 @@ from model.kernel.load import (
 from model.kernel.records import Record, Records, record
 from model.kernel.shift import allows_stops
 from model.kernel.start import leaves_first
-from model.kernel.stop import end_of_service, latest_arrival, places_of, service_duration
+from model.kernel.stop import (
+    closing, end_of_service, latest_arrival, opening, places_of, service_duration,
+)
 from model.problem import BoolArray, IntArray
+from model.search.ground.tables import detour
 from model.search.route.layout import NOWHERE, World
 from model.search.route.rarer import tiers_of
 
@@ -114,18 +117,31 @@ def write_excess(world: World, k: int, ranks: int, excess: IntArray) -> None:
     """Write how much more is driven if neighbours follow one another: less than 0, as a rule.
 
     In place: customer by customer, to the nearest `ranks`; 0 where there are not as many, and where
-    the type may not serve both.
+    the type may not serve both. The waiting or lateness that comes of it counts as a detour does
+    that takes as long (`ground.tables.detour`), at the speed of drives from where routes begin.
     """
     legs, kind = legs_of(world.leg, world.type[k].travel), world.type[k]
+    places = places_of(world.place, kind)
+    distance, duration = 0.0, 0.0
+    for node in range(world.num_depots, world.num_nodes):
+        way = leg(legs, kind.begins_at, node)
+        distance += way.distance
+        duration += way.duration
+    speed = distance / max(1.0, duration)
     excess[:] = 0
     for a in range(world.num_depots, world.num_nodes):
         if not world.can[k, 0, a]:
             continue
         to_end, first = leg(legs, a, kind.ends_at).distance, (a - world.num_depots) * ranks
+        leaves = end_of_service(places[a], 0)
+        leaves_last = end_of_service(places[a], closing(places[a]))
         for rank in range(ranks):
             b = world.near[a, rank]
             if b >= 0 and world.can[k, 0, b]:
-                excess[first + rank] = (leg(legs, a, b).distance - to_end
+                way = leg(legs, a, b)
+                more = detour(way.duration, leaves, leaves_last, opening(places[b], 0),
+                              closing(places[b])) - way.duration
+                excess[first + rank] = (way.distance + int(more * speed) - to_end
                                         - leg(legs, kind.begins_at, b).distance)
 
 

@@ -122,6 +122,18 @@ def test_no_other_plan_is_begun_once_there_is_no_time(has_rung: bool) -> None:
     assert (searcher.count.turn == 1) == has_rung
 
 
+def test_a_plan_for_few_is_begun_however_late_where_nobody_has_to_be_served() -> None:
+    problem = problem_of("cvrp")
+    problem = replace(problem, unassigned_cost=1e-3)
+    world = make_world(problem, pack([problem]))
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    searcher.value.best = math.inf  # as if there were a dear plan for all
+    flag = silent()
+    flag[0] = 1
+    begin_anew(world, searcher, True, world._replace(stop=flag))
+    assert searcher.count.turn > 1
+
+
 def one_long_trip(num_customers: int, steps: int) -> Problem:
     """Return a problem whose every insertion times one long trip again, by a speed profile."""
     problem = problem_of("soft", num_customers)

@@ -14,7 +14,7 @@ from model.kernel.pausing import EndedError, pausing
 from model.planner import Listener, Planner, PlanOptions
 from model.problem import Problem, Travel
 from model.search.improve import SearchConfig, improve
-from model.search.ground import lay_ground
+from model.search.ground.lay import lay_ground
 from model.solution import Solution
 from training.instances import generate
 

@@ -7,8 +7,8 @@ import pytest
 
 from model.kernel.instance import pack
 from model.problem import Problem, Travel
-from model.search.ground import NEAR_INSERTION, lay_ground
-from model.search.groundwork import LATENESS_WEIGHT, WAITING_WEIGHT
+from model.search.ground.lay import NEAR_INSERTION, lay_ground
+from model.search.ground.tables import LATENESS_WEIGHT, WAITING_WEIGHT
 from training.instances import generate
 
 SOME = 90

@@ -12,7 +12,7 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
-from model.search.ground import Ground, lay_ground
+from model.search.ground.lay import Ground, lay_ground
 from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.search.moves.anneal import BUILT_BESIDE_FROM
 from model.search.world import Moves

@@ -6,8 +6,8 @@ import pytest
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.search.improve import SearchConfig, improve
-from model.search.ground import lay_ground
-from model.search.numbering import along_neighbours
+from model.search.ground.lay import lay_ground
+from model.search.ground.numbering import along_neighbours
 from model.search.world import make_world
 from model.solution import Solution
 from tests.model.rollouts import random_problems

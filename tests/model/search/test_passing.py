@@ -6,7 +6,7 @@ from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, Problem, Travel, VehicleType
 from model.search.beginning.translate import make_searcher
-from model.search.ground import NEAR_INSERTION
+from model.search.ground.lay import NEAR_INSERTION
 from model.search.insertion.passing import EACH_DRAWN
 from model.search.moves.anneal import ANY, anneal
 from model.search.world import make_world

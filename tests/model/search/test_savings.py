@@ -2,8 +2,10 @@
 
 from dataclasses import replace
 from itertools import chain
+from typing import Any
 
 import numpy as np
+import pytest
 
 from model.kernel.instance import pack
 from model.problem import Depot, DroneType, Problem, VehicleType
@@ -50,6 +52,21 @@ def test_savings_keep_to_the_working_duration() -> None:
     problem = replace(problem, customers=(
         replace(near, latest=9 * MINUTE), replace(middle, earliest=12 * MINUTE), far))
     assert [1] in savings_routes(make_world(problem, pack([problem])), 0)
+
+
+@pytest.mark.parametrize(("beside", "other"), [
+    ({"earliest": 600 * MINUTE}, {"latest": 60 * MINUTE}),
+    ({"latest": MINUTE, "late_cost_per_hour": 1.0}, {})])
+def test_savings_join_whom_waiting_and_lateness_leave_time_for(
+        beside: dict[str, Any], other: dict[str, Any]) -> None:
+    problem = on_a_plane([(10, 0), (10, 0.5), (9, -3)], replace(TRUCK, count=2, capacity=(2000,)))
+    first, second, third = problem.customers
+    assert [1, 2] in map(sorted, savings_routes(make_world(problem, pack([problem])), 0))
+    first = replace(first, earliest=20 * MINUTE, latest=30 * MINUTE)
+    problem = replace(problem, customers=(
+        first, replace(second, **beside), replace(third, **other)))
+    routes = savings_routes(make_world(problem, pack([problem])), 0)
+    assert sorted(map(sorted, routes)) == [[1, 3], [2]]
 
 
 def from_two_places(*kinds: VehicleType) -> Problem:

@@ -11,7 +11,7 @@ import pytest
 
 from model.kernel.instance import pack
 from model.problem import Problem
-from model.search.ground import lay_ground
+from model.search.ground.lay import lay_ground
 from model.search.world import make_world
 from training.instances import generate
 

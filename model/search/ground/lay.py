@@ -12,8 +12,8 @@ from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Records
 from model.kernel.variants import Way, ways_of
 from model.problem import UNLIMITED, Int32Array, IntArray, Problem, StraightLegs, Travel
-from model.search.groundwork import write_legs, write_misfit
-from model.search.numbering import Numbering, along_neighbours, as_stated
+from model.search.ground.numbering import Numbering, along_neighbours, as_stated
+from model.search.ground.tables import write_legs, write_misfit
 
 NEAR_RUIN = 128
 """How many customers a ruin may spread to."""

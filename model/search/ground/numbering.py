@@ -6,7 +6,7 @@ import numpy as np
 
 from model.kernel.instance import Instance
 from model.problem import Int32Array, IntArray
-from model.search.groundwork import walk
+from model.search.ground.tables import walk
 
 
 class Numbering(NamedTuple):
