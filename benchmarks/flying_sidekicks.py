@@ -49,7 +49,7 @@ BATTERY = {"101": 457_503.0, "102": 904_033.0, "103": 291_094.0, "104": 562_990.
 EQUAL = 1e-6
 """Largest relative excess over an optimum of a plan that reaches it."""
 
-SLICE = 0.25
+SLICE = 0.05
 """Seconds for the search of one problem."""
 
 Flight = tuple[int, int, int, int]  # stop of launch, customer, stop of recovery, UAV
