@@ -127,7 +127,7 @@ def write_excess(world: World, k: int, ranks: int, excess: IntArray) -> None:
         way = leg(legs, kind.begins_at, node)
         distance += way.distance
         duration += way.duration
-    speed = distance / max(1.0, duration)
+    speed = distance / duration if duration > 0.0 else 0.0
     excess[:] = 0
     for a in range(world.num_depots, world.num_nodes):
         if not world.can[k, 0, a]:

@@ -28,6 +28,7 @@ RENUMBERED = 4096
 NEAR_INSERTION = 40
 """Beside how many customers an insertion is tried where not everywhere is."""
 
+
 class Ground(NamedTuple):
     """What a problem's search sees, whatever it may do."""
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from model.kernel.instance import pack
-from model.problem import Depot, DroneType, Problem, VehicleType
+from model.problem import Depot, DroneType, Problem, Travel, VehicleType
 from model.search.beginning.savings import savings_routes
 from model.search.first_plan import first_plan
 from model.search.world import Moves, make_world
@@ -67,6 +67,17 @@ def test_savings_join_whom_waiting_and_lateness_leave_time_for(
         first, replace(second, **beside), replace(third, **other)))
     routes = savings_routes(make_world(problem, pack([problem])), 0)
     assert sorted(map(sorted, routes)) == [[1, 3], [2]]
+
+
+def test_savings_go_by_distance_where_driving_takes_no_time() -> None:
+    problem = on_a_plane([(1, 0), (2, 0), (-1, 0)], replace(TRUCK, capacity=(2000,)))
+    near, far, other = problem.customers
+    travel, = problem.travel
+    problem = replace(
+        problem, travel=(Travel(np.zeros_like(travel.duration[:]), travel.distance),),
+        customers=(replace(near, latest=MINUTE), replace(far, earliest=9 * MINUTE), other))
+    routes = savings_routes(make_world(problem, pack([problem])), 0)
+    assert sorted(map(sorted, routes)) == [[1, 2], [3]]
 
 
 def from_two_places(*kinds: VehicleType) -> Problem:
