@@ -14,9 +14,9 @@ from training.instances import generate
 SOME = 90
 
 
-def one_way(variant: str) -> Problem:
-    """Return a problem whose legs there and back differ."""
-    problem = generate(np.random.default_rng(8), SOME, variant)
+def one_way() -> Problem:
+    """Return a problem with windows whose legs there and back differ."""
+    problem = generate(np.random.default_rng(8), SOME, "vrptw")
     rng = np.random.default_rng(9)
     longer = rng.integers(1, 1000, problem.travel[0].duration.shape)
     np.fill_diagonal(longer, 0)
@@ -27,7 +27,7 @@ def one_way(variant: str) -> Problem:
 
 @pytest.mark.parametrize("column_first", [False, True])
 def test_legs_are_numbered_like_customers(column_first: bool) -> None:
-    problem = one_way("vrptw")
+    problem = one_way()
     if column_first:
         problem = replace(problem, travel=tuple(
             Travel(np.asfortranarray(legs.duration[:]), np.asfortranarray(legs.distance[:]))
@@ -42,7 +42,7 @@ def test_legs_are_numbered_like_customers(column_first: bool) -> None:
 
 
 def test_neighbours_who_fit_are_those_with_the_least_driving_waiting_and_lateness() -> None:
-    problem = one_way("vrptw")
+    problem = one_way()
     ground = lay_ground(problem, pack([problem]))
     drive, depots = problem.travel[0].duration[:], problem.num_depots
 
