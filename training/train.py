@@ -28,7 +28,7 @@ from training.export import WEIGHTS
 from training.heuristics import nearest_neighbour
 from training.instances import generate, sample_variant, validation_set
 from training.learn import BASELINES, critic_step, draw_weights, policy_gradient, training_costs
-from training.policies import POLICIES
+from training.policies import POLICIES, widened
 from training.rollout import Batch, greedy, make_batch, roll_out, sampler
 
 SAVE_EVERY = 120.0
@@ -234,7 +234,7 @@ class Run:
             self.take_weights(exported / WEIGHTS)
 
     def take_weights(self, path: Path) -> None:
-        """Begin with an exported policy's weights. In place.
+        """Begin with an exported policy's weights; of features that they lack, with none. In place.
 
         Raises
         ------
@@ -242,8 +242,8 @@ class Run:
             If they can't be read, or are another policy's.
         """
         try:
-            self.policy.load_state_dict(torch.load(path, map_location=self.device,
-                                                   weights_only=True))
+            weights = torch.load(path, map_location=self.device, weights_only=True)
+            self.policy.load_state_dict(widened(self.policy, weights))
         except (OSError, RuntimeError) as error:
             raise ValueError(f"begin_with: {str(path)!r} is not usable: {error}") from error
 

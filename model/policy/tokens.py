@@ -9,14 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.kernel.instance import FAR, TIER, Instance
+from model.kernel.instance import ANY, FAR, TIER, Instance
 from model.kernel.records import Records
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray
 
 Float32Array = NDArray[np.float32]
 
-NUM_NODE_FEATURES = 20
-NUM_TYPE_FEATURES = 22
+NUM_NODE_FEATURES = 26
+NUM_TYPE_FEATURES = 34
 NUM_PAIR_FEATURES = 4
 
 
@@ -161,7 +161,36 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
         squash(instance.price["lateness"] * hours), squash(instance.price["waiting"] * hours),
         instance.can_drive.sum(axis=1) / types, can_fly.sum(axis=1) / types,
         squash(home / time), squash(home / scale.near[:, None] / 4),
+        *_rarer_of_nodes(instance, scale, is_depot),
     ], axis=2)
+
+
+def _rarer_of_nodes(instance: Instance, scale: Scales, is_depot: BoolArray) -> list[FloatArray]:
+    """Describe what few customers ask for, (problem, node) each.
+
+    What leaving them out costs, the share that is picked up, how much of the horizon lies between
+    their windows, their longest time aboard, their setup, and how many of the customers have goods
+    that must not go with theirs.
+    """
+    time, horizon, none = scale.time[:, None], scale.horizon[:, None], np.zeros(is_depot.shape)
+    left_out = instance.unassigned_cost[:, None] + instance.unassigned_more
+    capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :TIER]
+    gap = instance.node[:, 0, :, 1:]
+    between = np.where(gap["window_latest"] < FAR, gap["window_earliest"] - gap["window_latest"], 0)
+    barred = none
+    if instance.goods.shape[1]:
+        goods = instance.goods
+        away = goods["barred_on_trip"] | goods["barred_on_vehicle"]
+        apart = goods["held"][:, None, :] & away[:, :, None] != 0
+        barred = apart.sum(axis=2) / np.maximum(instance.size["customers"], 1)[:, None]
+    return [
+        np.where(is_depot, 0.0, squash(left_out / scale.cost[:, None])),
+        np.minimum((picked_up(instance) / capacity).max(axis=2), 2),
+        np.minimum(between.sum(axis=2) / horizon, 2),
+        squash(instance.fresh_for / time) if instance.fresh_for.shape[1] else none + 1.0,
+        squash(instance.setup["setup_duration"] / time) if instance.setup.shape[1] else none,
+        barred,
+    ]
 
 
 def pair_features(instance: Instance, scale: Scales) -> Float32Array:
@@ -221,7 +250,40 @@ def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_])
         np.where(has_drones, squash(rate["drone_distance"] * flown / MM_PER_KM / cost
                                     + rate["drone_time"] * hours / cost), 0),
         instance.can_drive.sum(axis=2) / customers, instance.can_fly.sum(axis=2) / customers,
+        *_rarer_of_types(instance, scale, driven),
     ], axis=2)
+
+
+def _rarer_of_types(instance: Instance, scale: Scales, driven: FloatArray) -> list[FloatArray]:
+    """Describe what few vehicles are given, (problem, type) each.
+
+    The ways from where they begin and to where they end; what overtime costs and how much there
+    may be; what stops and loads cost; the most stops and sorties; whether pickups come last; other
+    depots where they reload; how long launch and recovery take, and how fast batteries are charged.
+    """
+    kind, rate = instance.type, instance.rate
+    time, cost = scale.time[:, None], scale.cost[:, None]
+    customers = np.maximum(instance.size["customers"], 1)[:, None]
+    problem = np.arange(len(kind))[:, None]
+    begin = instance.duration[problem, kind["travel"], kind["begins_at"]].sum(axis=2)
+    end = instance.duration[problem, kind["travel"], :, kind["ends_at"]].sum(axis=2)
+    over = np.maximum(*(
+        np.where(kind[usual] < UNLIMITED, unbounded(kind[longest]) - kind[usual], 0)
+        for usual, longest in (("usual_end", "shift_latest"),
+                               ("usual_working", "max_working_duration"))))
+    per_load = rate["load"] * kind["capacity"][..., 0] * driven / MM_PER_KM
+    has_drones = kind["drones"] > 0
+    handling = kind["relaunch_duration"] + kind["recovery_duration"]
+    return [
+        squash(begin / customers / time), squash(end / customers / time),
+        np.where(over > 0, squash(rate["overtime"] * time / MS_PER_HOUR / cost), 0),
+        squash(over / time), squash(rate["stop"] / cost), squash(per_load / cost),
+        squash(unbounded(kind["max_stops"]) / 8),
+        np.where(has_drones, squash(unbounded(kind["max_sorties"]) / 2), 0),
+        kind["pickup_order"] != ANY, squash(np.maximum(instance.reload.sum(axis=2) - 1, 0)),
+        np.where(has_drones, squash(handling / time), 0),
+        np.where(has_drones, squash(kind["charge"] / np.maximum(kind["cruise"][..., 0], 1)), 0),
+    ]
 
 
 def _longest_flights(kind: Records) -> IntArray:

@@ -14,6 +14,7 @@ from tests.conftest import eventually
 
 from training.config import TrainConfig
 from training.heuristics import nearest_neighbour
+from training.policies import POLICIES, widened
 from training.train import train, validation_batches
 
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
@@ -49,6 +50,17 @@ def test_resumed_run_equals_an_uninterrupted_one(tmp_path: Path) -> None:
     for part in ("policy", "critic"):
         for name, value in first[part].items():
             assert torch.equal(value, second[part][name]), name
+
+
+def test_a_policy_that_sees_more_begins_with_weights_that_saw_less() -> None:
+    policy = POLICIES["attention"]()
+    weights = policy.state_dict()
+    fewer = {**weights, "node_embedding.weight": weights["node_embedding.weight"][:, :-2]}
+    found = widened(policy, fewer)
+    assert not found["node_embedding.weight"][:, -2:].any()
+    for name, value in fewer.items():
+        columns = value.shape[-1] if value.dim() else None
+        assert torch.equal(found[name][..., :columns], value), name
 
 
 def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Tests of what a policy sees."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,8 +9,8 @@ import pytest
 from model.kernel.instance import pack
 from model.policy import features
 from model.policy.observation import NUM_ACTION_FEATURES, empty_observation
-from model.policy.tokens import scales, tokens
-from model.problem import Overtime, Problem
+from model.policy.tokens import Tokens, scales, tokens
+from model.problem import IncompatibleGoods, Overtime, Problem
 from model.simulation.simulator import DRIVE, OPEN, apply, encode_action, reset
 from tests.conftest import MINUTE
 from tests.model.rollouts import Batch, Units, in_other_units, random_problems, roll
@@ -152,12 +153,17 @@ def mirrored(problem: Problem) -> Problem:
         for customer in problem.customers]))
 
 
-def test_what_is_picked_up_is_seen_as_what_is_delivered() -> None:
+PICKED = 21
+"""Feature of a node that tells what is picked up apart from what is delivered."""
+
+
+def test_what_is_picked_up_is_seen_as_what_is_delivered_and_told_apart() -> None:
     rng = np.random.default_rng(3)
     for variant in ("cvrp", "hetero", "multitrip"):
         problem = generate(rng, 12, variant)
         one, other = (roll([each], seed=5) for each in (problem, mirrored(problem)))
-        np.testing.assert_array_equal(one.tokens.node, other.tokens.node)
+        apart = (one.tokens.node != other.tokens.node).any(axis=(0, 1))
+        assert np.flatnonzero(apart).tolist() == [PICKED]
         np.testing.assert_array_equal(one.tokens.type, other.tokens.type)
         steps, mirror = one.rollouts[0].steps, other.rollouts[0].steps
         assert [step.codes for step in steps] == [step.codes for step in mirror]
@@ -166,13 +172,92 @@ def test_what_is_picked_up_is_seen_as_what_is_delivered() -> None:
             np.testing.assert_array_equal(step.glob, same.glob)
 
 
+def tokens_of(problem: Problem) -> Tokens:
+    """Return what the encoder sees."""
+    instance = pack([problem])
+    return tokens(instance, scales(instance), problem.coordinates[None])
+
+
+def told_apart(one: Problem, other: Problem) -> tuple[dict[int, list[int]], list[int]]:
+    """Return the features that differ, of nodes with the nodes where they do, and of types."""
+    seen, also = tokens_of(one), tokens_of(other)
+    np.testing.assert_array_equal(seen.pair, also.pair)
+    node, kind = seen.node[0] != also.node[0], seen.type[0] != also.type[0]
+    return ({int(column): np.flatnonzero(node[:, column]).tolist()
+             for column in np.flatnonzero(node.any(axis=0))},
+            np.flatnonzero(kind.any(axis=0)).tolist())
+
+
+@pytest.mark.parametrize(("asked", "column"), [
+    ({"unassigned_cost": 7.0}, 20),
+    ({"pickup": (500,)}, PICKED),
+    ({"gaps": ((20 * MINUTE, 40 * MINUTE),)}, 22),
+    ({"max_time_aboard": 30 * MINUTE}, 23),
+], ids=lambda asked: "-".join(asked) if isinstance(asked, dict) else "")
+def test_what_few_customers_ask_for_is_seen_of_them_alone(
+        tiny_problem, customers, truck, asked: dict[str, Any], column: int) -> None:
+    windowed = [replace(each, latest=60 * MINUTE) for each in customers]
+    others = replace(windowed[1], **asked), *windowed[2:]
+    one = tiny_problem(*windowed, truck=truck)
+    other = tiny_problem(windowed[0], *others, truck=truck)
+    assert told_apart(one, other) == ({column: [2]}, [])
+
+
+def test_goods_kept_apart_are_seen(tiny_problem, customers, truck) -> None:
+    goods = ("food", "paint", "food", "soap")
+    problem = tiny_problem(*[replace(each, goods=frozenset({name}))
+                             for each, name in zip(customers, goods, strict=True)], truck=truck)
+    entry = IncompatibleGoods(frozenset({"food", "paint"}))
+    apart = replace(problem, incompatible_goods=(entry,))
+    assert told_apart(problem, apart) == ({25: [1, 2, 3]}, [])
+    assert tokens_of(apart).node[0, 1:, 25] == pytest.approx([1 / 4, 2 / 4, 1 / 4, 0])
+
+
+def test_setups_are_seen(tiny_problem, customers, truck) -> None:
+    a, *others = customers
+    problem = tiny_problem(replace(a, setup_duration=10 * MINUTE), *others, truck=truck)
+    nodes = tokens_of(problem).node[0, :, 24]
+    assert nodes[1] > 0
+    assert not nodes[2:].any()
+
+
+@pytest.mark.parametrize(("given", "columns"), [
+    ({"end": 1}, [23]),
+    ({"overtime": Overtime(5.0, 40 * MINUTE)}, [24, 25]),
+    ({"cost_per_stop": 2.0}, [26]),
+    ({"cost_per_load_km": 0.1}, [27]),
+    ({"max_stops": 3}, [28]),
+    ({"max_sorties": 2}, [29]),
+    ({"pickups": "last"}, [30]),
+    ({"reload_depots": (1,), "max_trips": 2}, [12, 31]),
+], ids=lambda given: "-".join(given) if isinstance(given, dict) else "")
+def test_what_few_vehicles_are_given_is_seen(
+        tiny_problem, customers, truck, drones, given: dict[str, Any],
+        columns: list[int]) -> None:
+    kind = replace(truck, latest=300 * MINUTE, cost_per_km=1.0, drones=drones)
+    one, other = (tiny_problem(*customers, truck=each, num_depots=2, places=(0, 9, 1, 2, 3, 4))
+                  for each in (kind, replace(kind, **given)))
+    assert told_apart(one, other) == ({}, columns)
+
+
+def test_where_a_vehicle_begins_is_seen(tiny_problem, customers, truck) -> None:
+    one, other = (tiny_problem(*customers, truck=each, num_depots=2, places=(0, 9, 1, 2, 3, 4))
+                  for each in (truck, replace(truck, start=1)))
+    begin = [tokens_of(problem).type[0, 0, 22] for problem in (one, other)]
+    assert begin[0] != begin[1]
+
+
+def test_handling_of_drones_is_seen(tiny_problem, customers, truck, drones) -> None:
+    one, other = (tiny_problem(*customers, truck=replace(truck, drones=each))
+                  for each in (drones, replace(drones, swap_duration=3 * MINUTE)))
+    assert told_apart(one, other) == ({}, [32])
+
+
 def test_overtime_is_seen_as_no_longer_shift() -> None:
     problem = generate(np.random.default_rng(8), 12, "multitrip")
     longer = replace(problem, vehicle_types=tuple([
         replace(kind, overtime=Overtime(1.0)) for kind in problem.vehicle_types]))
-    seen = [tokens(instance, scales(instance), problem.coordinates[None]).type
-            for instance in (pack([problem]), pack([longer]))]
-    np.testing.assert_array_equal(*seen)
+    assert told_apart(problem, longer) == ({}, [24, 25])
 
 
 def first_drives(problem: Problem, name: str) -> list[float]:
