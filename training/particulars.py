@@ -1,4 +1,4 @@
-"""The variant with rules about addresses, service, freshness, goods and batteries."""
+"""The variant with rules about addresses, service, freshness, goods, batteries and drones."""
 
 from dataclasses import replace
 
@@ -30,11 +30,13 @@ def particular(rng: np.random.Generator, num_customers: int, config: InstanceCon
     Several customers at an address, with a setup there of 0.2 to 0.9 of what their service took;
     service by type of vehicle, 0.3 to 1 times as long, up to 1.5 times by types that needn't serve
     everyone; parcels aboard for 1.1 to 4 times the way to their customer; goods kept apart on trips
-    and on vehicles; batteries that are swapped at launch, and how many there are.
+    and on vehicles; batteries that are swapped at launch, and how many there are, or charged aboard
+    at 0.2 to 3 times the power of a flight with nothing aboard; lighter drones beside the others.
     """
     problem = GROUNDS[integer(rng, 0, len(GROUNDS) - 1)](rng, num_customers, config)
     for rule, chance in ((_at_addresses, 0.5), (_with_setups, 0.6), (_served_by_type, 0.5),
-                         (_kept_fresh, 0.4), (_kept_apart, 0.4), (_swapping, 0.6)):
+                         (_kept_fresh, 0.4), (_kept_apart, 0.4), (_swapping, 0.6),
+                         (_charging, 0.5), (_beside_lighter_drones, 0.4)):
         if rng.random() < chance:
             problem = rule(rng, problem)
     return problem
@@ -138,3 +140,34 @@ def _swapping(rng: np.random.Generator, problem: Problem) -> Problem:
         return replace(kind, drones=replace(kind.drones, swap_duration=swap, batteries=batteries))
 
     return replace(problem, vehicle_types=tuple(map(swapping, problem.vehicle_types)))
+
+
+def _charging(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Let batteries that limit flights be charged aboard, of which then none is swapped."""
+    def charging(kind: VehicleType) -> VehicleType:
+        drones = kind.drones
+        if drones is None or drones.energy is None:
+            return kind
+        gain = int(drones.energy.cruise[0] * log_uniform(rng, 0.2, 3.0))
+        return replace(kind, drones=replace(
+            drones, energy=replace(drones.energy, charge=gain), swap_duration=0, batteries=None))
+
+    return replace(problem, vehicle_types=tuple(map(charging, problem.vehicle_types)))
+
+
+def _beside_lighter_drones(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Add a type of one or two drones that lift, last and cost less to some trucks with drones."""
+    def equipped(kind: VehicleType) -> VehicleType:
+        drones = kind.drones
+        if drones is None or rng.random() < 0.2:
+            return kind
+        lift, last, price = (uniform(rng, 0.3, 1.0) for _ in range(3))
+        endurance = drones.endurance
+        lighter = replace(
+            drones, id="lighter", count=integer(rng, 1, 2),
+            capacity=tuple([int(lift * most) for most in drones.capacity]),
+            endurance=UNLIMITED if endurance == UNLIMITED else int(last * endurance),
+            cost_per_km=price * drones.cost_per_km, cost_per_hour=price * drones.cost_per_hour)
+        return replace(kind, drones=replace(drones, id="usual"), more_drones=(lighter,))
+
+    return replace(problem, vehicle_types=tuple(map(equipped, problem.vehicle_types)))

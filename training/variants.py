@@ -27,7 +27,7 @@ Shared by all, so not restated below:
 | `mixed` | all of these at once, 1 or 2 depots, asymmetric roads, a few customers unservable |
 | `pickups` | amounts both ways, or pickups last, open ends, prices of what is aboard |
 | `various` | rules that all those lack: places, overtime, stops, batteries, windows, tables, … |
-| `particular` | and those: addresses, setups, service by type, freshness, goods, swapping |
+| `particular` | and those: addresses, setups, service by type, freshness, goods, batteries, … |
 
 References
 ----------

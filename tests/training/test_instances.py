@@ -289,6 +289,8 @@ def test_particular_draws_every_rule() -> None:
     assert any(kind.service_durations for kind in kinds)
     assert any(each.service_durations and each.swap_duration for each in drones)
     assert {each.batteries is None for each in drones} == {False, True}
+    assert any(each.energy is not None and each.energy.charge for each in drones)
+    assert any(kind.more_drones and kind.num_drones > 2 for kind in kinds)
 
 
 def test_sides_span_orders_of_magnitude() -> None:
