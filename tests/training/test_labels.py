@@ -8,7 +8,7 @@ import pytest
 import torch
 
 from model.policy.attention import AttentionConfig, AttentionPolicy
-from model.simulation.simulator import LAUNCH, NUM_KINDS, OPEN
+from model.simulation.simulator import LAUNCH, NUM_KINDS, OPEN, RETURN
 from training.completion import (
     Setting, complete, cost_of, open_type, to_actions, to_routes, what_is_left,
 )
@@ -42,7 +42,8 @@ def completed(setting: Setting, actions: np.ndarray) -> float:
     """Return what a beginning is worth by a longer search from nothing."""
     rest = what_is_left(setting, actions)
     if rest is None:
-        return cost_of(setting, actions)
+        is_home = actions[-1] % NUM_KINDS == RETURN
+        return cost_of(setting, actions if is_home else np.append(actions, RETURN))
     begun = open_type(actions)
     routes = complete(rest, [] if begun is None else to_routes(actions[:0], begun), 2000, 99)
     return cost_of(setting, np.concatenate([

@@ -48,6 +48,7 @@ EVERYBODY = Counter(f"c{number}" for number in range(1, NUM_CUSTOMERS + 1))
 FIRST_COST = sum(2.0 * number for number in range(1, NUM_CUSTOMERS + 1))
 
 
+@pytest.mark.by_clock
 def test_job_is_planned_by_regions_round_after_round(office: Office) -> None:
     office.job()
     plans, watching = office.begin()

@@ -152,6 +152,15 @@ def test_compiled_rollouts_and_the_graph_plan_the_same(variant: str) -> None:
             assert one.cost == other.cost
 
 
+def test_encoder_sees_a_token_for_each_node_and_vehicle_type(policy: Policy,
+                                                             problem: Problem) -> None:
+    kinds = [replace(kind, more_drones=(replace(kind.drones, id="other"),))
+             for kind in problem.vehicle_types if kind.drones is not None]
+    several = replace(problem, vehicle_types=tuple(kinds))
+    memory = prepare(policy, several, pack([several])).memory
+    assert len(memory) == problem.num_nodes + len(kinds)
+
+
 def test_missing_policy_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="policy folder"):
         load_policy(tmp_path / "nothing")

@@ -94,9 +94,10 @@ def test_padding_has_no_effect(problems: list[Problem], alone: list[Batch]) -> N
         together = roll(problems[first : first + 16], seed=4)
         width = together.instance.node.shape[2]
         for row, one in enumerate(alone[first : first + 16]):
-            nodes, kinds = one.tokens.node.shape[1], one.tokens.type.shape[1]
+            nodes, kinds = one.tokens.node.shape[1], int(one.instance.size["types"][0])
             np.testing.assert_array_equal(together.tokens.node[row, :nodes], one.tokens.node[0])
-            np.testing.assert_array_equal(together.tokens.type[row, :kinds], one.tokens.type[0])
+            np.testing.assert_array_equal(together.tokens.type[row, :kinds],
+                                          one.tokens.type[0, :kinds])
             assert not together.tokens.node[row, nodes:].any()
             assert not together.tokens.type[row, kinds:].any()
             assert not together.tokens.mask[row, nodes:width].any()
