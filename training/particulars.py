@@ -1,5 +1,6 @@
 """The variant with rules about addresses, service, freshness, goods, batteries and drones."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -132,34 +133,30 @@ def _swapping(rng: np.random.Generator, problem: Problem) -> Problem:
     """Let batteries be swapped at launch, and limit how many some trucks have."""
     usual = float(problem.travel[0].duration[:].mean())
 
-    def swapping(kind: VehicleType) -> VehicleType:
-        if kind.drones is None:
-            return kind
+    def swapping(kind: VehicleType, drones: DroneType) -> VehicleType:
         batteries = integer(rng, 1, 5) if rng.random() < 0.5 else None
         swap = int(uniform(rng, 0.0, 0.2) * usual)
-        return replace(kind, drones=replace(kind.drones, swap_duration=swap, batteries=batteries))
+        return replace(kind, drones=replace(drones, swap_duration=swap, batteries=batteries))
 
-    return replace(problem, vehicle_types=tuple(map(swapping, problem.vehicle_types)))
+    return _where_drones_ride(problem, swapping)
 
 
 def _charging(rng: np.random.Generator, problem: Problem) -> Problem:
     """Let batteries that limit flights be charged aboard, of which then none is swapped."""
-    def charging(kind: VehicleType) -> VehicleType:
-        drones = kind.drones
-        if drones is None or drones.energy is None:
+    def charging(kind: VehicleType, drones: DroneType) -> VehicleType:
+        if drones.energy is None:
             return kind
         gain = int(drones.energy.cruise[0] * log_uniform(rng, 0.2, 3.0))
         return replace(kind, drones=replace(
             drones, energy=replace(drones.energy, charge=gain), swap_duration=0, batteries=None))
 
-    return replace(problem, vehicle_types=tuple(map(charging, problem.vehicle_types)))
+    return _where_drones_ride(problem, charging)
 
 
 def _beside_lighter_drones(rng: np.random.Generator, problem: Problem) -> Problem:
     """Add a type of one or two drones that lift, last and cost less to some trucks with drones."""
-    def equipped(kind: VehicleType) -> VehicleType:
-        drones = kind.drones
-        if drones is None or rng.random() < 0.2:
+    def equipped(kind: VehicleType, drones: DroneType) -> VehicleType:
+        if rng.random() < 0.2:
             return kind
         lift, last, price = (uniform(rng, 0.3, 1.0) for _ in range(3))
         endurance = drones.endurance
@@ -170,4 +167,12 @@ def _beside_lighter_drones(rng: np.random.Generator, problem: Problem) -> Proble
             cost_per_km=price * drones.cost_per_km, cost_per_hour=price * drones.cost_per_hour)
         return replace(kind, drones=replace(drones, id="usual"), more_drones=(lighter,))
 
-    return replace(problem, vehicle_types=tuple(map(equipped, problem.vehicle_types)))
+    return _where_drones_ride(problem, equipped)
+
+
+def _where_drones_ride(problem: Problem,
+                       change: Callable[[VehicleType, DroneType], VehicleType]) -> Problem:
+    """Change the vehicle types that have drones, of which they have one type yet."""
+    return replace(problem, vehicle_types=tuple([
+        kind if kind.drones is None else change(kind, kind.drones)
+        for kind in problem.vehicle_types]))
