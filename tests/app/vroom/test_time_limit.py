@@ -67,10 +67,11 @@ def no_matrices(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("no_matrices")
 def test_more_work_than_there_is_time_for_is_refused_before_it_is_done() -> None:
+    # Far more than there is time for, which is far more than this takes on any machine.
     with pytest.raises(VroomError) as refusal:
-        asked(crowd(1000, 80, l=2.0), FirstFitPlanner())
+        asked(crowd(2500, 80, l=15.0), FirstFitPlanner(), Settings(max_legs=10**9))
     assert refusal.value.code == TOO_LARGE
-    for word in ("take about", "time limit of 2 s", "options.l", "TANDEM_MAX_PLAN_SECONDS"):
+    for word in ("take about", "time limit of 15 s", "options.l", "TANDEM_MAX_PLAN_SECONDS"):
         assert word in str(refusal.value)
 
 
@@ -93,8 +94,9 @@ def test_legs_are_not_looked_for_where_there_is_no_time(monkeypatch: pytest.Monk
     assert legs_seconds(4000, 1, 0, True) > 1.5
     request = VroomRequest.model_validate_json(json.dumps(crowd(4000)))
     # From now on: how long a request is read is another matter, and no short one here.
-    with pytest.raises(InvalidRequestError, match="take about"):
+    with pytest.raises(InvalidRequestError) as refusal:
         find_places(request, SPEEDS, preparing=Preparing(seconds=1.5))
+    assert "take about" in refusal.value.errors[0].message
 
 
 def converted(request: Data, preparing: Preparing) -> int:
