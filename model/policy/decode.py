@@ -124,10 +124,7 @@ def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
     swapped, x, y = SYMMETRIES[symmetry]
     node = seen.node.copy()
     node[..., :2] = (node[..., 1::-1] if swapped else node[..., :2]) * np.array([x, y], np.float32)
-    # The exported encoder knows no padding, which rows of further types of drones are to it.
-    num_types = int(seen.mask[0, node.shape[1]:].sum())
-    memory, = policy.encoder.run(None, {"node": node, "type": seen.type[:, :num_types],
-                                        "pair": seen.pair})
+    memory, = policy.encoder.run(None, {"node": node, "type": seen.type, "pair": seen.pair})
     return memory
 
 

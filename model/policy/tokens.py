@@ -10,13 +10,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.kernel.instance import ANY, FAR, TIER, Instance
-from model.kernel.records import Records
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, FloatArray, IntArray
+from model.kernel.records import Records, row_of_floats
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 
 Float32Array = NDArray[np.float32]
 
-NUM_NODE_FEATURES = 26
-NUM_TYPE_FEATURES = 34
+NODE = row_of_floats(
+    "x", "y", "is_depot", "opening", "closing", "width", "never_closes", "may_not_be_late",
+    "slack_from_depot", "capacity_share", "share_of_demand", "payload_share", "service", "release",
+    "lateness_price", "waiting_price", "can_drive", "can_fly", "way_home", "nearness",
+    "unassigned_cost", "pickup_share", "between_windows", "max_time_aboard", "setup", "barred")
+"""A depot or customer: place; when it opens and closes, and by how much that differs; whether it
+never closes, and whether it refuses who is late; slack if visited straight from the depot; share of
+the largest capacity, of all demand, of demand and payload together; service, release; prices of
+lateness and waiting; share of types whose trucks, and whose drones, may serve it; the way home by
+scale and by nearness. What few ask for: the cost of leaving it out, the share that is picked up,
+how much of the horizon lies between its windows, its longest time aboard, its setup, and how many
+of the customers have goods that must not go with its own."""
+
+TYPE = row_of_floats(
+    "capacity", "share_of_demand", "fleet_share", "count", "fixed", "per_km", "per_hour",
+    "way_home", "shift_earliest", "usual_end", "usual_working", "max_trip_distance", "max_trips",
+    "reload", "speed_changes", "drones", "payload", "endurance", "flight_home", "per_flight",
+    "can_drive", "can_fly",
+    "way_out", "way_back", "overtime_price", "overtime", "per_stop", "per_load", "max_stops",
+    "max_sorties", "pickup_order", "other_depots", "handling", "charge")
+"""A vehicle type: capacity by the largest and by all demand, that of all vehicles, how many there
+are; costs of a vehicle, of driving by length and by time; the mean way from the depot to customers;
+the shift, working duration, length and number of trips, reloading; whether its speed changes; its
+drones, their payload, endurance, mean flight from the depot and its cost; the shares of customers
+that trucks and drones may serve. What few are given: the mean ways from where it begins and to
+where it ends; what overtime costs and how much there may be; what stops and loads cost; the most
+stops and sorties; whether pickups come last; other depots where it reloads; how long launch and
+recovery take, and how fast batteries are charged."""
+
+NUM_NODE_FEATURES = NODE.itemsize // 4
+NUM_TYPE_FEATURES = TYPE.itemsize // 4
 NUM_PAIR_FEATURES = 4
 
 
@@ -101,18 +130,23 @@ def tokens(instance: Instance, scale: Scales, coordinates: FloatArray) -> Tokens
     coordinates
         (problem, node, 2) planar, any unit.
     """
-    num_nodes, num_types = instance.node.shape[2], instance.type.shape[1]
-    index = np.arange(num_nodes)
+    index = np.arange(instance.node.shape[2])
     is_node = index < (instance.size["depots"] + instance.size["customers"])[:, None]
-    is_type = np.arange(num_types) < instance.size["types"][:, None]
+    # Rows behind those of vehicle types, which are of further types of drones, are no tokens.
+    is_type = np.arange(instance.size["types"].max(initial=0)) < instance.size["types"][:, None]
     node = node_features(instance, scale, coordinates, is_node)
     kind = type_features(instance, scale, is_type)
     return Tokens(
-        node=np.where(is_node[..., None], node, 0.0).astype(np.float32),
-        type=np.where(is_type[..., None], kind, 0.0).astype(np.float32),
+        node=np.where(is_node[..., None], _floats(node), np.float32(0)),
+        type=np.where(is_type[..., None], _floats(kind), np.float32(0)),
         pair=pair_features(instance, scale),
         mask=np.concatenate([is_node, is_type], axis=1),
     )
+
+
+def _floats(rows: Records) -> Float32Array:
+    """Return rows of floats as an array (problem, row, number)."""
+    return np.ascontiguousarray(rows).view(np.float32).reshape(*rows.shape, -1)
 
 
 def own_rows(instance: Instance) -> Records:
@@ -129,8 +163,8 @@ def picked_up(instance: Instance) -> IntArray:
 
 
 def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
-                  is_node: NDArray[np.bool_]) -> FloatArray:
-    """Describe depots and customers, (problem, node, NUM_NODE_FEATURES)."""
+                  is_node: NDArray[np.bool_]) -> Records:
+    """Describe depots and customers, (problem, node) NODE."""
     time, horizon = scale.time[:, None], scale.horizon[:, None]
     hours = time / MS_PER_HOUR / scale.cost[:, None]
     low = np.where(is_node[..., None], coordinates, np.inf).min(axis=1, keepdims=True)
@@ -138,59 +172,64 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     extent = np.maximum((high - low).max(axis=2, keepdims=True), 1e-9)
     place = (coordinates - (low + high) / 2) / extent * 2
     nodes = own_rows(instance)
-    is_depot = np.arange(nodes.shape[1]) < instance.size["depots"][:, None]
     demand = np.maximum(nodes["demand"], picked_up(instance))
-    seen = demand.shape[-1]
-    capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :seen]
-    payload = instance.type["payload"].max(axis=1)[:, None, :seen]
-    types = np.maximum(instance.size["types"], 1)[:, None]
-    is_type = np.arange(instance.type.shape[1]) < instance.size["types"][:, None]
-    can_fly = instance.can_fly & is_type[..., None]
     earliest, latest = nodes["window_earliest"], nodes["window_latest"]
     home = instance.duration[:, 0, 0, :]
-    return np.stack([
-        place[..., 0], place[..., 1], is_depot,
-        np.minimum(earliest / horizon, 2), np.minimum(latest / horizon, 2),
-        np.minimum((latest - earliest) / horizon, 2), latest >= UNLIMITED,
-        nodes["arrival_limit"] < FAR,
-        squash(np.maximum(unbounded(latest) - home, 0) / time),
-        np.minimum((demand / capacity).max(axis=2), 2), demand[..., 0] / scale.amount[:, None],
-        (demand / np.maximum(demand + payload, 1)).max(axis=2),
-        squash(nodes["service_duration"] / time),
-        np.minimum(nodes["release"] / horizon, 2),
-        squash(instance.price["lateness"] * hours), squash(instance.price["waiting"] * hours),
-        instance.can_drive.sum(axis=1) / types, can_fly.sum(axis=1) / types,
-        squash(home / time), squash(home / scale.near[:, None] / 4),
-        *_rarer_of_nodes(instance, scale, is_depot),
-    ], axis=2)
+    seen = np.zeros(nodes.shape, NODE)
+    seen["x"], seen["y"] = place[..., 0], place[..., 1]
+    seen["is_depot"] = np.arange(nodes.shape[1]) < instance.size["depots"][:, None]
+    seen["opening"] = np.minimum(earliest / horizon, 2)
+    seen["closing"] = np.minimum(latest / horizon, 2)
+    seen["width"] = np.minimum((latest - earliest) / horizon, 2)
+    seen["never_closes"] = latest >= UNLIMITED
+    seen["may_not_be_late"] = nodes["arrival_limit"] < FAR
+    seen["slack_from_depot"] = squash(np.maximum(unbounded(latest) - home, 0) / time)
+    seen["share_of_demand"] = demand[..., 0] / scale.amount[:, None]
+    seen["service"] = squash(nodes["service_duration"] / time)
+    seen["release"] = np.minimum(nodes["release"] / horizon, 2)
+    seen["lateness_price"] = squash(instance.price["lateness"] * hours)
+    seen["waiting_price"] = squash(instance.price["waiting"] * hours)
+    seen["way_home"] = squash(home / time)
+    seen["nearness"] = squash(home / scale.near[:, None] / 4)
+    _describe_who_serves(instance, demand, seen)
+    _describe_rarer_of_nodes(instance, scale, seen)
+    return seen
 
 
-def _rarer_of_nodes(instance: Instance, scale: Scales, is_depot: BoolArray) -> list[FloatArray]:
-    """Describe what few customers ask for, (problem, node) each.
-
-    What leaving them out costs, the share that is picked up, how much of the horizon lies between
-    their windows, their longest time aboard, their setup, and how many of the customers have goods
-    that must not go with theirs.
+def _describe_who_serves(instance: Instance, demand: IntArray, seen: Records) -> None:
+    """Describe which share of vehicles customers take, and of the types that serve them. In place.
     """
-    time, horizon, none = scale.time[:, None], scale.horizon[:, None], np.zeros(is_depot.shape)
+    of = demand.shape[-1]
+    capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :of]
+    payload = instance.type["payload"].max(axis=1)[:, None, :of]
+    types = np.maximum(instance.size["types"], 1)[:, None]
+    is_type = np.arange(instance.type.shape[1]) < instance.size["types"][:, None]
+    seen["capacity_share"] = np.minimum((demand / capacity).max(axis=2), 2)
+    seen["payload_share"] = (demand / np.maximum(demand + payload, 1)).max(axis=2)
+    seen["can_drive"] = instance.can_drive.sum(axis=1) / types
+    seen["can_fly"] = (instance.can_fly & is_type[..., None]).sum(axis=1) / types
+
+
+def _describe_rarer_of_nodes(instance: Instance, scale: Scales, seen: Records) -> None:
+    """Describe what few customers ask for. In place."""
+    time, horizon = scale.time[:, None], scale.horizon[:, None]
     left_out = instance.unassigned_cost[:, None] + instance.unassigned_more
     capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :TIER]
     gap = instance.node[:, 0, :, 1:]
     between = np.where(gap["window_latest"] < FAR, gap["window_earliest"] - gap["window_latest"], 0)
-    barred = none
+    is_customer = seen["is_depot"] == 0
+    seen["unassigned_cost"] = is_customer * squash(left_out / scale.cost[:, None])
+    seen["pickup_share"] = np.minimum((picked_up(instance) / capacity).max(axis=2), 2)
+    seen["between_windows"] = np.minimum(between.sum(axis=2) / horizon, 2)
+    seen["max_time_aboard"] = (
+        squash(instance.fresh_for / time) if instance.fresh_for.shape[1] else 1.0)
+    if instance.setup.shape[1]:
+        seen["setup"] = squash(instance.setup["setup_duration"] / time)
     if instance.goods.shape[1]:
         goods = instance.goods
         away = goods["barred_on_trip"] | goods["barred_on_vehicle"]
         apart = goods["held"][:, None, :] & away[:, :, None] != 0
-        barred = apart.sum(axis=2) / np.maximum(instance.size["customers"], 1)[:, None]
-    return [
-        np.where(is_depot, 0.0, squash(left_out / scale.cost[:, None])),
-        np.minimum((picked_up(instance) / capacity).max(axis=2), 2),
-        np.minimum(between.sum(axis=2) / horizon, 2),
-        squash(instance.fresh_for / time) if instance.fresh_for.shape[1] else none + 1.0,
-        squash(instance.setup["setup_duration"] / time) if instance.setup.shape[1] else none,
-        barred,
-    ]
+        seen["barred"] = apart.sum(axis=2) / np.maximum(instance.size["customers"], 1)[:, None]
 
 
 def pair_features(instance: Instance, scale: Scales) -> Float32Array:
@@ -214,54 +253,71 @@ def pair_features(instance: Instance, scale: Scales) -> Float32Array:
                      np.clip(waiting / time, -1, 3) / 2], axis=3)
 
 
-def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_]) -> FloatArray:
-    """Describe vehicle types, (problem, type, NUM_TYPE_FEATURES)."""
-    kind, rate = instance.type, instance.rate
+def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_]) -> Records:
+    """Describe vehicle types, (problem, type) TYPE."""
+    kind, rate = (rows[:, :is_type.shape[1]] for rows in (instance.type, instance.rate))
     time, horizon, cost = scale.time[:, None], scale.horizon[:, None], scale.cost[:, None]
-    hours = time / MS_PER_HOUR
     customers = np.maximum(instance.size["customers"], 1)[:, None]
     problem = np.arange(len(kind))[:, None]
-    leg = instance.duration[problem, kind["travel"], 0].sum(axis=2) / customers
     driven = instance.distance[problem, kind["travel"], 0].sum(axis=2) / customers
+    leg = instance.duration[problem, kind["travel"], 0].sum(axis=2) / customers
+    capacity = kind["capacity"][..., 0]
+    seen = np.zeros(kind.shape, TYPE)
+    seen["capacity"] = capacity / np.maximum(capacity.max(axis=1, keepdims=True), 1)
+    seen["share_of_demand"] = np.minimum(capacity / scale.amount[:, None], 1)
+    seen["fleet_share"] = squash(kind["count"] * capacity / scale.amount[:, None])
+    seen["count"] = squash(kind["count"] / 4)
+    seen["fixed"] = squash(rate["fixed"] / cost)
+    seen["per_km"] = squash(rate["distance"] * driven / MM_PER_KM / cost)
+    seen["per_hour"] = squash(rate["time"] * (time / MS_PER_HOUR) / cost)
+    seen["way_home"] = squash(leg / time)
+    seen["shift_earliest"] = np.minimum(kind["shift_earliest"] / horizon, 2)
+    seen["usual_end"] = np.minimum(kind["usual_end"] / horizon, 2)
+    seen["usual_working"] = squash(unbounded(kind["usual_working"]) / time / 8)
+    seen["max_trip_distance"] = squash(
+        unbounded(kind["max_trip_distance"]) / np.maximum(driven, 1) / 8)
+    seen["max_trips"] = squash((kind["max_trips"] - 1.0) / 2)
+    seen["reload"] = squash(kind["reload_duration"] / time)
+    seen["speed_changes"] = kind["speed_changes"] > 0
+    for field, allowed in (("can_drive", instance.can_drive), ("can_fly", instance.can_fly)):
+        seen[field] = allowed[:, :is_type.shape[1]].sum(axis=2) / customers
+    _describe_drones(instance, scale, np.where(is_type, driven, 0).max(axis=1), seen)
+    _describe_rarer_of_types(instance, scale, driven, seen)
+    return seen
+
+
+def _describe_drones(instance: Instance, scale: Scales, furthest: FloatArray,
+                     seen: Records) -> None:
+    """Describe what drones lift, how long they last, and what a flight costs. In place.
+
+    `furthest` (problem,) is the longest of the types' mean drives from the depot.
+    """
+    kind, rate = (rows[:, :seen.shape[1]] for rows in (instance.type, instance.rate))
+    time, cost = scale.time[:, None], scale.cost[:, None]
+    customers = np.maximum(instance.size["customers"], 1)[:, None]
+    flies = kind["drones"] > 0
+    problem = np.arange(len(kind))[:, None]
     flight = np.minimum(instance.duration[problem, kind["drone_travel"], 0],
                         10 * time[..., None]).sum(axis=2) / customers
-    furthest = np.where(is_type, driven, 0).max(axis=1)[:, None, None]
     flown = np.minimum(instance.distance[problem, kind["drone_travel"], 0],
-                       10 * furthest + 1).sum(axis=2) / customers
-    capacity = kind["capacity"][..., 0]
-    largest = np.maximum(capacity.max(axis=1, keepdims=True), 1)
-    drones = kind["drones"]
-    has_drones = drones > 0
-    return np.stack([
-        capacity / largest, np.minimum(capacity / scale.amount[:, None], 1),
-        squash(kind["count"] * capacity / scale.amount[:, None]),
-        squash(kind["count"] / 4), squash(rate["fixed"] / cost),
-        squash(rate["distance"] * driven / MM_PER_KM / cost),
-        squash(rate["time"] * hours / cost), squash(leg / time),
-        np.minimum(kind["shift_earliest"] / horizon, 2),
-        np.minimum(kind["usual_end"] / horizon, 2),
-        squash(unbounded(kind["usual_working"]) / time / 8),
-        squash(unbounded(kind["max_trip_distance"]) / np.maximum(driven, 1) / 8),
-        squash((kind["max_trips"] - 1.0) / 2), squash(kind["reload_duration"] / time),
-        kind["speed_changes"] > 0, squash(drones / 2.0),
-        np.where(has_drones, squash(kind["payload"][..., 0] / np.maximum(capacity, 1) * 10), 0),
-        np.where(has_drones, squash(unbounded(_longest_flights(kind)) / time), 0),
-        np.where(has_drones, squash(flight / time), 0),
-        np.where(has_drones, squash(rate["drone_distance"] * flown / MM_PER_KM / cost
-                                    + rate["drone_time"] * hours / cost), 0),
-        instance.can_drive.sum(axis=2) / customers, instance.can_fly.sum(axis=2) / customers,
-        *_rarer_of_types(instance, scale, driven),
-    ], axis=2)
+                       10 * furthest[:, None, None] + 1).sum(axis=2) / customers
+    capacity = np.maximum(kind["capacity"][..., 0], 1)
+    handling = kind["relaunch_duration"] + kind["recovery_duration"]
+    seen["drones"] = squash(kind["drones"] / 2.0)
+    seen["payload"] = flies * squash(kind["payload"][..., 0] / capacity * 10)
+    seen["endurance"] = flies * squash(unbounded(_longest_flights(kind)) / time)
+    seen["flight_home"] = flies * squash(flight / time)
+    seen["per_flight"] = flies * squash(rate["drone_distance"] * flown / MM_PER_KM / cost
+                                        + rate["drone_time"] * (time / MS_PER_HOUR) / cost)
+    seen["max_sorties"] = flies * squash(unbounded(kind["max_sorties"]) / 2)
+    seen["handling"] = flies * squash(handling / time)
+    seen["charge"] = flies * squash(kind["charge"] / np.maximum(kind["cruise"][..., 0], 1))
 
 
-def _rarer_of_types(instance: Instance, scale: Scales, driven: FloatArray) -> list[FloatArray]:
-    """Describe what few vehicles are given, (problem, type) each.
-
-    The ways from where they begin and to where they end; what overtime costs and how much there
-    may be; what stops and loads cost; the most stops and sorties; whether pickups come last; other
-    depots where they reload; how long launch and recovery take, and how fast batteries are charged.
-    """
-    kind, rate = instance.type, instance.rate
+def _describe_rarer_of_types(instance: Instance, scale: Scales, driven: FloatArray,
+                             seen: Records) -> None:
+    """Describe what few vehicles are given. In place."""
+    kind, rate = (rows[:, :seen.shape[1]] for rows in (instance.type, instance.rate))
     time, cost = scale.time[:, None], scale.cost[:, None]
     customers = np.maximum(instance.size["customers"], 1)[:, None]
     problem = np.arange(len(kind))[:, None]
@@ -272,18 +328,16 @@ def _rarer_of_types(instance: Instance, scale: Scales, driven: FloatArray) -> li
         for usual, longest in (("usual_end", "shift_latest"),
                                ("usual_working", "max_working_duration"))))
     per_load = rate["load"] * kind["capacity"][..., 0] * driven / MM_PER_KM
-    has_drones = kind["drones"] > 0
-    handling = kind["relaunch_duration"] + kind["recovery_duration"]
-    return [
-        squash(begin / customers / time), squash(end / customers / time),
-        np.where(over > 0, squash(rate["overtime"] * time / MS_PER_HOUR / cost), 0),
-        squash(over / time), squash(rate["stop"] / cost), squash(per_load / cost),
-        squash(unbounded(kind["max_stops"]) / 8),
-        np.where(has_drones, squash(unbounded(kind["max_sorties"]) / 2), 0),
-        kind["pickup_order"] != ANY, squash(np.maximum(instance.reload.sum(axis=2) - 1, 0)),
-        np.where(has_drones, squash(handling / time), 0),
-        np.where(has_drones, squash(kind["charge"] / np.maximum(kind["cruise"][..., 0], 1)), 0),
-    ]
+    reload = instance.reload[:, :seen.shape[1]].sum(axis=2)
+    seen["way_out"] = squash(begin / customers / time)
+    seen["way_back"] = squash(end / customers / time)
+    seen["overtime_price"] = np.where(
+        over > 0, squash(rate["overtime"] * time / MS_PER_HOUR / cost), 0)
+    seen["overtime"] = squash(over / time)
+    seen["per_stop"], seen["per_load"] = squash(rate["stop"] / cost), squash(per_load / cost)
+    seen["max_stops"] = squash(unbounded(kind["max_stops"]) / 8)
+    seen["pickup_order"] = kind["pickup_order"] != ANY
+    seen["other_depots"] = squash(np.maximum(reload - 1, 0))
 
 
 def _longest_flights(kind: Records) -> IntArray:

@@ -8,8 +8,10 @@ import pytest
 
 from model.kernel.instance import pack
 from model.policy import features
-from model.policy.observation import NUM_ACTION_FEATURES, empty_observation
-from model.policy.tokens import Tokens, scales, tokens
+from model.policy.observation import (
+    ACTION, NUM_ACTION_FEATURES, VEHICLE_STATE, empty_observation,
+)
+from model.policy.tokens import NODE, TYPE, Float32Array, Tokens, scales, tokens
 from model.problem import IncompatibleGoods, Overtime, Problem
 from model.simulation.simulator import DRIVE, OPEN, apply, encode_action, reset
 from tests.conftest import MINUTE
@@ -19,11 +21,11 @@ from training.instances import generate
 
 TOLERANCE = 1e-5
 SIGNED = {
-    16,  # the detour may be a short cut where the triangle inequality fails
-    22,  # the way to the next customer may be shorter than the way from here
-    26,  # as 16
+    "detour",  # may be a short cut where the triangle inequality fails
+    "next_excess",  # the way to the next customer may be shorter than the way from here
+    "detour_before",
 }
-SIGNED_STATE = {7}  # the capacity left may fall short of the demand left
+SIGNED_STATE = {"spare_reserve"}  # the capacity left may fall short of the demand left
 
 
 @pytest.fixture(scope="module")
@@ -48,10 +50,11 @@ def test_features_are_finite_and_bounded(alone: list[Batch]) -> None:
     steps = [step for batch in alone for step in batch.rollouts[0].steps]
     action = np.concatenate([step.feature for step in steps])
     state = np.stack([step.glob for step in steps])
-    for values, signed, bound in ((action, SIGNED, 5), (state, SIGNED_STATE, 5)):
-        assert (np.abs(values) <= bound).all()
-        unsigned = [column for column in range(values.shape[1]) if column not in signed]
-        assert (values[:, unsigned] >= 0).all()
+    for values, kind, signed in ((action, ACTION, SIGNED), (state, VEHICLE_STATE, SIGNED_STATE)):
+        assert (np.abs(values) <= 5).all()
+        rows = values.view(kind)
+        for name in set(kind.names or ()) - signed:
+            assert (rows[name] >= 0).all(), name
 
 
 def test_every_action_feature_tells_actions_apart(alone: list[Batch]) -> None:
@@ -94,10 +97,9 @@ def test_padding_has_no_effect(problems: list[Problem], alone: list[Batch]) -> N
         together = roll(problems[first : first + 16], seed=4)
         width = together.instance.node.shape[2]
         for row, one in enumerate(alone[first : first + 16]):
-            nodes, kinds = one.tokens.node.shape[1], int(one.instance.size["types"][0])
+            nodes, kinds = one.tokens.node.shape[1], one.tokens.type.shape[1]
             np.testing.assert_array_equal(together.tokens.node[row, :nodes], one.tokens.node[0])
-            np.testing.assert_array_equal(together.tokens.type[row, :kinds],
-                                          one.tokens.type[0, :kinds])
+            np.testing.assert_array_equal(together.tokens.type[row, :kinds], one.tokens.type[0])
             assert not together.tokens.node[row, nodes:].any()
             assert not together.tokens.type[row, kinds:].any()
             assert not together.tokens.mask[row, nodes:width].any()
@@ -154,17 +156,13 @@ def mirrored(problem: Problem) -> Problem:
         for customer in problem.customers]))
 
 
-PICKED = 21
-"""Feature of a node that tells what is picked up apart from what is delivered."""
-
-
 def test_what_is_picked_up_is_seen_as_what_is_delivered_and_told_apart() -> None:
     rng = np.random.default_rng(3)
     for variant in ("cvrp", "hetero", "multitrip"):
         problem = generate(rng, 12, variant)
         one, other = (roll([each], seed=5) for each in (problem, mirrored(problem)))
         apart = (one.tokens.node != other.tokens.node).any(axis=(0, 1))
-        assert np.flatnonzero(apart).tolist() == [PICKED]
+        assert np.array(NODE.names)[apart].tolist() == ["pickup_share"]
         np.testing.assert_array_equal(one.tokens.type, other.tokens.type)
         steps, mirror = one.rollouts[0].steps, other.rollouts[0].steps
         assert [step.codes for step in steps] == [step.codes for step in mirror]
@@ -179,29 +177,35 @@ def tokens_of(problem: Problem) -> Tokens:
     return tokens(instance, scales(instance), problem.coordinates[None])
 
 
-def told_apart(one: Problem, other: Problem) -> tuple[dict[int, list[int]], list[int]]:
+def column(tokens: Float32Array, kind: np.dtype[np.record], name: str) -> Float32Array:
+    """Return a feature of all tokens of the first problem."""
+    found: Float32Array = tokens[0].view(kind)[name][:, 0]
+    return found
+
+
+def told_apart(one: Problem, other: Problem) -> tuple[dict[str, list[int]], list[str]]:
     """Return the features that differ, of nodes with the nodes where they do, and of types."""
     seen, also = tokens_of(one), tokens_of(other)
     np.testing.assert_array_equal(seen.pair, also.pair)
     node, kind = seen.node[0] != also.node[0], seen.type[0] != also.type[0]
-    return ({int(column): np.flatnonzero(node[:, column]).tolist()
-             for column in np.flatnonzero(node.any(axis=0))},
-            np.flatnonzero(kind.any(axis=0)).tolist())
+    return ({name: np.flatnonzero(node[:, column]).tolist()
+             for column, name in enumerate(NODE.names or ()) if node[:, column].any()},
+            [name for column, name in enumerate(TYPE.names or ()) if kind[:, column].any()])
 
 
-@pytest.mark.parametrize(("asked", "column"), [
-    ({"unassigned_cost": 7.0}, 20),
-    ({"pickup": (500,)}, PICKED),
-    ({"gaps": ((20 * MINUTE, 40 * MINUTE),)}, 22),
-    ({"max_time_aboard": 30 * MINUTE}, 23),
+@pytest.mark.parametrize(("asked", "name"), [
+    ({"unassigned_cost": 7.0}, "unassigned_cost"),
+    ({"pickup": (500,)}, "pickup_share"),
+    ({"gaps": ((20 * MINUTE, 40 * MINUTE),)}, "between_windows"),
+    ({"max_time_aboard": 30 * MINUTE}, "max_time_aboard"),
 ], ids=lambda asked: "-".join(asked) if isinstance(asked, dict) else "")
 def test_what_few_customers_ask_for_is_seen_of_them_alone(
-        tiny_problem, customers, truck, asked: dict[str, Any], column: int) -> None:
+        tiny_problem, customers, truck, asked: dict[str, Any], name: str) -> None:
     windowed = [replace(each, latest=60 * MINUTE) for each in customers]
     others = replace(windowed[1], **asked), *windowed[2:]
     one = tiny_problem(*windowed, truck=truck)
     other = tiny_problem(windowed[0], *others, truck=truck)
-    assert told_apart(one, other) == ({column: [2]}, [])
+    assert told_apart(one, other) == ({name: [2]}, [])
 
 
 def test_goods_kept_apart_are_seen(tiny_problem, customers, truck) -> None:
@@ -210,55 +214,57 @@ def test_goods_kept_apart_are_seen(tiny_problem, customers, truck) -> None:
                              for each, name in zip(customers, goods, strict=True)], truck=truck)
     entry = IncompatibleGoods(frozenset({"food", "paint"}))
     apart = replace(problem, incompatible_goods=(entry,))
-    assert told_apart(problem, apart) == ({25: [1, 2, 3]}, [])
-    assert tokens_of(apart).node[0, 1:, 25] == pytest.approx([1 / 4, 2 / 4, 1 / 4, 0])
+    assert told_apart(problem, apart) == ({"barred": [1, 2, 3]}, [])
+    barred = column(tokens_of(apart).node, NODE, "barred")
+    assert barred[1:] == pytest.approx([1 / 4, 2 / 4, 1 / 4, 0])
 
 
 def test_setups_are_seen(tiny_problem, customers, truck) -> None:
     a, *others = customers
     problem = tiny_problem(replace(a, setup_duration=10 * MINUTE), *others, truck=truck)
-    nodes = tokens_of(problem).node[0, :, 24]
+    nodes = column(tokens_of(problem).node, NODE, "setup")
     assert nodes[1] > 0
     assert not nodes[2:].any()
 
 
-@pytest.mark.parametrize(("given", "columns"), [
-    ({"end": 1}, [23]),
-    ({"overtime": Overtime(5.0, 40 * MINUTE)}, [24, 25]),
-    ({"cost_per_stop": 2.0}, [26]),
-    ({"cost_per_load_km": 0.1}, [27]),
-    ({"max_stops": 3}, [28]),
-    ({"max_sorties": 2}, [29]),
-    ({"pickups": "last"}, [30]),
-    ({"reload_depots": (1,), "max_trips": 2}, [12, 31]),
+@pytest.mark.parametrize(("given", "names"), [
+    ({"end": 1}, ["way_back"]),
+    ({"overtime": Overtime(5.0, 40 * MINUTE)}, ["overtime_price", "overtime"]),
+    ({"cost_per_stop": 2.0}, ["per_stop"]),
+    ({"cost_per_load_km": 0.1}, ["per_load"]),
+    ({"max_stops": 3}, ["max_stops"]),
+    ({"max_sorties": 2}, ["max_sorties"]),
+    ({"pickups": "last"}, ["pickup_order"]),
+    ({"reload_depots": (1,), "max_trips": 2}, ["max_trips", "other_depots"]),
 ], ids=lambda given: "-".join(given) if isinstance(given, dict) else "")
 def test_what_few_vehicles_are_given_is_seen(
         tiny_problem, customers, truck, drones, given: dict[str, Any],
-        columns: list[int]) -> None:
+        names: list[str]) -> None:
     kind = replace(truck, latest=300 * MINUTE, cost_per_km=1.0, drones=drones)
     one, other = (tiny_problem(*customers, truck=each, num_depots=2, places=(0, 9, 1, 2, 3, 4))
                   for each in (kind, replace(kind, **given)))
-    assert told_apart(one, other) == ({}, columns)
+    assert told_apart(one, other) == ({}, names)
 
 
 def test_where_a_vehicle_begins_is_seen(tiny_problem, customers, truck) -> None:
     one, other = (tiny_problem(*customers, truck=each, num_depots=2, places=(0, 9, 1, 2, 3, 4))
                   for each in (truck, replace(truck, start=1)))
-    begin = [tokens_of(problem).type[0, 0, 22] for problem in (one, other)]
-    assert begin[0] != begin[1]
+    begin, elsewhere = (column(tokens_of(problem).type, TYPE, "way_out")[0]
+                        for problem in (one, other))
+    assert begin != elsewhere
 
 
 def test_handling_of_drones_is_seen(tiny_problem, customers, truck, drones) -> None:
     one, other = (tiny_problem(*customers, truck=replace(truck, drones=each))
                   for each in (drones, replace(drones, swap_duration=3 * MINUTE)))
-    assert told_apart(one, other) == ({}, [32])
+    assert told_apart(one, other) == ({}, ["handling"])
 
 
 def test_overtime_is_seen_as_no_longer_shift() -> None:
     problem = generate(np.random.default_rng(8), 12, "multitrip")
     longer = replace(problem, vehicle_types=tuple([
         replace(kind, overtime=Overtime(1.0)) for kind in problem.vehicle_types]))
-    assert told_apart(problem, longer) == ({}, [24, 25])
+    assert told_apart(problem, longer) == ({}, ["overtime_price", "overtime"])
 
 
 def first_drives(problem: Problem, name: str) -> list[float]:
