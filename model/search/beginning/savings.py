@@ -236,7 +236,8 @@ def join(world: World, k: int, ranks: int, keys: IntArray, chain: Records,
         head, tail = chain[a].route, chain[b].last
         length = chain[head].length + chain[b].length
         if (head != b and allows_stops(kind, length) and may_join(kind, cargo[head], cargo[b])
-                and working(kind, legs, chain, a, b) <= kind.max_working_duration):
+                and working(kind, legs, chain, a, b, head, tail, way)
+                <= kind.max_working_duration):
             chain[head].busy += way + chain[b].busy
             link_up(places, legs, chain, a, b, head, tail)
             chain[head].length = length
@@ -246,9 +247,12 @@ def join(world: World, k: int, ranks: int, keys: IntArray, chain: Records,
 
 
 @inlined
-def working(kind: Record, legs: TravelLegs, chain: Records, a: int, b: int) -> int:
-    """Return how long a vehicle works at least that drives the route to `a` and that from `b`."""
-    head, tail, way = chain[a].route, chain[b].last, leg(legs, a, b).duration
+def working(kind: Record, legs: TravelLegs, chain: Records, a: int, b: int, head: int, tail: int,
+            way: int) -> int:
+    """Return how long a vehicle works at least that drives the route to `a` and that from `b`.
+
+    They begin with `head` and end with `tail`; from one to the other it drives for `way`.
+    """
     latest = min(chain[head].latest, chain[b].latest - way - chain[head].busy)
     leaves = max(chain[tail].leave, chain[a].leave + way + chain[b].busy)
     busy = max(chain[head].busy + way + chain[b].busy, leaves - latest)
