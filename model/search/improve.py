@@ -17,7 +17,7 @@ from model.search.beginning.translate import left_out, make_searcher, read_route
 from model.search.first_plan import first_plan
 from model.search.ground.lay import Ground, lay_ground
 from model.search.limits import WHOLE, Limits, Span
-from model.search.route.layout import World
+from model.search.route.layout import NOWHERE, World
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
@@ -40,13 +40,20 @@ BEGINNING_SHARE = 0.3
 GRACE = 0.03
 """Seconds that the search may take for a beginning, even where no time is left."""
 
-IN_PARTS_FROM = 2000
-"""Number of customers from which on a search stays near one of them for a while, then goes on to
-another: what it looks at then is in the processor's cache."""
+LARGE_FROM = 2000
+"""Number of customers from which on a search is far from done with what it begins with."""
 
-IN_PARTS_BY_TRUCK_SHARE = 0.6
+LARGE_BY_TRUCK_SHARE = 0.6
 """The share of the time that a plan by trucks alone takes there: a turn with drones takes many
 times as long, and each customer gets few of them."""
+
+IN_PARTS_FROM = 800
+"""Number of customers from which on a search of few turns stays near one of them for a while, then
+goes on to another: what it looks at then is in the processor's cache. Where drones fly, from
+`LARGE_FROM` on."""
+
+FEW_TURNS = 300
+"""Turns for each customer below which it does. With more, those whom few have near get too few."""
 
 STAY = 200
 """Turns for which it does."""
@@ -120,13 +127,21 @@ class _Team:
         while True:
             for worker, part in zip(self.workers, crew.spread(), strict=True):
                 worker.searcher, worker.span = part, span
-                part.count.stay = self.whole.count.stay
+                part.count.stay = STAY if self._is_in_parts() else 0
+                if part.count.stay == 0:
+                    part.count.focus = NOWHERE
             list(self.pool.map(Worker.run, self.workers))
             crew.gather()
             self.after_round(sum(worker.turns for worker in self.workers))
             rounds -= 1
             if rounds <= 0 or self.over(span):
                 return
+
+    def _is_in_parts(self) -> bool:
+        """Tell whether to stay near one customer after another, as far as is known."""
+        least = LARGE_FROM if self.workers[0].heat.drones else IN_PARTS_FROM
+        turns = min(worker.expected() for worker in self.workers)
+        return int(self.whole.count.customers) >= least and 0 < turns < FEW_TURNS
 
     def num_starts(self) -> int:
         """Return how often to begin anew, by how many turns there is time for."""
@@ -219,10 +234,10 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
             else renumbered(solution, numbering.number.tolist().__getitem__))
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, world, plan, seeds[0])
-    whole.count.stay = STAY if problem.num_customers >= IN_PARTS_FROM else 0
-    _begin(world, whole, fresh, fresh and bool(plan.routes), limits)
+    is_large = problem.num_customers >= LARGE_FROM
+    _begin(world, whole, fresh, fresh and bool(plan.routes), limits, is_large)
     limits.reading = task.reading(*_size(whole))
-    heat = Heat.of(world, whole, from_trucks, config.hot, config.cold)
+    heat = Heat.of(world, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
     workers = [Worker(world, whole, limits, heat, cooled=config.cooled)
                for _ in range(config.threads)]
@@ -251,7 +266,8 @@ def _size(whole: Searcher) -> tuple[int, int]:
     return int(np.count_nonzero(used)), int(routes["sorties"][used].sum())
 
 
-def _begin(world: World, whole: Searcher, fresh: bool, by_savings: bool, limits: Limits) -> None:
+def _begin(world: World, whole: Searcher, fresh: bool, by_savings: bool, limits: Limits,
+           is_large: bool) -> None:
     """Insert the customers left out; if nothing was given, plan all anew where that is better.
 
     In place. `by_savings`: what there is was made so. Where the clock ends the search, it ends
@@ -261,14 +277,13 @@ def _begin(world: World, whole: Searcher, fresh: bool, by_savings: bool, limits:
     if limits.turns is None:
         deadline = limits.began + (limits.deadline - limits.began) * BEGINNING_SHARE
     # Savings are far better than insertion there, which in large problems takes its time.
-    in_parts = whole.count.stay > 0
-    is_best = by_savings and in_parts and only_loads_limit(world)
+    is_best = by_savings and is_large and only_loads_limit(world)
     with Alarm(deadline, limits.should_stop) as alarm:
         hurried = world._replace(stop=alarm.flag)
         begin_anew(world, whole, fresh and not is_best, hurried)
         if fresh and world.mixed and not by_savings:
             _begin_by_types(hurried, whole, limits,
-                            BEGINNING_SHARE if in_parts else MOST_BEGINNING)
+                            BEGINNING_SHARE if is_large else MOST_BEGINNING)
 
 
 def _search(team: _Team, world: World, crew: Crew,
@@ -322,8 +337,7 @@ def _trucks_come_first(problem: Problem, moves: Moves) -> bool:
 
 
 def _share_by_truck(problem: Problem) -> float:
-    return (IN_PARTS_BY_TRUCK_SHARE if problem.num_customers >= IN_PARTS_FROM
-            else BY_TRUCK_SHARE)
+    return LARGE_BY_TRUCK_SHARE if problem.num_customers >= LARGE_FROM else BY_TRUCK_SHARE
 
 
 def _plan_by_truck(task: _Task) -> Improved:

@@ -26,9 +26,9 @@ HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
 HOT_FROM_TRUCKS = 0.2
 """The same where the search began with trucks alone."""
 
-HOT_IN_PARTS, COLD_IN_PARTS = 3.0, 0.03
-"""Both by a leg where loads alone limit routes and the search goes from part to part: the savings
-that it begins with are far from good where routes are long, and soon are where they are short."""
+HOT_IF_LARGE, COLD_IF_LARGE = 3.0, 0.03
+"""Both by a leg where loads alone limit the routes of thousands of customers: the savings that it
+begins with are far from good where routes are long, and soon are where they are short."""
 
 
 @dataclass(frozen=True)
@@ -40,22 +40,22 @@ class Heat:
     types: int  # of vehicles
     drones: bool  # some type has drones
     single_drones: bool  # some type has one
-    in_parts: bool  # the search goes from part to part of a plan whose routes loads alone limit
+    large: bool  # there are thousands of customers, and loads alone limit routes
     from_trucks: bool  # the search began with a plan for trucks alone
     hot: float | None  # first temperature by the cost of a leg, if it is stated
     cold: float | None  # last
 
     @classmethod
-    def of(cls, world: World, searcher: Searcher, from_trucks: bool, hot: float | None,
-           cold: float | None) -> "Heat":
-        """Measure the routes as they are."""
+    def of(cls, world: World, searcher: Searcher, is_large: bool, from_trucks: bool,
+           hot: float | None, cold: float | None) -> "Heat":
+        """Measure the routes as they are, of thousands of customers if `is_large`."""
         missing = int(searcher.count.missing)
         served = max(1, int(searcher.count.customers) - missing)
         cost = float(searcher.value.cost) - missing_cost(world, searcher)
         drones = world.type["drones"][:world.num_types]
-        in_parts = searcher.count.stay > 0 and are_alike(world) and only_loads_limit(world)
+        large = is_large and are_alike(world) and only_loads_limit(world)
         return cls(cost / served, leg_cost(world, searcher), world.num_types,
-                   bool((drones > 0).any()), bool((drones == 1).any()), in_parts, from_trucks,
+                   bool((drones > 0).any()), bool((drones == 1).any()), large, from_trucks,
                    hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:
@@ -71,8 +71,8 @@ class Heat:
         if self.single_drones:
             hot, cold = HOT_FROM_TRUCKS if self.from_trucks else HOT_WITH_DRONES, COLD_WITH_DRONES
             hot *= factor
-        elif self.in_parts:
-            hot, cold = HOT_IN_PARTS * factor, COLD_IN_PARTS
+        elif self.large:
+            hot, cold = HOT_IF_LARGE * factor, COLD_IF_LARGE
         else:
             hot, cold = self._haste(turns) * factor * HOT * self.customer / self.leg, COLD
             hot = max(LEAST_HOT, hot)

@@ -14,6 +14,8 @@ from model.kernel.instance import pack
 from model.problem import Problem
 from model.search import improve as searching
 from model.search.improve import Improved, Progress, SearchConfig, improve
+from model.search.route.layout import NOWHERE
+from model.search.worker import Worker
 from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import random_problems, roll
@@ -182,6 +184,29 @@ def test_progress_never_rises_and_its_plans_are_legal() -> None:
     assert costs[-1] == improved.cost
 
 
+@pytest.mark.parametrize(("variant", "from_customers", "turns", "expected"), [
+    ("cvrp", 40, 50, {searching.STAY}), ("cvrp", 41, 50, {0}), ("cvrp", 40, 400, {0}),
+    ("drone", 40, 50, {0})])
+def test_searches_of_few_turns_stay_near_one_customer_after_another(
+        monkeypatch: pytest.MonkeyPatch, variant: str, from_customers: int, turns: int,
+        expected: set[int]) -> None:
+    stays: set[int] = set()
+    run = Worker.run
+
+    def noted(worker: Worker) -> None:
+        count = worker.searcher.count
+        stays.add(int(count.stay))
+        assert count.stay > 0 or count.focus == NOWHERE
+        run(worker)
+
+    monkeypatch.setattr(Worker, "run", noted)
+    monkeypatch.setattr(searching, "IN_PARTS_FROM", from_customers)
+    monkeypatch.setattr(searching, "BY_TRUCK_FROM", 1000)
+    problem = generate(np.random.default_rng(2), 40, variant)
+    judged(problem, search(problem, nobody(problem), 40 * turns))
+    assert stays == expected
+
+
 def test_search_without_an_end_is_refused() -> None:
     problem = generate(np.random.default_rng(9), 3, "cvrp")
     with pytest.raises(ValueError, match="deadline, turns"):
@@ -198,7 +223,7 @@ def test_trucks_plan_large_problems_alone_for_longer(monkeypatch: pytest.MonkeyP
 
     monkeypatch.setattr(searching, "_improved", noted)
     problem = generate(np.random.default_rng(1), 30, "drone")
-    for parts_from in (31, 30):
-        monkeypatch.setattr(searching, "IN_PARTS_FROM", parts_from)
+    for large_from in (31, 30):
+        monkeypatch.setattr(searching, "LARGE_FROM", large_from)
         assert judged(problem, search(problem, Solution((), ()), 20)).is_feasible
     assert turns == [3, 20, 12, 20]
