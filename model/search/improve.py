@@ -53,7 +53,7 @@ goes on to another: what it looks at then is in the processor's cache. Where dro
 `LARGE_FROM` on."""
 
 FEW_TURNS = 300
-"""Turns for each customer below which it does. With more, those whom few have near get too few."""
+"""Turns for each customer below which it does; with more it brings nothing."""
 
 STAY = 200
 """Turns for which it does."""
