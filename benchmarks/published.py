@@ -117,12 +117,16 @@ CONVENTIONS: dict[str, Convention] = {
     "cvrp_x": Convention(scale=1, rounding="round", divisor=1),
     # The files state costs a hundredfold.
     "hfvrp": Convention(scale=1000, rounding="thousandths", divisor=100_000),
+    "xxl": Convention(scale=1, rounding="round", divisor=1),
 }
 """Sets of `data` by folder name."""
 
+BY_NAME = ("xxl",)
+"""Sets of which instances are read by name alone, since all their legs are laid out."""
 
-def published_set(data: Path, set_name: str) -> list[Published]:
-    """Return all instances of a set, sorted by name.
+
+def published_set(data: Path, set_name: str, names: Sequence[str] = ()) -> list[Published]:
+    """Return the instances of a set, all but of names that are not among `names`, sorted by name.
 
     Raises
     ------
@@ -132,11 +136,12 @@ def published_set(data: Path, set_name: str) -> list[Published]:
     paths = sorted(path for path in (data / set_name).glob("*") if path.suffix in (".txt", ".vrp"))
     if not paths:
         raise ValueError(f"set: {set_name!r} has no files in {data}")
-    return [read_published(path, set_name) for path in paths]
+    named = names or set_name in BY_NAME
+    return [read_published(path, set_name) for path in paths if not named or path.stem in names]
 
 
 def read_published(path: Path, set_name: str) -> Published:
-    """Return an instance; its best known cost is from `best_known.csv` in the folder above.
+    """Return an instance; its best known cost is from `best_known.csv` in its folder or above.
 
     Raises
     ------
@@ -165,7 +170,7 @@ def read_published(path: Path, set_name: str) -> Published:
         max_trips=_max_trips(file),
         has_windows=file.has_windows,
         divisor=convention.divisor,
-        best_known=_best_known(path.parent.parent / "best_known.csv", path.stem, set_name),
+        best_known=_best_known(path, set_name),
     )
 
 
@@ -203,13 +208,16 @@ def _max_trips(file: InstanceFile) -> int:
     return len(file.customers()) if max_trips is None else max_trips
 
 
-def _best_known(table: Path, name: str, set_name: str) -> float:
+def _best_known(path: Path, set_name: str) -> float:
+    own = path.with_name("best_known.csv")
+    table, field = ((own, "best_known") if own.is_file()
+                    else (path.parent.with_name("best_known.csv"), "best_known_cost"))
     if not table.is_file():
         return float("nan")
     with table.open(encoding="utf-8", newline="") as lines:
         for row in csv.DictReader(lines):
-            if (row["instance"], row["set"]) == (name, set_name):
-                return float(row["best_known_cost"])
+            if row["instance"] == path.stem and row.get("set", set_name) == set_name:
+                return float(row[field])
     return float("nan")
 
 

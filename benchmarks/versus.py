@@ -20,7 +20,7 @@ import typer
 
 from benchmarks.instances import uniform_set
 from benchmarks.peers import PeerAnswer, Verdict, judge, stated_cost
-from benchmarks.published import CONVENTIONS, Published, published_set, to_problem
+from benchmarks.published import BY_NAME, CONVENTIONS, Published, published_set, to_problem
 from benchmarks.results import Result, gap_percent
 from benchmarks.rule_sets import RULE_SETS, rule_set
 from benchmarks.rows import append_rows, read_rows
@@ -33,6 +33,9 @@ QUICK_BUDGETS = (0.1, 1.0)
 
 UNIFORM = {"uniform_50": 50, "uniform_100": 100}
 """Sets of `vrptw_uniform.jsonl` by their number of customers."""
+
+USUAL = tuple(name for name in CONVENTIONS if name not in BY_NAME)
+"""Sets that are measured unless others are asked for."""
 
 COMPARED = tuple(name for name in SOLVERS if name not in ("attention", "pointer"))
 """Solvers that are measured unless others are asked for."""
@@ -139,7 +142,7 @@ def _instances(data: Path, sets: Sequence[str], names: Sequence[str]) -> list[Pu
     """Return the instances of sets in turn, those named or, if none are, all."""
     read = [uniform_set(data / "vrptw_uniform.jsonl", UNIFORM[name]) if name in UNIFORM
             else rule_set(data, name) if name in RULE_SETS
-            else published_set(data, name) for name in sets]
+            else published_set(data, name, names) for name in sets]
     return in_turn([[instance for instance in group if not names or instance.name in names]
                     for group in read])
 
@@ -149,7 +152,9 @@ def main(
     = Path("../shared/data"),
     sets: Annotated[str, typer.Option(help="comma-separated; also "
                                      + ", ".join((*UNIFORM, *RULE_SETS)))]
-    = ",".join(CONVENTIONS),
+    = ",".join(USUAL),
+    instances: Annotated[str, typer.Option(help="comma-separated; all if none are named, but of "
+                                                + ", ".join(BY_NAME))] = "",
     budgets: Annotated[str, typer.Option(help="seconds, comma-separated")] = "0.1,1,10",
     seeds: Annotated[int, typer.Option(help="runs of each solver that has seeds", min=1)] = 3,
     solvers: Annotated[str, typer.Option(help="comma-separated, of " + ", ".join(SOLVERS))]
@@ -167,11 +172,12 @@ def main(
     try:
         require_installed(names)
         limits = QUICK_BUDGETS if quick else tuple(float(text) for text in budgets.split(","))
-        instances = _instances(data, sets.split(","), QUICK if quick else ())
+        chosen = _instances(data, sets.split(","), QUICK if quick else
+                            tuple(filter(None, instances.split(","))))
         known = {row.key for row in read_rows(output, Result)}
     except ValueError as error:
         raise typer.BadParameter(str(error)) from error
-    planned = [run for run in runs(instances, names, limits, 1 if quick else seeds)
+    planned = [run for run in runs(chosen, names, limits, 1 if quick else seeds)
                if run.key not in known]
     typer.echo(f"{len(known)} runs are in {output}, up to {len(planned)} are to come")
     append_rows(output, Result, measure(planned, processor_time))

@@ -198,6 +198,16 @@ def test_set_is_sorted_and_leaves_solutions_out(tmp_path: Path) -> None:
     for name in ("b.vrp", "a.vrp", "a.sol"):
         _write(tmp_path, "cvrp_x", name, CVRP)
     assert [instance.name for instance in published_set(tmp_path, "cvrp_x")] == ["a", "b"]
+    assert [instance.name for instance in published_set(tmp_path, "cvrp_x", ["b"])] == ["b"]
+
+
+def test_sets_of_large_instances_are_read_by_name_and_have_a_table_of_their_own(
+        tmp_path: Path) -> None:
+    path = _write(tmp_path, "xxl", "a.vrp", CVRP)
+    assert published_set(tmp_path, "xxl") == []
+    path.with_name("best_known.csv").write_text("instance,best_known\na,12\n", "utf-8")
+    [instance] = published_set(tmp_path, "xxl", ["a"])
+    assert (instance.name, instance.best_known) == ("a", 12)
 
 
 def test_leaving_a_customer_out_costs_more_than_its_detour(tmp_path: Path) -> None:
