@@ -9,8 +9,6 @@ drawn: by seed, customers, what a vehicle holds, and whether the depot lies `cen
 much processor time, of which all that it does counts.
 """
 
-import csv
-import math
 import resource
 import time
 from collections.abc import Iterator
@@ -27,7 +25,7 @@ from rich.table import Table
 from app.files.importers import read_instance_file
 from benchmarks import peer_filo2
 from benchmarks.peers import cost_of_all, timed_plan
-from benchmarks.published import MODEL_UNITS
+from benchmarks.published import MODEL_UNITS, best_known_beside
 from benchmarks.results import gap_percent
 from benchmarks.rows import append_rows, read_rows
 from model.kernel.instance import pack
@@ -132,19 +130,13 @@ def as_problem(stated: Stated) -> Problem:
                    unassigned_cost=10.0 * legs.longest_distance())
 
 
-def best_known(folder: Path) -> dict[str, float]:
-    """Return the best known costs of a folder."""
-    with (folder / "best_known.csv").open(encoding="utf-8", newline="") as lines:
-        return {row["instance"]: float(row["best_known"]) for row in csv.DictReader(lines)}
-
-
 def runs(folder: Path, name: str, budgets: list[float], seeds: int,
          filo2: Path | None = None) -> Iterator[Row]:
     """Plan an instance by all budgets and seeds, which count from 1."""
     path = folder / f"{name}.vrp"
     stated = read(path) if path.exists() else drawn(name)
     problem = as_problem(stated)
-    known = best_known(folder).get(name, math.nan)
+    known = best_known_beside(path, "best_known")
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
     instance = pack([problem], legs=False)

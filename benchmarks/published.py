@@ -122,11 +122,12 @@ CONVENTIONS: dict[str, Convention] = {
 """Sets of `data` by folder name."""
 
 BY_NAME = ("xxl",)
-"""Sets of which instances are read by name alone, since all their legs are laid out."""
+"""Sets that have a table of best known costs of their own, and of which instances are read by name
+alone, since all their legs are laid out. None are where none are named."""
 
 
 def published_set(data: Path, set_name: str, names: Sequence[str] = ()) -> list[Published]:
-    """Return the instances of a set, all but of names that are not among `names`, sorted by name.
+    """Return the instances of a set that are named, or all if none are, sorted by name.
 
     Raises
     ------
@@ -141,7 +142,9 @@ def published_set(data: Path, set_name: str, names: Sequence[str] = ()) -> list[
 
 
 def read_published(path: Path, set_name: str) -> Published:
-    """Return an instance; its best known cost is from `best_known.csv` in its folder or above.
+    """Return an instance; its best known cost is from `best_known.csv` in the folder above.
+
+    That of a set read `BY_NAME` is from its own folder.
 
     Raises
     ------
@@ -208,16 +211,27 @@ def _max_trips(file: InstanceFile) -> int:
     return len(file.customers()) if max_trips is None else max_trips
 
 
+def best_known_beside(path: Path, column: str) -> float:
+    """Return an instance's cost from a column of its folder's `best_known.csv`, nan if unknown."""
+    table = path.with_name("best_known.csv")
+    if table.is_file():
+        with table.open(encoding="utf-8", newline="") as lines:
+            for row in csv.DictReader(lines):
+                if row["instance"] == path.stem:
+                    return float(row[column])
+    return float("nan")
+
+
 def _best_known(path: Path, set_name: str) -> float:
-    own = path.with_name("best_known.csv")
-    table, field = ((own, "best_known") if own.is_file()
-                    else (path.parent.with_name("best_known.csv"), "best_known_cost"))
+    if set_name in BY_NAME:
+        return best_known_beside(path, "best_known")
+    table = path.parent.with_name("best_known.csv")
     if not table.is_file():
         return float("nan")
     with table.open(encoding="utf-8", newline="") as lines:
         for row in csv.DictReader(lines):
-            if row["instance"] == path.stem and row.get("set", set_name) == set_name:
-                return float(row[field])
+            if (row["instance"], row["set"]) == (path.stem, set_name):
+                return float(row["best_known_cost"])
     return float("nan")
 
 

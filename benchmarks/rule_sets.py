@@ -5,7 +5,6 @@ several windows, amounts to deliver and to pick up, routes that end with their l
 `python -m benchmarks.rule_sets` judges the best known plans.
 """
 
-import csv
 import math
 from dataclasses import dataclass, replace
 from itertools import groupby
@@ -25,6 +24,7 @@ from benchmarks.published import (
     Gaps,
     Published,
     PublishedVehicle,
+    best_known_beside,
     read_routes,
     routes_of_types,
     to_problem,
@@ -82,17 +82,7 @@ def read_rule_instance(path: Path, set_name: str) -> Published:
     """Return an instance; its best known cost is from the table beside it."""
     rules = RULE_SETS[set_name]
     read = _read_windows_file(path, rules) if path.suffix == ".txt" else _read_vrplib(path, rules)
-    return replace(read, set_name=set_name, best_known=_best_known(path, rules.reference))
-
-
-def _best_known(path: Path, column: str) -> float:
-    table = path.with_name("best_known.csv")
-    if table.is_file():
-        with table.open(encoding="utf-8", newline="") as lines:
-            for row in csv.DictReader(lines):
-                if row["instance"] == path.stem:
-                    return float(row[column])
-    return math.nan
+    return replace(read, set_name=set_name, best_known=best_known_beside(path, rules.reference))
 
 
 def _units(values: ArrayLike, scale: int) -> IntArray:
