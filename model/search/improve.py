@@ -125,10 +125,11 @@ class _Team:
     def search(self, crew: Crew | Starts, span: Span, rounds: float = math.inf) -> None:
         """Search in rounds until the end of a span, or for a number of rounds; for one at least."""
         while True:
+            stay = STAY if self._is_in_parts() else 0
             for worker, part in zip(self.workers, crew.spread(), strict=True):
                 worker.searcher, worker.span = part, span
-                part.count.stay = STAY if self._is_in_parts() else 0
-                if part.count.stay == 0:
+                part.count.stay = stay
+                if stay == 0:
                     part.count.focus = NOWHERE
             list(self.pool.map(Worker.run, self.workers))
             crew.gather()
@@ -140,15 +141,18 @@ class _Team:
     def _is_in_parts(self) -> bool:
         """Tell whether to stay near one customer after another, as far as is known."""
         least = LARGE_FROM if self.workers[0].heat.drones else IN_PARTS_FROM
-        turns = min(worker.expected() for worker in self.workers)
-        return int(self.whole.count.customers) >= least and 0 < turns < FEW_TURNS
+        return (int(self.whole.count.customers) >= least
+                and 0 < self._expected_turns() < FEW_TURNS)
+
+    def _expected_turns(self) -> float:
+        """Return how many turns for each customer there are in all, as far as is known."""
+        return min(worker.expected() for worker in self.workers)
 
     def num_starts(self) -> int:
         """Return how often to begin anew, by how many turns there is time for."""
-        turns = min(worker.expected() for worker in self.workers)
         least, most = ((START_TURNS, MOST_STARTS) if self.workers[0].heat.types == 1
                        else (START_TURNS_BY_TYPES, MOST_STARTS_BY_TYPES))
-        return min(most, int(STARTS_SHARE * turns / least))
+        return min(most, int(STARTS_SHARE * self._expected_turns() / least))
 
 
 def improve(problem: Problem, instance: Instance, solution: Solution, config: SearchConfig,
