@@ -9,7 +9,7 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.drone_types import most_drone_rows, row_of_drone
 from model.kernel.flight import recovery_end
-from model.kernel.instance import NONE, TIER
+from model.kernel.instance import NONE
 from model.kernel.records import Record, one, read_rows, Records
 from model.kernel.stop import end_of_service, places_by_air, start_of_service
 from model.problem import FloatArray, IntArray, Problem
@@ -83,16 +83,24 @@ def _row(length: int) -> IntArray:
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
     types, number = world.type[:world.num_types], problem.num_customers
-    demand = np.sort(world.place[0, problem.num_depots:, 0]["demand"], axis=0).cumsum(axis=0)
-    asked = _asked_for(problem)
+    delivered, picked = (_by_customer(problem, amounts) for amounts in (
+        [customer.demand for customer in problem.customers],
+        [customer.taken_in for customer in problem.customers]))
+    asked = np.maximum(delivered.sum(axis=0), picked.sum(axis=0))
+    lightest = [np.sort(amounts[amounts.any(axis=1)], axis=0).cumsum(axis=0)
+                for amounts in (delivered, picked)]
+    weightless = number - int((delivered.any(axis=1) | picked.any(axis=1)).sum())
     most, fewest = 0, number
     for kind in types:
         trips = min(int(kind.max_trips), number)
-        capacity = kind.capacity[:TIER] * trips
-        most = max(most, int((demand <= capacity).all(axis=1).sum()))
-        largest = np.maximum(kind.capacity[:len(asked)] * trips, 1)
-        needed = int(np.ceil(asked / largest).max()) if number else 0
+        capacity = kind.capacity[:len(asked)] * trips
+        carried = sum(int((total <= capacity).all(axis=1).sum()) for total in lightest)
+        most = max(most, min(number, weightless + carried, _most_served(kind)))
+        needed = int(np.ceil(asked / np.maximum(capacity, 1)).max()) if number else 0
         fewest = min(fewest, max(needed, -(-number // max(1, _most_served(kind)))))
+    # What is given may keep fewer rules than what the search makes of it.
+    most = max((most, *(sum(len(trip.stops) + len(trip.sorties) for trip in route.trips)
+                        for route in solution.routes)))
     count = int(types["count"].sum())
     wanted = 2 * max(len(solution.routes), 2 * fewest) + SPARE_SLOTS
     if not solution.routes:
@@ -103,19 +111,15 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
             most + 2 * trips + STOPS_OPENED, trips, flown + 1)
 
 
+def _by_customer(problem: Problem, amounts: list[tuple[int, ...]]) -> IntArray:
+    """Return (customer, dimension)."""
+    return np.array(amounts, np.int64).reshape(-1, problem.num_dimensions)
+
+
 def _most_served(kind: Record) -> int:
     """Return how many customers a vehicle of a type serves at most, by stops and sorties."""
     flown = int(kind.max_sorties) * MOST_VISITS if kind.drones else 0
     return int(kind.max_trips) * (int(kind.max_stops) + flown)
-
-
-def _asked_for(problem: Problem) -> IntArray:
-    """Return the larger of all that is delivered and all that is picked up, by dimension."""
-    amounts = np.zeros((2, problem.num_dimensions), np.int64)
-    for customer in problem.customers:
-        amounts += customer.demand, customer.taken_in
-    most: IntArray = amounts.max(axis=0)
-    return most
 
 
 @compiled

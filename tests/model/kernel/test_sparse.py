@@ -10,6 +10,9 @@ from model.kernel.sparse import HUGE, sparse_rows
 ROW = record("number", others=511)
 """As long as a page."""
 
+LARGER_THAN_MEMORY = 2**43
+"""Bytes: eight terabytes."""
+
 
 def resident() -> int:
     """Return bytes of memory that this process holds."""
@@ -33,3 +36,9 @@ def test_memory_is_taken_where_something_is_written() -> None:
     rows["number"][::512] = 1  # in each of the huge pages there would be
     assert np.count_nonzero(rows["number"][::512]) == number / 512
     assert resident() - before < rows.nbytes / 8
+
+
+def test_rows_may_be_longer_than_the_memory_there_is() -> None:
+    rows = sparse_rows((LARGER_THAN_MEMORY,), np.uint8)
+    rows[-1] = 7
+    assert (rows[0], rows[-1]) == (0, 7)

@@ -1,6 +1,7 @@
 """What a search keeps up to date from turn to turn is what it would find by looking at all."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -53,6 +54,25 @@ def test_routes_in_use_and_the_best_are_known(variant: str, size: int, stay: int
         now = searcher.now.cost[slots][used].sum()
         now += float(searcher.count.missing) * world.unassigned_cost
         assert now == pytest.approx(float(searcher.value.cost))
+
+
+@pytest.mark.parametrize("most_stops", [None, 4])
+def test_there_is_room_for_the_stops_that_a_vehicle_may_have(most_stops: int | None) -> None:
+    problem = generate(np.random.default_rng(17), SOME, "cvrp")
+    (kind,) = problem.vehicle_types
+    nothing = (0,) * problem.num_dimensions
+    given = replace(problem, vehicle_types=(replace(kind, count=SOME, max_stops=most_stops),))
+    taken = replace(given, customers=tuple(
+        [replace(each, demand=nothing, pickup=each.demand) for each in given.customers]))
+    lightest = np.sort([each.demand[0] for each in given.customers]).cumsum()
+    most = int((lightest <= kind.capacity[0]).sum()) if most_stops is None else most_stops
+    for one in (given, taken):
+        world = make_world(one, pack([one]))
+        searcher = make_searcher(one, world, Solution((), ()), np.random.SeedSequence(3))
+        assert most + 2 <= searcher.now.stop.shape[1] <= most + 10
+        begin_anew(world, searcher, True)
+        anneal(world, searcher, TURNS, ANY)
+        assert searcher.now.route["length"].max() <= most + 2
 
 
 def test_a_search_that_stays_near_by_gets_everywhere() -> None:
