@@ -37,22 +37,29 @@ def many_customers(number: int) -> Data:
 
 WORKING_DAY_S, WINDOW_S = 14 * 3600, 4 * 3600
 
+BREAK_S, SETUP_S, MOST_STOPS = 3600, 60, 40
+
 DRONE: Data = {"count": 1, "capacity": [4], "speed_kmh": 60, "endurance": 1800,
                "launch_duration": 30, "recovery_duration": 30, "costs": {"per_km": 0.1}}
 
 
-def mixed_customers(number: int, has_drones: bool) -> Data:
+def mixed_customers(number: int, has_drones: bool, has_rarer: bool = False) -> Data:
     """Return a request with windows, vehicles of two sizes, two trips each and perhaps drones.
 
     Half of the vehicles carry twice what the others do and cost more; each may serve 12 customers
-    on average. With drones, each has one, and most of the lighter parcels may fly.
+    on average. With drones, each has one, and most of the lighter parcels may fly. With rarer
+    rules, half of the customers have two windows where the day has room for them, a third send a
+    parcel instead, all take a setup, and trips have a limit of stops.
     """
     rng = random.Random(number)
     side = SPACE_M * sqrt(number)
-    more = {"drones": DRONE} if has_drones else {}
+    more: Data = {"drones": DRONE} if has_drones else {}
+    if has_rarer:
+        more |= {"max_stops": MOST_STOPS}
+    customers = [_mixed_customer(rng, index, side, has_drones) for index in range(number)]
     return {
         "depots": [{"id": "hub", "location": [side / 2, side / 2]}],
-        "customers": [_mixed_customer(rng, index, side, has_drones) for index in range(number)],
+        "customers": [*map(_with_rarer, customers)] if has_rarer else customers,
         "fleet": [
             {"id": name, "count": -(-number // 25), "capacity": [capacity], "speed_kmh": 60,
              "costs": {"fixed": fixed, "per_km": per_km, "per_hour": 20}, "max_trips": 2,
@@ -70,6 +77,18 @@ def _mixed_customer(rng: random.Random, index: int, side: float, has_drones: boo
             "location": [round(rng.uniform(0, side), 1), round(rng.uniform(0, side), 1)],
             "time_window": {"earliest": opens, "latest": opens + WINDOW_S},
             "served_by": "either" if may_fly else "truck"}
+
+
+def _with_rarer(customer: Data) -> Data:
+    rng = random.Random(customer["id"])
+    customer = {**customer, "setup_duration": SETUP_S}
+    opens = customer["time_window"]["latest"] + BREAK_S
+    if rng.random() < 0.5 and opens + BREAK_S < WORKING_DAY_S:
+        second = {"earliest": opens, "latest": opens + BREAK_S}
+        customer["time_windows"] = [customer.pop("time_window"), second]
+    if rng.random() < 1 / 3:
+        customer |= {"demand": [0], "pickup": customer["demand"]}
+    return customer
 
 
 def swept(request: Data) -> list[list[int]]:

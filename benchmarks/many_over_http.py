@@ -2,7 +2,8 @@
 
 `python -m benchmarks.many_over_http --customers 100000 --seconds 60` starts the service, sends it
 seeded problems and tells of each when the reply was there, what its plan is like, and at the end
-how much memory the service took at most.
+how much memory the service took at most. With `--rarer` they state several windows, pickups,
+setups and most stops, too.
 """
 
 import json
@@ -20,9 +21,11 @@ from benchmarks.many import mixed_customers
 CLOSING_S = 600.0
 
 
-def answer(address: str, customers: int, seconds: float, has_drones: bool) -> dict[str, Any]:
+def answer(address: str, customers: int, seconds: float, has_drones: bool,
+           has_rarer: bool) -> dict[str, Any]:
     """Send a problem; return the figures of the reply and of its plan."""
-    request = mixed_customers(customers, has_drones) | {"options": {"time_limit": seconds}}
+    request = (mixed_customers(customers, has_drones, has_rarer)
+               | {"options": {"time_limit": seconds}})
     body = json.dumps(request).encode()
     began = time.perf_counter()
     reply = httpx.post(f"{address}/plan", content=body, timeout=seconds + CLOSING_S,
@@ -49,12 +52,14 @@ def peak_megabytes() -> float:
 
 
 def main(customers: Annotated[list[int], typer.Option(help="several")],
-         seconds: Annotated[float, typer.Option(help="time_limit")] = 60.0) -> None:
+         seconds: Annotated[float, typer.Option(help="time_limit")] = 60.0,
+         rarer: Annotated[bool, typer.Option("--rarer", help="by rarer rules, too")] = False
+         ) -> None:
     """Print a line of JSON a reply."""
     with service() as address:
         for number in customers:
             for has_drones in (False, True):
-                print(json.dumps(answer(address, number, seconds, has_drones)), flush=True)
+                print(json.dumps(answer(address, number, seconds, has_drones, rarer)), flush=True)
         print(f"{peak_megabytes():.0f} MB at most")
 
 

@@ -25,7 +25,7 @@ from app.load.memory import collect_seldom
 from app.plans.service import plan_options, preparing, reply_of
 from app.plans.task import Task, task_of
 from app.plans.warming import showing
-from app.requests.bounds import UNBOUNDED, require_tables
+from app.requests.bounds import UNBOUNDED
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
 from app.schemas.fields import Rounding
@@ -34,7 +34,7 @@ from model.judge.check import Evaluation
 from model.kernel.compiled import is_cold
 from model.planner import Planner, load_planner
 from model.problem import Problem
-from model.search.compiling import COMPILE_LARGE, LARGE, beside, compile_large
+from model.search.compiling import COMPILE_LARGE, COMPUTED, beside, compile_large
 from model.solution import COST_TERMS
 
 LEAST_PREPARING = 60.0
@@ -95,7 +95,7 @@ def warm() -> None:
     """Compile everything that planning needs, so that later starts are quick."""
     settings = Settings()
     compiles_large = settings.max_customers > COMPUTED_FROM
-    with beside(COMPILE_LARGE) if compiles_large and is_cold((LARGE,)) else nullcontext():
+    with beside(COMPILE_LARGE) if compiles_large and is_cold(COMPUTED) else nullcontext():
         _warm_planner(settings)
     if compiles_large:
         typer.echo(f"compiling the search for more than {COMPUTED_FROM} places", err=True)
@@ -114,7 +114,6 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
             hurried = replace(preparing(request.options, UNBOUNDED, lambda: False),
                               least_time=LEAST_PREPARING)
             task = task_of(request, hurried, roads=roads)
-            require_tables(task.problem, UNBOUNDED, hurried)
             prepared = time.perf_counter() - started
             _print_warnings(task)
             planner = _warm_planner(settings, task.problem)

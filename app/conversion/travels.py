@@ -83,11 +83,6 @@ class Travels:
             driven = max(driven, len({kind.profile for kind in request.fleet}))
         return driven + len(flown) + (len(flown) if sets_up else 0)
 
-    def count_computed(self) -> int:
-        """Return how many ways to travel have no matrices, since all legs are computed."""
-        keys = self._keys()
-        return len(keys) - len(self._stated(keys))
-
     def expect_legs(self) -> None:
         """Make sure that there is time to build all matrices, if none is flown around areas.
 

@@ -6,7 +6,7 @@ from app.conversion.preparing import Preparing
 from app.jobs.errors import TooManyScenariosError
 from app.jobs.rows import JobRow
 from app.jobs.scenarios import (
-    Scenarios, Sweep, apply, check_problem, read_study, validate,
+    Scenarios, Sweep, apply, check_replan, read_study, validate,
 )
 from app.jobs.schemas import Kind
 from app.jobs.store import JobStore
@@ -59,8 +59,8 @@ class JobReader:
         preparing = Preparing(should_stop, VALIDATION_SECONDS, f"the {VALIDATION_SECONDS:g} s that "
                               "a job's request may be checked for")
         if kind == "plan":
-            check_problem(read_request(body, self._policies, self._bounds), self._bounds,
-                          preparing, roads=self._roads)
+            check_replan(read_request(body, self._policies, self._bounds), preparing,
+                         roads=self._roads)
             return 1
         base, scenarios = read_study(kind, body, self._policies, self._bounds)
         count = len(scenarios)

@@ -12,14 +12,13 @@ from pydantic_core import from_json, to_json
 
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.ground import Ground
-from app.conversion.problem import to_problem
 from app.errors import (
     MAX_LISTED_ERRORS, InputError, InvalidRequestError, NoRoadsError, json_path, schema_errors,
 )
 from app.jobs.grid import GridPath, Place, places, put, read_path
 from app.jobs.schemas import CompareRequest, SweepRequest
 from app.plans.task import task_of
-from app.requests.bounds import UNBOUNDED, Bounds, lacks_room, require_room
+from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.reading import read_json, read_request, request_errors
 from app.requests.refusal import require_readable
 from app.roads.roads import NO_ROADS, Roads
@@ -167,7 +166,7 @@ def validate(base: PlanRequest, scenarios: Scenarios, policies: Collection[str],
             request = apply(base, scenario, policies, bounds)
             if not ground.is_that_of(request):
                 ground = Ground(request, preparing)
-            check_problem(request, bounds, preparing, ground, roads)
+            check_replan(request, preparing, ground, roads)
         except InvalidRequestError as error:
             errors += [_named(item, scenario) for item in error.errors]
         if len(errors) >= MAX_LISTED_ERRORS:
@@ -207,23 +206,20 @@ def _day_of(base: PlanRequest) -> Sections:
     return {name: getattr(base, name) for name in _DAY}
 
 
-def check_problem(request: PlanRequest, bounds: Bounds, preparing: Preparing,
-                  ground: Ground | None = None, roads: Roads = NO_ROADS) -> None:
-    """Check what can be told only when the problem is made, where there is something to tell.
+def check_replan(request: PlanRequest, preparing: Preparing, ground: Ground | None = None,
+                 roads: Roads = NO_ROADS) -> None:
+    """Check what can be told of a plan to go on from only when the problem is made.
 
-    That is a plan to go on from, and rules for which there might be too many legs. Roads that
-    don't answer hinder nobody: the job waits for them.
+    Roads that don't answer hinder nobody: the job waits for them.
 
     Raises
     ------
     InvalidRequestError
-        If what has happened by then doesn't fit, or the legs would take too much memory.
+        If what has happened by then doesn't fit.
     """
     if request.replan is not None:
         with suppress(NoRoadsError):
-            require_room(task_of(request, preparing, ground, roads).problem, bounds)
-    elif lacks_room(request, bounds):
-        require_room(to_problem(request, preparing, ground), bounds)
+            task_of(request, preparing, ground, roads)
 
 
 _SMALLEST: dict[str, Any] = {"depots": [], "customers": [], "fleet": []}

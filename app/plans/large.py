@@ -11,7 +11,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from app.load import with_parent
 from model.kernel.compiled import compiled_folder
 from model.problem import Problem
-from model.search.compiling import COMPILE_LARGE, LARGE, compile_large, is_compiled, parts_for
+from model.search.compiling import COMPILE_LARGE, COMPUTED, compile_large, is_compiled, parts_for
 
 logger = logging.getLogger(__name__)
 
@@ -29,7 +29,10 @@ class LargeSearch:
 
     def serves(self, problem: Problem) -> bool:
         """Tell whether the search for a problem is compiled; have that done if not. In place."""
-        if self._is_loaded or is_compiled(LARGE) or parts_for(problem) != (LARGE,):
+        if self._is_loaded or _all_compiled():
+            return True
+        (part,) = parts_for(problem)
+        if part not in COMPUTED or is_compiled(part):
             return True
         self.compile()
         return False
@@ -38,7 +41,7 @@ class LargeSearch:
         """Have all compiled, unless that is done or going on. In place."""
         with self._lock:
             is_going_on = self._compiling is not None and not self._compiling.done()
-            if not (is_going_on or self._has_stopped or is_compiled(LARGE)):
+            if not (is_going_on or self._has_stopped or _all_compiled()):
                 self._compiling = self._executor.submit(self._compile)
 
     def stop(self) -> None:
@@ -66,3 +69,7 @@ class LargeSearch:
         code = self._process.wait()
         logger.info("compiled the search for more than a few thousand customers"
                     if code == 0 else "compiling the search for many customers ended with %d", code)
+
+
+def _all_compiled() -> bool:
+    return all(is_compiled(part) for part in COMPUTED)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from pydantic_core import to_json
 
-from app.conversion.preparing import UNHURRIED, Preparing, StoppedError, patience
+from app.conversion.preparing import Preparing, StoppedError, patience
 from app.conversion.travels import COMPUTED_FROM
 from app.errors import NotReadyError
 from app.load.bodies import ReceivedBody
@@ -16,7 +16,7 @@ from app.plans.large import LargeSearch
 from app.plans.replies import Data
 from app.plans.task import Task, task_of, warning_replies
 from app.plans.warming import showing, words
-from app.requests.bounds import UNBOUNDED, Bounds, require_tables
+from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.reading import read_request
 from app.requests.refusal import compile_scan
 from app.roads.roads import NO_ROADS, Roads
@@ -132,20 +132,18 @@ class PlanService:
     def planner_for(self, problem: Problem) -> Planner:
         """Return the planner for a problem; raises as `plan` does."""
         planner = self.warm_planner()
-        self._require_search(problem, UNHURRIED)
+        self._require_search(problem)
         return planner
 
     def await_search(self, problem: Problem, work: Preparing) -> None:
         """Wait until a problem can be searched, or the work is to end; raises as `plan` does."""
-        require_tables(problem, self._bounds, work)
         while not self._large.serves(problem):
             if work.should_stop():
                 raise StoppedError("The work was stopped before there was a plan: try again.")
             time.sleep(LOOKING)
 
-    def _require_search(self, problem: Problem, work: Preparing) -> None:
-        """Refuse a problem that can't be searched, or not yet; raises as `plan` does."""
-        require_tables(problem, self._bounds, work)
+    def _require_search(self, problem: Problem) -> None:
+        """Refuse a problem that can't be searched yet; raises as `plan` does."""
         if not self._large.serves(problem):
             raise NotReadyError(
                 f"The search for more than {COMPUTED_FROM} places is being compiled, which takes "
@@ -177,7 +175,7 @@ def _only_decodes(request: PlanRequest) -> bool:
 def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_threads: int = 1,
              on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
              bounds: Bounds = UNBOUNDED, roads: Roads = NO_ROADS,
-             require: Callable[[Problem, Preparing], None] = lambda *_: None) -> bytes:
+             require: Callable[[Problem], None] = lambda _: None) -> bytes:
     """Return the reply to a planning request that was read as JSON; raises as `PlanService.plan`.
 
     A request that states no number of threads gets `search_threads`; `on_plan` is told the reply;
@@ -185,7 +183,7 @@ def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_
     """
     work = preparing(request.options, bounds, listener.should_stop)
     task = task_of(request, work, roads=roads)
-    require(task.problem, work)
+    require(task.problem)
     return reply_of(planner, task, plan_options(request.options, search_threads), received_at,
                     on_plan, listener, work.waited)
 

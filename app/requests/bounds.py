@@ -4,26 +4,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from app.conversion.places import nowhere_of, places_of
-from app.conversion.preparing import Preparing
 from app.conversion.travels import Travels
-from app.conversion.work import legs_seconds
-from app.errors import InputError, InvalidRequestError
+from app.errors import InputError
 from app.requests.draft import Draft
 from app.schemas.request import PlanRequest, ReplanInput
 from app.settings import MAX_CUSTOMERS, MAX_LEGS, MAX_NUM_SAMPLES, MAX_TIME_LIMIT, Settings
 from model.planner import DECODED_UP_TO, decoding_seconds
-from model.problem import Problem
 from model.replanning.workers import MAX_OWN_TYPES
-from model.search.world import states_rarer_rules
 
 PLAN_SECONDS = "TANDEM_MAX_PLAN_SECONDS"
-
-RARER_RULES = ("several windows, setups, freshness, goods, drones of several types, batteries, "
-               "overtime, costs of load, most stops or sorties, customers dearer than others to "
-               "leave out")
-"""Those that the search for computed legs is compiled without, in words; `docs/search.md` has
-them all."""
-
 
 @dataclass(frozen=True)
 class Bounds:
@@ -97,55 +86,6 @@ def leg_errors(request: PlanRequest, bounds: Bounds) -> Iterator[InputError]:
             message=f"The fleet travels in {kinds} ways, by speed and profile, between {places} "
             f"places{once_more}: {legs} legs, and this service holds {bounds.legs} at most "
             "(TANDEM_MAX_LEGS): give vehicle types the same speed, or send fewer customers.")
-
-
-def require_tables(problem: Problem, bounds: Bounds, preparing: Preparing) -> None:
-    """Make sure that a problem can be searched by tables, if that is what its rules take.
-
-    Raises
-    ------
-    InvalidRequestError
-        If they would take too much memory or time.
-    """
-    computed = require_room(problem, bounds)
-    if computed > 0:
-        preparing.expect(legs_seconds(problem.num_nodes, computed, 0, True))
-
-
-def require_room(problem: Problem, bounds: Bounds) -> int:
-    """Return for how many ways to travel a search takes tables that nothing else does.
-
-    Raises
-    ------
-    InvalidRequestError
-        If they would take too much memory.
-    """
-    computed = sum(travel.straight is not None for travel in problem.travel)
-    if computed == 0 or not states_rarer_rules(problem):
-        return 0
-    places = problem.num_nodes
-    legs = computed * places**2
-    if legs > bounds.legs:
-        raise InvalidRequestError([InputError(
-            code="TOO_MANY_LEGS", path="$",
-            message="Some of the rules stated are planned by tables of all legs alone: "
-            f"{computed} ways to travel between {places} places are {legs} legs, and this service "
-            f"holds {bounds.legs} at most (TANDEM_MAX_LEGS): send fewer customers, or state no "
-            f"rule of those ({RARER_RULES}).")])
-    return computed
-
-
-def lacks_room(request: PlanRequest, bounds: Bounds) -> bool:
-    """Tell whether a valid request is too large for tables, should its rules take them.
-
-    Legs on roads, and between addresses, are known only when the roads are asked.
-    """
-    places = places_of(request)
-    on_roads = (bounds.on_roads and request.coordinate_system == "geographic"
-                and request.roads != "none")
-    if on_roads or any(place.location is None for place in places):
-        return False
-    return Travels(request).count_computed() * len(places)**2 > bounds.legs
 
 
 def _most_under_way(replan: ReplanInput) -> int:

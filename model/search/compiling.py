@@ -16,12 +16,15 @@ from model.search.improve import SearchConfig, improve
 from model.search.world import states_rarer_rules
 from model.solution import Solution
 
-PLAIN, LARGE, RARER = "plain", "large", "rarer"
-"""Parts of all that is compiled: for problems that state no rarer rules, with legs from tables or
-computed ones (compiled apart from the others), and for those that do."""
+PLAIN, RARER, LARGE, LARGE_RARER = "plain", "rarer", "large", "large-rarer"
+"""Parts of all that is compiled: for problems that state no rarer rules and for those that do, with
+legs from tables and with computed ones."""
 
-MOST_STOPS = {PLAIN: None, LARGE: None, RARER: 2}
-"""What the small problem for each part states."""
+COMPUTED = (LARGE, LARGE_RARER)
+"""Those with computed legs, compiled apart from the others."""
+
+STATING = (RARER, LARGE_RARER)
+"""Those for rarer rules."""
 
 COMPILE_SEARCH = """
 from model.kernel.compiled import counting
@@ -48,10 +51,10 @@ def parts_for(problem: Problem | None) -> tuple[str, ...]:
     """
     if problem is None:
         return PLAIN, RARER
-    if states_rarer_rules(problem):
-        return (RARER,)
-    computed = any(travel.straight is not None for travel in problem.travel)
-    return (LARGE if computed else PLAIN,)
+    plain, rarer = ((LARGE, LARGE_RARER)
+                    if any(travel.straight is not None for travel in problem.travel)
+                    else (PLAIN, RARER))
+    return (rarer if states_rarer_rules(problem) else plain,)
 
 
 def is_compiled(part: str) -> bool:
@@ -60,13 +63,14 @@ def is_compiled(part: str) -> bool:
 
 
 def compile_large() -> None:
-    """Compile the search for computed legs, or wait for another process that does."""
-    if compiled_folder() is None:
-        compile_search(LARGE)
-        return
-    with first_to_compile((LARGE,)) as has_to:
-        if has_to:
-            compile_search(LARGE)
+    """Compile the searches for computed legs, or wait for another process that does."""
+    for part in COMPUTED:
+        if compiled_folder() is None:
+            compile_search(part)
+            continue
+        with first_to_compile((part,)) as has_to:
+            if has_to:
+                compile_search(part)
 
 
 def compile_search(part: str) -> None:
@@ -82,9 +86,9 @@ def small_problem(part: str = PLAIN, drones: bool = True) -> Problem:
     customers = tuple(Customer(str(number), (1000,)) for number in range(3))
     drone = DroneType(count=1, capacity=(1000,), travel=0) if drones else None
     truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone,
-                        max_stops=MOST_STOPS[part])
+                        max_stops=2 if part in STATING else None)
     travel = Travel(distance, distance)
-    if part == LARGE:
+    if part in COMPUTED:
         travel = Travel.along(StraightLegs(Points(places * 1000.0), 3.6))
     return Problem((Depot("depot"),), customers, (truck,), (travel,), places, 1000.0)
 

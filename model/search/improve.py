@@ -23,7 +23,7 @@ from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.temperature import Heat
 from model.search.worker import Worker
-from model.search.world import ALL_MOVES, Moves, as_searched, make_world, only_loads_limit
+from model.search.world import ALL_MOVES, Moves, make_world, only_loads_limit
 from model.solution import Solution, renumbered, renumbered_routes
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
@@ -195,7 +195,6 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     if deadline is None and config.turns is None:
         raise ValueError("deadline, turns: None, None is not allowed")
     began, end = time.perf_counter(), math.inf if deadline is None else deadline
-    problem = as_searched(problem)
     # Where no routes are given, a late plan is better than none.
     latest = end if solution.routes else math.inf
     try:

@@ -1,7 +1,7 @@
 """The search's arrays for a problem, and plans to and from its routes."""
 
 from collections.abc import Hashable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from model.kernel.leg import are_the_same_back
 from model.kernel.plain import as_plain
 from model.kernel.records import Record, Records
 from model.problem import (
-    MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem, Travel,
+    MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem,
 )
 from model.search.ground.lay import Ground, lay_ground
 from model.search.ground.numbering import renumbered
@@ -190,16 +190,6 @@ def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     swapped = types["relaunch_duration"] != types["launch_duration"]
     split = ((mode & MODE_LOADED > 0) | swapped) & (types["max_trips"] > 1)
     return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
-
-
-def as_searched(problem: Problem) -> Problem:
-    """Return a problem with tables of legs if rarer rules are stated.
-
-    The search with all rules is compiled for those alone.
-    """
-    if all(travel.straight is None for travel in problem.travel) or not states_rarer_rules(problem):
-        return problem
-    return replace(problem, travel=tuple([Travel(*travel.arrays()) for travel in problem.travel]))
 
 
 def states_rarer_rules(problem: Problem) -> bool:

@@ -22,7 +22,7 @@ from model.planner import (
 )
 from model.problem import Problem
 from model.search.compiling import (
-    COMPILE_SEARCH, LARGE, PLAIN, RARER, beside, parts_for, small_problem,
+    COMPILE_SEARCH, LARGE, LARGE_RARER, PLAIN, RARER, beside, parts_for, small_problem,
 )
 from model.search.improve import Progress
 from model.solution import Route, Solution
@@ -255,7 +255,7 @@ def test_second_process_compiles_the_search_where_nothing_is_yet(
     subprocess.run([sys.executable, "-c", *helpers], check=True)
 
 
-@pytest.mark.parametrize("part", [PLAIN, LARGE, RARER])
+@pytest.mark.parametrize("part", [PLAIN, RARER, LARGE, LARGE_RARER])
 def test_what_one_problem_needs_is_compiled_alone(
     planner: Planner, part: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -19,10 +19,11 @@ from app.errors import InvalidRequestError
 from app.plans import large
 from app.plans.large import LargeSearch
 from app.plans.service import PlanService
-from app.requests.bounds import Bounds, require_tables
+from app.requests.bounds import Bounds
 from app.requests.reading import read_request
 from app.settings import MAX_CUSTOMERS, Settings
 from model.problem import Problem
+from model.search.compiling import COMPUTED, LARGE, LARGE_RARER
 from tests.app.conftest import FirstFitPlanner, ready
 from tests.conftest import PATIENCE, eventually
 
@@ -70,17 +71,27 @@ def test_requests_wait_until_their_search_is_compiled_once(
     monkeypatch.setattr("app.plans.large.subprocess.Popen", noted)
     client = ready(serve(FirstFitPlanner(), Settings(role="api")))
     assert begun == []  # nobody needs it where so few customers are taken
-    for _ in range(2):
-        refusal = client.post("/plan", json=smallest)
+    for request in (smallest, with_most_stops(smallest)):
+        refusal = client.post("/plan", json=request)
         assert refusal.status_code == 503, refusal.text
         assert int(refusal.headers["retry-after"]) > 0
         assert "being compiled" in refusal.json()["detail"]
-    rarer = client.post("/plan", json=with_most_stops(smallest))
-    assert rarer.status_code == 200, rarer.text
     eventually(lambda: begun)
     assert len(begun) == 1
     is_compiled.set()
     assert client.post("/plan", json=smallest).status_code == 200
+
+
+@pytest.mark.parametrize("part", COMPUTED)
+def test_a_search_is_waited_for_by_those_who_need_it(
+        smallest: Request, part: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(large, "is_compiled", lambda other: other == part)
+    monkeypatch.setattr(LargeSearch, "compile", lambda _: None)
+    search = LargeSearch()
+    assert search.serves(problem_of(smallest)) == (part == LARGE)
+    assert search.serves(problem_of(with_most_stops(smallest))) == (part == LARGE_RARER)
+    monkeypatch.setattr(travels, "COMPUTED_FROM", 10)
+    assert search.serves(problem_of(smallest))
 
 
 def test_services_that_take_many_customers_compile_as_they_start(
@@ -116,19 +127,6 @@ def test_jobs_wait_for_their_search(smallest: Request, is_compiled: threading.Ev
     service.await_search(problem, Preparing())
     assert is_compiled.is_set()
     service.stop()
-
-
-def test_rules_that_take_tables_are_bounded_by_the_legs_of_these(smallest: Request) -> None:
-    problem = problem_of(with_most_stops(smallest))
-    legs = problem.num_nodes**2
-    require_tables(problem, Bounds(legs=legs), Preparing())
-    require_tables(problem_of(smallest), Bounds(legs=1), Preparing())
-    with pytest.raises(InvalidRequestError) as refused:
-        require_tables(problem, Bounds(legs=legs - 1), Preparing())
-    (error,) = refused.value.errors
-    assert error.code == "TOO_MANY_LEGS"
-    assert f"{legs} legs" in error.message
-    assert "TANDEM_MAX_LEGS" in error.message
 
 
 def test_more_places_than_there_is_time_for_are_refused_with_an_estimate(

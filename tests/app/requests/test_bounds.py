@@ -7,7 +7,6 @@ from typing import Any
 import httpx
 import pytest
 
-from app.conversion import travels
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.conftest import soon
@@ -55,26 +54,6 @@ def test_every_request_of_a_plan_is_bounded(client: httpx.Client, smallest: Requ
              {"base": fits, "grid": {"fleet": [fleet(30), fleet(30, 40, 50)]}}, 202, "$.grid")):
         assert client.post(path, json=low).status_code == status, path
         assert refused(client.post(path, json=high)) == [("TOO_MANY_LEGS", where)], path
-
-
-def test_jobs_whose_rules_take_tables_are_refused_when_they_come(
-        client: httpx.Client, smallest: Request, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(travels, "COMPUTED_FROM", 0)
-    usual = {**smallest, "fleet": fleet(30, 40, 50)}
-    rarer = {**smallest, "fleet": [{**kind, "max_stops": 1} for kind in fleet(30, 40, 50)]}
-    few = {**smallest, "fleet": rarer["fleet"][:2]}
-    for path, fits, large, where in (
-            ("/jobs", usual, rarer, "$"),
-            ("/jobs", few, rarer, "$"),
-            ("/compare", {"base": usual, "fleets": {"a": usual["fleet"]}},
-             {"base": usual, "fleets": {"a": rarer["fleet"]}}, "$.fleets.a"),
-            ("/sweep", {"base": usual, "grid": {"fleet": [usual["fleet"]]}},
-             {"base": usual, "grid": {"fleet": [rarer["fleet"]]}}, "$.grid")):
-        assert client.post(path, json=fits).status_code == 202, path
-        reply = client.post(path, json=large)
-        assert refused(reply) == [("TOO_MANY_LEGS", where)], path
-        assert "27 legs" in reply.text
-        assert "TANDEM_MAX_LEGS" in reply.text
 
 
 def test_requests_of_vroom_are_bounded(client: httpx.Client) -> None:
