@@ -9,7 +9,7 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import compiled
 from model.kernel.drone_types import most_drone_rows, row_of_drone
 from model.kernel.flight import recovery_end
-from model.kernel.instance import NONE
+from model.kernel.instance import NONE, TIER
 from model.kernel.records import Record, one, read_rows, Records
 from model.kernel.stop import end_of_service, places_by_air, start_of_service
 from model.problem import FloatArray, IntArray, Problem
@@ -83,19 +83,18 @@ def _row(length: int) -> IntArray:
 def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
     types, number = world.type[:world.num_types], problem.num_customers
-    delivered, picked = (_by_customer(problem, amounts) for amounts in (
-        [customer.demand for customer in problem.customers],
-        [customer.taken_in for customer in problem.customers]))
+    delivered, picked = (np.array(amounts, np.int64).reshape(number, problem.num_dimensions)
+                         for amounts in ([customer.demand for customer in problem.customers],
+                                         [customer.taken_in for customer in problem.customers]))
     asked = np.maximum(delivered.sum(axis=0), picked.sum(axis=0))
-    lightest = [np.sort(amounts[amounts.any(axis=1)], axis=0).cumsum(axis=0)
-                for amounts in (delivered, picked)]
-    weightless = number - int((delivered.any(axis=1) | picked.any(axis=1)).sum())
     most, fewest = 0, number
     for kind in types:
-        trips = min(int(kind.max_trips), number)
-        capacity = kind.capacity[:len(asked)] * trips
-        carried = sum(int((total <= capacity).all(axis=1).sum()) for total in lightest)
-        most = max(most, min(number, weightless + carried, _most_served(kind)))
+        capacity = kind.capacity[:len(asked)] * min(int(kind.max_trips), number)
+        if kind.drones:
+            # Part of a trip is written anew before more than what it delivers is looked at.
+            most = max(most, _most_of(delivered[:, :TIER], capacity[:TIER]))
+        else:
+            most = max(most, min(_most_carried(delivered, picked, capacity), _most_served(kind)))
         needed = int(np.ceil(asked / np.maximum(capacity, 1)).max()) if number else 0
         fewest = min(fewest, max(needed, -(-number // max(1, _most_served(kind)))))
     # What is given may keep fewer rules than what the search makes of it.
@@ -111,9 +110,17 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
             most + 2 * trips + STOPS_OPENED, trips, flown + 1)
 
 
-def _by_customer(problem: Problem, amounts: list[tuple[int, ...]]) -> IntArray:
-    """Return (customer, dimension)."""
-    return np.array(amounts, np.int64).reshape(-1, problem.num_dimensions)
+def _most_carried(delivered: IntArray, picked: IntArray, capacity: IntArray) -> int:
+    """Return how many customers a vehicle carries for at most; amounts are (customer, dimension).
+    """
+    has, had = delivered.any(axis=1), picked.any(axis=1)
+    carried = _most_of(delivered[has], capacity) + _most_of(picked[had], capacity)
+    return min(len(delivered), carried + int((~(has | had)).sum()))
+
+
+def _most_of(amounts: IntArray, capacity: IntArray) -> int:
+    """Return how many of these (customer, dimension) a capacity holds at most."""
+    return int((np.sort(amounts, axis=0).cumsum(axis=0) <= capacity).all(axis=1).sum())
 
 
 def _most_served(kind: Record) -> int:

@@ -75,6 +75,21 @@ def test_there_is_room_for_the_stops_that_a_vehicle_may_have(most_stops: int | N
         assert searcher.now.route["length"].max() <= most + 2
 
 
+def test_there_is_room_for_what_drones_and_trucks_try() -> None:
+    problem = generate(np.random.default_rng(17), 60, "drone")
+    kinds = [replace(kind, max_stops=2, max_sorties=1) for kind in problem.vehicle_types]
+    few = replace(problem, vehicle_types=tuple(kinds))
+    for one in (problem, few):
+        searcher = make_searcher(one, make_world(one, pack([one])), Solution((), ()),
+                                 np.random.SeedSequence(3))
+        largest = max(kind.capacity[0] * kind.max_trips for kind in kinds)
+        lightest = np.sort([each.demand[0] for each in one.customers]).cumsum()
+        most = int((lightest <= largest).sum())
+        assert most > 3
+        assert searcher.now.stop.shape[1] >= most + 2
+        assert searcher.now.sortie.shape[1] >= most
+
+
 def test_a_search_that_stays_near_by_gets_everywhere() -> None:
     problem, world, searcher = begun("cvrp", SOME)
     searcher.count.stay = 5
