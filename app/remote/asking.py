@@ -130,8 +130,9 @@ class Question(Generic[Answer]):
 class _Round:
     """Questions asked together, some at a time; once one has failed no other is sent."""
 
-    def __init__(self, at_once: int) -> None:
+    def __init__(self, at_once: int, client: httpx.AsyncClient) -> None:
         self.gate = asyncio.Semaphore(at_once)
+        self.client = client  # by which all are sent, even if it is being closed meanwhile
         self.has_failed = False
         self.trouble = ""  # of the last attempt after which a question is asked again
 
@@ -192,10 +193,7 @@ class Asking:
     def _asked(self, questions: Sequence[Question[Answer]], until: float,
                should_stop: ShouldStop, told: Callable[[int, Answer], None]) -> list[Answer]:
         began = time.perf_counter()
-        loop, together = self._started(), _Round(self._server.at_once)
-        pending: dict[Future[bytes | SourceError], int] = {
-            asyncio.run_coroutine_threadsafe(self._outcome(question, together, until), loop): place
-            for place, question in enumerate(questions)}
+        together, pending = self._sent(questions, until)
         answers: dict[int, Answer] = {}
         try:
             while pending:
@@ -227,18 +225,26 @@ class Asking:
             self._state = time.perf_counter(), state
         return state
 
-    def _started(self) -> asyncio.AbstractEventLoop:
-        """Return the loop that sends, in a thread of its own: no look-up of a name, however long
-        it takes, keeps a caller beyond its time."""
+    def _sent(self, questions: Sequence[Question[Answer]],
+              until: float) -> tuple[_Round, dict[Future[bytes | SourceError], int]]:
+        """Have questions asked; return them by their places.
+
+        The loop that sends has a thread of its own: no look-up of a name, however long it takes,
+        keeps a caller beyond its time. Whoever closes comes before all of them or ends all.
+        """
         with self._lock:
-            if self._loop is None:
+            if self._loop is None or self._client is None:
                 self._loop = asyncio.new_event_loop()
                 self._client = httpx.AsyncClient(
                     base_url=self._server.url, headers=dict(self._server.headers), timeout=None,
                     trust_env=False, follow_redirects=False)
                 threading.Thread(target=_run, args=(self._loop,), name="asking",
                                  daemon=True).start()
-            return self._loop
+            together = _Round(self._server.at_once, self._client)
+            return together, {
+                asyncio.run_coroutine_threadsafe(self._outcome(question, together, until),
+                                                 self._loop): place
+                for place, question in enumerate(questions)}
 
     async def _outcome(self, question: Question[Answer], together: _Round,
                        until: float) -> bytes | SourceError:
@@ -258,7 +264,7 @@ class Asking:
             before_sleep=together.note,
             stop=stop_any(stop_after_attempt(ATTEMPTS), stop_before_delay(left)))
         try:
-            return await attempts(self._attempted, question)
+            return await attempts(self._attempted, question, together.client)
         except _TransientError as error:
             logger.warning("A %s failed: %s", self._kind.name, error)
             return self._kind.unavailable(f"The {self._kind.name} failed: {error}.")
@@ -272,23 +278,22 @@ class Asking:
         stated = failure.pause if isinstance(failure, _TransientError) else 0.0
         return max(stated, self._backoff(state))
 
-    async def _attempted(self, question: Question[Answer]) -> bytes:
+    async def _attempted(self, question: Question[Answer], client: httpx.AsyncClient) -> bytes:
         if self._turn is not None:
             await asyncio.sleep(await asyncio.to_thread(self._turn))
         try:
             async with asyncio.timeout(self._server.patience):
-                return await self._got(question)
+                return await self._got(question, client)
         except TimeoutError as error:
             raise _TransientError(f"no answer in {self._server.patience:g} s") from error
         except httpx.RequestError as error:
             raise _TransientError(type(error).__name__) from error
 
-    async def _got(self, question: Question[Answer]) -> bytes:
-        assert self._client is not None
+    async def _got(self, question: Question[Answer], client: httpx.AsyncClient) -> bytes:
         method = "GET" if question.body is None else "POST"
         headers = {} if question.body is None else {"Content-Type": "application/json"}
-        async with self._client.stream(method, question.path, content=question.body,
-                                       headers=headers) as response:
+        async with client.stream(method, question.path, content=question.body,
+                                 headers=headers) as response:
             status = response.status_code
             if status in BUSY:
                 raise _TransientError(f"status {status}", _retry_after(response))

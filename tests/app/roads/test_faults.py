@@ -28,6 +28,9 @@ pytestmark = pytest.mark.filterwarnings(
 TRIES, PLANS = 500, 40
 DOWN = RoadsUnavailableError
 
+CLOSINGS = 8
+"""Moments at which what is being asked ends."""
+
 
 def soon(seconds: float = 60.0) -> float:
     """Return a time that no answer reaches, unless the machine stalls."""
@@ -169,13 +172,15 @@ def test_who_stops_doesn_t_wait(helsinki_osrm: str, places: FloatArray) -> None:
         engine.close()
 
 
-def test_closing_ends_what_is_asked(helsinki_osrm: str, places: FloatArray) -> None:
+@pytest.mark.parametrize("closing", range(CLOSINGS))
+def test_closing_ends_what_is_asked(helsinki_osrm: str, places: FloatArray, closing: int) -> None:
     with proxied(helsinki_osrm, lambda: faults.delay(1_000.0)) as proxy, \
             ThreadPoolExecutor(1) as thread:
         engine = engine_at(proxy.url)
         asked = thread.submit(engine.table, places, soon())
         while proxy.questions == 0:
-            time.sleep(0.001)
+            time.sleep(0.0001)
+        time.sleep(0.0002 * closing)
         engine.close()
         with pytest.raises(DOWN, match="any more"):
             asked.result()
