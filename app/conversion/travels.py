@@ -1,5 +1,6 @@
 """Travel matrices of a request, from locations or the client's matrices, equal ones built once."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Literal, NamedTuple
@@ -18,6 +19,7 @@ from app.conversion.work import COMPUTED, legs_seconds
 from app.roads.roads import NO_ROADS, Roads
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
 from app.schemas.request import MatrixInput, PlanRequest, RoadsInput
+from app.schemas.rows import Row
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
 from model.problem import UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel
 from model.problem.straight import fits
@@ -257,7 +259,8 @@ class Travels:
             return longer_legs(self._build(key._replace(climb=0)), key.climb)
         matrix = self._matrix(key.profile) if key.means == "matrix" else None
         if matrix is not None:
-            durations = self._at_places(matrix.durations) / key.speed
+            durations = self._at_places(matrix.durations)
+            durations /= key.speed
             distances = (self._ground.legs_m if matrix.distances is None
                          else self._at_places(matrix.distances))
             return matrix_travel(durations, distances, self._preparing.pause)
@@ -287,13 +290,15 @@ class Travels:
                                                  self._preparing)
         return self._road_legs[profile]
 
-    def _at_places(self, table: list[list[float]]) -> FloatArray:
+    def _at_places(self, table: Sequence[Row]) -> FloatArray:
         """Return a client's matrix with one row and column per node.
 
         Whoever stays at a node travels nothing, whatever the diagonal says; between two nodes in
         the same row it counts.
         """
         indices = [place.location_index or 0 for place in self._places]
-        legs = np.array(table, dtype=np.float64)[np.ix_(indices, indices)]
+        legs = np.empty((len(indices), len(indices)))
+        for row, index in zip(legs, indices, strict=True):
+            row[:] = table[index][indices]
         np.fill_diagonal(legs, 0.0)
         return legs

@@ -18,6 +18,7 @@ from app.requests.plan_validation import Names, replan_errors
 from app.schemas.customer import CustomerInput
 from app.schemas.fields import point_of
 from app.schemas.request import DepotInput
+from app.schemas.rows import Row
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import MOST_INCOMPATIBLE
 
@@ -123,7 +124,7 @@ def _matrix_errors(draft: Draft) -> Errors:
                                "places.")
 
 
-def _table_errors(path: Path, table: list[list[float]]) -> Errors:
+def _table_errors(path: Path, table: Sequence[Row]) -> Errors:
     size = len(table)
     if any(len(row) != size for row in table):
         for index, row in enumerate(table):
@@ -132,8 +133,9 @@ def _table_errors(path: Path, table: list[list[float]]) -> Errors:
                                f"The matrix has {size} rows and this one has {len(row)} entries: "
                                "make it square, one row and one column per place.")
                 return
-    if size and min(map(min, table)) < 0:
-        negative = [(i, j) for i, row in enumerate(table) for j, x in enumerate(row) if x < 0]
+    if size and min(row.min() for row in table) < 0:
+        negative = [(i, j) for i, row in enumerate(table)
+                    for j in np.flatnonzero(row < 0).tolist()]
         more = f" ({len(negative)} entries of this matrix are.)"
         for i, j in negative[:MAX_MATRIX_ERRORS]:
             yield error_at("MATRIX_NEGATIVE", (*path, i, j),

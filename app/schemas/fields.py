@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 from app.errors import IN_PLACE, LISTED
+from app.schemas.rows import HeldAsArray, Row
 from app.schemas.times import READ_DURATION, READ_INSTANT, READ_OPENING
 from app.settings import MAX_CUSTOMERS
 from model.problem import MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY
@@ -41,11 +42,9 @@ Info = Annotated[
 MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + 1
 """Most rows of a matrix, and columns: what `location_index` can name."""
 
-Table = Annotated[
-    list[Annotated[list[Annotated[float, Field(le=MAX_AMOUNT)]],
-                   Field(fail_fast=True, max_length=MAX_PLACES)]],
-    Field(fail_fast=True, max_length=MAX_PLACES),
-]
+_Row = Annotated[Row, HeldAsArray(Annotated[
+    list[Annotated[float, Field(le=MAX_AMOUNT)]], Field(fail_fast=True, max_length=MAX_PLACES)])]
+Table = Annotated[list[_Row], Field(fail_fast=True, max_length=MAX_PLACES)]
 
 LOCATION_TEXT = (
     "`[x, y]` in units of `planar_unit` metres, or `[longitude, latitude]` in degrees when "

@@ -101,7 +101,10 @@ def _on_map(points: Sequence[Coordinates | None]) -> FloatArray | None:
 def _stated_matrices(request: VroomRequest) -> Mapping[str, VroomMatricesInput]:
     if request.matrices is not None:
         return request.matrices
-    return {} if request.matrix is None else {"car": VroomMatricesInput(durations=request.matrix)}
+    if request.matrix is None:
+        return {}
+    # It was read already; what is read are lists.
+    return {"car": VroomMatricesInput.model_construct(durations=request.matrix)}
 
 
 def _states_indices(request: VroomRequest, matrices: Mapping[str, VroomMatricesInput]) -> bool:
@@ -203,7 +206,7 @@ class _LegFinder:
         if max(rows) >= len(table):
             raise VroomError(INPUT, f"location_index exceeding {name} matrix size for {profile} "
                                     "profile.")
-        return np.array(table, np.int64)[np.ix_(rows, rows)]
+        return np.array([table[row][rows] for row in rows], np.int64)
 
 
 def _on_globe(points: Iterable[Coordinates]) -> bool:

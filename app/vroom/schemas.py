@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
+from app.schemas.rows import HeldAsArray, Row
 from app.settings import MAX_CUSTOMERS, MAX_THREADS
 
 DEFAULT_PROFILE = "car"
@@ -33,8 +34,9 @@ Amounts = Annotated[list[UInt], Field(max_length=MAX_AMOUNTS)]
 Skills = Annotated[list[UInt], Field(max_length=1000)]
 Window = tuple[UInt, UInt]
 Windows = Annotated[list[Window], Field(max_length=MAX_WINDOWS)]
-Table = Annotated[list[Annotated[list[UInt], Field(fail_fast=True, max_length=MAX_PLACES)]],
-                  Field(fail_fast=True, max_length=MAX_PLACES)]
+_Row = Annotated[Row, HeldAsArray(
+    Annotated[list[UInt], Field(fail_fast=True, max_length=MAX_PLACES)])]
+Table = Annotated[list[_Row], Field(fail_fast=True, max_length=MAX_PLACES)]
 DurationsPerType = Annotated[dict[Text, Seconds], Field(max_length=1000)]
 
 

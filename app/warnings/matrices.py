@@ -17,8 +17,8 @@ def matrix_warnings(survey: Survey) -> Warnings:
         if matrix.distances is None:
             continue
         rows = range(0, len(matrix.durations), max(1, len(matrix.durations) // SAMPLE_ROWS))
-        seconds = np.concatenate([matrix.durations[row] for row in rows] or [[]])
-        metres = np.concatenate([matrix.distances[row] for row in rows] or [[]])
+        seconds = np.concatenate([matrix.durations[row] for row in rows] or [np.empty(0)])
+        metres = np.concatenate([matrix.distances[row] for row in rows] or [np.empty(0)])
         some = (seconds > 0) & (metres > 0)
         if not some.any():
             continue
