@@ -254,11 +254,10 @@ def _joo_lee_instance(folder: Path, row: dict[str, str]) -> TruckDroneInstance:
     length = _straight(points)
     cost = np.rint(100 * length)
     drive = Travel(_scaled(length), _scaled(cost))
-    fly = Travel(_scaled(JOO_LEE_DRONE_TIME_SHARE * length), _scaled(np.rint(cost / 2) / 2))
     closed = length > JOO_LEE_LONGEST_LEG
     closed[0, :] = closed[:, 0] = True
-    for legs in fly.arrays():
-        legs[closed] = UNREACHABLE
+    fly = Travel(*(np.where(closed, UNREACHABLE, _scaled(legs)) for legs in (
+        JOO_LEE_DRONE_TIME_SHARE * length, np.rint(cost / 2) / 2)))
     amounts, earliest, latest, services = _scaled(file[:, 3:7].T).tolist()
     lightest = sorted(amounts[1:])[:int(JOO_LEE_LIGHT_SHARE * (len(points) - 1))]
     customers = tuple(

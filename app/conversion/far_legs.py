@@ -77,7 +77,7 @@ class FarTravel:
 
     legs: FarLegs
     speed: float  # a multiple of that on roads
-    travel: Travel  # its arrays change as legs get known
+    travel: Travel  # changes as legs get known
 
 
 @dataclass(frozen=True)
@@ -115,9 +115,7 @@ class Estimates:
             for far in self.travels.values():
                 if far.legs is legs:
                     durations, distances = matrix_legs(seconds / far.speed, metres)
-                    duration, distance = far.travel.arrays()
-                    duration[nodes[:, 0], nodes[:, 1]] = durations
-                    distance[nodes[:, 0], nodes[:, 1]] = distances
+                    far.travel.write(nodes[:, 0], nodes[:, 1], durations, distances)
         return count
 
     def close(self) -> None:
@@ -127,9 +125,8 @@ class Estimates:
             if self.nowhere is not None:
                 row = np.insert(unknown, self.nowhere, values=False, axis=0)
                 unknown = np.insert(row, self.nowhere, values=False, axis=1)
-            duration, distance = far.travel.arrays()
-            duration[unknown] = DEAR_MS
-            distance[unknown] = DEAR_MM
+            origin, to = np.nonzero(unknown)
+            far.travel.write(origin, to, DEAR_MS, DEAR_MM)
 
     def _estimated(self, problem: Problem, plan: Solution, legs: FarLegs) -> IntArray:
         """Return the (leg, 2) legs of a plan, by place, that are estimated."""

@@ -68,12 +68,12 @@ def cells_of(points: FloatArray) -> Cells:
 def write_nearest(problem: Problem, neighbours: IntArray, pause: Pause) -> None:
     """Write each node's nearest other customers, by the first vehicle type's drive. In place."""
     depots, nodes = problem.num_depots, problem.num_nodes
-    duration = problem.travel[problem.vehicle_types[0].travel].duration[:, depots:]
+    duration = problem.travel[problem.vehicle_types[0].travel].duration
     most = min(neighbours.shape[1], problem.num_customers - 1)
     if most < 1:
         return
     for part in matrix_blocks(nodes, pause):
-        drive = duration[part].astype(np.float64)
+        drive = duration[part, depots:].astype(np.float64)
         customers = np.arange(max(part.start, depots), part.stop)
         drive[customers - part.start, customers - depots] = np.inf
         neighbours[part, :most] = least_columns(drive, most) + depots

@@ -20,6 +20,12 @@ UNLIMITED = 2**42
 UNREACHABLE = 2**50
 """Duration and distance of a flight that can't be flown."""
 
+NO_LEG = 2**31 - 1
+"""Stands for `UNREACHABLE` where legs are held in 32 bits."""
+
+LONGEST_NARROW = NO_LEG - 1
+"""Longest leg that is held there: 24 days, or 2,147 km."""
+
 MAX_QUANTITY = 10**12
 """Largest time (ms), distance (mm) or amount (parts) that a problem may state."""
 

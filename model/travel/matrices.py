@@ -20,6 +20,7 @@ from model.problem import (
 from model.problem.distances import (
     EARTH_RADIUS_M, MS_PER_M_AT_1_KMH, ceiled_ms, rounded_mm,
 )
+from model.problem.narrow import NarrowMatrix, narrowed
 
 _EMBEDDING_RANK = 10
 _EMBEDDING_ITERATIONS = 12
@@ -247,12 +248,12 @@ def embed(duration: IntArray | FloatArray) -> FloatArray:
 
 
 def _whole(matrix: FloatArray, rounded: Callable[[FloatArray], FloatArray],
-           pause: Pause) -> IntArray:
+           pause: Pause) -> IntArray | NarrowMatrix:
     """Return what `rounded` makes of a matrix, row block by row block."""
     result = np.empty(matrix.shape, np.int64)
     for rows in matrix_blocks(len(matrix), pause):
         result[rows] = rounded(matrix[rows])
-    return result
+    return narrowed(result)
 
 
 def _require_speed(speed: float) -> None:

@@ -131,7 +131,7 @@ def _tables(problem: Problem, ways: Sequence[Way], directions: int, setup: Recor
 def _is_symmetric(travel: Travel, pause: Pause) -> bool:
     """Tell whether legs that were stated are the same both ways."""
     return all(bool((matrix[rows] == matrix[:, rows].T).all())
-               for matrix in travel.arrays()
+               for matrix in travel.narrow() or travel.arrays()
                for rows in row_blocks(len(matrix), ROWS, pause))
 
 
@@ -149,11 +149,11 @@ def _near(problem: Problem, same_back: bool, pause: Pause) -> Int32Array:
             write_nearest_points(travel.straight.points.at[first:], near[first:], pause)
             near[first:] += first
             return near
-        duration = travel.duration[first:, first:]
         for rows in row_blocks(number, ROWS, pause):
-            drive = duration[rows].astype(np.float32)
+            some = slice(first + rows.start, first + rows.stop)
+            drive = travel.duration[some, first:].astype(np.float32)
             if not same_back:
-                np.minimum(drive, duration[:, rows].T, out=drive)
+                np.minimum(drive, travel.duration[first:, some].T, out=drive)
             drive[np.arange(len(drive)), np.arange(rows.start, rows.stop)] = np.inf
             near[first:][rows] = least_columns(drive, ranks) + first
     return near

@@ -253,7 +253,7 @@ def test_drones_are_counted(tiny_problem, customers, truck, drones):
 def test_flights_keep_out_of_closed_airspace(leg, expected, tiny_problem, customers, truck, drones):
     problem = tiny_problem(*customers, truck=replace(truck, drones=drones))
     solution = plan(problem, C_BY_DRONE)
-    closed = problem.travel[1].duration.copy()
+    closed = problem.travel[1].duration[:].copy()
     closed[leg] = UNREACHABLE
     travel = (problem.travel[0], Travel(closed, problem.travel[1].distance))
     assert codes(replace(problem, travel=travel), solution) == expected

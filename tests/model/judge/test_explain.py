@@ -88,7 +88,7 @@ def test_no_flight_leads_there(tiny_problem, customers, truck, drones):
     *others, d = customers
     problem = tiny_problem(*others, replace(d, served_by="drone"),
                            truck=replace(truck, drones=drones))
-    closed = problem.travel[1].duration.copy()
+    closed = problem.travel[1].duration[:].copy()
     closed[:4, 4] = UNREACHABLE
     travel = (problem.travel[0], Travel(closed, problem.travel[1].distance))
     reason = reason_for_d(replace(problem, travel=travel))
