@@ -82,7 +82,7 @@ DESCRIBING = {
     "kernel/variants": {".service_duration", ".setup_duration", ".site"},
     "policy/tokens": set.union(*HOMES.values()),
     "policy/features": {".capacity", ".demand", ".endurance"},
-    "kernel/leg": {".setup_duration", ".site"},
+    "kernel/leg": {".setup_duration", ".site", "UNREACHABLE"},
     "search/ground/lay": {".service_duration", ".setup_duration", ".site", ".window_earliest",
                       ".window_latest"},
     "search/world": set.union(*HOMES.values()),

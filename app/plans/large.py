@@ -1,5 +1,5 @@
-"""Has the search for computed legs compiled beside, so that few wait for it and nobody loads it
-who has no such problem."""
+"""Has the search for computed legs, and for legs that don't fit 32 bits, compiled beside, so that
+few wait for it and nobody loads it who has no such problem."""
 
 import logging
 import os
@@ -17,7 +17,7 @@ logger = logging.getLogger(__name__)
 
 
 class LargeSearch:
-    """The search for problems whose legs are computed. Safe to use from several threads."""
+    """The search for problems whose legs are computed or long. Safe to use from several threads."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

@@ -146,8 +146,9 @@ class PlanService:
         """Refuse a problem that can't be searched yet; raises as `plan` does."""
         if not self._large.serves(problem):
             raise NotReadyError(
-                f"The search for more than {COMPUTED_FROM} places is being compiled, which takes "
-                "some minutes once: try again then, or submit a job, which waits for it.")
+                f"The search for more than {COMPUTED_FROM} places, or legs of more than 2,147 km "
+                "or 24 days, is being compiled, which takes some minutes once: try again then, or "
+                "submit a job, which waits for it.")
 
     def _warm(self) -> None:
         """Warm the planner. In place."""

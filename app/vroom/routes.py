@@ -54,7 +54,7 @@ async def vroom(request: Request, principal: Plan, planning: Planning, body: Bod
             request,
             lambda should_stop: answer(service.warm_planner(), body, settings, should_stop,
                                        request.app.state.metrics.count_vroom_plan,
-                                       service.roads))
+                                       service.roads, service.planner_for))
     except VroomError as error:
         return error.response()
     except PlanCheckError as error:

@@ -11,11 +11,12 @@ import numpy as np
 
 from model.kernel.compiled import chosen_by_type, inlined, pasted, spliced
 from model.kernel.records import Record, Records, record
-from model.problem import IntArray
+from model.problem import UNREACHABLE, Int32Array, IntArray
 from model.problem.distances import (
     COARSE_MS, DIMACS, EXACT, FLOAT_NOISE_MS, LONG_ARC, LONG_SERIES, MM_PER_M, ROUND,
     SHORT_ARC, SHORT_SERIES, TRUNC,
 )
+from model.problem.quantities import NO_LEG
 
 LEG_DURATION, LEG_DISTANCE = range(2)
 """Last axis of a table of legs."""
@@ -69,11 +70,12 @@ class ComputedRow(NamedTuple):
 class Stated(NamedTuple):
     """Those of one travel, or of one of its rows, where none are computed."""
 
-    table: IntArray  # (origin, to, 2), or (node, 2)
+    table: Int32Array  # (origin, to, 2), or (node, 2)
 
 
-AllLegs = IntArray | ComputedLegs
-"""Those of all travels, (travel, origin, to, 2) if none are computed."""
+AllLegs = Int32Array | ComputedLegs
+"""Those of all travels. Where none are computed and all fit 32 bits, (travel, origin, to, 2) with
+`NO_LEG` for `UNREACHABLE`: most of the time of a search goes into getting them from memory."""
 TravelLegs = Stated | ComputedTravel
 LegRow = Stated | ComputedRow
 
@@ -83,7 +85,7 @@ def are_the_same_back(legs: AllLegs, back: AllLegs) -> bool:
     return len(legs.table) == 1 if isinstance(legs, ComputedLegs) else legs is back
 
 
-def _stated_legs_of(legs: IntArray, m: int) -> TravelLegs:
+def _stated_legs_of(legs: Int32Array, m: int) -> TravelLegs:
     return Stated(legs[m])
 
 
@@ -96,7 +98,7 @@ legs_of = chosen_by_type(ComputedLegs, _computed_legs_of, _stated_legs_of, paste
 """Return the legs of travel `m`: `legs_of(legs, m)`."""
 
 
-def _stated_row(legs: IntArray, m: int, node: int) -> LegRow:
+def _stated_row(legs: Int32Array, m: int, node: int) -> LegRow:
     return Stated(legs[m, node])
 
 
@@ -120,8 +122,16 @@ legs_to = chosen_by_type(ComputedLegs, _computed_legs_to, _stated_row, paste=Tru
 """Return the legs of travel `m` to a node; stated ones are given as (travel, to, origin, 2)."""
 
 
+@spliced
+def wide(duration: int, distance: int) -> Leg:
+    """Return a leg in 64 bits, in which sums fit. Whether there is one, its duration tells alone.
+    """
+    return Leg(UNREACHABLE if duration == NO_LEG else int(np.int64(duration)),
+               int(np.int64(distance)))
+
+
 def _stated_leg(legs: Stated, origin: int, to: int) -> Leg:
-    return Leg(legs.table[origin, to, LEG_DURATION], legs.table[origin, to, LEG_DISTANCE])
+    return wide(legs.table[origin, to, LEG_DURATION], legs.table[origin, to, LEG_DISTANCE])
 
 
 def _computed_leg(legs: ComputedTravel, origin: int, to: int) -> Leg:
@@ -135,7 +145,7 @@ leg = chosen_by_type(ComputedTravel, _computed_leg, _stated_leg)
 
 
 def _stated_leg_at(row: Stated, node: int) -> Leg:
-    return Leg(row.table[node, LEG_DURATION], row.table[node, LEG_DISTANCE])
+    return wide(row.table[node, LEG_DURATION], row.table[node, LEG_DISTANCE])
 
 
 def _computed_leg_to(onward: ComputedRow, node: int) -> Leg:
@@ -159,7 +169,7 @@ leg_from = chosen_by_type(ComputedRow, _computed_leg_from, _stated_leg_at)
 
 
 def _stated_nearness(inward: Stated, onward: Stated, node: int) -> int:
-    return min(inward.table[node, LEG_DISTANCE], onward.table[node, LEG_DISTANCE])
+    return int(np.int64(min(inward.table[node, LEG_DISTANCE], onward.table[node, LEG_DISTANCE])))
 
 
 def _computed_nearness(inward: ComputedRow, onward: ComputedRow, node: int) -> int:

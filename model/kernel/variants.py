@@ -11,6 +11,7 @@ from model.kernel.asked import has_setups
 from model.kernel.pausing import Pause, matrix_blocks
 from model.kernel.records import Records
 from model.problem import DroneType, IntArray, Problem, VehicleType
+from model.problem.quantities import LONGEST_NARROW
 
 
 Variant = tuple[bytes, int | None]
@@ -73,6 +74,17 @@ def ways_of(problem: Problem) -> list[Way]:
         for drones in kind.drone_types:
             ways |= {Way(drones.travel, True): None, Way(drones.travel, False): None}
     return list(ways)
+
+
+def are_stated(problem: Problem, ways: Sequence[Way]) -> bool:
+    """Tell whether no leg is computed where it is looked up, and all fit 32 bits with setups."""
+    setup = max([customer.setup_duration for customer in problem.customers], default=0)
+    for way in ways:
+        travel = problem.travel[way.travel]
+        if travel.narrow() is None or (
+                way.sets_up and travel.longest()[0] + setup > LONGEST_NARROW):
+            return False
+    return True
 
 
 def index_of(ways: Sequence[Way], travel: int, sets_up: bool) -> int:

@@ -9,6 +9,7 @@ import numpy as np
 
 from model.kernel.compiled import compiled_folder, first_to_compile, is_cold
 from model.kernel.instance import pack
+from model.kernel.variants import are_stated, ways_of
 from model.problem import (
     Customer, Depot, DroneType, Points, Problem, StraightLegs, Travel, VehicleType,
 )
@@ -18,10 +19,11 @@ from model.solution import Solution
 
 PLAIN, RARER, LARGE, LARGE_RARER = "plain", "rarer", "large", "large-rarer"
 """Parts of all that is compiled: for problems that state no rarer rules and for those that do, with
-legs from tables and with computed ones."""
+legs from tables of 32 bits each, and with computed ones or any."""
 
 COMPUTED = (LARGE, LARGE_RARER)
-"""Those with computed legs, compiled apart from the others."""
+"""Those with computed legs, compiled apart from the others. Legs that don't fit 32 bits are seldom
+enough that they have no parts of their own."""
 
 STATING = (RARER, LARGE_RARER)
 """Those for rarer rules."""
@@ -51,9 +53,8 @@ def parts_for(problem: Problem | None) -> tuple[str, ...]:
     """
     if problem is None:
         return PLAIN, RARER
-    plain, rarer = ((LARGE, LARGE_RARER)
-                    if any(travel.straight is not None for travel in problem.travel)
-                    else (PLAIN, RARER))
+    plain, rarer = ((PLAIN, RARER) if are_stated(problem, ways_of(problem))
+                    else (LARGE, LARGE_RARER))
     return (rarer if states_rarer_rules(problem) else plain,)
 
 
@@ -87,10 +88,10 @@ def small_problem(part: str = PLAIN, drones: bool = True) -> Problem:
     drone = DroneType(count=1, capacity=(1000,), travel=0) if drones else None
     truck = VehicleType("truck", 1, (3000,), 0, cost_per_km=1.0, drones=drone,
                         max_stops=2 if part in STATING else None)
-    travel = Travel(distance, distance)
+    travel = [Travel(distance, distance)]
     if part in COMPUTED:
-        travel = Travel.along(StraightLegs(Points(places * 1000.0), 3.6))
-    return Problem((Depot("depot"),), customers, (truck,), (travel,), places, 1000.0)
+        travel.insert(0, Travel.along(StraightLegs(Points(places * 1000.0), 3.6)))
+    return Problem((Depot("depot"),), customers, (truck,), tuple(travel), places, 1000.0)
 
 
 @contextmanager

@@ -148,7 +148,7 @@ def test_problem_has_the_hours_of_the_depot(tmp_path: Path) -> None:
     assert (customer.earliest, customer.latest, customer.service_duration) == (
         70_000, 200_000, 20_000)
     assert (customer.demand, truck.capacity) == ((10_000,), (20_000,))
-    assert np.array_equal(problem.travel[0].duration, problem.travel[0].distance)
+    assert np.array_equal(*problem.travel[0].arrays())
 
 
 def test_distances_alone_are_rounded_to_the_nearest_unit(tmp_path: Path) -> None:

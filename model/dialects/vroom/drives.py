@@ -25,8 +25,8 @@ from model.problem import MAX_QUANTITY, IntArray, Travel
 Key = tuple[object, ...]
 """Tells a pair of matrices from others."""
 
-WHOLE = 10**11
-"""A limit of which legs use up shares."""
+WHOLE, NARROW_WHOLE = 10**11, 10**9
+"""Limits of which legs use up shares; twice the second fits 32 bits."""
 
 
 @dataclass(frozen=True)
@@ -165,10 +165,10 @@ class Drives:
         if key in self._limits_kept:
             return self._limits_kept[key]
         cost = float(self._measure(kind, tariff.basis).sum()) * tariff.rate
-        limited = (self._share(kind, seconds, metres) if seconds is not None and metres is not None
-                   else self._measure(kind, "distances" if seconds is None else "durations"))
-        limit = WHOLE
-        if metres is None or seconds is None:
+        if seconds is not None and metres is not None:
+            limited, limit = self._share(kind, seconds, metres)
+        else:
+            limited = self._measure(kind, "distances" if seconds is None else "durations")
             limit = (metres or seconds or 0) * PARTS
         self.travels.append(Travel(self._durations(kind, "durations"), limited))
         total = float(limited.sum())
@@ -176,16 +176,16 @@ class Drives:
         self._limits_kept[key] = drive
         return drive
 
-    def _share(self, kind: Kind, seconds: int, metres: int) -> IntArray:
-        """Return which share a leg uses up of the limit of which it uses up more."""
+    def _share(self, kind: Kind, seconds: int, metres: int) -> tuple[IntArray, int]:
+        """Return which share a leg uses up of the limit of which it uses up more, and the whole."""
         legs = self._places.legs[kind.stated.profile]
         shares = np.maximum(self._nodes.spread(legs.durations) / max(seconds, 0.5),
                             self._nodes.spread(legs.distances) / max(metres, 0.5))
         # What is lost by rounding down is less than the least excess, unless limits are huge.
-        is_fine = max(seconds, metres) * (len(self._nodes.jobs) + 1) < WHOLE
-        rounded = np.floor(shares * WHOLE) if is_fine else np.ceil(shares * WHOLE)
-        whole: IntArray = np.minimum(rounded, MAX_QUANTITY).astype(np.int64)
-        return whole
+        finest = max(seconds, metres) * (len(self._nodes.jobs) + 1)
+        whole = NARROW_WHOLE if finest < NARROW_WHOLE and shares.max() <= 2.0 else WHOLE
+        rounded = np.floor(shares * whole) if finest < whole else np.ceil(shares * whole)
+        return np.minimum(rounded, MAX_QUANTITY).astype(np.int64), whole
 
     def _key(self, kind: Kind, basis: str, clock: str) -> Key:
         """Return what tells matrices that measure `basis`, with times by `clock`, from others."""

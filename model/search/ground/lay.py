@@ -1,17 +1,19 @@
 """What legs the search sees, and who is near to whom: by far the largest of its arrays."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from model.kernel.instance import Instance
 from model.kernel.leg import COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs
 from model.kernel.nearest import least_columns, write_nearest_points
 from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Records
-from model.kernel.variants import Way, ways_of
+from model.kernel.variants import Way, are_stated, ways_of
 from model.problem import UNLIMITED, Int32Array, IntArray, Problem, StraightLegs, Travel
+from model.problem.quantities import NO_LEG
 from model.search.ground.numbering import Numbering, along_neighbours, as_stated
 from model.search.ground.tables import write_legs, write_misfit
 
@@ -27,6 +29,9 @@ RENUMBERED = 4096
 
 NEAR_INSERTION = 40
 """Beside how many customers an insertion is tried where not everywhere is."""
+
+
+Whole = TypeVar("Whole", np.int32, np.int64)
 
 
 class Ground(NamedTuple):
@@ -88,10 +93,11 @@ def _legs(problem: Problem, returns: Sequence[bool], setup: Records, numbering: 
     if len(setup):
         point["site"], point["setup_duration"] = setup["site"], setup["setup_duration"]
     directions = 1 if all(returns[way.travel] and not way.sets_up for way in stated) else 2
-    tables = _tables(problem, stated, directions, setup, numbering.node, pause)
-    if len(stated) == len(ways):
-        leg = tables[0]
-        return leg, leg if len(tables) == 1 else tables[1]
+    if are_stated(problem, ways):
+        narrow = _tables(problem, stated, directions, setup, numbering.node, np.int32, pause)
+        leg = narrow[0]
+        return leg, leg if len(narrow) == 1 else narrow[1]
+    tables = _tables(problem, stated, directions, setup, numbering.node, np.int64, pause)
     legs = ComputedLegs(tables, _in_order(point, numbering), law)
     return legs, legs
 
@@ -110,22 +116,31 @@ def _law(straight: StraightLegs, way: Way) -> tuple[int | float, ...]:
 
 
 def _tables(problem: Problem, ways: Sequence[Way], directions: int, setup: Records,
-            node: IntArray, pause: Pause) -> IntArray:
-    """Return the legs that were stated, (direction, table, node, node, 2)."""
+            node: IntArray, kind: type[Whole], pause: Pause) -> NDArray[Whole]:
+    """Return the legs that were stated, (direction, table, node, node, 2), in 32 or 64 bits."""
     if not ways:
-        return np.empty((1, 1, len(node), 0, 2), np.int64)
-    legs = np.empty((directions, len(ways), len(node), len(node), 2), np.int64)
+        return np.empty((1, 1, len(node), 0, 2), kind)
+    legs = np.empty((directions, len(ways), len(node), len(node), 2), kind)
     for index, way in enumerate(ways):
-        duration, distance = map(np.ascontiguousarray, problem.travel[way.travel].arrays())
+        travel = problem.travel[way.travel]
+        held = travel.narrow() if kind is np.int32 else None
+        duration, distance = map(np.ascontiguousarray, held or travel.arrays())
         for rows in matrix_blocks(len(node), pause):
             write_legs(duration, distance, node, rows.start, legs[0, index, rows])
             if way.sets_up:
-                elsewhere = setup["site"][node[rows], None] != setup["site"][node]
-                legs[0, index, rows, :, 0] += elsewhere * setup["setup_duration"][node]
+                _add_setups(legs[0, index, rows, :, 0], setup, node[rows], node)
     for index in range(len(ways) if directions > 1 else 0):
         for rows in matrix_blocks(len(node), pause):
             legs[1, index, rows] = legs[0, index, :, rows].transpose(1, 0, 2)
     return legs
+
+
+def _add_setups(durations: NDArray[Whole], setup: Records, origin: IntArray, to: IntArray) -> None:
+    """Let legs last longer by the setup at their end, if there are any. In place."""
+    elsewhere = setup["site"][origin, None] != setup["site"][to]
+    if durations.dtype == np.int32:
+        elsewhere &= durations != NO_LEG
+    durations += elsewhere * setup["setup_duration"][to]
 
 
 def _is_symmetric(travel: Travel, pause: Pause) -> bool:

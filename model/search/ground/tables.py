@@ -32,8 +32,8 @@ def walk(near: Int32Array, num_depots: int, node: IntArray) -> None:
 
 
 @compiled
-def write_legs(duration: IntArray, distance: IntArray, node: IntArray, first: int,
-               legs: IntArray) -> None:
+def write_legs(duration: IntArray | Int32Array, distance: IntArray | Int32Array, node: IntArray,
+               first: int, legs: IntArray | Int32Array) -> None:
     """Write the legs from nodes, the search's number `first` and behind. In place."""
     for row in range(len(legs)):
         origin = node[first + row]

@@ -94,6 +94,31 @@ def test_a_search_is_waited_for_by_those_who_need_it(
     assert search.serves(problem_of(smallest))
 
 
+def test_legs_that_do_not_fit_tables_of_32_bits_wait_for_it_too(
+        smallest: Request, is_compiled: threading.Event, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(travels, "COMPUTED_FROM", 10)
+    monkeypatch.setattr(LargeSearch, "compile", lambda _: None)
+    search = LargeSearch()
+    for seconds, serves in ((2_147_483, True), (2_147_484, False)):
+        table = [[0, 1, seconds], [1, 0, 1], [2, 1, 0]]
+        places = [*smallest["depots"], *smallest["customers"]]
+        for index, place in enumerate(places):
+            place["location_index"] = index
+        request = smallest | {"matrices": {"truck": {"durations": table, "distances": table}}}
+        assert search.serves(problem_of(request)) == serves
+
+
+def test_vroom_waits_for_it_too(serve: Callable[..., httpx.Client],
+                                is_compiled: threading.Event) -> None:
+    client = ready(serve(FirstFitPlanner(), Settings(role="api")))
+    for seconds, status in ((2_147_483, 200), (2_147_484, 503)):
+        reply = client.post("/vroom", json={
+            "vehicles": [{"id": 1, "start_index": 0}], "jobs": [{"id": 1, "location_index": 1}],
+            "matrices": {"car": {"durations": [[0, 5], [seconds, 0]]}}})
+        assert reply.status_code == status, reply.text
+    assert "being compiled" in reply.json()["detail"]
+
+
 def test_services_that_take_many_customers_compile_as_they_start(
         monkeypatch: pytest.MonkeyPatch) -> None:
     begun: list[LargeSearch] = []

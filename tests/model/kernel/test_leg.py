@@ -8,7 +8,8 @@ from model.kernel.leg import (
     COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs, leg, leg_from, leg_to, legs_from, legs_of,
     legs_to, nearness,
 )
-from model.problem import UNREACHABLE, IntArray, Points, StraightLegs, Travel
+from model.problem import UNREACHABLE, Int32Array, IntArray, Points, StraightLegs, Travel
+from model.problem.quantities import LONGEST_NARROW, NO_LEG
 
 COUNT = 60
 
@@ -81,12 +82,28 @@ def test_computed_legs_are_those_of_the_judge() -> None:
 
 @pytest.mark.parametrize("both_ways", [False, True])
 def test_stated_legs_are_looked_up(both_ways: bool) -> None:
-    table = np.random.default_rng(0).integers(0, 10**9, (1, COUNT, COUNT, 2))
+    legs = np.random.default_rng(0).integers(0, LONGEST_NARROW // 2, (1, COUNT, COUNT, 2))
+    legs[0, :3, 5] = UNREACHABLE
+    legs[0, 3, 5] = LONGEST_NARROW
     if both_ways:
-        table += table.transpose(0, 2, 1, 3)
+        legs = np.maximum(legs, legs.transpose(0, 2, 1, 3))
+    held = np.where(legs == UNREACHABLE, NO_LEG, legs).astype(np.int32)
+    back = np.ascontiguousarray(held.transpose(0, 2, 1, 3))
     found = np.empty((3, COUNT, COUNT, 2), np.int64)
-    look_up(table, np.ascontiguousarray(table.transpose(0, 2, 1, 3)), found)
-    assert (found == table).all()
+    look_up(held, back, found)
+    assert (found[..., 0] == legs[..., 0]).all()
+    assert (found[..., 1] == held[..., 1]).all()
     near = np.empty((COUNT, COUNT), np.int64)
-    look_up_nearness(table, np.ascontiguousarray(table.transpose(0, 2, 1, 3)), near)
-    assert (near == np.minimum(table[0, ..., 1], table[0, ..., 1].T)).all()
+    look_up_nearness(held, back, near)
+    assert (near == np.minimum(held[0, ..., 1], held[0, ..., 1].T)).all()
+
+
+@compiled
+def sum_of_two(legs: Int32Array) -> int:
+    """Return how long the leg from node 3 to 5 takes twice."""
+    every, onward = legs_of(legs, 0), legs_from(legs, 0, 3)
+    return leg(every, 3, 5).duration + leg_to(onward, 5).duration
+
+
+def test_sums_of_stated_legs_do_not_overflow() -> None:
+    assert sum_of_two(np.full((1, COUNT, COUNT, 2), LONGEST_NARROW, np.int32)) == 2 * LONGEST_NARROW

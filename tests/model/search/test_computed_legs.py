@@ -1,5 +1,7 @@
-"""A search by legs that are computed where they are looked up finds what one by tables does."""
+"""A search by legs that are computed where they are looked up finds what one by tables does, and
+one by tables of 64 bits what one by tables of 32 does."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -8,8 +10,12 @@ import pytest
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.problem import Points, Problem, StraightLegs, Travel
+from model.problem.quantities import LONGEST_NARROW
+from model.search.compiling import LARGE, LARGE_RARER, PLAIN, RARER, parts_for
+from model.search.ground import lay
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
+from tests.model.search.mixed_rules import all_rules, all_rules_open, all_rules_setups
 from training.instances import generate
 
 
@@ -39,3 +45,40 @@ def test_plans_are_the_same_as_by_tables(variant: str, on_globe: bool) -> None:
               if on_globe else Points(rng.uniform(0, 9_000, (count, 2))))
     computed, stated = twins(variant, 40, points)
     assert plan_of(computed) == plan_of(stated)
+
+
+def by_64_bits(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> Solution:
+    """Return a plan as if some leg of the problem didn't fit 32 bits."""
+    with monkeypatch.context() as patched:
+        patched.setattr(lay, "are_stated", lambda *_: False)
+        return plan_of(problem)
+
+
+@pytest.mark.parametrize("variant", ["vrptw", "multitrip", "drone", "particular"])
+def test_plans_are_the_same_by_tables_of_64_bits(variant: str,
+                                                 monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = generate(np.random.default_rng(11), 40, variant)
+    assert parts_for(problem)[0] in (PLAIN, RARER)
+    assert plan_of(problem) == by_64_bits(problem, monkeypatch)
+
+
+def test_a_leg_that_does_not_fit_is_planned_with() -> None:
+    problem = generate(np.random.default_rng(11), 40, "vrptw")
+    legs = np.zeros((problem.num_nodes, problem.num_nodes), np.int64)
+    legs[0, -1] = LONGEST_NARROW + 1
+    # Nobody drives there.
+    wide = replace(problem, travel=(*problem.travel, Travel(legs, legs)))
+    assert parts_for(wide)[0] in (LARGE, LARGE_RARER)
+    assert plan_of(problem) == plan_of(wide)
+
+
+@pytest.mark.parametrize("rules", [all_rules, all_rules_open, all_rules_setups])
+def test_flights_that_there_are_not_are_not_flown_by_either(
+        rules: Callable[[np.random.Generator], Problem],
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    rng, closed = np.random.default_rng(3), 0
+    for _ in range(20):
+        problem = rules(rng)
+        closed += not all(travel.reaches_all() for travel in problem.travel)
+        assert plan_of(problem) == by_64_bits(problem, monkeypatch)
+    assert closed > 3

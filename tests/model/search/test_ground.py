@@ -6,7 +6,11 @@ import numpy as np
 import pytest
 
 from model.kernel.instance import pack
-from model.problem import Problem, Travel
+from model.kernel.leg import ComputedLegs
+from model.kernel.variants import index_of, ways_of
+from model.problem import UNREACHABLE, IntArray, Problem, Travel
+from model.problem.quantities import LONGEST_NARROW, NO_LEG
+from model.search.compiling import LARGE_RARER, RARER, parts_for
 from model.search.ground.lay import NEAR_INSERTION, lay_ground
 from model.search.ground.tables import LATENESS_WEIGHT, WAITING_WEIGHT
 from training.instances import generate
@@ -59,3 +63,41 @@ def test_neighbours_who_fit_are_those_with_the_least_driving_waiting_and_latenes
         found = [min(misfit(node, int(other)), misfit(int(other), node))
                  for other in ground.fit[node]]
         assert found == pytest.approx(ranked[:NEAR_INSERTION])
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_setups_are_added_to_legs_that_there_are(closed: bool) -> None:
+    problem = generate(np.random.default_rng(8), SOME, "drone")
+    drones = problem.vehicle_types[0].drones
+    assert drones is not None
+    fly, depots, legs = drones.travel, problem.num_depots, problem.travel[drones.travel]
+    flight = legs.duration[:]
+    if closed:
+        flight[3, 4] = UNREACHABLE
+    travel = [Travel(flight, legs.distance) if index == fly else each
+              for index, each in enumerate(problem.travel)]
+    longest = max(each.longest()[0] for each in travel)
+
+    def with_setup(duration: int) -> Problem:
+        return replace(problem, travel=tuple(travel), customers=tuple(
+            replace(customer, setup_duration=duration) for customer in problem.customers))
+
+    def expected(setup: int) -> IntArray:
+        durations = flight.copy()
+        durations[:, depots:] += setup
+        np.fill_diagonal(durations, 0)
+        return np.minimum(durations, UNREACHABLE)
+
+    fits = LONGEST_NARROW - longest
+    for setup, part, kind in ((1000, RARER, np.int32), (fits, RARER, np.int32),
+                              (fits + 1, LARGE_RARER, np.int64)):
+        large = with_setup(setup)
+        table = lay_ground(large, pack([large])).leg
+        if isinstance(table, ComputedLegs):
+            table = table.table[0]
+        found = table[index_of(ways_of(large), fly, True), :, :, 0]
+        assert found.dtype == kind
+        if kind == np.int32:
+            found = np.where(found == NO_LEG, UNREACHABLE, found.astype(np.int64))
+        assert (np.minimum(found, UNREACHABLE) == expected(setup)).all()
+        assert parts_for(large) == (part,)
