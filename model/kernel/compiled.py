@@ -42,6 +42,8 @@ SOURCES = (
     *(f"search/moves/{part}" for part in (
         "ruin", "recreate", "exchange", "retype", "split", "resplit", "anneal")),
     *(f"search/beginning/{part}" for part in ("construct", "savings", "either_way", "translate")),
+    *(f"search/linked/{part}" for part in (
+        "layout", "chain", "strings", "insertion", "tails", "anneal", "tying")),
     "search/ground/tables", "search/sharing",
 )
 """Files with compiled functions, and those whose constants are compiled into them."""

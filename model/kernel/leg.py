@@ -168,6 +168,30 @@ leg_from = chosen_by_type(ComputedRow, _computed_leg_from, _stated_leg_at)
 """Return the leg from a node to that for which `legs_to` took the row: `leg_from(inward, node)`."""
 
 
+def _stated_distance_at(row: Stated, node: int) -> int:
+    return int(np.int64(row.table[node, LEG_DISTANCE]))
+
+
+def _computed_distance_to(onward: ComputedRow, node: int) -> int:
+    if onward.computed:
+        return straight_distance(onward.here, onward.point[node], onward.law)
+    return int(onward.table[node, LEG_DISTANCE])
+
+
+distance_to = chosen_by_type(ComputedRow, _computed_distance_to, _stated_distance_at)
+"""Return the distance of `leg_to` alone."""
+
+
+def _computed_distance_from(inward: ComputedRow, node: int) -> int:
+    if inward.computed:
+        return straight_distance(inward.point[node], inward.here, inward.law)
+    return int(inward.table[node, LEG_DISTANCE])
+
+
+distance_from = chosen_by_type(ComputedRow, _computed_distance_from, _stated_distance_at)
+"""Return the distance of `leg_from` alone."""
+
+
 def _stated_nearness(inward: Stated, onward: Stated, node: int) -> int:
     return int(np.int64(min(inward.table[node, LEG_DISTANCE], onward.table[node, LEG_DISTANCE])))
 
@@ -195,16 +219,32 @@ def straight_leg(origin: Record, to: Record, law: Record) -> Leg:
     setup = 0
     if law.sets_up and origin.site != to.site:
         setup = to.setup_duration
-    if law.rounding == GLOBE:
-        metres = angle_between(origin, to) * law.metres
-    else:
-        metres = units_between(origin, to, law.rounding) * law.metres
+    metres = metres_between(origin, to, law)
     if metres != metres:
         return Leg(law.nowhere + setup, law.nowhere)
     duration, noise = metres * law.pace, FLOAT_NOISE_MS
     if duration >= COARSE_MS:
         noise = max(noise, 2 * np.spacing(duration))
     return Leg(math.ceil(duration - noise) + law.more + setup, int(np.rint(metres * MM_PER_M)))
+
+
+@inlined
+def straight_distance(origin: Record, to: Record, law: Record) -> int:
+    """Return the distance of a leg alone, which takes half of the time. As `straight_leg`."""
+    if origin.node == to.node:
+        return 0
+    metres = metres_between(origin, to, law)
+    if metres != metres:
+        return law.nowhere
+    return int(np.rint(metres * MM_PER_M))
+
+
+@spliced
+def metres_between(origin: Record, to: Record, law: Record) -> float:
+    """Return metres between two nodes, not a number if one is nowhere."""
+    if law.rounding == GLOBE:
+        return angle_between(origin, to) * law.metres
+    return units_between(origin, to, law.rounding) * law.metres
 
 
 @spliced

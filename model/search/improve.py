@@ -16,6 +16,8 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.first_plan import first_plan
 from model.search.ground.lay import Ground, lay_ground
+from model.search.linked.layout import Linked, can_be_linked, make_linked
+from model.search.linked.tying import measure_near
 from model.search.limits import WHOLE, Limits, Span
 from model.search.route.layout import NOWHERE, World
 from model.search.route.state import Searcher
@@ -242,8 +244,8 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(world, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
-    workers = [Worker(world, whole, limits, heat, cooled=config.cooled)
-               for _ in range(config.threads)]
+    workers = [Worker(world, whole, limits, heat, cooled=config.cooled, linked=linked)
+               for linked in _linked(world, whole, config.threads)]
 
     node = numbering.node.tolist()
 
@@ -260,6 +262,16 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
         _search(_Team(whole, workers, limits, pool, after_round), world, crew, seeds[1:])
     return Improved(best(), float(whole.value.best), first_cost,
                     sum(worker.turns for worker in workers), not task.alarm.has_rung)
+
+
+def _linked(world: World, whole: Searcher, threads: int) -> list[Linked | None]:
+    """Return room for linked routes for each thread; None where routes can't be linked."""
+    if not can_be_linked(world):
+        return [None] * threads
+    first = make_linked(world, whole)
+    measure_near(world, first)
+    return [first, *(make_linked(world, whole)._replace(near=first.near)
+                     for _ in range(threads - 1))]
 
 
 def _size(whole: Searcher) -> tuple[int, int]:

@@ -26,7 +26,7 @@ HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
 HOT_FROM_TRUCKS = 0.2
 """The same where the search began with trucks alone."""
 
-HOT_IF_LARGE, COLD_IF_LARGE = 3.0, 0.03
+HOT_IF_LARGE, COLD_IF_LARGE = 6.0, 0.03
 """Both by a leg where loads alone limit the routes of thousands of customers: the savings that it
 begins with are far from good where routes are long, and soon are where they are short."""
 

@@ -4,6 +4,9 @@ import math
 import time
 from dataclasses import dataclass
 
+from model.search.linked.anneal import anneal_linked
+from model.search.linked.layout import Linked
+from model.search.linked.tying import tie, write_back
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.moves.anneal import ANY, anneal
 from model.search.recombining import take_better_parts
@@ -25,6 +28,9 @@ TURNS_A_LOOK, MOST_LOOKS = 1000, 400
 """Turns between two such looks, and one for each customer more, so that they take some two percent
 of the time; and how many there are at most in a search."""
 
+LINKED_LOOKS = 8
+"""How many times as many turns, where stops are linked: they take as much less time."""
+
 LOOK = 5e-6
 """Seconds for each node that one may take."""
 
@@ -37,6 +43,7 @@ class Worker:
     searcher: Searcher
     limits: Limits
     heat: Heat
+    linked: Linked | None = None  # where its routes can be linked
     span: Span = WHOLE
     cooling: Span | None = None  # whose first temperature was set
     turns: int = 0
@@ -47,6 +54,14 @@ class Worker:
     def run(self) -> None:
         """Search for one round."""
         most, end = self.limits.round_end(self.turns, self.span)
+        if self.linked is not None:
+            tie(self.world, self.searcher, self.linked)
+        self._search(most, end)
+        if self.linked is not None:
+            write_back(self.world, self.searcher, self.linked)
+
+    def _search(self, most: float, end: float) -> None:
+        """Search for so many turns in all, until some time at most."""
         while self.turns < most and not self.limits.should_stop():
             now = time.perf_counter()
             if now >= end:
@@ -66,7 +81,8 @@ class Worker:
     def _turns_to_look(self) -> int:
         """Return after how many turns better parts are looked for again."""
         customers = int(self.searcher.count.customers)
-        return math.ceil(max(TURNS_A_LOOK + customers, self.expected() * customers / MOST_LOOKS))
+        least = (TURNS_A_LOOK + customers) * (1 if self.linked is None else LINKED_LOOKS)
+        return math.ceil(max(least, self.expected() * customers / MOST_LOOKS))
 
     def _look(self, end: float) -> None:
         """Let the best plan take over better parts, if it is cool and there is time. In place."""
@@ -74,7 +90,12 @@ class Worker:
         spare = end - time.perf_counter()
         if (self.span.share(self.limits.share(self.turns)) >= LOOKED_FROM
                 and spare > LOOK * self.world.num_nodes and not self.limits.should_stop()):
+            if self.linked is None:
+                take_better_parts(self.world, self.searcher)
+                return
+            write_back(self.world, self.searcher, self.linked)
             take_better_parts(self.world, self.searcher)
+            tie(self.world, self.searcher, self.linked)
 
     def _slice(self, seconds: float) -> float:
         if self.limits.turns is not None and self.limits.deadline == math.inf:
@@ -96,7 +117,10 @@ class Worker:
             value.cooling = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
             self.cooling = span
         began, before = time.perf_counter(), int(self.searcher.count.turn)
-        anneal(self.world, self.searcher, turns, ANY)
+        if self.linked is None:
+            anneal(self.world, self.searcher, turns, ANY)
+        else:
+            anneal_linked(self.world, self.searcher, self.linked, turns)
         made = int(self.searcher.count.turn) - before
         self.turns += made
         self.pace = (time.perf_counter() - began) / max(1, made)

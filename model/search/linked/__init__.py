@@ -1,0 +1,1 @@
+"""Routes as linked stops, where a turn takes as long however long they are."""

@@ -1,0 +1,175 @@
+"""Tails of routes, swapped among linked stops, or driven as a route of their own."""
+
+import math
+
+from model.kernel.compiled import spliced
+from model.kernel.leg import distance_from, distance_to, leg, legs_from, legs_of, legs_to
+from model.kernel.load import (
+    NOTHING, Amount, amount_of, demand_of, holds, minus, plus, write_amount,
+)
+from model.search.linked.chain import (
+    close_run, connect, drive_on, leaves_start, look_back, open_run,
+)
+from model.search.linked.layout import Linked
+from model.search.moves.exchange import NEIGHBOURS
+from model.search.route.layout import NOWHERE, World
+from model.search.route.refresh import draw_customer
+from model.search.route.state import Searcher, free_slot
+from model.search.route.randomness import uniform
+
+
+@spliced
+def may_serve(world: World, linked: Linked, k: int, node: int) -> bool:
+    """Tell whether type `k` may serve a customer and all who come behind."""
+    while node >= world.num_depots:
+        if not world.can[k, 0, node]:
+            return False
+        node = linked.link[node].behind
+    return True
+
+
+@spliced
+def come_in_time(world: World, linked: Linked, node: int, after: int, before: int, other: int,
+                 k: int, by: int) -> bool:
+    """Tell whether `other` may come behind a customer, and `after` behind `before`.
+
+    Vehicles of types `k` and `by` drive up to there.
+    """
+    link, kind, former = linked.link, world.type[k], world.type[by]
+    legs = legs_of(world.leg, kind.travel)
+    latest = link[other].latest if other >= world.num_depots else kind.shift_latest
+    if link[node].leave + leg(legs, node, other).duration > latest:
+        return False
+    if before < world.num_depots and after < world.num_depots:
+        return True
+    latest = link[after].latest if after >= world.num_depots else former.shift_latest
+    left = link[before].leave if before >= world.num_depots else leaves_start(former)
+    return left + leg(legs, before, after).duration <= latest
+
+
+@spliced
+def find_tail_linked(world: World, searcher: Searcher, linked: Linked, node: int, limit: float
+                     ) -> tuple[int, int, float]:
+    """Return the slot whose tail is best swapped with that behind a customer, who leads it.
+
+    And what that costs. NOWHERE if that is not less than `limit`; an empty slot, led by the end of
+    its route, for a new one.
+    """
+    link, after, onward = linked.link, linked.link[node].behind, linked.link[node].onward
+    k = linked.run[link[node].slot].type
+    kind, rate = world.type[k], world.rate[k].distance
+    here = legs_from(world.leg, kind.travel, node)
+    to_after = legs_to(world.back, kind.travel, after)
+    chosen, leader, best = NOWHERE, NOWHERE, limit
+    for rank in range(min(NEIGHBOURS, world.near.shape[1])):
+        other = int(world.near[node, rank])
+        if other < 0:
+            break
+        b = link[other].slot
+        if b < 0 or b == link[node].slot:
+            continue
+        by = linked.run[b].type
+        if by != k and not (world.splice[k, by] and world.type[by].ends_at == kind.ends_at):
+            continue
+        before, cost = link[other].before, 0.0
+        detour = distance_to(here, other) - onward - link[other].inward
+        if before < world.num_depots and after < world.num_depots:
+            cost -= world.rate[by].fixed
+        elif detour * rate < best:
+            detour += distance_from(to_after, before)
+        cost += detour * rate
+        if cost < best and (not linked.timed or come_in_time(
+                world, linked, node, after, before, other, k, by)) and (
+                by == k or (may_serve(world, linked, k, other)
+                            and may_serve(world, linked, by, after))):
+            chosen, leader, best = b, other, cost
+    if after >= world.num_depots:
+        detour = (distance_to(here, kind.ends_at) - onward
+                  + distance_from(to_after, kind.begins_at))
+        cost, slot = world.rate[k].fixed + detour * rate, free_slot(world, searcher, k)
+        if slot >= 0 and cost < best and (not linked.timed or come_in_time(
+                world, linked, node, after, kind.begins_at, kind.ends_at, k, k)):
+            return slot, kind.ends_at, cost
+    return chosen, leader, best
+
+
+@spliced
+def part_until(world: World, linked: Linked, node: int) -> tuple[Amount, int]:
+    """Return what all up to a customer are brought, and how many they are."""
+    load, count = NOTHING, 0
+    while node >= world.num_depots:
+        load = plus(load, demand_of(world.place[0, node]))
+        count += 1
+        node = linked.link[node].before
+    return load, count
+
+
+@spliced
+def assign(world: World, linked: Linked, node: int, slot: int) -> None:
+    """Let a customer and all who come behind be served by the route in a slot. In place."""
+    while node >= world.num_depots:
+        linked.link[node].slot = slot
+        node = linked.link[node].behind
+
+
+@spliced
+def swap_tails_linked(world: World, searcher: Searcher, linked: Linked, node: int, b: int,
+                      other: int) -> bool:
+    """Let `other`, of the route in slot `b`, come behind a customer, whose tail ends that route.
+
+    In place; False if a vehicle can't hold that, and nothing has changed.
+    """
+    link, a = linked.link, linked.link[node].slot
+    one, two = linked.run[a], linked.run[b]
+    k, after = one.type, link[node].behind
+    before = world.type[k].begins_at
+    if other >= world.num_depots:
+        before = link[other].before
+    load, count = part_until(world, linked, node)
+    load_by, count_by = part_until(world, linked, before)
+    if other >= world.num_depots:
+        rest, number = minus(amount_of(two.load), load_by), two.count - count_by
+    else:
+        rest, number = NOTHING, 0
+    tail = minus(amount_of(one.load), load)
+    if not (holds(world.type[k], plus(load, rest)) and (
+            other < world.num_depots or holds(world.type[two.type], plus(load_by, tail)))):
+        return False
+    if other < world.num_depots:
+        open_run(world, searcher, linked, b, k)
+    last, last_by, moved = one.last, two.last, one.count - count
+    assign(world, linked, other, a)
+    assign(world, linked, after, b)
+    one.last = last_by if number > 0 else node
+    two.last = last if moved > 0 else before
+    connect(world, linked, a, node, other)
+    connect(world, linked, b, before, after)
+    one.count, two.count = count + number, count_by + moved
+    write_amount(plus(load, rest), one.load)
+    write_amount(plus(load_by, tail), two.load)
+    if linked.timed:
+        drive_on(world, linked, a, other, 1)
+        look_back(world, linked, a, node, 1)
+        drive_on(world, linked, b, after, 1)
+        look_back(world, linked, b, before, 1)
+    if two.count == 0:
+        close_run(searcher, linked, b)
+    return True
+
+
+@spliced
+def exchange_tails_linked(world: World, searcher: Searcher, linked: Linked
+                          ) -> tuple[int, int, float]:
+    """Swap the tail behind a random customer if that is accepted. In place.
+
+    Returns the slots of both routes, NOWHERE if none was, and what it costs.
+    """
+    limit = -searcher.value.temperature * math.log(1.0 - uniform(searcher.rng))
+    node = draw_customer(world, searcher.now, searcher.count.focus, searcher.rng)
+    a = linked.link[node].slot
+    if a < 0:
+        return NOWHERE, NOWHERE, 0.0
+    b, other, cost = find_tail_linked(world, searcher, linked, node, limit)
+    if b < 0 or not swap_tails_linked(world, searcher, linked, node, b, other):
+        return NOWHERE, NOWHERE, 0.0
+    return a, b, cost

@@ -1,0 +1,176 @@
+"""Linked stops tell what their routes are, whatever is done to them and taken back."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.judge.check import check
+from model.kernel.instance import pack
+from model.problem import Depot, Points, Problem, StraightLegs, Travel
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import make_searcher
+from model.search.linked.anneal import anneal_linked
+from model.search.linked.layout import Linked, can_be_linked, make_linked
+from model.search.linked.tying import measure_near, tie, write_back
+from model.search.route.layout import World
+from model.search.route.state import Searcher
+from model.search.world import make_world
+from model.solution import Solution
+from tests.model.search.found import read_plan
+from training.instances import generate
+
+BATCHES, TURNS = 60, 20
+
+
+def loads_alone(size: int) -> Problem:
+    """Return a problem where nothing but loads limits routes."""
+    return generate(np.random.default_rng(8), size, "cvrp")
+
+
+def with_windows(size: int) -> Problem:
+    """Return one with hard windows."""
+    return generate(np.random.default_rng(8), size, "vrptw")
+
+
+def with_few_vehicles(size: int) -> Problem:
+    """Return one where somebody has to be left out, now one and then another."""
+    problem = with_windows(size)
+    (kind,) = problem.vehicle_types
+    return replace(problem, vehicle_types=(replace(kind, count=3),))
+
+
+def with_two_depots(size: int) -> Problem:
+    """Return one with windows and two depots, from one of which half of the customers are served.
+    """
+    problem = with_windows(size)
+    (kind,) = problem.vehicle_types
+    count, at = problem.num_nodes, problem.coordinates
+    order = np.insert(np.arange(count), 1, count // 2)
+    customers = tuple(replace(each, skills=frozenset({"far"}) if number % 2 else frozenset())
+                      for number, each in enumerate(problem.customers))
+    types = (replace(kind, id="near", count=size), replace(
+        kind, id="far", count=size, depot=1, skills=frozenset({"far"})))
+    travel = tuple(Travel(*(legs[np.ix_(order, order)] for legs in each.arrays()))
+                   for each in problem.travel)
+    return replace(problem, depots=(*problem.depots, Depot("other")), customers=customers,
+                   vehicle_types=types, travel=travel, coordinates=at[order])
+
+
+def with_one_way_streets(size: int) -> Problem:
+    """Return one whose legs take otherwise long back."""
+    problem = with_windows(size)
+    longer = np.random.default_rng(3).uniform(1.0, 1.3, (problem.num_nodes, problem.num_nodes))
+    travel = tuple(Travel(*(np.rint(legs * longer).astype(np.int64) for legs in each.arrays()))
+                   for each in problem.travel)
+    return replace(problem, travel=travel)
+
+
+def on_the_globe(size: int) -> Problem:
+    """Return one whose legs are computed."""
+    problem = with_windows(size)
+    at = np.array([8.5, 47.4]) + np.random.default_rng(4).normal(
+        0, 0.1, (problem.num_nodes, 2))
+    legs = StraightLegs(Points.geographic(at), 1e3)
+    return replace(problem, travel=(Travel.along(legs),))
+
+
+def begun(problem: Problem) -> tuple[World, Searcher, Linked]:
+    """Return a search that has planned a problem by insertion, its stops linked."""
+    world = make_world(problem, pack([problem], legs=False))
+    assert can_be_linked(world)
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
+    begin_anew(world, searcher, True)
+    searcher.value.temperature = searcher.value.cost / problem.num_customers
+    searcher.value.cooling = 1.0
+    linked = make_linked(world, searcher)
+    measure_near(world, linked)
+    tie(world, searcher, linked)
+    return world, searcher, linked
+
+
+def customers_of(world: World, first: int, behind: np.ndarray) -> list[int]:
+    """Return who comes behind whom, from the first on."""
+    found, node = [], first
+    while node >= world.num_depots:
+        found.append(node)
+        node = int(behind[node])
+    return found
+
+
+def routes_of(world: World, searcher: Searcher, linked: Linked) -> list[list[int]]:
+    """Return the customers of all routes, which each route's ends, counts and links agree on."""
+    routes = []
+    for slot in searcher.active[:searcher.count.active].tolist():
+        run = linked.run[slot]
+        kind = world.type[run.type]
+        nodes = customers_of(world, int(run.first), linked.link["behind"])
+        assert len(nodes) == run.count > 0
+        assert nodes[-1] == run.last
+        assert linked.link["before"][nodes].tolist() == [kind.begins_at, *nodes[:-1]]
+        assert linked.link["behind"][nodes[-1]] == kind.ends_at
+        assert (linked.link["slot"][nodes] == slot).all()
+        demand = world.place[0, nodes, 0]["demand"].sum(axis=0)
+        assert (linked.run["load"][slot] == demand).all()
+        routes.append(nodes)
+    return routes
+
+
+@pytest.mark.parametrize("make", [
+    loads_alone, with_windows, with_few_vehicles, with_two_depots, with_one_way_streets,
+    on_the_globe])
+@pytest.mark.parametrize("size", [40, 420])
+def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-untyped-def]
+    problem = make(size)
+    world, searcher, linked = begun(problem)
+    everybody = set(range(world.num_depots, world.num_nodes))
+    best, left_out = float(searcher.value.best), 0
+    for _ in range(BATCHES):
+        anneal_linked(world, searcher, linked, TURNS)
+        served = [node for nodes in routes_of(world, searcher, linked) for node in nodes]
+        missing = searcher.missing[:searcher.count.missing].tolist()
+        assert sorted(served + missing) == sorted(everybody)
+        assert float(searcher.value.best) <= best
+        best, left_out = float(searcher.value.best), left_out + len(missing)
+        cost = float(searcher.value.cost)
+        write_back(world, searcher, linked)
+        # Counted anew from the legs of all routes.
+        assert float(searcher.value.cost) == pytest.approx(cost, rel=1e-9)
+        assert float(searcher.value.best) == pytest.approx(best, rel=1e-9)
+        tie(world, searcher, linked)
+    if make is with_few_vehicles:
+        assert left_out > 0
+    write_back(world, searcher, linked)
+    assert check(problem, read_plan(world, searcher)).violations == ()
+
+
+@pytest.mark.parametrize("make", [loads_alone, with_windows, with_one_way_streets])
+@pytest.mark.parametrize("moments", [None, 3])
+def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore[no-untyped-def]
+    world, searcher, linked = begun(make(120))
+    for _ in range(5):
+        anneal_linked(world, searcher, linked, TURNS)
+    if moments is not None:
+        # Fewer times can be noted than a turn changes.
+        linked = linked._replace(moment=linked.moment[:moments])
+    routes, links = routes_of(world, searcher, linked), linked.link.copy()
+    served = np.concatenate(routes)
+    # No plan is cheaper by so much, and nothing is given up before all are inserted.
+    searcher.value.temperature = -1e12
+    anneal_linked(world._replace(adds_up=False), searcher, linked, 200)
+    assert sorted(routes_of(world, searcher, linked)) == sorted(routes)
+    assert (linked.link[served][["before", "behind", "inward", "onward"]]
+            == links[served][["before", "behind", "inward", "onward"]]).all()
+    if linked.timed:
+        assert (linked.link[served][["gap", "leave", "latest"]]
+                == links[served][["gap", "leave", "latest"]]).all()
+
+
+def test_turns_by_turns_are_the_same_again() -> None:
+    plans = []
+    for _ in range(2):
+        world, searcher, linked = begun(with_windows(60))
+        anneal_linked(world, searcher, linked, 500)
+        write_back(world, searcher, linked)
+        plans.append(read_plan(world, searcher))
+    assert plans[0] == plans[1]
