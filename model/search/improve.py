@@ -16,7 +16,7 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.first_plan import first_plan
 from model.search.ground.lay import Ground, lay_ground
-from model.search.linked.layout import Linked, can_be_linked, make_linked
+from model.search.linked.layout import Linked, make_linked
 from model.search.linked.tying import measure_near
 from model.search.limits import WHOLE, Limits, Span
 from model.search.route.layout import NOWHERE, World
@@ -25,7 +25,9 @@ from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.temperature import Heat
 from model.search.worker import Worker
-from model.search.world import ALL_MOVES, Moves, make_world, only_loads_limit
+from model.search.world import (
+    ALL_MOVES, Moves, are_timed, can_be_linked, make_world, only_loads_limit,
+)
 from model.solution import Solution, renumbered, renumbered_routes
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
@@ -268,10 +270,9 @@ def _linked(world: World, whole: Searcher, threads: int) -> list[Linked | None]:
     """Return room for linked routes for each thread; None where routes can't be linked."""
     if not can_be_linked(world):
         return [None] * threads
-    first = make_linked(world, whole)
+    first, *others = (make_linked(world, whole, are_timed(world)) for _ in range(threads))
     measure_near(world, first)
-    return [first, *(make_linked(world, whole)._replace(near=first.near)
-                     for _ in range(threads - 1))]
+    return [first, *(other._replace(near=first.near) for other in others)]
 
 
 def _size(whole: Searcher) -> tuple[int, int]:

@@ -9,7 +9,7 @@ from model.kernel.alarm import silent
 from model.kernel.drone_types import all_kinds, any_aboard
 from model.kernel.instance import FAR, NO_PROFILE, Instance, pack
 from model.kernel.leg import are_the_same_back
-from model.kernel.plain import as_plain
+from model.kernel.plain import as_plain, is_plain
 from model.kernel.records import Record, Records
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem,
@@ -169,6 +169,23 @@ def only_loads_limit(world: World) -> bool:
     served = world.place[0, world.num_depots:, 0]
     return not (world.general or served["window_earliest"].any()
                 or (served["window_latest"] < UNLIMITED).any())
+
+
+def can_be_linked(world: World) -> bool:
+    """Tell whether the search may go by linked stops.
+
+    Vehicles then make one trip each by the same legs, distance alone costs, no rarer rule is
+    stated, and no vehicle may take over another's route.
+    """
+    travel = world.type["travel"][:world.num_types]
+    return (is_plain(world.type[0]) and not (world.general or world.traded)
+            and bool((travel == travel[0]).all()))
+
+
+def are_timed(world: World) -> bool:
+    """Tell whether windows or shifts limit when vehicles that can be linked serve anybody."""
+    shifts = world.type["shift_latest"][:world.num_types]
+    return not only_loads_limit(world) or bool((shifts < UNLIMITED).any())
 
 
 def may_be_turned(world: World) -> bool:

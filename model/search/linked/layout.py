@@ -12,12 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from model.kernel.instance import TIER
-from model.kernel.plain import is_plain
 from model.kernel.records import Record, Records, one, record
-from model.problem import UNLIMITED, Int32Array, IntArray
+from model.problem import Int32Array, IntArray
 from model.search.route.layout import NOWHERE, World
 from model.search.route.state import Searcher
-from model.search.world import only_loads_limit
 
 LINK = record("slot", "before", "behind", "inward", "onward", "gap", "leave", "latest")
 """A customer: the slot of the route; who comes before and behind, or the depot there; how far it is
@@ -71,23 +69,11 @@ class Linked(NamedTuple):
     timed: bool  # something limits when customers are served
 
 
-def can_be_linked(world: World) -> bool:
-    """Tell whether the search may go by linked stops.
-
-    Vehicles then make one trip each by the same legs, distance alone costs, no rarer rule is
-    stated, and no vehicle may take over another's route.
+def make_linked(world: World, searcher: Searcher, timed: bool) -> Linked:
+    """Make room for the routes of a search; `timed` if something limits when customers are served.
     """
-    travel = world.type["travel"][:world.num_types]
-    return (is_plain(world.type[0]) and not (world.general or world.traded)
-            and bool((travel == travel[0]).all()))
-
-
-def make_linked(world: World, searcher: Searcher) -> Linked:
-    """Make room for the routes of a search."""
     nodes, slots = world.num_nodes, len(searcher.active)
     removed = min(nodes, 2 * MOST_REMOVED)
-    timed = (not only_loads_limit(world)
-             or bool((world.type["shift_latest"][:world.num_types] < UNLIMITED).any()))
     cheapest = one(LEAST)
     cheapest.distance, cheapest.stop = (world.rate[:world.num_types][field].min()
                                         for field in ("distance", "stop"))

@@ -11,11 +11,11 @@ from model.problem import Depot, Points, Problem, StraightLegs, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.linked.anneal import anneal_linked
-from model.search.linked.layout import Linked, can_be_linked, make_linked
+from model.search.linked.layout import Linked, make_linked
 from model.search.linked.tying import measure_near, tie, write_back
 from model.search.route.layout import World
 from model.search.route.state import Searcher
-from model.search.world import make_world
+from model.search.world import are_timed, can_be_linked, make_world
 from model.solution import Solution
 from tests.model.search.found import read_plan
 from training.instances import generate
@@ -83,7 +83,7 @@ def begun(problem: Problem) -> tuple[World, Searcher, Linked]:
     begin_anew(world, searcher, True)
     searcher.value.temperature = searcher.value.cost / problem.num_customers
     searcher.value.cooling = 1.0
-    linked = make_linked(world, searcher)
+    linked = make_linked(world, searcher, are_timed(world))
     measure_near(world, linked)
     tie(world, searcher, linked)
     return world, searcher, linked
