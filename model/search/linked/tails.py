@@ -3,10 +3,13 @@
 import math
 
 from model.kernel.compiled import spliced
-from model.kernel.leg import distance_from, distance_to, leg, legs_from, legs_of, legs_to
+from model.kernel.leg import (
+    LegRow, distance_from, distance_to, leg, legs_from, legs_of, legs_to,
+)
 from model.kernel.load import (
     NOTHING, Amount, amount_of, demand_of, holds, minus, plus, write_amount,
 )
+from model.kernel.stop import end_of_service, places_of, too_late
 from model.search.linked.chain import (
     close_run, connect, drive_on, leaves_start, look_back, open_run,
 )
@@ -30,21 +33,73 @@ def may_serve(world: World, linked: Linked, k: int, node: int) -> bool:
 
 @spliced
 def come_in_time(world: World, linked: Linked, node: int, after: int, before: int, other: int,
-                 k: int, by: int) -> bool:
+                 k: int) -> bool:
     """Tell whether `other` may come behind a customer, and `after` behind `before`.
 
-    Vehicles of types `k` and `by` drive up to there.
+    On routes of one type `k`, so that all are to be reached as late as now.
     """
-    link, kind, former = linked.link, world.type[k], world.type[by]
+    link, kind = linked.link, world.type[k]
     legs = legs_of(world.leg, kind.travel)
     latest = link[other].latest if other >= world.num_depots else kind.shift_latest
     if link[node].leave + leg(legs, node, other).duration > latest:
         return False
     if before < world.num_depots and after < world.num_depots:
         return True
-    latest = link[after].latest if after >= world.num_depots else former.shift_latest
-    left = link[before].leave if before >= world.num_depots else leaves_start(former)
+    latest = link[after].latest if after >= world.num_depots else kind.shift_latest
+    left = link[before].leave if before >= world.num_depots else leaves_start(kind)
     return left + leg(legs, before, after).duration <= latest
+
+
+@spliced
+def drives_in_time(world: World, linked: Linked, k: int, before: int, node: int) -> bool:
+    """Tell whether a vehicle of type `k` may drive from a stop to a customer and all behind.
+
+    `node` is a depot if there are none.
+    """
+    link, kind = linked.link, world.type[k]
+    legs, places = legs_of(world.leg, kind.travel), places_of(world.place, kind)
+    time = link[before].leave if before >= world.num_depots else leaves_start(kind)
+    while node >= world.num_depots:
+        time += leg(legs, before, node).duration
+        if too_late(places[node], time):
+            return False
+        time = end_of_service(places[node], time)
+        before, node = node, link[node].behind
+    return time + leg(legs, before, kind.ends_at).duration <= kind.shift_latest
+
+
+@spliced
+def longer_home(world: World, linked: Linked, slot: int, k: int) -> int:
+    """Return how much longer a route's last leg is to where routes of type `k` end."""
+    last = linked.run[slot].last
+    onward = legs_from(world.leg, world.type[k].travel, last)
+    return distance_to(onward, world.type[k].ends_at) - linked.link[last].onward
+
+
+@spliced
+def cost_of_swap(world: World, linked: Linked, here: LegRow, to_after: LegRow, node: int,
+                 other: int) -> float:
+    """Return what it costs to swap the tails behind a customer and before another.
+
+    `here` are the legs from the customer, `to_after` those to who comes behind.
+    """
+    link, after = linked.link, linked.link[node].behind
+    a, b, before = link[node].slot, link[other].slot, link[other].before
+    k, by = linked.run[a].type, linked.run[b].type
+    detour = distance_to(here, other) - link[node].onward - link[other].inward
+    if world.type[by].ends_at != world.type[k].ends_at:
+        detour += longer_home(world, linked, b, k)
+        if after >= world.num_depots:
+            detour += longer_home(world, linked, a, by)
+    if after >= world.num_depots:
+        detour += distance_from(to_after, before)
+    elif before >= world.num_depots:
+        onward = legs_from(world.leg, world.type[by].travel, before)
+        detour += distance_to(onward, world.type[by].ends_at)
+    cost = detour * world.rate[k].distance
+    if after < world.num_depots and before < world.num_depots:
+        cost -= world.rate[by].fixed
+    return cost
 
 
 @spliced
@@ -55,9 +110,9 @@ def find_tail_linked(world: World, searcher: Searcher, linked: Linked, node: int
     And what that costs. NOWHERE if that is not less than `limit`; an empty slot, led by the end of
     its route, for a new one.
     """
-    link, after, onward = linked.link, linked.link[node].behind, linked.link[node].onward
-    k = linked.run[link[node].slot].type
-    kind, rate = world.type[k], world.rate[k].distance
+    link, a, after = linked.link, linked.link[node].slot, linked.link[node].behind
+    k = linked.run[a].type
+    kind, rate = world.type[k], world.rate[k]
     here = legs_from(world.leg, kind.travel, node)
     to_after = legs_to(world.back, kind.travel, after)
     chosen, leader, best = NOWHERE, NOWHERE, limit
@@ -66,29 +121,24 @@ def find_tail_linked(world: World, searcher: Searcher, linked: Linked, node: int
         if other < 0:
             break
         b = link[other].slot
-        if b < 0 or b == link[node].slot:
+        if b < 0 or b == a:
             continue
         by = linked.run[b].type
-        if by != k and not (world.splice[k, by] and world.type[by].ends_at == kind.ends_at):
+        if by != k and not world.splice[k, by]:
             continue
-        before, cost = link[other].before, 0.0
-        detour = distance_to(here, other) - onward - link[other].inward
-        if before < world.num_depots and after < world.num_depots:
-            cost -= world.rate[by].fixed
-        elif detour * rate < best:
-            detour += distance_from(to_after, before)
-        cost += detour * rate
-        if cost < best and (not linked.timed or come_in_time(
-                world, linked, node, after, before, other, k, by)) and (
-                by == k or (may_serve(world, linked, k, other)
-                            and may_serve(world, linked, by, after))):
+        cost = cost_of_swap(world, linked, here, to_after, node, other)
+        if cost >= best or (by != k and not (may_serve(world, linked, k, other)
+                                             and may_serve(world, linked, by, after))):
+            continue
+        if by != k or not linked.timed or come_in_time(
+                world, linked, node, after, link[other].before, other, k):
             chosen, leader, best = b, other, cost
     if after >= world.num_depots:
-        detour = (distance_to(here, kind.ends_at) - onward
+        detour = (distance_to(here, kind.ends_at) - link[node].onward
                   + distance_from(to_after, kind.begins_at))
-        cost, slot = world.rate[k].fixed + detour * rate, free_slot(world, searcher, k)
+        cost, slot = rate.fixed + detour * rate.distance, free_slot(world, searcher, k)
         if slot >= 0 and cost < best and (not linked.timed or come_in_time(
-                world, linked, node, after, kind.begins_at, kind.ends_at, k, k)):
+                world, linked, node, after, kind.begins_at, kind.ends_at, k)):
             return slot, kind.ends_at, cost
     return chosen, leader, best
 
@@ -121,37 +171,40 @@ def swap_tails_linked(world: World, searcher: Searcher, linked: Linked, node: in
     """
     link, a = linked.link, linked.link[node].slot
     one, two = linked.run[a], linked.run[b]
-    k, after = one.type, link[node].behind
-    before = world.type[k].begins_at
-    if other >= world.num_depots:
-        before = link[other].before
+    k, after, is_new = one.type, link[node].behind, other < world.num_depots
+    by = k if is_new else two.type
+    before = world.type[k].begins_at if is_new else link[other].before
     load, count = part_until(world, linked, node)
     load_by, count_by = part_until(world, linked, before)
-    if other >= world.num_depots:
+    rest, number = NOTHING, 0
+    if not is_new:
         rest, number = minus(amount_of(two.load), load_by), two.count - count_by
-    else:
-        rest, number = NOTHING, 0
     tail = minus(amount_of(one.load), load)
-    if not (holds(world.type[k], plus(load, rest)) and (
-            other < world.num_depots or holds(world.type[two.type], plus(load_by, tail)))):
+    if not (holds(world.type[k], plus(load, rest)) and holds(world.type[by], plus(load_by, tail))):
         return False
-    if other < world.num_depots:
+    # Vehicles of other types may have to be home at other times, and elsewhere.
+    if by != k and linked.timed and not (
+            drives_in_time(world, linked, k, node, other)
+            and ((before < world.num_depots and after < world.num_depots)
+                 or drives_in_time(world, linked, by, before, after))):
+        return False
+    if is_new:
         open_run(world, searcher, linked, b, k)
     last, last_by, moved = one.last, two.last, one.count - count
     assign(world, linked, other, a)
     assign(world, linked, after, b)
-    one.last = last_by if number > 0 else node
-    two.last = last if moved > 0 else before
     connect(world, linked, a, node, other)
-    connect(world, linked, b, before, after)
+    connect(world, linked, b, before, after if moved > 0 else world.type[by].ends_at)
+    connect(world, linked, a, last_by if number > 0 else node, world.type[k].ends_at)
+    connect(world, linked, b, last if moved > 0 else before, world.type[by].ends_at)
     one.count, two.count = count + number, count_by + moved
     write_amount(plus(load, rest), one.load)
     write_amount(plus(load_by, tail), two.load)
     if linked.timed:
         drive_on(world, linked, a, other, 1)
-        look_back(world, linked, a, node, 1)
         drive_on(world, linked, b, after, 1)
-        look_back(world, linked, b, before, 1)
+        look_back(world, linked, a, one.last, number + 1)
+        look_back(world, linked, b, two.last, moved + 1)
     if two.count == 0:
         close_run(searcher, linked, b)
     return True

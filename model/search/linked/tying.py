@@ -8,7 +8,7 @@ from model.search.linked.layout import Linked
 from model.search.route.edit import put
 from model.search.route.layout import CUSTOMER, END, NOWHERE, START, Fleet, World
 from model.search.route.refresh import locate, refresh
-from model.search.route.state import ALL, Searcher, left_out_cost, list_active
+from model.search.route.state import ALL, Searcher, left_out_cost
 
 FARTHEST = 2**31 - 1
 
@@ -32,7 +32,6 @@ def measure_near(world: World, linked: Linked) -> None:
 def tie(world: World, searcher: Searcher, linked: Linked) -> None:
     """Link the routes of a search as they are, and of its best plan. In place."""
     now, best, count = searcher.now, searcher.best, searcher.count
-    list_active(searcher)
     for node in range(world.num_depots, world.num_nodes):
         linked.link[node].slot = now.where[node].slot
     for slot in range(len(searcher.active)):
@@ -110,5 +109,4 @@ def write_back(world: World, searcher: Searcher, linked: Linked) -> None:
         cost += best.cost[slot]
     # The sums of what turns changed differ in their last bits; the best cost never rises.
     value.best = min(value.best, cost)
-    list_active(searcher)
     count.changed = ALL

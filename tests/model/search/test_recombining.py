@@ -116,6 +116,7 @@ def test_clock_has_no_say_in_when_turns_are_looked_at() -> None:
 
 def test_search_finds_more_by_putting_parts_together(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(worker, "TURNS_A_LOOK", 1)
+    monkeypatch.setattr(worker, "LINKED_LOOKS", 1)
     problem = generate(np.random.default_rng(9), 420, "cvrp")
     configs = [SearchConfig(seed=seed, turns=10_000) for seed in range(3)]
 

@@ -7,7 +7,7 @@ import pytest
 
 from model.judge.check import check
 from model.kernel.instance import pack
-from model.problem import Depot, Points, Problem, StraightLegs, Travel
+from model.problem import UNLIMITED, Depot, Points, Problem, StraightLegs, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.linked.anneal import anneal_linked
@@ -55,6 +55,17 @@ def with_two_depots(size: int) -> Problem:
                    for each in problem.travel)
     return replace(problem, depots=(*problem.depots, Depot("other")), customers=customers,
                    vehicle_types=types, travel=travel, coordinates=at[order])
+
+
+def with_other_shifts(size: int) -> Problem:
+    """Return one with windows and two depots, whose vehicles end at other times, and few of each.
+    """
+    problem = with_two_depots(size)
+    day = max(each.latest for each in problem.customers if each.latest < UNLIMITED)
+    return replace(
+        problem, customers=tuple(replace(each, skills=frozenset()) for each in problem.customers),
+        vehicle_types=tuple(replace(kind, skills=frozenset(), latest=day // number)
+                            for number, kind in enumerate(problem.vehicle_types, 1)))
 
 
 def with_one_way_streets(size: int) -> Problem:
@@ -117,8 +128,8 @@ def routes_of(world: World, searcher: Searcher, linked: Linked) -> list[list[int
 
 
 @pytest.mark.parametrize("make", [
-    loads_alone, with_windows, with_few_vehicles, with_two_depots, with_one_way_streets,
-    on_the_globe])
+    loads_alone, with_windows, with_few_vehicles, with_two_depots, with_other_shifts,
+    with_one_way_streets, on_the_globe])
 @pytest.mark.parametrize("size", [40, 420])
 def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-untyped-def]
     problem = make(size)
