@@ -43,7 +43,7 @@ SOURCES = (
         "ruin", "recreate", "exchange", "retype", "split", "resplit", "anneal")),
     *(f"search/beginning/{part}" for part in ("construct", "savings", "either_way", "translate")),
     *(f"search/linked/{part}" for part in (
-        "layout", "chain", "strings", "insertion", "tails", "anneal", "tying")),
+        "layout", "retype", "chain", "strings", "insertion", "tails", "anneal", "tying")),
     "search/ground/tables", "search/sharing",
 )
 """Files with compiled functions, and those whose constants are compiled into them."""

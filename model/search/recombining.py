@@ -14,9 +14,9 @@ salesman problem, GECCO.
 import numpy as np
 
 from model.problem import BoolArray, FloatArray, IntArray
-from model.search.route.layout import ELSEWHERE, NOWHERE, Fleet, World
+from model.search.route.layout import ELSEWHERE, NOWHERE, OTHERS, Fleet, World
 from model.search.route.state import ALL, Searcher
-from model.search.sharing import OTHERS, ROUNDING
+from model.search.sharing import ROUNDING
 
 
 def take_better_parts(world: World, searcher: Searcher) -> None:

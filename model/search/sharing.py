@@ -6,7 +6,7 @@ from model.kernel.compiled import compiled
 from model.kernel.copying import copy_some
 from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
-from model.search.route.layout import ELSEWHERE, NOWHERE, World
+from model.search.route.layout import ELSEWHERE, NOWHERE, OTHERS, World
 from model.search.route.refresh import locate
 from model.search.route.state import (
     ALL, Searcher, copy_route, keep_best, left_out_cost, list_active,
@@ -17,9 +17,6 @@ DIVIDED_FROM = 200
 
 FEWEST_ROUTES = 3
 """Routes for each thread without which there are no regions."""
-
-OTHERS = -1
-"""Stamp of a route that another search has made."""
 
 ROUNDING = 1e-9
 """Costs that differ by less are the same."""

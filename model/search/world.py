@@ -174,12 +174,11 @@ def only_loads_limit(world: World) -> bool:
 def can_be_linked(world: World) -> bool:
     """Tell whether the search may go by linked stops.
 
-    Vehicles then make one trip each by the same legs, distance alone costs, no rarer rule is
-    stated, and no vehicle may take over another's route.
+    Vehicles then make one trip each by the same legs, distance alone costs, and no rarer rule is
+    stated.
     """
     travel = world.type["travel"][:world.num_types]
-    return (is_plain(world.type[0]) and not (world.general or world.traded)
-            and bool((travel == travel[0]).all()))
+    return is_plain(world.type[0]) and not world.general and bool((travel == travel[0]).all())
 
 
 def are_timed(world: World) -> bool:

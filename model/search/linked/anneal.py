@@ -3,40 +3,43 @@
 import math
 
 from model.kernel.alarm import rung
-from model.kernel.compiled import compiled_on_arrays, inlined, spliced
-from model.kernel.copying import copy_row, copy_some
+from model.kernel.compiled import compiled_on_arrays, spliced
+from model.kernel.copying import copy_some
 from model.search.linked.chain import forget, take_back
 from model.search.linked.insertion import recreate_linked
 from model.search.linked.layout import Linked
+from model.search.linked.retype import cheapen_run, cheapen_runs
 from model.search.linked.strings import ruin_linked
 from model.search.linked.tails import exchange_tails_linked
 from model.search.moves.anneal import (
-    MOST_MISSING, begin_turn, counts_up, rarer_absences, try_near,
+    MOST_MISSING, RETYPED, begin_turn, counts_up, rarer_absences, try_near,
 )
 from model.search.moves.recreate import draw_order, sort_absent
 from model.search.route.layout import NOWHERE, World
 from model.search.route.randomness import uniform
-from model.search.route.state import ALL, Searcher, left_out_cost, list_all_changed
+from model.search.route.state import (
+    ALL, Searcher, keep_totals, left_out_cost, list_all_changed, note_changed,
+)
 
 
-@inlined
-def note_changed(searcher: Searcher, slot: int) -> None:
-    """List a slot as changed since the best. In place."""
-    count = searcher.count
-    if count.changed != ALL and not searcher.is_changed[slot]:
-        searcher.is_changed[slot] = True
-        searcher.changed[count.changed] = slot
-        count.changed += 1
+@spliced
+def list_changes(searcher: Searcher, linked: Linked) -> None:
+    """List the routes of this turn as changed since the best, and note nothing more. In place."""
+    noted = linked.noted
+    for index in range(noted.pieces):
+        note_changed(searcher, linked.piece[index].slot)
+    for index in range(noted.entries):
+        note_changed(searcher, linked.link[linked.entry[index].node].slot)
+    for index in range(noted.retyped):
+        note_changed(searcher, linked.retyped[index])
+    forget(linked)
 
 
 @spliced
 def accept_linked(searcher: Searcher, linked: Linked, cost: float) -> None:
     """Go on from this turn's routes. In place."""
-    count, now, noted = searcher.count, searcher.now, linked.noted
-    for index in range(noted.pieces):
-        note_changed(searcher, linked.piece[index].slot)
-    for index in range(noted.entries):
-        note_changed(searcher, linked.link[linked.entry[index].node].slot)
+    count, now = searcher.count, searcher.now
+    list_changes(searcher, linked)
     for index in range(count.missing):
         now.where[searcher.missing[index]].slot = 0
     for index in range(count.absent):
@@ -44,7 +47,6 @@ def accept_linked(searcher: Searcher, linked: Linked, cost: float) -> None:
     count.missing = count.absent
     copy_some(searcher.absent, searcher.missing, count.absent)
     searcher.value.cost = cost
-    forget(linked)
 
 
 @spliced
@@ -65,11 +67,7 @@ def keep_best_linked(searcher: Searcher, linked: Linked) -> None:
         for _ in range(run.count):
             linked.best_behind[node] = linked.link[node].behind
             node = linked.link[node].behind
-    count.changed = 0
-    copy_row(searcher.now.used, searcher.best.used)
-    count.best_missing = count.missing
-    copy_some(searcher.missing, searcher.best_missing, count.missing)
-    searcher.value.best = searcher.value.cost
+    keep_totals(searcher)
 
 
 @spliced
@@ -78,9 +76,11 @@ def move_tails(world: World, searcher: Searcher, linked: Linked) -> None:
     a, b, cost = exchange_tails_linked(world, searcher, linked)
     if a < 0:
         return
+    if world.traded and uniform(searcher.rng) < RETYPED:
+        cost -= cheapen_run(world, searcher, linked, a) + cheapen_run(world, searcher, linked, b)
     note_changed(searcher, a)
     note_changed(searcher, b)
-    forget(linked)
+    list_changes(searcher, linked)
     searcher.value.cost += cost
     if searcher.value.cost < searcher.value.best:
         keep_best_linked(searcher, linked)
@@ -105,8 +105,9 @@ def anneal_linked(world: World, searcher: Searcher, linked: Linked, turns: int) 
         left_out = 0.0
         if count.missing > 0:
             left_out = left_out_cost(world, searcher.missing, count.missing)
+        retyped = world.traded and uniform(searcher.rng) < RETYPED
         spare = math.inf
-        if counts_up(world, searcher):
+        if not retyped and counts_up(world, searcher):
             spare = limit - (value.cost - saved - left_out
                              + left_out_cost(world, searcher.absent, first))
         done, added = recreate_linked(world, searcher, linked, first, spare)
@@ -114,6 +115,8 @@ def anneal_linked(world: World, searcher: Searcher, linked: Linked, turns: int) 
             take_back(world, searcher, linked)
             count.turn -= 1
             return
+        if done and retyped:
+            added -= cheapen_runs(world, searcher, linked)
         cost = (value.cost - saved + added - left_out
                 + left_out_cost(world, searcher.absent, count.absent))
         scarce = not world.optional and count.absent > 0

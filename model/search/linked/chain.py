@@ -9,47 +9,28 @@ from model.kernel.records import Record
 from model.kernel.start import leaves_first
 from model.kernel.stop import end_of_service, latest_arrival, places_of
 from model.search.linked.layout import Linked
+from model.search.linked.retype import take_types_back
 from model.search.route.layout import NOWHERE, World
-from model.search.route.state import Searcher
-
-
-@inlined
-def use(searcher: Searcher, slot: int) -> None:
-    """List a slot among those in use. In place."""
-    active, rank, count = searcher.active, searcher.rank, searcher.count
-    place, other = rank[slot], active[count.active]
-    active[place], rank[other] = other, place
-    active[count.active], rank[slot] = slot, count.active
-    count.active += 1
-
-
-@inlined
-def leave(searcher: Searcher, slot: int) -> None:
-    """List a slot among those that are free. In place."""
-    active, rank, count = searcher.active, searcher.rank, searcher.count
-    count.active -= 1
-    place, other = rank[slot], active[count.active]
-    active[place], rank[other] = other, place
-    active[count.active], rank[slot] = slot, count.active
+from model.search.route.state import Searcher, list_anew
 
 
 @spliced
 def open_run(world: World, searcher: Searcher, linked: Linked, slot: int, k: int) -> None:
     """Let a vehicle of a type drive from a free slot, to nobody as yet. In place."""
     run = linked.run[slot]
-    run.type, run.count = k, 0
+    run.type, run.count, run.distance = k, 0, 0
     run.first, run.last = world.type[k].ends_at, world.type[k].begins_at
     for dimension in range(len(run.load)):
         run.load[dimension] = 0
     searcher.now.used[k] += 1
-    use(searcher, slot)
+    list_anew(searcher, slot, True)
 
 
 @spliced
 def close_run(searcher: Searcher, linked: Linked, slot: int) -> None:
     """Let a vehicle that serves nobody stay where it is. In place."""
     searcher.now.used[linked.run[slot].type] -= 1
-    leave(searcher, slot)
+    list_anew(searcher, slot, False)
 
 
 @inlined
@@ -85,6 +66,7 @@ def tie_in(world: World, linked: Linked, slot: int, before: int, node: int) -> N
         if behind >= world.num_depots:
             link[behind].gap = leg_to(onward, behind).duration
     run.count += 1
+    run.distance += there + on - between
     write_amount(plus(amount_of(run.load), demand_of(world.place[0, node])), run.load)
 
 
@@ -103,8 +85,11 @@ def join(world: World, linked: Linked, run: Record, before: int, behind: int,
 
 
 @spliced
-def connect(world: World, linked: Linked, slot: int, before: int, behind: int) -> None:
-    """Let one customer, or the depot, come right behind another on a route. In place."""
+def connect(world: World, linked: Linked, slot: int, before: int, behind: int) -> int:
+    """Let one customer, or the depot, come right behind another on a route.
+
+    In place; return how far that is.
+    """
     distance = 0
     if before >= world.num_depots or behind >= world.num_depots:
         onward = legs_from(world.leg, world.type[linked.run[slot].type].travel, before)
@@ -112,6 +97,7 @@ def connect(world: World, linked: Linked, slot: int, before: int, behind: int) -
         if linked.timed and behind >= world.num_depots:
             linked.link[behind].gap = leg_to(onward, behind).duration
     join(world, linked, linked.run[slot], before, behind, distance)
+    return distance
 
 
 @spliced
@@ -142,7 +128,9 @@ def cut_out(world: World, linked: Linked, slot: int, first: int, count: int) -> 
             piece.gap = link[node].gap
             link[node].gap = leg_to(onward, node).duration
     join(world, linked, run, before, node, distance)
-    return saved - distance
+    piece.saved = saved - distance
+    run.distance -= piece.saved
+    return piece.saved
 
 
 @spliced
@@ -158,9 +146,17 @@ def note_times(linked: Linked, node: int) -> None:
 
 
 @inlined
-def leaves_start(kind: Record) -> int:
-    """Return when a vehicle of a type leaves where it begins."""
+def leaves_at(world: World, linked: Linked, kind: Record, node: int) -> int:
+    """Return when a vehicle of a type leaves a customer, or where it begins if that is a depot."""
+    if node >= world.num_depots:
+        return linked.link[node].leave
     return leaves_first(kind, kind.shift_earliest)
+
+
+@inlined
+def due_at(world: World, linked: Linked, kind: Record, node: int) -> int:
+    """Return when a vehicle of a type has to come to a customer, or home, at the latest."""
+    return linked.link[node].latest if node >= world.num_depots else kind.shift_latest
 
 
 @spliced
@@ -168,9 +164,9 @@ def drive_on(world: World, linked: Linked, slot: int, node: int, number: int) ->
     """Bring departures from a customer on up to date, of so many even if none changes. In place."""
     link, kind = linked.link, world.type[linked.run[slot].type]
     places = places_of(world.place, kind)
-    time = leaves_start(kind)
-    if node >= world.num_depots and link[node].before >= world.num_depots:
-        time = link[link[node].before].leave
+    if node < world.num_depots:
+        return
+    time = leaves_at(world, linked, kind, link[node].before)
     while node >= world.num_depots:
         here = link[node]
         time = end_of_service(places[node], time + here.gap)
@@ -190,11 +186,11 @@ def look_back(world: World, linked: Linked, slot: int, node: int, number: int) -
     if node < world.num_depots:
         return
     behind = link[node].behind
+    leave_by = due_at(world, linked, kind, behind)
     if behind >= world.num_depots:
-        leave_by = link[behind].latest - link[behind].gap
+        leave_by -= link[behind].gap
     else:
-        home = leg(legs_of(world.leg, kind.travel), node, behind)
-        leave_by = kind.shift_latest - home.duration
+        leave_by -= leg(legs_of(world.leg, kind.travel), node, behind).duration
     while node >= world.num_depots:
         here = link[node]
         latest = latest_arrival(places[node], leave_by)
@@ -230,6 +226,7 @@ def untie(world: World, searcher: Searcher, linked: Linked) -> None:
     write_amount(minus(amount_of(run.load), demand_of(world.place[0, node])), run.load)
     here.slot = NOWHERE
     run.count -= 1
+    run.distance -= here.inward + here.onward - entry.onward
     if run.count == 0:
         close_run(searcher, linked, slot)
 
@@ -255,6 +252,7 @@ def put_back(world: World, searcher: Searcher, linked: Linked) -> None:
     if link[last].behind >= world.num_depots:
         link[link[last].behind].gap = piece.gap
     run.count += piece.count
+    run.distance += piece.saved
     noted.removed = begin
 
 
@@ -262,6 +260,7 @@ def put_back(world: World, searcher: Searcher, linked: Linked) -> None:
 def take_back(world: World, searcher: Searcher, linked: Linked) -> None:
     """Let all be as it was before this turn. In place."""
     noted = linked.noted
+    take_types_back(searcher, linked)
     while noted.entries > 0:
         untie(world, searcher, linked)
     while noted.pieces > 0:
@@ -281,4 +280,6 @@ def take_back(world: World, searcher: Searcher, linked: Linked) -> None:
 def forget(linked: Linked) -> None:
     """Let nothing be noted. In place."""
     noted = linked.noted
-    noted.pieces = noted.removed = noted.entries = noted.moments = noted.over = 0
+    for index in range(noted.retyped):
+        linked.former[linked.retyped[index]] = NOWHERE
+    noted.pieces = noted.removed = noted.entries = noted.moments = noted.retyped = noted.over = 0

@@ -1,6 +1,7 @@
 """The cheapest place for a customer among linked stops."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,13 +17,27 @@ from model.kernel.stop import end_of_service, places_of, too_late
 from model.search.insertion.evaluate import INFEASIBLE
 from model.search.insertion.passing import EACH_DRAWN, MOST_DRAWN
 from model.search.insertion.places import opens_route, try_new_route
-from model.search.linked.chain import drive_on, leaves_start, look_back, open_run, tie_in
+from model.search.linked.chain import (
+    drive_on, due_at, leaves_at, look_back, open_run, tie_in,
+)
 from model.search.linked.layout import Linked
-from model.search.moves.recreate import OPENING
+from model.search.linked.retype import cost_of_run, give_run, larger_for
+from model.search.moves.recreate import ENLARGED, OPENING
 from model.search.route.edit import AT_STOP
-from model.search.route.layout import World
+from model.search.route.layout import NOWHERE, World
 from model.search.route.randomness import below, uniform
 from model.search.route.state import Searcher, free_slot
+
+
+class Joining(NamedTuple):
+    """Which route a customer joins, NOWHERE if it can't; by which type, and at what cost.
+
+    But for that of the detour.
+    """
+
+    slot: int
+    type: int
+    cost: float
 
 
 @spliced
@@ -38,30 +53,42 @@ def has_room(world: World, run: Record, node: int) -> bool:
 
 
 @spliced
+def joining(world: World, searcher: Searcher, slot: int, run: Record, node: int, enlarge: bool
+            ) -> Joining:
+    """Return who would serve a customer more on a route: a larger type if `enlarge`."""
+    if has_room(world, run, node):
+        return Joining(slot, run.type, world.rate[np.uint64(run.type)].stop)
+    if enlarge:
+        by = larger_for(world, searcher, run, node)
+        if by >= 0:
+            more = cost_of_run(world, by, run) - cost_of_run(world, run.type, run)
+            return Joining(slot, by, more + world.rate[by].stop)
+    return Joining(NOWHERE, NOWHERE, 0.0)
+
+
+@spliced
 def keeps_windows(world: World, linked: Linked, kind: Record, before: int, behind: int, node: int,
                   there: int, onward: int) -> bool:
     """Tell whether a customer may come between two, so long after one and before the other."""
     place = places_of(world.place, kind)[node]
-    arrival = there + (linked.link[before].leave if before >= world.num_depots
-                       else leaves_start(kind))
+    arrival = leaves_at(world, linked, kind, before) + there
     if too_late(place, arrival):
         return False
-    latest = linked.link[behind].latest if behind >= world.num_depots else kind.shift_latest
-    return end_of_service(place, arrival) + onward <= latest
+    return end_of_service(place, arrival) + onward <= due_at(world, linked, kind, behind)
 
 
 @spliced
-def try_between(world: World, searcher: Searcher, linked: Linked, slot: int, before: int,
+def try_between(world: World, searcher: Searcher, linked: Linked, joins: Joining, before: int,
                 behind: int, leg: int, node: int, best: float) -> float:
     """Try a customer between two who are so far apart; return the best cost so far.
 
     In place: `searcher.move`, if that is the best.
     """
-    k = np.uint64(linked.run[slot].type)
-    m, rate = np.uint64(world.type[k].travel), world.rate[k]
+    k = np.uint64(joins.type)
+    m = np.uint64(world.type[k].travel)
     inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
     detour = distance_from(inward, before) + distance_to(onward, behind) - leg
-    cost = detour * rate.distance + rate.stop
+    cost = detour * world.rate[k].distance + joins.cost
     if cost >= best:
         return best
     if linked.timed and not keeps_windows(
@@ -71,7 +98,7 @@ def try_between(world: World, searcher: Searcher, linked: Linked, slot: int, bef
     if uniform(searcher.rng) < world.blink:
         return best
     move = searcher.move
-    move.kind, move.slot, move.first, move.type = AT_STOP, slot, before, k
+    move.kind, move.slot, move.first, move.type = AT_STOP, joins.slot, before, k
     return cost
 
 
@@ -85,7 +112,8 @@ def longest_detour(cheapest: Record, best: float) -> int:
 
 
 @spliced
-def try_beside(world: World, searcher: Searcher, linked: Linked, node: int, best: float) -> float:
+def try_beside(world: World, searcher: Searcher, linked: Linked, node: int, enlarge: bool,
+               best: float) -> float:
     """Try a customer beside neighbours. As `try_between`.
 
     Most are passed over by the triangle inequality: unless who comes before or behind a neighbour
@@ -101,31 +129,34 @@ def try_beside(world: World, searcher: Searcher, linked: Linked, node: int, best
             break
         at = link[other]
         slot = at.slot
-        if (slot < 0 or 2 * int(near[rank]) - max(at.inward, at.onward) >= most
-                or not has_room(world, run[slot], node)):
+        if slot < 0 or 2 * int(near[rank]) - max(at.inward, at.onward) >= most:
+            continue
+        joins = joining(world, searcher, slot, run[slot], node, enlarge)
+        if joins.slot < 0:
             continue
         before = best
-        best = try_between(world, searcher, linked, slot, other, at.behind, at.onward, node, best)
-        best = try_between(world, searcher, linked, slot, at.before, other, at.inward, node, best)
+        best = try_between(world, searcher, linked, joins, other, at.behind, at.onward, node, best)
+        best = try_between(world, searcher, linked, joins, at.before, other, at.inward, node, best)
         if best < before:
             most = longest_detour(cheapest, best)
     return best
 
 
 @spliced
-def try_ends(world: World, searcher: Searcher, linked: Linked, slot: int, node: int, best: float
-             ) -> float:
+def try_ends(world: World, searcher: Searcher, linked: Linked, joins: Joining, node: int,
+             best: float) -> float:
     """Try a customer first and last on a route. As `try_between`."""
-    run = linked.run[slot]
+    run = linked.run[joins.slot]
     kind, first, last = world.type[run.type], run.first, run.last
-    best = try_between(world, searcher, linked, slot, kind.begins_at, first,
+    best = try_between(world, searcher, linked, joins, kind.begins_at, first,
                        linked.link[first].inward, node, best)
-    return try_between(world, searcher, linked, slot, last, kind.ends_at,
+    return try_between(world, searcher, linked, joins, last, kind.ends_at,
                        linked.link[last].onward, node, best)
 
 
 @spliced
-def try_passing(world: World, searcher: Searcher, linked: Linked, node: int, best: float) -> float:
+def try_passing(world: World, searcher: Searcher, linked: Linked, node: int, enlarge: bool,
+                best: float) -> float:
     """Try a customer first and last on routes drawn, as `insertion.passing` says."""
     active, number = searcher.active, searcher.count.active
     if number == 0:
@@ -133,14 +164,15 @@ def try_passing(world: World, searcher: Searcher, linked: Linked, node: int, bes
     begin = below(searcher.rng, number)
     for index in range(begin, begin + min(MOST_DRAWN, number // EACH_DRAWN)):
         slot = active[index if index < number else index - number]
-        if has_room(world, linked.run[slot], node):
-            best = try_ends(world, searcher, linked, slot, node, best)
+        joins = joining(world, searcher, slot, linked.run[slot], node, enlarge)
+        if joins.slot >= 0:
+            best = try_ends(world, searcher, linked, joins, node, best)
     return best
 
 
 @spliced
-def try_everywhere(world: World, searcher: Searcher, linked: Linked, node: int, best: float
-                   ) -> float:
+def try_everywhere(world: World, searcher: Searcher, linked: Linked, node: int, enlarge: bool,
+                   best: float) -> float:
     """Try a customer on all routes with room. As `try_between`."""
     link = linked.link
     for index in range(searcher.count.active):
@@ -148,14 +180,15 @@ def try_everywhere(world: World, searcher: Searcher, linked: Linked, node: int, 
         run = linked.run[slot]
         if rung(world.stop):
             break
-        if not has_room(world, run, node):
+        joins = joining(world, searcher, slot, run, node, enlarge)
+        if joins.slot < 0:
             continue
-        best = try_ends(world, searcher, linked, slot, node, best)
+        best = try_ends(world, searcher, linked, joins, node, best)
         before = run.first
         while before != run.last:
             behind = link[before].behind
-            best = try_between(world, searcher, linked, slot, before, behind, link[before].onward,
-                               node, best)
+            best = try_between(world, searcher, linked, joins, before, behind,
+                               link[before].onward, node, best)
             before = behind
     return best
 
@@ -170,6 +203,8 @@ def insert_linked(world: World, searcher: Searcher, linked: Linked, node: int) -
         if slot < 0:
             return False
         open_run(world, searcher, linked, slot, move.type)
+    elif move.type != linked.run[slot].type:
+        give_run(world, searcher, linked, slot, move.type)
     tie_in(world, linked, slot, before, node)
     if linked.timed:
         drive_on(world, linked, slot, node, 2)
@@ -186,6 +221,7 @@ def recreate_linked(world: World, searcher: Searcher, linked: Linked, first: int
     """
     absent, count, total = searcher.absent, searcher.count, 0.0
     opening, left = uniform(searcher.rng) < OPENING, first
+    enlarge = world.traded and uniform(searcher.rng) < ENLARGED
     for index in range(first, count.absent):
         node = absent[index]
         cost = INFEASIBLE
@@ -195,10 +231,10 @@ def recreate_linked(world: World, searcher: Searcher, linked: Linked, first: int
         if opening and index == first:
             cost = alone
         else:
-            cost = try_beside(world, searcher, linked, node, alone)
-            cost = try_passing(world, searcher, linked, node, cost)
+            cost = try_beside(world, searcher, linked, node, enlarge, alone)
+            cost = try_passing(world, searcher, linked, node, enlarge, cost)
         if cost == INFEASIBLE:
-            cost = try_everywhere(world, searcher, linked, node, cost)
+            cost = try_everywhere(world, searcher, linked, node, enlarge, cost)
         left_out = world.unassigned_cost + world.unassigned_more[node]
         wanted = cost < left_out or (opening and index == first)
         if cost == INFEASIBLE or not wanted or not insert_linked(world, searcher, linked, node):

@@ -22,13 +22,13 @@ LINK = record("slot", "before", "behind", "inward", "onward", "gap", "leave", "l
 from there and to there, and how long it takes from there; when the vehicle leaves, and when it has
 to come at the latest. Times are kept only where something limits them. A cache line."""
 
-RUN = record("type", "first", "last", "count", load=TIER)
-"""A route: its first and last customer, and how many there are. Where there is none, its end comes
-first and its beginning last."""
+RUN = record("type", "first", "last", "count", "distance", load=TIER)
+"""A route: its first and last customer, how many there are, and how far it is driven. Where there
+is nobody, its end comes first and its beginning last."""
 
-PIECE = record("slot", "type", "count", "gap")
+PIECE = record("slot", "type", "count", "gap", "saved")
 """Customers in a row that were taken out this turn: of which route, driven by which type then; how
-many; and how long the leg to who came behind took."""
+many; how long the leg to who came behind took; and how much shorter the route is without them."""
 
 ENTRY = record("node", "onward", "gap")
 """A customer inserted this turn, and how far and how long it was where it went between."""
@@ -36,7 +36,7 @@ ENTRY = record("node", "onward", "gap")
 MOMENT = record("node", "leave", "latest")
 """Times of a customer before they changed this turn."""
 
-NOTED = record("pieces", "removed", "entries", "moments", "over")
+NOTED = record("pieces", "removed", "entries", "moments", "retyped", "over")
 """How many of each were noted this turn, and whether there were more moments than there is room."""
 
 LEAST = record(distance=float, stop=float)
@@ -59,6 +59,8 @@ class Linked(NamedTuple):
     removed_node: IntArray  # (customer,) who that is
     entry: Records  # (customer,) ENTRY
     moment: Records  # (moment,) MOMENT
+    retyped: IntArray  # (slot,) routes that another type drives since this turn
+    former: IntArray  # (slot,) the type that did before, else NOWHERE
     noted: Record  # NOTED
     hit: IntArray  # (slot,) turn of the last string
     near: Int32Array  # (node, rank) mm to or from those that `World.fit` lists, or what fits
@@ -81,7 +83,8 @@ def make_linked(world: World, searcher: Searcher, timed: bool) -> Linked:
         link=np.zeros(nodes, LINK), run=np.zeros(slots, RUN), piece=np.zeros(removed, PIECE),
         removed=np.zeros(removed, LINK), removed_node=np.zeros(removed, np.int64),
         entry=np.zeros(nodes, ENTRY),
-        moment=np.zeros(MOMENTS + 2 * nodes if timed else 0, MOMENT), noted=one(NOTED),
+        moment=np.zeros(MOMENTS + 2 * nodes if timed else 0, MOMENT),
+        retyped=np.zeros(slots, np.int64), former=np.full(slots, NOWHERE), noted=one(NOTED),
         hit=np.zeros(slots, np.int64), near=np.zeros(world.fit.shape, np.int32),
         best_first=np.full(slots, NOWHERE), best_type=np.zeros(slots, np.int64),
         best_behind=np.zeros(nodes, np.int64), cheapest=cheapest, timed=timed)

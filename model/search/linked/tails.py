@@ -1,17 +1,19 @@
 """Tails of routes, swapped among linked stops, or driven as a route of their own."""
 
 import math
+from typing import NamedTuple
 
-from model.kernel.compiled import spliced
+from model.kernel.compiled import inlined, spliced
 from model.kernel.leg import (
     LegRow, distance_from, distance_to, leg, legs_from, legs_of, legs_to,
 )
 from model.kernel.load import (
     NOTHING, Amount, amount_of, demand_of, holds, minus, plus, write_amount,
 )
+from model.kernel.records import Record
 from model.kernel.stop import end_of_service, places_of, too_late
 from model.search.linked.chain import (
-    close_run, connect, drive_on, leaves_start, look_back, open_run,
+    close_run, connect, drive_on, due_at, leaves_at, look_back, open_run,
 )
 from model.search.linked.layout import Linked
 from model.search.moves.exchange import NEIGHBOURS
@@ -32,22 +34,20 @@ def may_serve(world: World, linked: Linked, k: int, node: int) -> bool:
 
 
 @spliced
-def come_in_time(world: World, linked: Linked, node: int, after: int, before: int, other: int,
-                 k: int) -> bool:
-    """Tell whether `other` may come behind a customer, and `after` behind `before`.
+def come_in_time(world: World, linked: Linked, k: int, node: int, before: int, other: int) -> bool:
+    """Tell whether `other` may come behind a customer, who now does behind `before`.
 
     On routes of one type `k`, so that all are to be reached as late as now.
     """
-    link, kind = linked.link, world.type[k]
+    kind, after = world.type[k], linked.link[node].behind
     legs = legs_of(world.leg, kind.travel)
-    latest = link[other].latest if other >= world.num_depots else kind.shift_latest
-    if link[node].leave + leg(legs, node, other).duration > latest:
+    if (linked.link[node].leave + leg(legs, node, other).duration
+            > due_at(world, linked, kind, other)):
         return False
     if before < world.num_depots and after < world.num_depots:
         return True
-    latest = link[after].latest if after >= world.num_depots else kind.shift_latest
-    left = link[before].leave if before >= world.num_depots else leaves_start(kind)
-    return left + leg(legs, before, after).duration <= latest
+    return (leaves_at(world, linked, kind, before) + leg(legs, before, after).duration
+            <= due_at(world, linked, kind, after))
 
 
 @spliced
@@ -56,15 +56,15 @@ def drives_in_time(world: World, linked: Linked, k: int, before: int, node: int)
 
     `node` is a depot if there are none.
     """
-    link, kind = linked.link, world.type[k]
+    kind = world.type[k]
     legs, places = legs_of(world.leg, kind.travel), places_of(world.place, kind)
-    time = link[before].leave if before >= world.num_depots else leaves_start(kind)
+    time = leaves_at(world, linked, kind, before)
     while node >= world.num_depots:
         time += leg(legs, before, node).duration
         if too_late(places[node], time):
             return False
         time = end_of_service(places[node], time)
-        before, node = node, link[node].behind
+        before, node = node, linked.link[node].behind
     return time + leg(legs, before, kind.ends_at).duration <= kind.shift_latest
 
 
@@ -77,6 +77,17 @@ def longer_home(world: World, linked: Linked, slot: int, k: int) -> int:
 
 
 @spliced
+def tail_from(world: World, linked: Linked, node: int) -> tuple[int, int]:
+    """Return how far a route is driven from a customer on, and how many there are from there on."""
+    distance = count = 0
+    while node >= world.num_depots:
+        distance += linked.link[node].onward
+        count += 1
+        node = linked.link[node].behind
+    return distance, count
+
+
+@spliced
 def cost_of_swap(world: World, linked: Linked, here: LegRow, to_after: LegRow, node: int,
                  other: int) -> float:
     """Return what it costs to swap the tails behind a customer and before another.
@@ -86,19 +97,25 @@ def cost_of_swap(world: World, linked: Linked, here: LegRow, to_after: LegRow, n
     link, after = linked.link, linked.link[node].behind
     a, b, before = link[node].slot, link[other].slot, link[other].before
     k, by = linked.run[a].type, linked.run[b].type
-    detour = distance_to(here, other) - link[node].onward - link[other].inward
+    rate, rate_by = world.rate[k], world.rate[by]
+    more, more_by = distance_to(here, other) - link[node].onward, -link[other].inward
     if world.type[by].ends_at != world.type[k].ends_at:
-        detour += longer_home(world, linked, b, k)
+        more += longer_home(world, linked, b, k)
         if after >= world.num_depots:
-            detour += longer_home(world, linked, a, by)
+            more_by += longer_home(world, linked, a, by)
     if after >= world.num_depots:
-        detour += distance_from(to_after, before)
+        more_by += distance_from(to_after, before)
     elif before >= world.num_depots:
         onward = legs_from(world.leg, world.type[by].travel, before)
-        detour += distance_to(onward, world.type[by].ends_at)
-    cost = detour * world.rate[k].distance
+        more_by += distance_to(onward, world.type[by].ends_at)
+    cost = more * rate.distance + more_by * rate_by.distance
+    if rate.distance != rate_by.distance or rate.stop != rate_by.stop:
+        tail, count = tail_from(world, linked, after)
+        other_tail, others = tail_from(world, linked, other)
+        cost += ((other_tail - tail) * (rate.distance - rate_by.distance)
+                 + (others - count) * (rate.stop - rate_by.stop))
     if after < world.num_depots and before < world.num_depots:
-        cost -= world.rate[by].fixed
+        cost -= rate_by.fixed
     return cost
 
 
@@ -131,27 +148,46 @@ def find_tail_linked(world: World, searcher: Searcher, linked: Linked, node: int
                                              and may_serve(world, linked, by, after))):
             continue
         if by != k or not linked.timed or come_in_time(
-                world, linked, node, after, link[other].before, other, k):
+                world, linked, k, node, link[other].before, other):
             chosen, leader, best = b, other, cost
     if after >= world.num_depots:
         detour = (distance_to(here, kind.ends_at) - link[node].onward
                   + distance_from(to_after, kind.begins_at))
         cost, slot = rate.fixed + detour * rate.distance, free_slot(world, searcher, k)
         if slot >= 0 and cost < best and (not linked.timed or come_in_time(
-                world, linked, node, after, kind.begins_at, kind.ends_at, k)):
+                world, linked, k, node, kind.begins_at, kind.ends_at)):
             return slot, kind.ends_at, cost
     return chosen, leader, best
 
 
+class Part(NamedTuple):
+    """Customers in a row on a route."""
+
+    load: Amount
+    customers: int
+    distance: int  # up to the last of them: of a head from the depot, of a tail from its first
+
+
 @spliced
-def part_until(world: World, linked: Linked, node: int) -> tuple[Amount, int]:
-    """Return what all up to a customer are brought, and how many they are."""
-    load, count = NOTHING, 0
+def head_until(world: World, linked: Linked, node: int) -> Part:
+    """Return the part of a route up to a customer, none if that is a depot."""
+    load, count, distance = NOTHING, 0, 0
     while node >= world.num_depots:
         load = plus(load, demand_of(world.place[0, node]))
         count += 1
+        distance += linked.link[node].inward
         node = linked.link[node].before
-    return load, count
+    return Part(load, count, distance)
+
+
+@inlined
+def tail_behind(world: World, linked: Linked, run: Record, head: Part, first: int) -> Part:
+    """Return the part of a route behind its head, which a customer leads, none if a depot does."""
+    if first < world.num_depots:
+        return Part(NOTHING, 0, 0)
+    around = linked.link[first].inward + linked.link[run.last].onward
+    return Part(minus(amount_of(run.load), head.load), run.count - head.customers,
+                run.distance - head.distance - around)
 
 
 @spliced
@@ -160,6 +196,24 @@ def assign(world: World, linked: Linked, node: int, slot: int) -> None:
     while node >= world.num_depots:
         linked.link[node].slot = slot
         node = linked.link[node].behind
+
+
+@spliced
+def end_with(world: World, linked: Linked, slot: int, head: Part, before: int, tail: Part,
+             first: int, last: int) -> None:
+    """Let a route go on behind its head, which `before` ends, with another's tail. In place."""
+    run = linked.run[slot]
+    end = world.type[run.type].ends_at
+    assign(world, linked, first, slot)
+    run.distance = head.distance + tail.distance
+    run.distance += connect(world, linked, slot, before, first if tail.customers > 0 else end)
+    if tail.customers > 0:
+        run.distance += connect(world, linked, slot, last, end)
+    run.count = head.customers + tail.customers
+    write_amount(plus(head.load, tail.load), run.load)
+    if linked.timed:
+        drive_on(world, linked, slot, first, 1)
+        look_back(world, linked, slot, run.last, tail.customers + 1)
 
 
 @spliced
@@ -174,13 +228,11 @@ def swap_tails_linked(world: World, searcher: Searcher, linked: Linked, node: in
     k, after, is_new = one.type, link[node].behind, other < world.num_depots
     by = k if is_new else two.type
     before = world.type[k].begins_at if is_new else link[other].before
-    load, count = part_until(world, linked, node)
-    load_by, count_by = part_until(world, linked, before)
-    rest, number = NOTHING, 0
-    if not is_new:
-        rest, number = minus(amount_of(two.load), load_by), two.count - count_by
-    tail = minus(amount_of(one.load), load)
-    if not (holds(world.type[k], plus(load, rest)) and holds(world.type[by], plus(load_by, tail))):
+    head, head_by = head_until(world, linked, node), head_until(world, linked, before)
+    tail = tail_behind(world, linked, one, head, after)
+    tail_by = tail_behind(world, linked, two, head_by, other)
+    if not (holds(world.type[k], plus(head.load, tail_by.load))
+            and holds(world.type[by], plus(head_by.load, tail.load))):
         return False
     # Vehicles of other types may have to be home at other times, and elsewhere.
     if by != k and linked.timed and not (
@@ -190,21 +242,9 @@ def swap_tails_linked(world: World, searcher: Searcher, linked: Linked, node: in
         return False
     if is_new:
         open_run(world, searcher, linked, b, k)
-    last, last_by, moved = one.last, two.last, one.count - count
-    assign(world, linked, other, a)
-    assign(world, linked, after, b)
-    connect(world, linked, a, node, other)
-    connect(world, linked, b, before, after if moved > 0 else world.type[by].ends_at)
-    connect(world, linked, a, last_by if number > 0 else node, world.type[k].ends_at)
-    connect(world, linked, b, last if moved > 0 else before, world.type[by].ends_at)
-    one.count, two.count = count + number, count_by + moved
-    write_amount(plus(load, rest), one.load)
-    write_amount(plus(load_by, tail), two.load)
-    if linked.timed:
-        drive_on(world, linked, a, other, 1)
-        drive_on(world, linked, b, after, 1)
-        look_back(world, linked, a, one.last, number + 1)
-        look_back(world, linked, b, two.last, moved + 1)
+    last, last_by = one.last, two.last
+    end_with(world, linked, a, head, node, tail_by, other, last_by)
+    end_with(world, linked, b, head_by, before, tail, after, last)
     if two.count == 0:
         close_run(searcher, linked, b)
     return True

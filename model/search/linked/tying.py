@@ -6,14 +6,11 @@ from model.kernel.load import NOTHING, demand_of, plus, write_amount
 from model.search.linked.chain import connect, forget, retime
 from model.search.linked.layout import Linked
 from model.search.route.edit import put
-from model.search.route.layout import CUSTOMER, END, NOWHERE, START, Fleet, World
+from model.search.route.layout import CUSTOMER, END, NOWHERE, OTHERS, START, Fleet, World
 from model.search.route.refresh import locate, refresh
 from model.search.route.state import ALL, Searcher, left_out_cost
 
 FARTHEST = 2**31 - 1
-
-ANOTHERS = -1
-"""Stamp of a route of the best plan, which no route as it is has."""
 
 
 @compiled
@@ -53,9 +50,9 @@ def link_route(world: World, linked: Linked, fleet: Fleet, slot: int) -> None:
     """Link the stops of a route. In place."""
     route, run = fleet.route[slot], linked.run[slot]
     stops, load = fleet.stop[slot], NOTHING
-    run.type, run.count = route.type, route.length - 2
+    run.type, run.count, run.distance = route.type, route.length - 2, 0
     for p in range(1, route.length):
-        connect(world, linked, slot, stops[p - 1].node, stops[p].node)
+        run.distance += connect(world, linked, slot, stops[p - 1].node, stops[p].node)
         if p < route.length - 1:
             linked.link[stops[p].node].slot = slot
             load = plus(load, demand_of(world.place[0, stops[p].node]))
@@ -86,7 +83,7 @@ def write_back(world: World, searcher: Searcher, linked: Linked) -> None:
         for fleet in (now, best):
             fleet.route[slot].length = fleet.route[slot].trips = fleet.route[slot].sorties = 0
             fleet.cost[slot] = 0.0
-        now.route[slot].stamp, best.route[slot].stamp = count.stamp, ANOTHERS
+        now.route[slot].stamp, best.route[slot].stamp = count.stamp, OTHERS
     for index in range(count.active):
         slot = searcher.active[index]
         run = linked.run[slot]

@@ -97,7 +97,7 @@ def open_route(world: World, searcher: Searcher, node: int, k: int, by_drone: bo
         return False
     now.used[k] += 1
     locate(now, slot)
-    list_anew(searcher, slot)
+    list_anew(searcher, slot, True)
     return True
 
 

@@ -54,6 +54,9 @@ ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "o
 CHANGING = 0
 """Stamp of a route that this turn changes; any other stands for what the route in the slot is."""
 
+OTHERS = -1
+"""Stamp of a route of the best plan that was not made turn by turn: no route as it is has it."""
+
 KEPT = record("stamp", "detour", "stop")
 """Stamp of the route, shortest detour for a customer, stop before it; -1 if none is that short."""
 

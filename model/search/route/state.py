@@ -16,7 +16,9 @@ COUNTS = record("active", "missing", "absent", "touched", "turn", "stamp", "best
 
 `changed` is `ALL` where any slot may have changed since the best; customers are drawn near `focus`,
 another every `stay` turns, or everywhere if that is 0."""
-VALUES = record(cost=float, best=float, temperature=float, cooling=float)
+VALUES = record(cost=float, best=float, temperature=float, cooling=float, longest=float)
+"""Of the routes as they are, and at their best; of the annealing; and how long strings are at most
+where routes are long."""
 ALL = -1
 
 
@@ -112,13 +114,10 @@ def list_active(searcher: Searcher) -> None:
 
 
 @inlined
-def list_anew(searcher: Searcher, slot: int) -> None:
-    """Move a slot to those in use, or to those that are free, if it is no longer listed right.
-
-    In place.
-    """
+def list_anew(searcher: Searcher, slot: int, used: bool) -> None:
+    """List a slot among those in use, or those that are free, if it isn't yet. In place."""
     active, rank, count = searcher.active, searcher.rank, searcher.count
-    used, place = searcher.now.route[slot].length > 0, rank[slot]
+    place = rank[slot]
     if used == (place < count.active):
         return
     if not used:
@@ -134,7 +133,8 @@ def list_anew(searcher: Searcher, slot: int) -> None:
 def list_touched(searcher: Searcher) -> None:
     """List the slots touched this turn where they belong. In place."""
     for index in range(searcher.count.touched):
-        list_anew(searcher, searcher.touched[index])
+        slot = searcher.touched[index]
+        list_anew(searcher, slot, searcher.now.route[slot].length > 0)
 
 
 @inlined
@@ -168,6 +168,16 @@ def keep_aside(fleet: Fleet, slot: int, to: int) -> None:
 
 
 @inlined
+def note_changed(searcher: Searcher, slot: int) -> None:
+    """List a slot as changed since the best. In place."""
+    count = searcher.count
+    if count.changed != ALL and not searcher.is_changed[slot]:
+        searcher.is_changed[slot] = True
+        searcher.changed[count.changed] = slot
+        count.changed += 1
+
+
+@inlined
 def list_all_changed(searcher: Searcher) -> None:
     """List all slots as changed since the best. In place."""
     for slot in range(len(searcher.is_changed)):
@@ -188,11 +198,17 @@ def keep_best(searcher: Searcher) -> None:
         searcher.is_changed[slot] = False
         if now.route[slot].stamp != best.route[slot].stamp:
             copy_route(now, slot, best, slot, searcher.count.lean)
+    keep_totals(searcher)
+
+
+@inlined
+def keep_totals(searcher: Searcher) -> None:
+    """Take what is known of all routes as they are for that of the best. In place."""
+    count = searcher.count
     count.changed = 0
-    copy_row(now.used, best.used)
-    missing = searcher.count.missing
-    searcher.count.best_missing = missing
-    copy_some(searcher.missing, searcher.best_missing, missing)
+    copy_row(searcher.now.used, searcher.best.used)
+    count.best_missing = count.missing
+    copy_some(searcher.missing, searcher.best_missing, count.missing)
     searcher.value.best = searcher.value.cost
 
 
@@ -248,10 +264,7 @@ def accept(searcher: Searcher, cost: float) -> None:
         if len(searcher.kept) > 0 and is_same(searcher.now, slot, searcher.before, index):
             stamp = searcher.before.route[index].stamp
         searcher.now.route[slot].stamp = stamp
-        if count.changed != ALL and not searcher.is_changed[slot]:
-            searcher.is_changed[slot] = True
-            searcher.changed[count.changed] = slot
-            count.changed += 1
+        note_changed(searcher, slot)
     count.missing = count.absent
     copy_some(searcher.absent, searcher.missing, count.absent)
     searcher.value.cost = cost

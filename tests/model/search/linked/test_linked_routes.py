@@ -13,7 +13,7 @@ from model.search.beginning.translate import make_searcher
 from model.search.linked.anneal import anneal_linked
 from model.search.linked.layout import Linked, make_linked
 from model.search.linked.tying import measure_near, tie, write_back
-from model.search.route.layout import World
+from model.search.route.layout import NOWHERE, World
 from model.search.route.state import Searcher
 from model.search.world import are_timed, can_be_linked, make_world
 from model.solution import Solution
@@ -66,6 +66,18 @@ def with_other_shifts(size: int) -> Problem:
         problem, customers=tuple(replace(each, skills=frozenset()) for each in problem.customers),
         vehicle_types=tuple(replace(kind, skills=frozenset(), latest=day // number)
                             for number, kind in enumerate(problem.vehicle_types, 1)))
+
+
+def with_several_types(size: int) -> Problem:
+    """Return one with windows, and few vehicles of each of four types that cost otherwise."""
+    problem = with_windows(size)
+    (kind,) = problem.vehicle_types
+    types = tuple(replace(
+        kind, id=str(number), count=2 + size // 12, capacity=(kind.capacity[0] * number // 2,),
+        fixed_cost=problem.unassigned_cost / 50 * number ** 1.5,
+        cost_per_km=kind.cost_per_km * (0.7 + 0.2 * number),
+        cost_per_stop=problem.unassigned_cost / 1000 * number) for number in range(1, 5))
+    return replace(problem, vehicle_types=types)
 
 
 def with_one_way_streets(size: int) -> Problem:
@@ -123,19 +135,24 @@ def routes_of(world: World, searcher: Searcher, linked: Linked) -> list[list[int
         assert (linked.link["slot"][nodes] == slot).all()
         demand = world.place[0, nodes, 0]["demand"].sum(axis=0)
         assert (linked.run["load"][slot] == demand).all()
+        home = linked.link["onward"][nodes[-1]]
+        assert run.distance == linked.link["inward"][nodes].sum() + home
         routes.append(nodes)
+    types = linked.run["type"][searcher.active[:searcher.count.active]]
+    assert (searcher.now.used == np.bincount(types, minlength=world.num_types)).all()
+    assert (linked.former == NOWHERE).all()
     return routes
 
 
 @pytest.mark.parametrize("make", [
     loads_alone, with_windows, with_few_vehicles, with_two_depots, with_other_shifts,
-    with_one_way_streets, on_the_globe])
+    with_several_types, with_one_way_streets, on_the_globe])
 @pytest.mark.parametrize("size", [40, 420])
 def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-untyped-def]
     problem = make(size)
     world, searcher, linked = begun(problem)
     everybody = set(range(world.num_depots, world.num_nodes))
-    best, left_out = float(searcher.value.best), 0
+    best, left_out, used = float(searcher.value.best), 0, searcher.now.used.copy()
     for _ in range(BATCHES):
         anneal_linked(world, searcher, linked, TURNS)
         served = [node for nodes in routes_of(world, searcher, linked) for node in nodes]
@@ -151,11 +168,14 @@ def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-un
         tie(world, searcher, linked)
     if make is with_few_vehicles:
         assert left_out > 0
+    if make is with_several_types:
+        assert (searcher.now.used != used).any()
     write_back(world, searcher, linked)
     assert check(problem, read_plan(world, searcher)).violations == ()
 
 
-@pytest.mark.parametrize("make", [loads_alone, with_windows, with_one_way_streets])
+@pytest.mark.parametrize("make", [
+    loads_alone, with_windows, with_several_types, with_one_way_streets])
 @pytest.mark.parametrize("moments", [None, 3])
 def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore[no-untyped-def]
     world, searcher, linked = begun(make(120))
@@ -165,6 +185,7 @@ def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore
         # Fewer times can be noted than a turn changes.
         linked = linked._replace(moment=linked.moment[:moments])
     routes, links = routes_of(world, searcher, linked), linked.link.copy()
+    runs = linked.run[["type", "distance"]][searcher.active[:searcher.count.active]]
     served = np.concatenate(routes)
     # No plan is cheaper by so much, and nothing is given up before all are inserted.
     searcher.value.temperature = -1e12
@@ -172,6 +193,8 @@ def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore
     assert sorted(routes_of(world, searcher, linked)) == sorted(routes)
     assert (linked.link[served][["before", "behind", "inward", "onward"]]
             == links[served][["before", "behind", "inward", "onward"]]).all()
+    now = linked.run[["type", "distance"]][searcher.active[:searcher.count.active]]
+    assert sorted(now.tolist()) == sorted(runs.tolist())
     if linked.timed:
         assert (linked.link[served][["gap", "leave", "latest"]]
                 == links[served][["gap", "leave", "latest"]]).all()
