@@ -31,6 +31,11 @@ of the time; and how many there are at most in a search."""
 LINKED_LOOKS = 8
 """How many times as many turns, where stops are linked: they take as much less time."""
 
+STRINGS, MOST_STRINGS, FOR_STRINGS = 10.0, 20.0, 2000
+"""How long strings are on long routes, and the turns for each customer up to which they are: with
+more, they grow by the root of these. That brings far more there than as many turns by short ones,
+which with few turns come further. Where drones fly, others limit them."""
+
 LOOK = 5e-6
 """Seconds for each node that one may take."""
 
@@ -97,6 +102,13 @@ class Worker:
             take_better_parts(self.world, self.searcher)
             tie(self.world, self.searcher, self.linked)
 
+    def _longest_string(self) -> float:
+        """Return how many customers a string has at most where routes are long."""
+        if self.heat.drones:
+            return STRINGS
+        growth = math.sqrt(self.expected() / FOR_STRINGS)
+        return min(MOST_STRINGS, STRINGS * max(1.0, growth))
+
     def _slice(self, seconds: float) -> float:
         if self.limits.turns is not None and self.limits.deadline == math.inf:
             return math.ceil(self.limits.turns / (4 * ROUNDS))
@@ -116,6 +128,7 @@ class Worker:
             value.temperature = hot
             value.cooling = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
             self.cooling = span
+        value.longest = self._longest_string()
         began, before = time.perf_counter(), int(self.searcher.count.turn)
         if self.linked is None:
             anneal(self.world, self.searcher, turns, ANY)

@@ -4,7 +4,7 @@ from model.kernel.compiled import spliced
 from model.search.linked.chain import close_run, cut_out, drive_on, look_back
 from model.search.linked.layout import MOST_REMOVED, Linked
 from model.search.moves.ruin import (
-    AVERAGE_REMOVED, LONGEST_TRIP, MAKE_ROOM, SPLIT, SPLIT_MORE, WHOLE_TRIP, longest_string,
+    LONGEST_TRIP, MAKE_ROOM, SPLIT, SPLIT_MORE, WHOLE_TRIP, draw_strings, longest_string,
 )
 from model.search.route.layout import NOWHERE, World
 from model.search.route.randomness import below, uniform
@@ -78,7 +78,7 @@ def ruin_linked(world: World, searcher: Searcher, linked: Linked) -> tuple[float
     """
     link, count, rng = linked.link, searcher.count, searcher.rng
     longest, saved = longest_string(searcher), 0.0
-    strings = 1 + int(uniform(rng) * (4 * AVERAGE_REMOVED / (1 + longest) - 1))
+    strings = draw_strings(longest, rng)
     seed = draw_customer(world, searcher.now, count.focus, rng)
     if count.absent > 0 and uniform(rng) < MAKE_ROOM:
         seed = searcher.absent[below(rng, count.absent)]

@@ -11,6 +11,8 @@ from model.search.route.state import Searcher
 
 AVERAGE_REMOVED = 10
 LONGEST_STRING = 10
+STRING_OF_LONG = 0.25
+"""Share of a long route that a string is at most, where `Searcher.value` allows longer ones."""
 SPLIT = 0.5
 SPLIT_MORE = 0.01
 WHOLE_TRIP = 0.05
@@ -79,13 +81,24 @@ def mark_around(fleet: Fleet, customer: int, longest: float, marked: BoolArray, 
 
 @spliced
 def longest_string(searcher: Searcher) -> float:
-    """Return how many stops a string has at most: as many as a trip has on average, or less."""
+    """Return how many stops a string has at most: as many as a trip has on average, or less.
+
+    Up to `LONGEST_STRING`, and on long routes up to what `Searcher.value` says.
+    """
     count, trips = searcher.count, searcher.count.active
     if not count.lean:
         trips = 0
         for index in range(count.active):
             trips += searcher.now.route[searcher.active[index]].trips
-    return min(float(LONGEST_STRING), (count.customers - count.absent) / max(1, trips))
+    stops = (count.customers - count.absent) / max(1, trips)
+    return min(stops, max(LONGEST_STRING, min(searcher.value.longest, STRING_OF_LONG * stops)))
+
+
+@spliced
+def draw_strings(longest: float, rng: UIntArray) -> int:
+    """Return how many strings are removed: fewer if they are long."""
+    removed = max(float(AVERAGE_REMOVED), longest)
+    return 1 + int(uniform(rng) * (4 * removed / (1 + longest) - 1))
 
 
 @spliced
@@ -98,7 +111,7 @@ def choose(world: World, searcher: Searcher, longest: float, absent: IntArray, n
     """
     fleet, marked, hit, rng = searcher.now, searcher.marked, searcher.hit, searcher.rng
     num_touched, turn = 0, searcher.count.turn
-    strings = 1 + int(uniform(rng) * (4 * AVERAGE_REMOVED / (1 + longest) - 1))
+    strings = draw_strings(longest, rng)
     customer = draw_customer(world, fleet, searcher.count.focus, rng)
     if num_absent > 0 and uniform(rng) < MAKE_ROOM:
         customer = absent[below(rng, num_absent)]
