@@ -164,6 +164,12 @@ def are_alike(world: World) -> bool:
         for field in ("travel", "capacity", "pickup_order"))
 
 
+def from_one_place(world: World) -> bool:
+    """Tell whether all vehicles begin at one place and end at one."""
+    kinds = world.type[:world.num_types]
+    return all(bool((kinds[field] == kinds[0][field]).all()) for field in ("begins_at", "ends_at"))
+
+
 def only_loads_limit(world: World) -> bool:
     """Tell whether trucks make one trip each, whenever they like."""
     served = world.place[0, world.num_depots:, 0]

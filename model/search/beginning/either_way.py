@@ -8,14 +8,13 @@ pieces than joining ends to beginnings, elsewhere it is a little worse: so both 
 import numpy as np
 
 from model.kernel.compiled import compiled, inlined
-from model.kernel.leg import leg, legs_of
 from model.kernel.load import followed
 from model.kernel.records import Record, Records
 from model.kernel.shift import allows_stops
 from model.problem import IntArray
 from model.search.beginning.savings import (
-    CHAIN, cargo_of, chain_cargo, joined, may_join, pair, ranked_pairs, routes_of, set_chain_cargo,
-    set_up_cargo,
+    CHAIN, cargo_of, chain_cargo, cost_of, joined, may_join, pair, ranked_pairs, routes_of,
+    set_chain_cargo, set_up_cargo,
 )
 from model.search.route.layout import NOWHERE, World
 
@@ -38,23 +37,9 @@ def shortest_routes(world: World, k: int) -> list[list[int]]:
 
     def cost(chain: Records) -> tuple[int, float]:
         routes = int(np.count_nonzero(chain["before"][world.num_depots:] == NOWHERE))
-        return max(0, routes - count), (length_of(world, k, chain) * world.rate[k].distance
-                                        + routes * world.rate[k].fixed)
+        return max(0, routes - count), cost_of(world, k, chain)
 
     return routes_of(world, k, min(chains, key=cost))
-
-
-@compiled
-def length_of(world: World, k: int, chain: Records) -> int:
-    """Return how far all routes are."""
-    legs, kind = legs_of(world.leg, world.type[k].travel), world.type[k]
-    length = 0
-    for node in range(world.num_depots, world.num_nodes):
-        before, behind = chain[node].before, chain[node].behind
-        if before == NOWHERE:
-            length += leg(legs, kind.begins_at, node).distance
-        length += leg(legs, node, kind.ends_at if behind == NOWHERE else behind).distance
-    return length
 
 
 @compiled

@@ -6,6 +6,8 @@ Clarke and Wright (1964), scheduling of vehicles from a central depot to a numbe
 points, Operations Research 12:568-581.
 """
 
+import math
+
 import numpy as np
 
 from model.kernel.compiled import compiled, inlined
@@ -84,6 +86,39 @@ def routes_of(world: World, k: int, chain: Records) -> list[list[int]]:
     first, behind = world.num_depots, chain["behind"].tolist()
     heads = first + np.flatnonzero(world.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
     return [_customers(behind, head) for head in heads.tolist()]
+
+
+def cost_of(world: World, k: int, chain: Records) -> float:
+    """Return what routes of a type cost but for their stops."""
+    first = world.num_depots
+    routes = np.count_nonzero(world.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
+    rate = world.rate[k]
+    return float(routes * rate.fixed + length_of(world, k, chain) * rate.distance)
+
+
+def cost_by_savings(world: World, k: int) -> float:
+    """Return what each customer costs by routes of a type, however many there may be."""
+    customers = int(np.count_nonzero(world.can[k, 0, world.num_depots:]))
+    if customers == 0:
+        return math.inf
+    ranks = min(NEIGHBOURS, world.near.shape[1])
+    chain = joined(world, k, ranks, ranked_pairs(world, k, ranks))
+    return cost_of(world, k, chain) / customers + float(world.rate[k].stop)
+
+
+@compiled
+def length_of(world: World, k: int, chain: Records) -> int:
+    """Return how far the routes of all whom a type may serve are."""
+    legs, kind = legs_of(world.leg, world.type[k].travel), world.type[k]
+    length = 0
+    for node in range(world.num_depots, world.num_nodes):
+        if not world.can[k, 0, node]:
+            continue
+        before, behind = chain[node].before, chain[node].behind
+        if before == NOWHERE:
+            length += leg(legs, kind.begins_at, node).distance
+        length += leg(legs, node, kind.ends_at if behind == NOWHERE else behind).distance
+    return length
 
 
 def by_nearest(world: World) -> BoolArray:

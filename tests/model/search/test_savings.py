@@ -92,6 +92,7 @@ def test_savings_serve_from_the_nearest_of_several_places() -> None:
     first = first_plan(problem, make_world(problem, pack([problem])))
     assert [(route.vehicle_type, sorted(stop.node for stop in route.trips[0].stops))
             for route in first.routes] == [(0, [0, 0, 2, 3]), (1, [1, 1, 4, 5])]
+    # Insertion begins where it costs least; savings of one type would all begin at its place.
     for other in ({"capacity": (5000,)}, {"cost_per_hour": 1.0}, {"fixed_cost": 1.0}):
         problem = from_two_places(TRUCK, replace(TRUCK, id="far", depot=1, **other))
         assert first_plan(problem, make_world(problem, pack([problem]))).routes == ()
@@ -109,14 +110,29 @@ def test_savings_leave_whom_a_type_may_not_serve_to_others() -> None:
         assert may[route.vehicle_type, np.array(customers) - problem.num_depots].all()
 
 
-def test_savings_begin_the_search_only_where_all_vehicles_are_alike() -> None:
+def test_savings_go_on_by_the_next_type_once_all_vehicles_of_the_cheapest_drive() -> None:
+    problem = on_a_plane(
+        [(1, 9), (2, 9), (9, 1), (9, 2), (-9, -9)],
+        replace(TRUCK, id="dear", count=9, capacity=(2000,), fixed_cost=5.0),
+        replace(TRUCK, id="cheap", count=1, capacity=(2000,)),
+        replace(TRUCK, id="small", count=9, capacity=(1000,), fixed_cost=4.0))
+    first = first_plan(problem, make_world(problem, pack([problem])))
+    served = [(problem.vehicle_types[route.vehicle_type].id,
+               {stop.node for stop in route.trips[0].stops} - {0}) for route in first.routes]
+    assert [kind for kind, _ in served] == ["cheap", "dear", "dear"]
+    assert {frozenset(nodes) for _, nodes in served} == {
+        frozenset({1, 2}), frozenset({3, 4}), frozenset({5})}
+
+
+def test_savings_begin_the_search_where_vehicles_are_alike_or_distance_alone_costs() -> None:
     places = [(1.0, 0.0), (2.0, 0.0)]
     van = replace(TRUCK, id="van", capacity=(1000,))
     with_drone = replace(TRUCK, drones=DroneType(1, (1000,), 0))
-    for kinds, joined in (((TRUCK,), True), ((TRUCK, van), False), ((with_drone,), False),
-                          ((replace(TRUCK, max_trips=2),), True)):
+    twice = (TRUCK, replace(van, max_trips=2))
+    for kinds, joined in (((TRUCK,), True), ((TRUCK, van), True), (twice, False),
+                          ((with_drone,), False), ((replace(TRUCK, max_trips=2),), True)):
         problem = on_a_plane(places, *kinds)
         first = first_plan(problem, make_world(problem, pack([problem])))
         assert (len(first.routes) == 1) == joined
         grounded = make_world(problem, pack([problem]), Moves(loops=False, crossings=False))
-        assert (len(first_plan(problem, grounded).routes) == 1) == (kinds != (TRUCK, van))
+        assert (len(first_plan(problem, grounded).routes) == 1) == (kinds != twice)
