@@ -208,3 +208,20 @@ def test_turns_by_turns_are_the_same_again() -> None:
         write_back(world, searcher, linked)
         plans.append(read_plan(world, searcher))
     assert plans[0] == plans[1]
+
+
+@pytest.mark.parametrize(("stops", "longer"), [(60, True), (12, False)])
+def test_strings_grow_on_long_routes_alone(stops: int, longer: bool) -> None:
+    problem = loads_alone(240)
+    (kind,) = problem.vehicle_types
+    carried = sum(each.demand[0] for each in problem.customers)
+    problem = replace(problem, vehicle_types=(
+        replace(kind, capacity=(carried * stops // problem.num_customers,)),))
+    plans = []
+    for longest in (10.0, 20.0):
+        world, searcher, linked = begun(problem)
+        searcher.value.longest = longest
+        anneal_linked(world, searcher, linked, 300)
+        write_back(world, searcher, linked)
+        plans.append(read_plan(world, searcher))
+    assert (plans[0] != plans[1]) == longer
