@@ -9,7 +9,7 @@ from model.kernel.alarm import rung
 from model.kernel.compiled import spliced
 from model.kernel.instance import FAR
 from model.kernel.leg import (
-    distance_from, distance_to, leg_from, leg_to, legs_from, legs_to,
+    LegRow, distance_from, distance_to, leg_from, leg_to, legs_from, legs_to,
 )
 from model.kernel.load import amount_of, fits
 from model.kernel.records import Record
@@ -27,6 +27,14 @@ from model.search.route.edit import AT_STOP
 from model.search.route.layout import NOWHERE, World
 from model.search.route.randomness import below, uniform
 from model.search.route.state import Searcher, free_slot
+
+
+class Newcomer(NamedTuple):
+    """A customer to be inserted, and the legs there and from there."""
+
+    node: int
+    inward: LegRow
+    onward: LegRow
 
 
 class Joining(NamedTuple):
@@ -79,21 +87,19 @@ def keeps_windows(world: World, linked: Linked, kind: Record, before: int, behin
 
 @spliced
 def try_between(world: World, searcher: Searcher, linked: Linked, joins: Joining, before: int,
-                behind: int, leg: int, node: int, best: float) -> float:
+                behind: int, leg: int, newcomer: Newcomer, best: float) -> float:
     """Try a customer between two who are so far apart; return the best cost so far.
 
     In place: `searcher.move`, if that is the best.
     """
-    k = np.uint64(joins.type)
-    m = np.uint64(world.type[k].travel)
-    inward, onward = legs_to(world.back, m, node), legs_from(world.leg, m, node)
+    k, inward, onward = np.uint64(joins.type), newcomer.inward, newcomer.onward
     detour = distance_from(inward, before) + distance_to(onward, behind) - leg
     cost = detour * world.rate[k].distance + joins.cost
     if cost >= best:
         return best
     if linked.timed and not keeps_windows(
-            world, linked, world.type[k], before, behind, node, leg_from(inward, before).duration,
-            leg_to(onward, behind).duration):
+            world, linked, world.type[k], before, behind, newcomer.node,
+            leg_from(inward, before).duration, leg_to(onward, behind).duration):
         return best
     if uniform(searcher.rng) < world.blink:
         return best
@@ -112,8 +118,8 @@ def longest_detour(cheapest: Record, best: float) -> int:
 
 
 @spliced
-def try_beside(world: World, searcher: Searcher, linked: Linked, node: int, enlarge: bool,
-               best: float) -> float:
+def try_beside(world: World, searcher: Searcher, linked: Linked, newcomer: Newcomer,
+               enlarge: bool, best: float) -> float:
     """Try a customer beside neighbours. As `try_between`.
 
     Most are passed over by the triangle inequality: unless who comes before or behind a neighbour
@@ -121,7 +127,7 @@ def try_beside(world: World, searcher: Searcher, linked: Linked, node: int, enla
     less the longer of the neighbour's legs.
     """
     link, run, cheapest = linked.link, linked.run, linked.cheapest
-    others, near = world.fit[node], linked.near[node]
+    others, near = world.fit[newcomer.node], linked.near[newcomer.node]
     most = longest_detour(cheapest, best)
     for rank in range(len(others)):
         other = int(others[rank])
@@ -131,32 +137,34 @@ def try_beside(world: World, searcher: Searcher, linked: Linked, node: int, enla
         slot = at.slot
         if slot < 0 or 2 * int(near[rank]) - max(at.inward, at.onward) >= most:
             continue
-        joins = joining(world, searcher, slot, run[slot], node, enlarge)
+        joins = joining(world, searcher, slot, run[slot], newcomer.node, enlarge)
         if joins.slot < 0:
             continue
         before = best
-        best = try_between(world, searcher, linked, joins, other, at.behind, at.onward, node, best)
-        best = try_between(world, searcher, linked, joins, at.before, other, at.inward, node, best)
+        best = try_between(world, searcher, linked, joins, other, at.behind, at.onward, newcomer,
+                           best)
+        best = try_between(world, searcher, linked, joins, at.before, other, at.inward, newcomer,
+                           best)
         if best < before:
             most = longest_detour(cheapest, best)
     return best
 
 
 @spliced
-def try_ends(world: World, searcher: Searcher, linked: Linked, joins: Joining, node: int,
+def try_ends(world: World, searcher: Searcher, linked: Linked, joins: Joining, newcomer: Newcomer,
              best: float) -> float:
     """Try a customer first and last on a route. As `try_between`."""
     run = linked.run[joins.slot]
     kind, first, last = world.type[run.type], run.first, run.last
     best = try_between(world, searcher, linked, joins, kind.begins_at, first,
-                       linked.link[first].inward, node, best)
+                       linked.link[first].inward, newcomer, best)
     return try_between(world, searcher, linked, joins, last, kind.ends_at,
-                       linked.link[last].onward, node, best)
+                       linked.link[last].onward, newcomer, best)
 
 
 @spliced
-def try_passing(world: World, searcher: Searcher, linked: Linked, node: int, enlarge: bool,
-                best: float) -> float:
+def try_passing(world: World, searcher: Searcher, linked: Linked, newcomer: Newcomer,
+                enlarge: bool, best: float) -> float:
     """Try a customer first and last on routes drawn, as `insertion.passing` says."""
     active, number = searcher.active, searcher.count.active
     if number == 0:
@@ -164,15 +172,15 @@ def try_passing(world: World, searcher: Searcher, linked: Linked, node: int, enl
     begin = below(searcher.rng, number)
     for index in range(begin, begin + min(MOST_DRAWN, number // EACH_DRAWN)):
         slot = active[index if index < number else index - number]
-        joins = joining(world, searcher, slot, linked.run[slot], node, enlarge)
+        joins = joining(world, searcher, slot, linked.run[slot], newcomer.node, enlarge)
         if joins.slot >= 0:
-            best = try_ends(world, searcher, linked, joins, node, best)
+            best = try_ends(world, searcher, linked, joins, newcomer, best)
     return best
 
 
 @spliced
-def try_everywhere(world: World, searcher: Searcher, linked: Linked, node: int, enlarge: bool,
-                   best: float) -> float:
+def try_everywhere(world: World, searcher: Searcher, linked: Linked, newcomer: Newcomer,
+                   enlarge: bool, best: float) -> float:
     """Try a customer on all routes with room. As `try_between`."""
     link = linked.link
     for index in range(searcher.count.active):
@@ -180,15 +188,15 @@ def try_everywhere(world: World, searcher: Searcher, linked: Linked, node: int, 
         run = linked.run[slot]
         if rung(world.stop):
             break
-        joins = joining(world, searcher, slot, run, node, enlarge)
+        joins = joining(world, searcher, slot, run, newcomer.node, enlarge)
         if joins.slot < 0:
             continue
-        best = try_ends(world, searcher, linked, joins, node, best)
+        best = try_ends(world, searcher, linked, joins, newcomer, best)
         before = run.first
         while before != run.last:
             behind = link[before].behind
             best = try_between(world, searcher, linked, joins, before, behind,
-                               link[before].onward, node, best)
+                               link[before].onward, newcomer, best)
             before = behind
     return best
 
@@ -220,6 +228,7 @@ def recreate_linked(world: World, searcher: Searcher, linked: Linked, first: int
     In place; returns whether all were tried, and what routes cost more then.
     """
     absent, count, total = searcher.absent, searcher.count, 0.0
+    m = world.type[0].travel  # that of all types, looked up once for each customer
     opening, left = uniform(searcher.rng) < OPENING, first
     enlarge = world.traded and uniform(searcher.rng) < ENLARGED
     for index in range(first, count.absent):
@@ -227,14 +236,15 @@ def recreate_linked(world: World, searcher: Searcher, linked: Linked, first: int
         cost = INFEASIBLE
         if rung(world.stop):
             return False, total
+        newcomer = Newcomer(node, legs_to(world.back, m, node), legs_from(world.leg, m, node))
         alone = try_new_route(world, searcher, node)
         if opening and index == first:
             cost = alone
         else:
-            cost = try_beside(world, searcher, linked, node, enlarge, alone)
-            cost = try_passing(world, searcher, linked, node, enlarge, cost)
+            cost = try_beside(world, searcher, linked, newcomer, enlarge, alone)
+            cost = try_passing(world, searcher, linked, newcomer, enlarge, cost)
         if cost == INFEASIBLE:
-            cost = try_everywhere(world, searcher, linked, node, enlarge, cost)
+            cost = try_everywhere(world, searcher, linked, newcomer, enlarge, cost)
         left_out = world.unassigned_cost + world.unassigned_more[node]
         wanted = cost < left_out or (opening and index == first)
         if cost == INFEASIBLE or not wanted or not insert_linked(world, searcher, linked, node):
