@@ -4,15 +4,16 @@
 
 Plans CVRPLIB's instances of a folder with `best_known.csv`, and problems of the same kind that are
 drawn: by seed, customers, what a vehicle holds, and whether the depot lies `central` or
-`eccentric`. One thread. What legs and neighbours take is told, and comes before the budget. With
-`--filo2` and the path of that program, built from its source, it plans each problem next, in as
-much processor time, of which all that it does counts.
+`eccentric`. With `--types` trucks half as large and twice as large drive as well. One thread. What
+and neighbours take is told, and comes before the budget. With `--filo2` and the path of that
+program, built from its source, it plans each problem next, in as much processor time, of which all
+that it does counts.
 """
 
 import resource
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 from unittest.mock import patch
@@ -51,6 +52,10 @@ DEMANDS, SHARES = (1, 2, 3), (0.5, 0.3, 0.2)
 
 METRE_A_SECOND = 3.6
 """Kilometres an hour."""
+
+SIZES = ((0.5, 0.5, 1.0, 1.0), (1.0, 0.9, 1.1, 0.5), (2.0, 1.7, 1.3, 0.3))
+"""Types of trucks: what they hold, by the truck alone; what they cost at all, by the mean way from
+the depot; what they cost a metre, and how many there are, by the truck alone."""
 
 WARM = "drawn-0-3000-30-central"
 """What is planned first, so that all is compiled."""
@@ -130,13 +135,25 @@ def as_problem(stated: Stated) -> Problem:
                    unassigned_cost=10.0 * legs.longest_distance())
 
 
+def with_types(problem: Problem) -> Problem:
+    """Return a problem with trucks of three types, which hold more the dearer they are."""
+    (truck,), (travel,) = problem.vehicle_types, problem.travel
+    way = float(travel.distance[0].mean()) / MM_PER_KM * truck.cost_per_km
+    return replace(problem, vehicle_types=tuple(
+        replace(truck, id=f"{size:g}", count=max(4, round(truck.count * share)),
+                capacity=tuple(int(each * size) for each in truck.capacity),
+                fixed_cost=way * fixed, cost_per_km=truck.cost_per_km * rate)
+        for size, fixed, rate, share in SIZES))
+
+
 def runs(folder: Path, name: str, budgets: list[float], seeds: int,
-         filo2: Path | None = None) -> Iterator[Row]:
+         filo2: Path | None = None, types: bool = False) -> Iterator[Row]:
     """Plan an instance by all budgets and seeds, which count from 1."""
     path = folder / f"{name}.vrp"
     stated = read(path) if path.exists() else drawn(name)
-    problem = as_problem(stated)
-    known = best_known_beside(path, "best_known")
+    problem, known = as_problem(stated), best_known_beside(path, "best_known")
+    if types:
+        problem, known = with_types(problem), float("nan")
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
     instance = pack([problem], legs=False)
@@ -184,16 +201,25 @@ def main(folder: Path, instances: Annotated[str, typer.Option()] = "Leuven2,Antw
          seconds: Annotated[str, typer.Option()] = "10,60",
          seeds: Annotated[int, typer.Option()] = 1,
          filo2: Annotated[Path | None, typer.Option(help="the program, to run beside")] = None,
+         types: Annotated[bool, typer.Option("--types", help="trucks of three types")] = False,
          output: Annotated[Path, typer.Option()] = Path("runs/bench/large.csv"),
          processor_time: Annotated[bool, typer.Option(
              "--processor-time", help="budgets of processor time")] = False) -> None:
-    """Plan, write a row for each run, and print the table of all rows."""
+    """Plan, write a row for each run, and print the table of all rows.
+
+    Raises
+    ------
+    ValueError
+        If FILO2, whose trucks are all alike, is to plan for trucks of three types.
+    """
+    if types and filo2 is not None:
+        raise ValueError("types, filo2: FILO2 plans for trucks all alike")
     if processor_time:
         time.perf_counter = time.process_time
-    list(runs(folder, WARM, [1.0], 1))
+    list(runs(folder, WARM, [1.0], 1, types=types))
     for name in instances.split(","):
         append_rows(output, Row, runs(folder, name, [float(each) for each in seconds.split(",")],
-                                      seeds, filo2))
+                                      seeds, filo2, types))
     Console().print(table(read_rows(output, Row)))
 
 
