@@ -57,7 +57,11 @@ goes on to another: what it looks at then is in the processor's cache. Where dro
 `LARGE_FROM` on."""
 
 FEW_TURNS = 300
-"""Turns for each customer below which it does; with more it brings nothing."""
+"""Turns for each customer below which it does; with more it brings nothing, but where customers are
+too many for the cache."""
+
+LARGER_THAN_CACHE = 20_000
+"""Number of customers from which on a search stays near one after another however long it is."""
 
 STAY = 200
 """Turns for which it does."""
@@ -145,8 +149,9 @@ class _Team:
     def _is_in_parts(self) -> bool:
         """Tell whether to stay near one customer after another, as far as is known."""
         least = LARGE_FROM if self.workers[0].heat.drones else IN_PARTS_FROM
-        return (int(self.whole.count.customers) >= least
-                and 0 < self._expected_turns() < FEW_TURNS)
+        customers, turns = int(self.whole.count.customers), self._expected_turns()
+        pays = customers >= LARGER_THAN_CACHE or turns < FEW_TURNS
+        return customers >= least and turns > 0 and pays
 
     def _expected_turns(self) -> float:
         """Return how many turns for each customer there are in all, as far as is known."""

@@ -205,6 +205,12 @@ def test_searches_of_few_turns_stay_near_one_customer_after_another(
     problem = generate(np.random.default_rng(2), 40, variant)
     judged(problem, search(problem, nobody(problem), 40 * turns))
     assert stays == expected
+    # More customers than fit the cache: however many turns there are, but not without parts.
+    stays.clear()
+    monkeypatch.setattr(searching, "LARGER_THAN_CACHE", 40)
+    judged(problem, search(problem, nobody(problem), 40 * 400))
+    parts = from_customers == 40 and variant == "cvrp"
+    assert stays == ({searching.STAY} if parts else {0})
 
 
 def test_search_without_an_end_is_refused() -> None:
