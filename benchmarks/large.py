@@ -5,7 +5,7 @@
 Plans CVRPLIB's instances of a folder with `best_known.csv`, and problems of the same kind that are
 drawn: by seed, customers, what a vehicle holds, and whether the depot lies `central` or
 `eccentric`. With `--types` trucks half as large and twice as large drive as well. One thread. What
-and neighbours take is told, and comes before the budget. With `--filo2` and the path of that
+legs and neighbours take is told, and comes before the budget. With `--filo2` and the path of that
 program, built from its source, it plans each problem next, in as much processor time, of which all
 that it does counts.
 """
