@@ -9,6 +9,7 @@ from model.search.linked.layout import Linked
 from model.search.linked.tying import tie, write_back
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.moves.anneal import ANY, anneal
+from model.search.moves.ruin import LONGEST_STRING
 from model.search.recombining import take_better_parts
 from model.search.route.layout import World
 from model.search.route.state import Searcher
@@ -31,10 +32,10 @@ of the time; and how many there are at most in a search."""
 LINKED_LOOKS = 8
 """How many times as many turns, where stops are linked: they take as much less time."""
 
-STRINGS, MOST_STRINGS, FOR_STRINGS = 10.0, 20.0, 2000
-"""How long strings are on long routes, and the turns for each customer up to which they are: with
-more, they grow by the root of these. That brings far more there than as many turns by short ones,
-which with few turns come further. Where drones fly, others limit them."""
+MOST_STRING, FOR_STRINGS = 20.0, 2000
+"""How long strings on long routes grow at most, and from how many turns for each customer on, by
+the root of these. That brings far more there than as many turns by short ones, which with few turns
+come further. Where drones fly they stay short."""
 
 LOOK = 5e-6
 """Seconds for each node that one may take."""
@@ -105,9 +106,9 @@ class Worker:
     def _longest_string(self) -> float:
         """Return how many customers a string has at most where routes are long."""
         if self.heat.drones:
-            return STRINGS
+            return LONGEST_STRING
         growth = math.sqrt(self.expected() / FOR_STRINGS)
-        return min(MOST_STRINGS, STRINGS * max(1.0, growth))
+        return min(MOST_STRING, LONGEST_STRING * max(1.0, growth))
 
     def _slice(self, seconds: float) -> float:
         if self.limits.turns is not None and self.limits.deadline == math.inf:
