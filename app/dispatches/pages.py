@@ -1,6 +1,7 @@
 """Drivers' page at `/drive/`, and the two endpoints that it asks, by the token of a link alone."""
 
 import hashlib
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -21,6 +22,7 @@ from app.load.bodies import Body
 from app.schemas.openapi import json_body, problems
 
 STATIC_DIR = Path(__file__).parent / "static"
+CONSOLE_DIR = Path(__file__).parents[1] / "console" / "static"
 WORKER = "sw.js"
 
 POLICY = "; ".join((
@@ -118,7 +120,9 @@ def mount_drivers_page(app: FastAPI) -> None:
 def _worker() -> str:
     """Return the service worker, which differs whenever any file does: then phones fetch all."""
     digest = hashlib.sha256()
-    for file in sorted(path for path in STATIC_DIR.rglob("*") if path.is_file()):
-        digest.update(file.read_bytes())
     script = (STATIC_DIR / WORKER).read_text("utf-8")
+    own = sorted(path for path in STATIC_DIR.rglob("*") if path.is_file())
+    shared = [CONSOLE_DIR / name for name in re.findall(r"'\.\./console/(.+)'", script)]
+    for file in [*own, *shared]:
+        digest.update(file.read_bytes())
     return f"const VERSION = '{digest.hexdigest()[:16]}';\n{script}"

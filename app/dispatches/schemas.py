@@ -106,6 +106,8 @@ class StepReply(_Reply):
         description="Who is served here, or by the drone launched; none at depots."
     )
     load: list[float] | None = Field(description="What is loaded before the trip departs.")
+    load_units: list[str] = Field(
+        [], description="What amounts are in, by dimension: its unit, else its name.")
 
 
 class StepStanding(_Reply):

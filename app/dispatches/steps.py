@@ -60,6 +60,8 @@ class StepMaker:
         self._depots = {depot.id: point_of(depot.location) for depot in problem.depots}
         self._customers = {customer.id: customer for customer in problem.customers}
         self._types = {kind.id: kind for kind in problem.fleet}
+        self._units = [dimension.unit or dimension.name
+                       for dimension in problem.load_dimensions or ()]
 
     def steps(self, route: RouteInput) -> list[StepReply]:
         """Return what the driver of a route does, in order."""
@@ -114,7 +116,7 @@ class StepMaker:
             id="", kind=name, trip=index + 1, stop=position,
             place=stop.id, place_kind=stop.kind, location=self._location(kind, stop),
             arrival=stop.arrival, time=time, departure=stop.departure, duration=0.0, windows=[],
-            drone=None, customers=[], load=None)
+            drone=None, customers=[], load=None, load_units=self._units)
 
     def _location(self, kind: VehicleTypeInput, stop: StopInput) -> DestinationReply | None:
         if not self._is_geographic:

@@ -1,5 +1,7 @@
 """Drivers: their page on a phone, with and without network, and what the console makes of it."""
 
+import re
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,7 +21,7 @@ from tests.console.test_everyone import findings
 
 Data = dict[str, Any]
 
-PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "locale": "de-DE"}
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "locale": "en-GB"}
 STATIC = Path(__file__).parents[2] / "app" / "dispatches" / "static"
 
 
@@ -75,7 +77,6 @@ def test_day_is_driven_without_network_and_caught_up(
     expect(page.get_by_role("status")).to_contain_text("2 not sent yet")
     mark(page, "A", "Failed")
     page.get_by_role("button", name="Nobody there").click()
-    page.get_by_role("button", name="It failed").click()
     expect(page.get_by_role("status")).to_contain_text("3 not sent yet")
     other = open_page(phone, link)
     phone.set_offline(False)
@@ -135,6 +136,59 @@ def test_page_shows_all_that_a_driver_needs_to_everyone(
     assert all(address.startswith(str(client.base_url)) for address in asked)
 
 
+def test_day_is_told_in_the_language_of_the_phone_and_loads_in_their_units(
+        client: httpx.Client, browser: Browser) -> None:
+    dimensions = [{"name": "weight", "unit": "kg"}]
+    sent = dispatched(client, problem=PROBLEM | {"load_dimensions": dimensions})
+    phone = browser.new_context(**PHONE | {"locale": "de-AT"})
+    page = open_page(phone, sent["links"][0])
+    expect(page.locator("html")).to_have_attribute("lang", "de")
+    expect(page.get_by_role("status")).to_have_text("Alles ist gesendet.")
+    first = page.locator("li.depart")
+    expect(first).to_contain_text("Abfahrt hub")
+    expect(first).to_contain_text("2,3\u00a0kg")
+    mark(page, "Abfahrt hub", "Abgefahren")
+    mark(page, "drone-1 starten zu C", "Gescheitert")
+    page.get_by_role("button", name="Zu viel Wind").click()
+    expect(page.locator("li.launch")).to_contain_text("gescheitert")
+    expect(page.get_by_role("status")).to_have_text("Alles ist gesendet.")
+    assert findings(page) == []
+    page.get_by_label("Sprache").select_option("en")
+    expect(page.get_by_role("status")).to_have_text("All is sent.")
+    page.locator("li.launch .head").click()
+    expect(page.locator("li.launch")).to_contain_text("Too much wind")
+    page.reload()
+    expect(page.locator("html")).to_have_attribute("lang", "en")
+    standing = client.get(f"/dispatches/{sent['id']}").json()["links"][0]["standing"]
+    # The service knows some reasons, whatever the language in which they were tapped.
+    assert standing[1]["reason"] == "Too much wind"
+    phone.close()
+
+
+def test_failing_takes_two_taps_and_what_is_being_written_is_kept(
+        client: httpx.Client, phone: BrowserContext) -> None:
+    sent = dispatched(client)
+    page = open_page(phone, sent["links"][0])
+    mark(page, "Leave hub", "Left")
+    mark(page, "Launch drone-1 to C", "Failed")
+    page.get_by_label("In your words").fill("Crowd on the square")
+    page.reload()
+    expect(page.get_by_label("In your words")).to_have_value("Crowd on the square")
+    page.get_by_role("button", name="It failed").click()
+    expect(page.locator("li.launch")).to_contain_text("failed")
+    expect(page.get_by_label("In your words")).to_have_count(0)
+    mark(page, "A", "Failed")
+    page.get_by_role("button", name="Back", exact=True).click()
+    page.reload()
+    mark(page, "A", "Failed")
+    page.get_by_role("button", name="Nobody there").click()
+    expect(page.locator("li.stop").first).to_contain_text("failed")
+    expect(page.get_by_role("status")).to_have_text("All is sent.")
+    standing = client.get(f"/dispatches/{sent['id']}").json()["links"][0]["standing"]
+    assert [step["reason"] for step in standing] == [
+        None, "Crowd on the square", "Nobody there"]
+
+
 def test_link_that_is_over_leaves_nothing_on_the_phone(
         client: httpx.Client, phone: BrowserContext) -> None:
     sent = dispatched(client)
@@ -153,10 +207,11 @@ def test_link_that_is_over_leaves_nothing_on_the_phone(
 
 def test_page_is_small_and_is_kept_whole() -> None:
     files = [path for path in STATIC.rglob("*") if path.is_file()]
-    library = STATIC.parents[1] / "console" / "static" / "vendor" / "htm-3.1.1"
-    size = sum(path.stat().st_size for path in [*files, library / "standalone.module.js"])
-    assert size < 100_000
     worker = (STATIC / "sw.js").read_text("utf-8")
+    console = STATIC.parents[1] / "console" / "static"
+    shared = [console / name for name in re.findall(r"'\.\./console/(.+)'", worker)]
+    assert {path.name for path in shared} == {"standalone.module.js", "i18next.js", "language.js"}
+    assert sum(len(zlib.compress(path.read_bytes())) for path in [*files, *shared]) < 60_000
     # The last tells Node, which runs tests of the modules, that they are some.
     left_out = {"sw.js", "index.html", "package.json"}
     assert [path.name for path in files

@@ -12,9 +12,15 @@ const FILES = [
   'js/main.js',
   'js/navigators.js',
   'js/queue.js',
+  'js/reasons.js',
   'js/steps.js',
+  'js/texts.js',
   'js/views.js',
+  'texts/de.js',
+  'texts/en.js',
+  '../console/js/language.js',
   '../console/vendor/htm-3.1.1/standalone.module.js',
+  '../console/vendor/i18next-26.7.2/i18next.js',
 ];
 
 self.addEventListener('install', (event) => {

@@ -115,7 +115,7 @@ def test_drone_that_is_lost_is_launched_no_more(step: str, reason: str,
 
 
 def test_what_grounds_a_drone_is_what_the_page_offers() -> None:
-    page = (Path(dispatches.__file__).parent / "static" / "js" / "steps.js").read_text("utf-8")
+    page = (Path(dispatches.__file__).parent / "static" / "js" / "reasons.js").read_text("utf-8")
     assert [reason for reason in GROUNDING if f"'{reason}'" not in page] == []
 
 

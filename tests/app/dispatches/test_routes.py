@@ -71,6 +71,14 @@ def test_each_vehicle_gets_a_link_that_shows_its_day_alone(service: httpx.Client
     assert {step["place"] for step in days[1].json()["steps"]} == {"hub", "D", "E"}
 
 
+def test_day_says_what_its_amounts_are_in(service: httpx.Client) -> None:
+    for dimension, unit in (({"name": "weight", "unit": "kg"}, "kg"), ({"name": "boxes"}, "boxes")):
+        problem = PROBLEM | {"load_dimensions": [dimension]}
+        link = dispatched(service, problem=problem)["links"][0]
+        steps = service.get("/drive/day", headers=holding(token_of(link))).json()["steps"]
+        assert {tuple(step["load_units"]) for step in steps} == {(unit,)}
+
+
 def test_day_has_all_that_a_driver_does_in_order(service: httpx.Client) -> None:
     link = dispatched(service)["links"][0]
     steps = service.get("/drive/day", headers=holding(token_of(link))).json()["steps"]

@@ -1,12 +1,15 @@
 import assert from 'node:assert/strict';
+import { register } from 'node:module';
 import test from 'node:test';
 
 import { goOnAsTold, linksByVehicle, nextOrder, openDispatches, standingText, withMade } from '../../../app/console/static/js/core/dispatches.js';
 import { pointText } from '../../../app/console/static/js/core/format.js';
-import { clock, windowText } from '../../../app/dispatches/static/js/clocks.js';
-import { linkOf, tokenOf } from '../../../app/dispatches/static/js/link.js';
-import { chosenNavigator, NAVIGATORS, navigation } from '../../../app/dispatches/static/js/navigators.js';
-import { isBroken, isOther, nextStep, standings, telephone } from '../../../app/dispatches/static/js/steps.js';
+
+register('./as-served.mjs', import.meta.url);
+const { clock, windowText } = await import('../../../app/dispatches/static/js/clocks.js');
+const { linkOf, tokenOf } = await import('../../../app/dispatches/static/js/link.js');
+const { chosenNavigator, NAVIGATORS, navigation } = await import('../../../app/dispatches/static/js/navigators.js');
+const { isBroken, isOther, nextStep, standings, telephone } = await import('../../../app/dispatches/static/js/steps.js');
 
 const PLACE = { latitude: 48.1, longitude: 11.5 };
 

@@ -2,6 +2,7 @@
 
 import { tellBy } from './core/format.js';
 import { useEffect, useState } from './libraries.js';
+import { language } from './texts.js';
 
 /** Return a store that holds one object. */
 export function createStore(initial) {
@@ -65,6 +66,7 @@ export const store = createStore({
   },
   dialog: null, // name of the open dialog
   dark: false,
+  language: language(), // of the texts
   starting: null, // {detail, progress} until the service is ready
   scenario: null, // comparison or sweep and its job
   scenarioSeconds: 1,

@@ -1,5 +1,7 @@
 /** Times of day as drivers read them: in the plan's zone, whatever the phone's. */
 
+import { t } from './texts.js';
+
 /** Return an instant such as `8:05`, given in seconds since the plan's start. */
 export function clock(day, seconds) {
   const instant = new Date(Date.parse(day.plan_start) + seconds * 1000);
@@ -21,7 +23,9 @@ function offsetOf(text) {
 
 /** Return a window such as `8:00 to 10:30`, `from 8:00` or `until 10:30`. */
 export function windowText(day, { earliest, latest }) {
-  if (latest === null) return `from ${clock(day, earliest)}`;
+  if (latest === null) return t('time.from', { from: clock(day, earliest) });
   const until = clock(day, latest);
-  return earliest > 0 ? `${clock(day, earliest)} to ${until}` : `until ${until}`;
+  return earliest > 0
+    ? t('time.span', { from: clock(day, earliest), until })
+    : t('time.until', { until });
 }

@@ -4,7 +4,9 @@ import { html, render } from '../../console/vendor/htm-3.1.1/standalone.module.j
 import * as days from './days.js';
 import { forgetToken, linkOf, tokenOf } from './link.js';
 import { ask, eventOf, LinkOver, Refused, send } from './queue.js';
+import { forgetDraft } from './reasons.js';
 import { isOther } from './steps.js';
+import { t } from './texts.js';
 import { Day, Message } from './views.js';
 
 const RETRY_MS = 15000;
@@ -21,10 +23,11 @@ let asked = 0;
 function draw() {
   if (state.day) {
     document.title = state.day.vehicle;
-    render(html`<${Day} ...${state} onTell=${tell} onSeen=${seeChange} />`, root);
+    const doing = { onTell: tell, onSeen: seeChange, onLanguage: draw };
+    render(html`<${Day} ...${state} link=${link} ...${doing} />`, root);
   } else {
-    render(html`<${Message} text=${state.failure || 'Your day is not on this phone yet, and the '
-      + 'service cannot be reached.'} />`, root);
+    document.title = t('page.title');
+    render(html`<${Message} text=${state.failure || t('failure.unreached')} />`, root);
   }
 }
 
@@ -83,14 +86,16 @@ async function give(error) {
   // Nothing of customers stays behind on a phone.
   await days.forgetDay(link);
   forgetToken(token, localStorage);
+  forgetDraft(localStorage);
   state.day = null;
 }
 
 async function begin() {
   root.replaceChildren();
+  render(html`<p class="note">${t('page.opening')}</p>`, root);
   addEventListener('hashchange', () => location.reload());
   if (!token) {
-    state.failure = 'Open the link that you were sent.';
+    state.failure = t('failure.noLink');
     draw();
     return;
   }

@@ -1,10 +1,12 @@
 /** Programs that lead to a place; all take latitude before longitude. */
 
+import { t } from './texts.js';
+
 const KEPT = 'tandem-drive-navigator';
 
 export const NAVIGATORS = {
   geo: {
-    name: 'Maps of this phone',
+    name: null, // whichever the phone has
     link: (point) => `geo:${point}?q=${point}`,
   },
   google: {
@@ -21,6 +23,11 @@ export const NAVIGATORS = {
     link: (point) => `https://www.openstreetmap.org/directions?to=${encodeURIComponent(point)}`,
   },
 };
+
+/** Return what a program is called. */
+export function navigatorName(name) {
+  return NAVIGATORS[name].name ?? t('page.phone');
+}
 
 /** Return a place as people type it, latitude first. */
 export function pointText({ latitude, longitude }) {

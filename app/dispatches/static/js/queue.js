@@ -1,6 +1,7 @@
 /** Sends what was told: in order, each once as the service counts, until it says that it has it. */
 
 import * as days from './days.js';
+import { t } from './texts.js';
 
 const MOST_AT_ONCE = 200;
 
@@ -25,17 +26,10 @@ export async function ask(token, path, body) {
   } catch {
     return null;
   }
-  if (reply.status === 401 || reply.status === 410) throw new LinkOver(await detailOf(reply));
+  if (reply.status === 401) throw new LinkOver(t('failure.unknown'));
+  if (reply.status === 410) throw new LinkOver(t('failure.over'));
   if (reply.status >= 500 || reply.status === 408 || reply.status === 429) return null;
-  throw new Refused(await detailOf(reply));
-}
-
-async function detailOf(reply) {
-  try {
-    return (await reply.json()).detail;
-  } catch {
-    return `The service answers ${reply.status}.`;
-  }
+  throw new Refused(t('failure.refused', { status: String(reply.status) }));
 }
 
 /** Return what is told of a step now, to be kept. */

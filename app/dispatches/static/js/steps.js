@@ -1,5 +1,8 @@
 /** How the day's steps stand: by what the service knows, and what it wasn't told yet. */
 
+import { REASONS } from './reasons.js';
+import { language, t } from './texts.js';
+
 /** Return what holds of steps, by id: `{state, reason, isSent}`. */
 export function standings(standing, waiting) {
   const found = new Map(
@@ -35,22 +38,6 @@ export function countOver(steps, found) {
   return steps.filter(({ id }) => (found.get(id)?.state ?? 'open') !== 'open').length;
 }
 
-/** What a driver says who has done a step, by its kind. */
-export const DONE = {
-  depart: 'Left',
-  stop: 'Done',
-  launch: 'Launched',
-  recover: 'Recovered',
-  return: 'I am back',
-};
-
-/** Why steps fail most often, by their kind. After some of them drones fly no more: GROUNDING. */
-export const REASONS = {
-  stop: ['Nobody there', 'Refused', 'Wrong address', 'Damaged', 'No time left'],
-  launch: ['Too much wind', 'Drone is broken', 'Battery is empty', 'No time left'],
-  recover: ['Came back with the parcel', 'Did not come back'],
-};
-
 /** Whether a step can fail. */
 export function mayFail({ kind }) {
   return kind in REASONS;
@@ -58,21 +45,19 @@ export function mayFail({ kind }) {
 
 /** Return what a step is called. */
 export function titleOf({ kind, place, drone, customers }) {
+  if (kind === 'stop') return place;
   const flown = drone ? drone.slice(drone.lastIndexOf('/') + 1) : '';
   const names = customers.map(({ id }) => id).join(', ');
-  return {
-    depart: `Leave ${place}`,
-    stop: place,
-    launch: `Launch ${flown} to ${names}`,
-    recover: `Recover ${flown}`,
-    return: `Back at ${place}`,
-  }[kind];
+  return t(`title.${kind}`, { place, drone: flown, names });
 }
 
-/** Return amounts such as `12 / 3.5`. */
-export function amounts(values) {
+/** Return amounts such as `12 / 3.5`, or `12 kg / 3.5 l` where units are known. */
+export function amounts(values, units = []) {
   const options = { maximumFractionDigits: 3 };
-  return values.map((value) => value.toLocaleString('en', options)).join(' / ');
+  return values
+    .map((value, at) => [value.toLocaleString(language(), options), units[at]])
+    .map((amount) => amount.filter(Boolean).join('\u00a0'))
+    .join(' / ');
 }
 
 /** Return whether something is handed over or taken in at all. */

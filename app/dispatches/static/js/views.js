@@ -6,63 +6,79 @@ import {
   chooseNavigator,
   chosenNavigator,
   navigation,
+  navigatorName,
   NAVIGATORS,
   pointText,
 } from './navigators.js';
+import { draftOf, keepDraft, REASONS, reasonText, toldReason } from './reasons.js';
 import {
   amounts,
   countOver,
-  DONE,
   isBroken,
   isSome,
   mayFail,
   nextStep,
-  REASONS,
   standings,
   telephone,
   titleOf,
   VEHICLE,
 } from './steps.js';
+import { choose, language, t } from './texts.js';
+import { LANGUAGES } from '../../console/js/language.js';
 
 /** A page that has nothing but something to say. */
 export function Message({ text }) {
-  return html`<h1>Today's stops</h1><p class="note" role="alert">${text}</p>`;
+  return html`<h1>${t('page.title')}</h1><p class="note" role="alert">${text}</p>`;
 }
 
 /** The whole day. */
-export function Day({ day, waiting, isReached, isChanged, failure, onTell, onSeen }) {
+export function Day({ day, waiting, isReached, isChanged, failure, link, onTell, onSeen,
+  onLanguage }) {
   const [navigator_, setNavigator] = useState(
     chosenNavigator(localStorage, window.navigator.userAgent),
   );
   const found = standings(day.standing, waiting);
   const next = nextStep(day.steps, found);
-  const choose = (event) => {
+  const lead = (event) => {
     chooseNavigator(localStorage, event.target.value);
     setNavigator(event.target.value);
   };
   return html`<header>
       <h1>${day.vehicle}</h1>
-      <p>${countOver(day.steps, found)} of ${day.steps.length} over</p>
+      <p>${t('day.over', { count: countOver(day.steps, found), of: day.steps.length })}</p>
       <p role="status" class=${waiting.length ? 'unsent' : ''}>${sendingText(
         waiting.length,
         isReached,
       )}</p>
       ${failure && html`<p role="alert" class="unsent">${failure}</p>`}
-      ${isChanged && html`<p role="alert" class="unsent">Your day was changed: look at what is next.
-        <button type="button" class="button" onClick=${onSeen}>I have seen it</button></p>`}
+      ${isChanged && html`<p role="alert" class="unsent">${t('day.changed')}
+        <button type="button" class="button" onClick=${onSeen}>${t('day.seen')}</button></p>`}
     </header>
-    ${!day.steps.length && html`<p class="note">Nothing is planned for you any more.</p>`}
+    ${!day.steps.length && html`<p class="note">${t('day.nothing')}</p>`}
     <ol class="steps">${day.steps.map(
       (step) => html`<${Step} key=${step.id} day=${day} step=${step} isNext=${step === next}
-        standing=${found.get(step.id)} navigator=${navigator_} onTell=${onTell} />`,
+        standing=${found.get(step.id)} navigator=${navigator_} link=${link} onTell=${onTell} />`,
     )}</ol>
     <footer><${Breakdown} broken=${isBroken(found)}
       onTell=${(kind, reason) => onTell(VEHICLE, kind, reason)} />
-    <label>Navigate with <select value=${navigator_} onChange=${choose}>
-      ${Object.entries(NAVIGATORS).map(
-        ([name, { name: label }]) => html`<option key=${name} value=${name}
-          selected=${name === navigator_}>${label}</option>`,
-      )}</select></label></footer>`;
+    <label>${t('page.navigate')} <select value=${navigator_} onChange=${lead}>
+      ${Object.keys(NAVIGATORS).map(
+        (name) => html`<option key=${name} value=${name}
+          selected=${name === navigator_}>${navigatorName(name)}</option>`,
+      )}</select></label>
+    <${LanguageChoice} onLanguage=${onLanguage} /></footer>`;
+}
+
+function LanguageChoice({ onLanguage }) {
+  const speak = (event) => {
+    choose(event.target.value);
+    onLanguage();
+  };
+  return html`<label>${t('page.language')} <select value=${language()} onChange=${speak}>
+    ${Object.entries(LANGUAGES).map(
+      ([name, label]) => html`<option key=${name} value=${name} lang=${name}
+        selected=${name === language()}>${label}</option>`,
+    )}</select></label>`;
 }
 
 /** What a driver says whose vehicle can't go on, asked once more before it is told. */
@@ -73,43 +89,44 @@ function Breakdown({ broken, onTell }) {
     onTell(kind, reason);
   };
   if (broken) {
-    return html`<p role="alert" class="unsent">You told that your vehicle has broken down: others
-      are planned for your stops.</p>
+    return html`<p role="alert" class="unsent">${t('breakdown.told')}</p>
       <button type="button" class="button"
-        onClick=${() => say('undone')}>It goes on again</button>`;
+        onClick=${() => say('undone')}>${t('breakdown.over')}</button>`;
   }
   if (!isAsking) {
     return html`<button type="button" class="button" onClick=${() => setAsking(true)}>
-      My vehicle has broken down</button>`;
+      ${t('breakdown.begin')}</button>`;
   }
-  return html`<fieldset><legend>Can your vehicle serve nobody any more today?</legend>
+  return html`<fieldset><legend>${t('breakdown.sure')}</legend>
     <div class="actions">
       <button type="button" class="button bad"
-        onClick=${() => say('failed', 'Broken down')}>It has broken down</button>
-      <button type="button" class="button" onClick=${() => setAsking(false)}>Back</button>
+        onClick=${() => say('failed', toldReason('breakdown'))}>${t('breakdown.yes')}</button>
+      <button type="button" class="button" onClick=${() => setAsking(false)}>
+        ${t('breakdown.back')}</button>
     </div></fieldset>`;
 }
 
 function sendingText(count, isReached) {
-  if (count) return `${count} not sent yet: sent as soon as there is network.`;
-  return isReached ? 'All is sent.' : 'No network: what you mark is kept on this phone.';
+  if (count) return t('day.unsent', { count });
+  return isReached ? t('day.sent') : t('day.offline');
 }
 
-function Step({ day, step, isNext, standing, navigator, onTell }) {
+function Step({ day, step, isNext, standing, navigator, link, onTell }) {
   const state = standing?.state ?? 'open';
   const [isOpen, setOpen] = useState(null);
   const shown = isOpen ?? isNext;
-  const told = { open: '', done: 'done', failed: 'failed' }[state];
+  const told = state === 'open' ? '' : t(`state.${state}`);
+  const isUnsent = standing && !standing.isSent;
   return html`<li class=${`step ${state} ${step.kind}`} aria-current=${isNext ? 'step' : null}>
     <button type="button" class="head" aria-expanded=${shown} onClick=${() => setOpen(!shown)}>
       <span class="time">${clock(day, step.kind === 'stop' ? step.arrival : step.time)}</span>
       <span class="title">${titleOf(step)}</span>
-      <span class="state">${told}${standing && !standing.isSent ? ' (not sent)' : ''}</span>
+      <span class="state">${told}${isUnsent ? ` ${t('state.unsent')}` : ''}</span>
     </button>
     ${shown && html`<div class="body">
       <${Facts} day=${day} step=${step} />
       <${Ways} step=${step} navigator=${navigator} />
-      <${Actions} step=${step} state=${state} reason=${standing?.reason}
+      <${Actions} link=${link} step=${step} state=${state} reason=${standing?.reason}
         onTell=${(kind, reason) => {
           setOpen(null);
           onTell(step.id, kind, reason);
@@ -120,65 +137,94 @@ function Step({ day, step, isNext, standing, navigator, onTell }) {
 
 function Facts({ day, step }) {
   const rows = [
-    ['Planned', `${clock(day, step.arrival)} to ${clock(day, step.departure)}`],
-    ...step.windows.map((window) => ['Window', windowText(day, window)]),
+    [t('fact.planned'), t('time.span', {
+      from: clock(day, step.arrival),
+      until: clock(day, step.departure),
+    })],
+    ...step.windows.map((window) => [t('fact.window'), windowText(day, window)]),
     ...(step.kind === 'stop' || !step.location ? []
-      : [['At', step.place]]),
-    ...(isSome(step.load) ? [['Load', amounts(step.load)]] : []),
+      : [[t('fact.at'), step.place]]),
+    ...(isSome(step.load) ? [[t('fact.load'), amounts(step.load, step.load_units)]] : []),
   ];
   return html`<dl>${rows.map(
     ([name, text]) => html`<div key=${name + text}><dt>${name}</dt><dd>${text}</dd></div>`,
   )}</dl>${step.kind !== 'recover' && step.customers.map(
     (customer) => html`<${Customer} key=${customer.id} customer=${customer}
-      isNamed=${step.kind === 'launch'} />`,
+      units=${step.load_units} isNamed=${step.kind === 'launch'} />`,
   )}`;
 }
 
-function Customer({ customer, isNamed }) {
+/** What dispatchers often note of customers; all else is called as they call it. */
+const NOTED = ['address', 'notes', 'order', 'name', 'phone'];
+
+function factName(name) {
+  return NOTED.includes(name) ? t(`fact.${name}`) : name;
+}
+
+function Customer({ customer, units, isNamed }) {
   const { phone, ...info } = customer.info;
   const rows = [
-    ...(isNamed ? [['For', customer.id]] : []),
-    ...(isSome(customer.hand_over) ? [['Hand over', amounts(customer.hand_over)]] : []),
-    ...(isSome(customer.take_in) ? [['Take in', amounts(customer.take_in)]] : []),
-    ...Object.entries(info),
+    ...(isNamed ? [[t('fact.for'), customer.id]] : []),
+    ...(isSome(customer.hand_over) ? [[t('fact.handOver'), amounts(customer.hand_over, units)]]
+      : []),
+    ...(isSome(customer.take_in) ? [[t('fact.takeIn'), amounts(customer.take_in, units)]] : []),
+    ...Object.entries(info).map(([name, text]) => [factName(name), text]),
   ];
   return html`<dl>${rows.map(
     ([name, text]) => html`<div key=${name}><dt>${name}</dt><dd>${text}</dd></div>`,
   )}</dl>
-  ${phone && html`<a class="button" href=${telephone(phone)}>Call ${phone}</a>`}`;
+  ${phone && html`<a class="button" href=${telephone(phone)}>${t('action.call', {
+    number: phone,
+  })}</a>`}`;
 }
 
 function Ways({ step: { location }, navigator }) {
   if (!location) return null;
   return html`<a class="button" rel="noopener noreferrer" target="_blank"
-    href=${navigation(navigator, location)}>Navigate
+    href=${navigation(navigator, location)}>${t('action.navigate')}
     ${' '}<small>${pointText(location)}</small></a>`;
 }
 
-function Actions({ step, state, reason, onTell }) {
-  const [isFailing, setFailing] = useState(false);
-  const [text, setText] = useState('');
+function Actions({ link, step, state, reason, onTell }) {
+  const [draft, setDraft] = useState(draftOf(localStorage, link, step.id));
+  const write = (text) => {
+    keepDraft(localStorage, link, step.id, text);
+    setDraft(text);
+  };
+  const tell = (kind, told) => {
+    write(null);
+    onTell(kind, told);
+  };
   if (state !== 'open') {
-    return html`${reason && html`<p class="reason">${reason}</p>`}
-      <button type="button" class="button" onClick=${() => onTell('undone')}>Undo</button>`;
+    return html`${reason && html`<p class="reason">${reasonText(reason)}</p>`}
+      <button type="button" class="button" onClick=${() => tell('undone')}>
+        ${t('action.undo')}</button>`;
   }
-  if (!isFailing) {
+  if (draft === null) {
     return html`<div class="actions">
-      <button type="button" class="button good" onClick=${() => onTell('done')}>
-        ${DONE[step.kind]}</button>
+      <button type="button" class="button good" onClick=${() => tell('done')}>
+        ${t(`done.${step.kind}`)}</button>
       ${mayFail(step) && html`<button type="button" class="button bad"
-        onClick=${() => setFailing(true)}>Failed</button>`}</div>`;
+        onClick=${() => write('')}>${t('action.failed')}</button>`}</div>`;
   }
-  return html`<fieldset><legend>Why?</legend>
-    <div class="actions">${REASONS[step.kind].map(
-      (known) => html`<button type="button" key=${known} class="button"
-        aria-pressed=${text === known} onClick=${() => setText(known)}>${known}</button>`,
+  return html`<${Failing} kind=${step.kind} text=${draft} onWrite=${write}
+    onFail=${(told) => tell('failed', told)} />`;
+}
+
+/** Why a step failed: one more tap tells a known reason, any other is written. */
+function Failing({ kind, text, onWrite, onFail }) {
+  return html`<fieldset><legend>${t('action.why')}</legend>
+    <p class="hint">${t('action.tap')}</p>
+    <div class="actions">${REASONS[kind].map(
+      (name) => html`<button type="button" key=${name} class="button bad"
+        onClick=${() => onFail(toldReason(name))}>${t(`reason.${name}`)}</button>`,
     )}</div>
-    <label>In your words <input type="text" maxlength="500" value=${text}
-      onInput=${(event) => setText(event.target.value)} /></label>
+    <label>${t('action.words')} <input type="text" maxlength="500" value=${text}
+      onInput=${(event) => onWrite(event.target.value)} /></label>
     <div class="actions">
       <button type="button" class="button bad" disabled=${!text.trim()}
-        onClick=${() => onTell('failed', text.trim())}>It failed</button>
-      <button type="button" class="button" onClick=${() => setFailing(false)}>Back</button>
+        onClick=${() => onFail(text.trim())}>${t('action.tell')}</button>
+      <button type="button" class="button" onClick=${() => onWrite(null)}>
+        ${t('action.back')}</button>
     </div></fieldset>`;
 }

@@ -1,10 +1,10 @@
 /** The page: header, map, timeline, panel and dialogs. */
 
 import { closeFailure, isWaiting, shownPlan } from '../actions.js';
-import { count } from '../core/format.js';
 import { html } from '../libraries.js';
 import { MapPane } from '../map/pane.js';
 import { useStore } from '../store.js';
+import { t } from '../texts.js';
 import { TimelinePane } from '../timeline/pane.js';
 import { Dialogs } from './dialogs.js';
 import { goTo } from './go-to.js';
@@ -19,13 +19,15 @@ const MOST_LISTED = 20;
 export function App() {
   const ready = useStore((state) => state.request !== null && state.schemas !== null);
   const waits = useStore((state) => isWaiting(state) && shownPlan(state) !== null);
-  return html`<main class="console" data-waiting=${waits}>
+  const language = useStore((state) => state.language);
+  // Another language is another page: what views keep for themselves is made anew.
+  return html`<main class="console" key=${language} data-waiting=${waits}>
     <${Header} />
     <${Notice} />
     ${
       ready
         ? html`<${MapPane} /><${Panel} /><${TimelinePane} />`
-        : html`<p class="loading maps">Loading the console.</p>`
+        : html`<p class="loading maps">${t('app.loading')}</p>`
     }
     <${Dialogs} />
   </main>`;
@@ -50,21 +52,19 @@ function Notice() {
           )}
           ${
             errors.length > MOST_LISTED &&
-            html`<li>and ${count(errors.length - MOST_LISTED, 'more').replace(
-              'mores',
-              'more',
-            )}</li>`
+            html`<li>${t('app.more', { count: errors.length - MOST_LISTED })}</li>`
           }</ul>`
         }
       </div>
-      <button type="button" class="quiet" onClick=${closeFailure}>Close</button></div>`;
+      <button type="button" class="quiet" onClick=${closeFailure}>${t('app.close')}</button></div>`;
   }
   if (!starting) return tells ? html`<${KeepingNotice} />` : html`<${WarningsBar} />`;
   return html`<div class="notice starting"
-    role="status"><div><strong>The service is starting.</strong>
+    role="status"><div><strong>${t('app.starting')}</strong>
     ${' '}${starting.detail}
     ${
       starting.progress != null &&
-      html`<progress max="1" value=${starting.progress} aria-label="How far it is"></progress>`
+      html`<progress max="1" value=${starting.progress}
+        aria-label=${t('app.progress')}></progress>`
     }</div></div>`;
 }

@@ -7,6 +7,7 @@ import { plan, stop } from '../planning.js';
 import { store, useStore } from '../store.js';
 import { openPlans } from '../keeping/kept.js';
 import { openFile } from './files.js';
+import { LanguageChoice } from './language-choice.js';
 import { ProblemName } from './problem-name.js';
 
 const ICON = new URL('../../icon.svg', import.meta.url).href;
@@ -27,6 +28,7 @@ export function Header() {
     <button type="button" class="quiet"
       onClick=${() => store.set({ dialog: { name: 'keys' } })}>Keys</button>
     <button type="button" class="quiet" onClick=${switchTheme}><${ThemeName} /></button>
+    <${LanguageChoice} />
     <a href="docs">API</a>
   </header>`;
 }

@@ -1,0 +1,19 @@
+/** The choice of a language, at once for the whole page. */
+
+import { html } from '../libraries.js';
+import { LANGUAGES } from '../language.js';
+import { store } from '../store.js';
+import { choose, language, t } from '../texts.js';
+
+/** A list of languages, each as its speakers call it. */
+export function LanguageChoice() {
+  const change = (event) => {
+    choose(event.target.value);
+    store.set({ language: language() });
+  };
+  return html`<select class="quiet" id="language" aria-label=${t('header.language')}
+    onChange=${change}>${Object.entries(LANGUAGES).map(
+      ([name, label]) => html`<option key=${name} value=${name} lang=${name}
+        selected=${name === language()}>${label}</option>`,
+    )}</select>`;
+}
