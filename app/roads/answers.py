@@ -29,6 +29,10 @@ MAX_SPEED, MAX_DURATION, MAX_DISTANCE = 100.0, 1e8, 1e8
 SNAP_ERROR, SNAP_ERROR_M = 0.02, 5.0
 """How far a stated distance to the road may be from the true one: by a share, and in metres."""
 
+BEYOND_M = 100_000.0
+"""Farther from every road a place is off the roads by any measure, and that of OSRM, who takes
+the globe for a plane, is not the true one."""
+
 _SPHERE = Geod(a=EARTH_RADIUS_M, b=EARTH_RADIUS_M)
 
 Numbers = list[list[float | None]]
@@ -128,7 +132,8 @@ def snapped_at(snaps: Sequence[Snap | None], lon_lat: FloatArray) -> FloatArray:
     stated = np.array([np.nan if snap is None or snap.distance is None else snap.distance
                        for snap in snaps])
     true = metres_between(lon_lat, found)
-    _require(not (np.abs(stated - true) > SNAP_ERROR * true + SNAP_ERROR_M).any(),
+    differs = np.abs(stated - true) > SNAP_ERROR * true + SNAP_ERROR_M
+    _require(not (differs & (np.minimum(stated, true) <= BEYOND_M)).any(),
              "other places than were asked for")
     return found
 

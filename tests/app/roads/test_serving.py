@@ -252,3 +252,14 @@ def test_the_command_line_judges_on_roads(helsinki: httpx.Client, prepared: Extr
         env={"TANDEM_ROADS": f"car={prepared.path}"})
     assert done.exit_code == 0, done.output
     assert f"{plan['cost']['total']:.6f}" in done.stdout
+
+
+@pytest.mark.parametrize("place", [[-170, -80], [180, 0], [-180, 90], [0, -89.9]])
+def test_a_place_far_from_the_map_is_off_the_roads(
+        helsinki: httpx.Client, place: list[float]) -> None:
+    request = helsinki_request(5)
+    request["customers"][2]["location"] = place
+    reply = helsinki.post("/plan", json=request)
+    assert reply.status_code == 422, reply.text
+    assert [(error["code"], error["path"]) for error in reply.json()["errors"]] == [
+        ("PLACE_OFF_ROADS", "$.customers[2].location")]
