@@ -1,5 +1,6 @@
 /** A plan as CSV, GeoJSON and GPX. */
 
+import { csvCell } from './csv.js';
 import { clock } from './format.js';
 import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
@@ -68,17 +69,10 @@ export function stopsCsv(index) {
   const head = [...COLUMNS, ...told.map(named)];
   const lines = rows.map((row) =>
     [...COLUMNS.map((name) => row[name]), ...told.map((name) => row.info[name] ?? '')]
-      .map(cell)
+      .map(csvCell)
       .join(','),
   );
-  return `${[head.map(cell).join(','), ...lines].join('\r\n')}\r\n`;
-}
-
-function cell(value) {
-  let text = String(value);
-  // Sheets would take such a text for a formula.
-  if (typeof value === 'string' && /^[=+\-@\t]/.test(text)) text = `'${text}`;
-  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  return `${[head.map(csvCell).join(','), ...lines].join('\r\n')}\r\n`;
 }
 
 /** Return customers, depots, trips, flights and no-fly areas as GeoJSON. */
