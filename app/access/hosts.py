@@ -1,11 +1,14 @@
 """Whom a request is for: names that lead here on purpose, and origins that are this service."""
 
+import re
 from collections.abc import Collection
 from ipaddress import ip_address
-from urllib.parse import urlsplit
 
 ANY = "*"
 """Among trusted hosts: whatever name."""
+
+_HOST = re.compile(r"(\[[0-9A-Fa-f:.]+\]|[^][:@/\\?#\s]+)(?::([0-9]{0,5}))?")
+"""A name, or an address with brackets if it has colons, and perhaps a port: nothing around them."""
 
 
 class TrustedHosts:
@@ -40,14 +43,14 @@ class TrustedHosts:
 def is_loopback(host: str) -> bool:
     """Tell whether only this machine can reach a name or an address."""
     if is_address(host):
-        return ip_address(host.strip("[]")).is_loopback
+        return ip_address(_bare(host)).is_loopback
     return host == "localhost" or host.endswith(".localhost")
 
 
 def is_address(host: str) -> bool:
     """Tell whether a host is an address, not a name."""
     try:
-        ip_address(host.strip("[]"))
+        ip_address(_bare(host))
     except ValueError:
         return False
     return True
@@ -58,21 +61,26 @@ def is_same_host(origin: str, host: str) -> bool:
 
     Its scheme doesn't count: behind a proxy that ends TLS it can't be told.
     """
-    try:
-        parts = urlsplit(origin)
-        asked = urlsplit(f"{parts.scheme}://{host}")
-        default = {"http": 80, "https": 443}.get(parts.scheme)
-        return (bool(parts.hostname) and parts.hostname == asked.hostname
-                and (parts.port or default) == (asked.port or default))
-    except ValueError:
-        return False
+    scheme, _, page = origin.partition("://")
+    default = {"http": 80, "https": 443}.get(scheme.lower())
+    return _parts(page, default) == _parts(host, default) is not None
 
 
 def _name(host: str) -> str:
-    """Return a host in small letters without its port and the dot of its root."""
-    try:
-        parts = urlsplit(f"//{host}")
-    except ValueError:
-        return ""
-    is_plain = parts.netloc == host and parts.username is None
-    return (parts.hostname or "").removesuffix(".") if is_plain else ""
+    """Return a host in small letters without its port and the dot of its root; empty if it is none.
+    """
+    parts = _parts(host)
+    return "" if parts is None else parts[0]
+
+
+def _parts(host: str, default: int | None = None) -> tuple[str, int | None] | None:
+    """Return the name of a host, in small letters and without brackets, and its port."""
+    found = _HOST.fullmatch(host)
+    if found is None:
+        return None
+    return _bare(found[1].lower().removesuffix(".")), int(found[2]) if found[2] else default
+
+
+def _bare(host: str) -> str:
+    """Return an address without the brackets around it."""
+    return host[1:-1] if host.startswith("[") and host.endswith("]") else host

@@ -153,7 +153,10 @@ def test_addresses_and_listed_names_are_trusted(host: str) -> None:
 
 @pytest.mark.parametrize("host", [
     "", "example.org", "localhost.example.org", "127.0.0.1.example.org", "xfleet.example.org",
-    "a.fleet.example.org", "wild.example", "a@127.0.0.1", "127.0.0.1/x", "[::1", "notlocalhost"])
+    "a.fleet.example.org", "wild.example", "a@127.0.0.1", "127.0.0.1/x", "[::1", "notlocalhost",
+    "[::1].evil.com", "[::1].evil.com:8000", "a[::1]", "[[::1]]", "[127.0.0.1", "127.0.0.1]",
+    "127.0.0.1:80.evil.com", "localhost:x.evil.com", "[::1]:80:evil.com", "[::1%25.evil.com]",
+    "127.0.0.1\\.evil.com", "127.0.0.1#.evil.com", "127.0.0.1 .evil.com", "[v1.evil]"])
 def test_other_names_are_not_trusted(host: str) -> None:
     assert not TrustedHosts(["fleet.example.org", "*.wild.example"]).trusts(host)
 
@@ -180,7 +183,8 @@ def test_trusted_hosts_are_names_alone(name: str) -> None:
 @pytest.mark.parametrize(("origin", "status"), [
     ("http://fleet.example.org:8000", 200), ("https://fleet.example.org:8000", 200),
     ("http://fleet.example.org", 403), ("http://fleet.example.org:9000", 403),
-    ("http://other.example.org:8000", 403), ("null", 403), ("http://[", 403)])
+    ("http://other.example.org:8000", 403), ("null", 403), ("http://[", 403),
+    ("http://fleet.example.org:8000.evil.com", 403), ("http://a@fleet.example.org:8000", 403)])
 def test_origin_counts_where_browsers_say_nothing_else(
         serve: Serve, smallest: dict[str, Any], origin: str, status: int) -> None:
     client = serve(FirstFitPlanner(), Settings(access="open",
