@@ -21,14 +21,14 @@ def window_errors(draft: Draft) -> Errors:
     for path, customer in draft.known_customers():
         if customer.time_windows is None:
             if _ends_early(customer.time_window):
-                yield from _order_errors((*path, "time_window"), customer.time_window)
+                yield from _order_errors(draft, (*path, "time_window"), customer.time_window)
             continue
         if customer.time_window != TimeWindowInput():
             yield error_at("TWO_KINDS_OF_WINDOWS", (*path, "time_windows"),
                            "There is a time_window, too: state one of both.")
         for index, window in enumerate(customer.time_windows):
-            yield from _order_errors((*path, "time_windows", index), window)
-        yield from _sequence_errors((*path, "time_windows"), customer.time_windows)
+            yield from _order_errors(draft, (*path, "time_windows", index), window)
+        yield from _sequence_errors(draft, (*path, "time_windows"), customer.time_windows)
 
 
 def vehicle_errors(draft: Draft) -> Errors:
@@ -72,14 +72,16 @@ def _ends_early(window: TimeWindowInput) -> bool:
     return window.latest is not None and window.latest < window.earliest
 
 
-def _order_errors(path: Path, window: TimeWindowInput) -> Errors:
-    if _ends_early(window):
+def _order_errors(draft: Draft, path: Path, window: TimeWindowInput) -> Errors:
+    earliest, latest = window.earliest, window.latest
+    if latest is not None and latest < earliest:
         yield error_at("WINDOW_ENDS_BEFORE_START", (*path, "latest"),
-                       f"The window ends at {window.latest:g} s, before it starts at "
-                       f"{window.earliest:g} s: raise latest or lower earliest.")
+                       f"The window ends at {draft.told(latest)}, before it starts at "
+                       f"{draft.told(earliest)}: {draft.next_day(earliest, latest)}raise latest "
+                       "or lower earliest.")
 
 
-def _sequence_errors(path: Path, windows: list[TimeWindowInput]) -> Errors:
+def _sequence_errors(draft: Draft, path: Path, windows: list[TimeWindowInput]) -> Errors:
     """Say what is wrong with windows beside others."""
     for index, (window, following) in enumerate(pairwise(windows)):
         if window.latest is None:
@@ -87,8 +89,9 @@ def _sequence_errors(path: Path, windows: list[TimeWindowInput]) -> Errors:
                            "Only the last window may have no end: state when this one ends.")
         elif thousandths(following.earliest) <= thousandths(window.latest):
             yield error_at("WINDOWS_OVERLAP", (*path, index + 1, "earliest"),
-                           f"The window starts at {following.earliest:g} s, and the one before "
-                           f"ends at {window.latest:g} s: sort them, and join those that meet.")
+                           f"The window starts at {draft.told(following.earliest)}, and the one "
+                           f"before ends at {draft.told(window.latest)}: sort them, and join "
+                           "those that meet.")
         if window.late_cost_per_hour is not None:
             yield error_at("SOFT_WINDOW_BEFORE_ANOTHER", (*path, index, "late_cost_per_hour"),
                            "Only the last window may be soft: leave the cost out here.")

@@ -9,6 +9,7 @@ import numpy as np
 from app.conversion.places import Place, stands_of
 from app.errors import ErrorCode, InputError, json_path
 from app.schemas.customer import CustomerInput
+from app.schemas.day import Day
 from app.schemas.drones import DronesInput
 from app.schemas.fields import Location
 from app.schemas.request import (
@@ -20,6 +21,11 @@ from model.problem import FloatArray
 
 MAX_COORDINATE_M = 1e7
 """Farthest planar coordinate from the origin in metres, a quarter of the way round the earth."""
+
+DAY_SECONDS = 86_400
+
+LEAST_NIGHT = 6 * 3600
+"""Seconds by which an end lies before its start that may be meant for the next day's."""
 
 Path = tuple[str | int, ...]
 Errors = Iterator[InputError]
@@ -52,7 +58,7 @@ class Draft:
     replan: ReplanInput | None = None
     planar_rounding: str = "exact"
     load_dimensions: Sequence[LoadDimensionInput] | None = None
-    has_day: bool = False
+    day: Day | None = None
     incompatible_goods: Sequence[IncompatibleGoodsInput] = ()
 
     def places(self, customers: bool = True) -> Iterator[Placed]:
@@ -84,6 +90,24 @@ class Draft:
         for path, kind in self.vehicle_types():
             for inner, drones in kind.drones_by_path:
                 yield (*path, *inner), drones
+
+    def told(self, seconds: float) -> str:
+        """Return an instant in words: a time of the plan's day if it has one, beside its seconds.
+        """
+        stated = f"{seconds:g} s"
+        return stated if self.day is None else f"{self.day.on_the_clock(seconds)} ({stated})"
+
+    def next_day(self, earliest: float, latest: float) -> str:
+        """Return how what ends before it starts is written if it ends on the day after; or nothing.
+        """
+        if not earliest < latest + DAY_SECONDS:
+            return ""
+        if self.day is not None:
+            return f"if it ends on the next day, state {self.day.a_day_after(latest)}, else "
+        if earliest - latest < LEAST_NIGHT:
+            return ""
+        return (f"if it ends on the next day, state {latest + DAY_SECONDS:g} (+1 and a time of day "
+                "where there is a plan_start), else ")
 
 
 def error_at(code: ErrorCode, path: Path, message: str) -> InputError:

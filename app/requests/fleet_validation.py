@@ -12,11 +12,12 @@ from app.schemas.vehicle import SpeedChangeInput, VehicleTypeInput
 def shift_errors(draft: Draft) -> Errors:
     """Say which shifts end before they start."""
     for path, vehicle_type in draft.vehicle_types():
-        shift = vehicle_type.shift
-        if shift.latest is not None and shift.latest < shift.earliest:
+        earliest, latest = vehicle_type.shift.earliest, vehicle_type.shift.latest
+        if latest is not None and latest < earliest:
             yield error_at("SHIFT_ENDS_BEFORE_START", (*path, "shift", "latest"),
-                           f"The shift ends at {shift.latest:g} s, before it starts at "
-                           f"{shift.earliest:g} s: raise latest or lower earliest.")
+                           f"The shift ends at {draft.told(latest)}, before it starts at "
+                           f"{draft.told(earliest)}: {draft.next_day(earliest, latest)}raise "
+                           "latest or lower earliest.")
 
 
 def depot_errors(draft: Draft) -> Errors:

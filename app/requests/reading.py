@@ -12,7 +12,7 @@ from app.requests.draft import Draft
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
 from app.schemas.customer import CustomerInput
-from app.schemas.day import DayOfBody
+from app.schemas.day import Day, DayOfBody
 from app.schemas.hints import with_hints
 from app.schemas.request import (
     AirspaceInput,
@@ -125,7 +125,8 @@ def _whole_draft(request: PlanRequest) -> Draft:
         replan=request.replan,
         planar_rounding=request.planar_rounding,
         load_dimensions=request.load_dimensions,
-        has_day=request.plan_start is not None,
+        day=(None if request.plan_start is None
+             else Day.of(request.plan_start, request.time_zone)),
         incompatible_goods=request.incompatible_goods,
     )
 
@@ -147,7 +148,7 @@ def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails], day: Day
         replan=(None if raw.get("replan") is None
                 else _section(raw, broken, "replan", ReplanInput, day)),
         planar_rounding=raw.get("planar_rounding", "exact"),
-        has_day=raw.get("plan_start") is not None,
+        day=day.day,
     )
 
 

@@ -216,6 +216,6 @@ def _policy_errors(draft: Draft, policies: Collection[str] | None) -> Errors:
 
 
 def _day_errors(draft: Draft) -> Errors:
-    if draft.options is not None and draft.options.times in ("iso", "clock") and not draft.has_day:
+    if draft.options is not None and draft.options.times in ("iso", "clock") and draft.day is None:
         yield error_at("MISSING_PLAN_START", ("options", "times"),
                        "Without plan_start instants are seconds: add it, or ask for seconds.")

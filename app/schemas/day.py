@@ -133,6 +133,19 @@ class Day:
         days = (instant.date() - self.start.date()).days
         return (f"{days:+d} " if days else "") + f"{instant.hour}:{instant.minute:02d}"
 
+    def on_the_clock(self, seconds: float) -> str:
+        """Return an instant as wall time of the day, such as `22:00`, to the second if need be."""
+        instant = self.instant(seconds)
+        is_whole = instant.second == instant.microsecond == instant.fold == 0
+        return self.to_the_minute(seconds) if is_whole else self.clock(seconds)
+
+    def a_day_after(self, seconds: float) -> str:
+        """Return how the same wall time on the day after is written, such as `+1 2:00`."""
+        instant = self.instant(seconds)
+        days = (instant.date() - self.start.date()).days + 1
+        wall = instant.replace(tzinfo=None).time().isoformat()
+        return f"{days:+d} {wall.removesuffix(':00')}"
+
     @property
     def since_midnight(self) -> float:
         """Seconds that the wall clock showed at plan start."""

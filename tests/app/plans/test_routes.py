@@ -330,3 +330,38 @@ def test_number_of_listed_errors_is_limited(client: httpx.Client, smallest: Requ
     _set(smallest, "customers.0", {f"x{i}": 0 for i in range(30_000)})
     assert [error["code"] for error in client.post("/plan", json=smallest).json()["errors"]] == [
         "TOO_MANY_ERRORS"]
+
+
+NIGHT = {"earliest": "22:00", "latest": "02:00"}
+
+
+@pytest.mark.parametrize(("path", "value"), [
+    ("customers", {"time_window": NIGHT}), ("customers", {"time_windows": [NIGHT]}),
+    ("fleet", {"shift": NIGHT})])
+@pytest.mark.parametrize("also_wrong", [False, True])
+def test_nights_in_clocks_are_refused_with_how_the_next_day_is_written(
+        client: httpx.Client, smallest: Request, path: str, value: Request,
+        also_wrong: bool) -> None:
+    smallest |= {"plan_start": "2026-05-04T00:00:00+02:00", "time_zone": "Europe/Berlin"}
+    smallest[path][0] |= value
+    if also_wrong:
+        smallest["colour"] = "red"
+    (message,) = (error["message"] for error in client.post("/plan", json=smallest).json()["errors"]
+                  if "ENDS_BEFORE_START" in error["code"])
+    assert "ends at 2:00 (7200 s), before it starts at 22:00 (79200 s)" in message
+    assert "if it ends on the next day, state +1 02:00, else" in message
+    smallest.pop("colour", None)
+    (kind,) = value
+    smallest[path][0] |= {kind: [NIGHT | {"latest": "+1 02:00"}] if kind == "time_windows"
+                          else NIGHT | {"latest": "+1 02:00"}}
+    assert client.post("/plan", json=smallest).status_code == 200
+
+
+def test_nights_in_seconds_are_refused_with_those_of_the_next_day(
+        client: httpx.Client, smallest: Request) -> None:
+    smallest["customers"][0]["time_window"] = {"earliest": 79200, "latest": 7200}
+    (error,) = client.post("/plan", json=smallest).json()["errors"]
+    assert "if it ends on the next day, state 93600 (+1 and a time" in error["message"]
+    smallest["customers"][0]["time_window"] = {"earliest": 5, "latest": 4}
+    (error,) = client.post("/plan", json=smallest).json()["errors"]
+    assert "next day" not in error["message"]
