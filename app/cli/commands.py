@@ -2,7 +2,6 @@
 
 import time
 from contextlib import nullcontext
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -111,8 +110,8 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
         with roads_of(settings) as roads:
             started = time.perf_counter()
             request = read_request(problem_file.read_bytes(), settings.policies)
-            hurried = replace(preparing(request.options, UNBOUNDED, lambda: False),
-                              least_time=LEAST_PREPARING)
+            hurried = preparing(request.options, UNBOUNDED, lambda: False).beside_search(
+                LEAST_PREPARING, "the search")
             task = task_of(request, hurried, roads=roads)
             prepared = time.perf_counter() - started
             _print_warnings(task)

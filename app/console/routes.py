@@ -39,6 +39,7 @@ class ConsoleConfig(BaseModel):
     streets: tuple[StreetsConfig, ...]
     streets_attribution: str
     finds_addresses: bool
+    max_job_seconds: float
 
 
 class ConsoleFiles(StaticFiles):
@@ -93,4 +94,5 @@ async def config(request: Request) -> ConsoleConfig:
                          streets=tuple(StreetsConfig(name=streets.name, bounds=streets.bounds)
                                        for streets in request.app.state.gallery.ready),
                          streets_attribution=ATTRIBUTION,
-                         finds_addresses=bool(request.app.state.addresses.names))
+                         finds_addresses=bool(request.app.state.addresses.names),
+                         max_job_seconds=settings.max_job_seconds)

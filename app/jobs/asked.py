@@ -3,7 +3,7 @@
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from app.conversion.preparing import Preparing, StoppedError
 from app.jobs.rows import JobRow
@@ -85,8 +85,8 @@ class Asking:
             If it can't be planned any more.
         """
         request = self._read(row)
-        work = replace(preparing(request.options, JOB_BOUNDS, should_stop),
-                       least_time=LEAST_PREPARING)
+        work = preparing(request.options, JOB_BOUNDS, should_stop).beside_search(
+            LEAST_PREPARING, "a job's search")
         task = task_of(request, work, roads=self._roads)
         self._await_search(task.problem, work)
         return Asked(task, plan_options(request.options, self._search_threads))

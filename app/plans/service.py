@@ -212,10 +212,12 @@ def preparing(stated: OptionsInput, bounds: Bounds,
     if 0 in (stated.time_limit, stated.search_iterations):
         return Preparing(should_stop, bounds.time_limit, f"the {bounds.time_limit:g} s of "
                          f"{bounds.time_setting}")
-    stated_limit = "time_limit" in stated.model_fields_set
-    return Preparing(should_stop, stated.time_limit, f"the time_limit of {stated.time_limit:g} s, "
-                     f"which may be up to {bounds.time_limit:g} s ({bounds.time_setting})",
-                     patience=0.0 if stated_limit else patience(bounds.time_limit))
+    is_stated = "time_limit" in stated.model_fields_set
+    limit = f"the time_limit of {stated.time_limit:g} s"
+    return Preparing(should_stop, stated.time_limit,
+                     limit if is_stated else f"{limit}, which holds where none is stated",
+                     most=bounds.time_limit, most_setting=bounds.time_setting,
+                     patience=0.0 if is_stated else patience(bounds.time_limit))
 
 
 def plan_options(stated: OptionsInput, search_threads: int = 1) -> PlanOptions:

@@ -1,10 +1,15 @@
 """Planning as it happens: the decoded plan, improvements, the cost curve, stopping."""
 
+import json
 from collections.abc import Callable
+from typing import Any
 
+import pytest
 from playwright.sync_api import Page, Route, expect
 
-from tests.console.steps import idle, let_search, open_advanced, open_tab, state, stop_button
+from tests.console.steps import (
+    idle, let_search, open_advanced, open_file, open_tab, state, stop_button,
+)
 
 
 def set_option(page: Page, name: str, value: str) -> None:
@@ -41,6 +46,40 @@ def test_planning_is_stopped_with_the_best_plan_so_far(page: Page) -> None:
     idle(page)
     assert state(page, "state.run.state") == "idle"
     expect(page.get_by_text("100 of 100 served")).to_be_visible()
+
+
+@pytest.mark.parametrize("width", [1440, 1024, 390])
+def test_a_limit_that_fits_the_size_is_chosen_and_told(open_page: Callable[..., Page],
+                                                       service: str, width: int) -> None:
+    page = open_page(service, viewport={"width": width, "height": 844})
+    idle(page)
+    open_file(page, "many.json", json.dumps(crowd(2500)))
+    told = page.locator("#chosen-limit")
+    expect(told).to_have_text("for up to 9 s, which fits 2,500 customers")
+    expect(page.locator("#total-cost")).to_be_visible()
+    stop_button(page).click()
+    idle(page)
+    expect(told).to_have_count(0)
+    open_tab(page, "solve")
+    field = page.locator("#field-options-time_limit")
+    expect(field).to_have_attribute("placeholder", "9")
+    expect(page.locator("#field-options-time_limit-help")).to_contain_text(
+        "Empty: 9, which fits 2,500 customers")
+    set_option(page, "time_limit", "1.5")
+    with page.expect_request("**/jobs") as asked:
+        page.get_by_role("button", name="Plan", exact=True).click()
+    assert asked.value.post_data_json["options"]["time_limit"] == 1.5
+    expect(told).to_have_count(0)
+    idle(page)
+
+
+def crowd(count: int) -> dict[str, Any]:
+    """Return customers on a grid, for trucks without drones."""
+    customers = [{"id": f"c{number}", "demand": [1],
+                  "location": [number % 50, number // 50]} for number in range(count)]
+    return {"planar_unit": 1000, "depots": [{"id": "hub", "location": [25, 25]}],
+            "customers": customers,
+            "fleet": [{"id": "truck", "count": count // 20, "capacity": [30]}]}
 
 
 def test_policy_and_decoding_are_chosen(page: Page) -> None:

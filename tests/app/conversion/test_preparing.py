@@ -71,6 +71,30 @@ def test_more_work_than_the_time_limit_allows_is_refused_with_an_estimate(
         assert word in error["message"]
 
 
+def test_who_has_too_many_customers_for_a_second_is_told_what_is_enough(
+        serve: Callable[..., httpx.Client], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(travels, "COMPUTED_FROM", 0)
+    monkeypatch.setattr(travels, "COMPUTED", 1.6e-4 * 6700)  # seconds for three places, not 20,000
+    client = ready(serve(FirstFitPlanner(), Settings(role="api", max_plan_seconds=7.0)))
+    [error] = client.post("/plan", json=crowd(2, [])).json()["errors"]
+    assert (error["code"], error["path"]) == ("TOO_MUCH_WORK", "$.options.time_limit")
+    for words in ("time_limit of 1 s, which holds where none is stated",
+                  "options.time_limit of 5 s or more", "up to 7 s (TANDEM_MAX_PLAN_SECONDS)",
+                  "POST /jobs"):
+        assert words in error["message"]
+    assert client.post("/plan", json=crowd(2, [], time_limit=5)).status_code == 200
+
+
+def test_who_has_too_many_customers_for_any_limit_is_sent_to_jobs(
+        serve: Callable[..., httpx.Client], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(travels, "COMPUTED_FROM", 0)
+    monkeypatch.setattr(travels, "COMPUTED", 7.0)
+    client = ready(serve(FirstFitPlanner(), Settings(role="api", max_plan_seconds=7.0)))
+    [error] = client.post("/plan", json=crowd(2, [])).json()["errors"]
+    assert ": submit a job (POST /jobs)" in error["message"]
+    assert "no more than 7 s can be asked for here" in error["message"]
+
+
 def test_without_a_time_limit_the_setting_limits_the_work(
         serve: Callable[..., httpx.Client]) -> None:
     client = ready(serve(FirstFitPlanner(), Settings(role="api", max_plan_seconds=0.2)))

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from pydantic_core import from_json, to_json
 
+from app.conversion import travels
 from app.conversion.preparing import Preparing
 from app.database.durable import connect
 from app.jobs import asked, planning, running
@@ -92,6 +93,15 @@ def test_slices_tell_how_far_a_job_has_come(desk: Desk) -> None:
     assert desk.row(job).state == "done"
     assert work.is_idle
     assert work.advance(job).over
+
+
+def test_a_job_whose_legs_take_longer_than_its_search_is_planned(
+        desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(travels, "COMPUTED_FROM", 0)
+    monkeypatch.setattr(travels, "COMPUTED", 4.0 / NUM_CUSTOMERS)  # of 1 s, as for 25,000
+    job, work = desk.job(0.2), desk.process()
+    until(lambda: work.advance(job), lambda now: now.over)
+    assert desk.row(job).state == "done"
 
 
 def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:

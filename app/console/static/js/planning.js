@@ -4,6 +4,7 @@ import { placeAddresses } from './addressing.js';
 import * as api from './api.js';
 import { showFailure, shownPlan } from './actions.js';
 import { entryAfter } from './core/entries.js';
+import { limitOf } from './core/limits.js';
 import { planName, unlike } from './core/naming.js';
 import { soughtIn } from './core/places.js';
 import { furtherFrom } from './core/replanning.js';
@@ -55,9 +56,11 @@ export function improvePlan() {
 
 /** Plan for a problem what is `asked`, with the lines of legs and flights, which the map draws. */
 async function run(request, asked) {
-  const sent = { ...asked, options: { ...asked.options, geometry: true } };
+  const { epoch, plans, config } = store.get();
+  const limit = limitOf(asked, config.max_job_seconds);
+  const options = { ...asked.options, time_limit: limit.seconds, geometry: true };
+  const sent = { ...asked, options };
   if (current) await stop();
-  const { epoch, plans } = store.get();
   const former = formerOf(store.get(), request);
   const task = {
     number: nextNumber(),
@@ -72,7 +75,7 @@ async function run(request, asked) {
   store.set({
     failure: null,
     errors: [],
-    run: { state: 'decoding', points: [], message: 'Planning', ...known(task, request) },
+    run: { state: 'decoding', points: [], message: 'Planning', limit, ...known(task, request) },
   });
   task.request = request;
   await finish(task, async () => {
@@ -107,7 +110,8 @@ export async function resume({ number, name, former, request, job }) {
     began: performance.now(),
   };
   current = task;
-  const run = { state: 'improving', points: [], message: 'Planning', job };
+  const limit = limitOf(request, store.get().config.max_job_seconds);
+  const run = { state: 'improving', points: [], message: 'Planning', job, limit };
   store.set({ run: { ...run, ...known(task, request) } });
   await finish(task, () => follow(task));
 }

@@ -24,7 +24,13 @@ export function createStore(initial) {
 export const store = createStore({
   schemas: null, // of /openapi.json
   examples: [], // {name, summary, request}
-  config: { policies: [], tile_url: null, tile_attribution: '', streets: [] },
+  config: {
+    policies: [],
+    tile_url: null,
+    tile_attribution: '',
+    streets: [],
+    max_job_seconds: Infinity,
+  },
   request: null, // the problem as it is edited, all its times in seconds
   stated: null, // the problem as it was opened
   name: '', // of the problem, and what is noted with it

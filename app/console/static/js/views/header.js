@@ -1,7 +1,7 @@
 /** The header: what problem is open, planning, and what came of it. */
 
 import { isWaiting, openRequest, shownPlan } from '../actions.js';
-import { count, money } from '../core/format.js';
+import { count, duration, money } from '../core/format.js';
 import { html, useRef } from '../libraries.js';
 import { plan, stop } from '../planning.js';
 import { store, useStore } from '../store.js';
@@ -69,6 +69,9 @@ function Opener() {
   </div>`;
 }
 
+/** Seconds that are planned without telling how long it takes. */
+const MOST_UNTOLD = 5;
+
 const STATES = { decoding: 'Building a plan', improving: 'Improving', stopping: 'Stopping' };
 
 function Result() {
@@ -81,6 +84,15 @@ function Result() {
     ${entry && html`<${Totals} plan=${entry.plan} />`}
     ${run.state !== 'idle' && html`<span>${
       run.waiting ?? STATES[waits ? 'decoding' : run.state]}</span>`}
+    ${
+      ['decoding', 'improving'].includes(run.state) &&
+      run.limit?.isChosen &&
+      run.limit.seconds > MOST_UNTOLD &&
+      html`<span id="chosen-limit">for up to ${duration(run.limit.seconds)}, which fits ${count(
+        run.request.customers.length,
+        'customer',
+      )}</span>`
+    }
     ${waits && entry && html`<span class="stale">The plan before is shown meanwhile.</span>`}
     ${
       run.state === 'improving' &&

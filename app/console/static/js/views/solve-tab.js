@@ -1,7 +1,8 @@
 /** How to plan, and how the cost fell. */
 
 import { edit, shownPlan } from '../actions.js';
-import { duration, money, number } from '../core/format.js';
+import { count, duration, money, number } from '../core/format.js';
+import { fittingSeconds } from '../core/limits.js';
 import { labelOf } from '../core/schema.js';
 import { html, uPlot, useEffect, useRef } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -25,7 +26,9 @@ export function SolveTab() {
   const sampled = request.options?.decoding === 'sample';
   const rest = Object.keys(schemas.OptionsInput.properties).filter((name) => !PLAIN.includes(name));
   const wrong = errors.some(({ keys }) => keys[0] === 'options' && rest.includes(keys[1]));
-  const shared = { schema: schemas.OptionsInput, keys: ['options'], request, onChange: edit };
+  const most = useStore((state) => state.config.max_job_seconds);
+  const schema = withFittingLimit(schemas.OptionsInput, request, most);
+  const shared = { schema, keys: ['options'], request, onChange: edit };
   return html`<section class="section"><h3>How to plan</h3>
       <${Fields} ...${shared} skip=${rest} />
       <details class="card" open=${wrong}><summary>Advanced
@@ -34,6 +37,17 @@ export function SolveTab() {
           skip=${[...PLAIN, ...OWN, ...(sampled ? [] : OF_SAMPLES)]} /></div></details>
     </section>
     <${Curve} /><${Solver} />`;
+}
+
+/** Return the schema of the options, which says how long is planned where nothing is stated. */
+function withFittingLimit(schema, request, most) {
+  const seconds = fittingSeconds(request, most);
+  const description = `Seconds of search. Empty: ${number(seconds)}, which fits ${count(
+    request.customers.length,
+    'customer',
+  )}. 0: the first plan as it is.`;
+  const limit = { ...schema.properties.time_limit, default: seconds, description };
+  return { ...schema, properties: { ...schema.properties, time_limit: limit } };
 }
 
 /** Return which of some options a problem states. */
