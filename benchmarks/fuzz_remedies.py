@@ -135,6 +135,13 @@ def _of_one_type(customer: Data, kind: Data) -> Data:
     return customer | {"vehicles": None}
 
 
+def _remedies(reason: Data) -> Iterator[Data]:
+    """Yield a reason with each of its remedies."""
+    for name in ("remedy", "other_remedy"):
+        if reason.get(name) is not None:
+            yield reason | {"remedy": reason[name]}
+
+
 @dataclass
 class Remedies:
     """What came of all remedies."""
@@ -147,8 +154,8 @@ class Remedies:
         """Plan a problem and apply remedies; return those that don't hold, in words. In place."""
         plan = self.study.planned(request)
         false = []
-        offered = [(left["id"], reason) for left in (plan or {"unassigned": []})["unassigned"]
-                   for reason in left["reasons"] if reason["remedy"] is not None]
+        offered = [(left["id"], remedy) for left in (plan or {"unassigned": []})["unassigned"]
+                   for reason in left["reasons"] for remedy in _remedies(reason)]
         for customer, reason in offered[:MOST_OF_A_PLAN]:
             fault = self._fault(request, customer, reason)
             self.applied[reason["code"]] += 1

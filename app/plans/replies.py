@@ -189,12 +189,14 @@ def _unassigned(problem: Problem, solution: Solution,
 
 def reason_reply(problem: Problem, reason: Reason) -> Data:
     """Return why vehicles of a type don't serve a customer."""
-    return {
+    reply = {
         "vehicle_type": problem.vehicle_types[reason.vehicle_type].type_id,
         "code": reason.code,
         "message": reason.message,
         "remedy": reason.remedy,
     }
+    other = reason.other_remedy
+    return reply if other is None else reply | {"other_remedy": other}
 
 
 def one_per_type(problem: Problem, reasons: Iterable[Reason]) -> list[Reason]:

@@ -4,6 +4,7 @@ import time
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 
 from pydantic_core import to_json
 
@@ -32,6 +33,7 @@ from app.warnings.warning import RequestWarning
 from model.judge.bench import Setting
 from model.judge.check import Evaluation, JudgedRoute, check
 from model.judge.explain import Reason, explain
+from model.judge.more_trips import with_another_trip
 from model.judge.past import Vehicle
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
@@ -124,16 +126,16 @@ class Task:
 
     def reasons(self, solution: Solution, node: int, until: float) -> tuple[Reason, ...]:
         """Return why a plan leaves a customer out, as far as is found until an instant."""
-        if self.replanning is None:
-            return explain(self.problem, solution, node, until)
-        return self.replanning.reasons(solution, node, until)
+        why = partial(explain, self.problem) if self.replanning is None else (
+            self.replanning.reasons)
+        return with_another_trip(self.judged_problem, solution, node,
+                                 why(solution, node, until), self.setting.past, until)
 
     def reply(self, options: PlanOptions, result: PlanResult) -> Data:
         """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""
         allowed = EXPLAINING + EXPLAINING_SHARE * options.time_limit
         until = time.perf_counter() + allowed
-        reasons = None if self.replanning is None else self.replanning.reasons
-        reply = plan_reply(self.problem, options, result, reasons, until)
+        reply = plan_reply(self.problem, options, result, self.reasons, until)
         reply["legs"] = [asdict(origin) for origin in self.legs]
         reply["warnings"] = warning_replies(self.warnings)
         if self.places is not None and self.places.found:

@@ -150,6 +150,8 @@ class ReasonReply(_Reply):
     message: WordsReply = Field(description="The reason in words.")
     remedy: WordsReply | None = Field(
         description="A change that would suffice. Null: none is known.")
+    other_remedy: str | None = Field(
+        None, description="Another change that would suffice; left out where none is known.")
 
 
 class UnassignedReply(_Reply):

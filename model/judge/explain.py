@@ -26,6 +26,7 @@ class Reason:
     code: str
     message: str
     remedy: str | None = None  # a change that suffices, if one is known
+    other_remedy: str | None = None  # another one
 
 
 def explain(problem: Problem, solution: Solution, node: int,

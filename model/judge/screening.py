@@ -132,7 +132,7 @@ class Screen:
         yield Guess(0, cost, hours, Place(vehicle, number, "truck", 1, own_trip=True))
         if "drone" not in self._means:
             return
-        for first, drones in _first_drones(kind):
+        for first, drones in first_drones(kind):
             for recovery, place in enumerate((begin, end)):
                 duration, price = self._flight(drones, begin, place)
                 if duration < UNREACHABLE:
@@ -146,7 +146,7 @@ class Screen:
         slacks = _slacks(self._problem, kind.latest + allowed_overtime(kind), trip)
         yield from self._by_truck(vehicle, number, trip, slacks, first_stop)
         if "drone" in self._means and kind.drones is not None:
-            for first, drones in _first_drones(kind):
+            for first, drones in first_drones(kind):
                 yield from self._by_drone(vehicle, number, trip, drones, first, first_stop)
             yield from self._by_shared_flight(vehicle, number, trip, kind, first_flight)
 
@@ -240,7 +240,7 @@ def _slacks(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:
     return [slack, *reversed(slacks)]
 
 
-def _first_drones(kind: VehicleType) -> Iterator[tuple[int, DroneType]]:
+def first_drones(kind: VehicleType) -> Iterator[tuple[int, DroneType]]:
     """Yield the types of drones of a vehicle, each with the number of its first drone."""
     first = 0
     for drones in kind.drone_types:

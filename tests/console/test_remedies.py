@@ -55,6 +55,24 @@ PROBLEMS = {
 }
 
 
+APPLY_OTHER = """async (request) => {
+  const { applyRemedy, otherReason } = await import(`${modules}/core/remedies.js`);
+  const plan = async (body) => (await fetch('plan', { method: 'POST', body: JSON.stringify(body),
+    headers: { 'Content-Type': 'application/json' } })).json();
+  const first = await plan(request);
+  const [customer] = first.unassigned;
+  const reason = otherReason(customer.reasons[0]);
+  const second = await plan(applyRemedy(request, customer.id, reason));
+  return [reason.remedy, second.unassigned];
+}"""
+
+
+def test_another_trip_is_applied_and_serves_the_customer(console: Page) -> None:
+    remedy, unassigned = console.evaluate(APPLY_OTHER, PROBLEMS["one more vehicle"])
+    assert remedy == "fits if van could make another trip"
+    assert unassigned == []
+
+
 @pytest.mark.parametrize("words", PROBLEMS)
 def test_remedy_is_applied_and_serves_the_customer(console: Page, words: str) -> None:
     remedy, unassigned = console.evaluate(APPLY, PROBLEMS[words])

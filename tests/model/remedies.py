@@ -96,6 +96,8 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
     "fits if trips could be (.+) km longer": lambda kind, text: replace(
         kind, max_trip_distance=(kind.max_trip_distance or 0) + _units(text, KM)),
     "fits if .+ may pick up at any tim(e)": lambda kind, _: replace(kind, pickups="any"),
+    "fits if .+ could make another tri(p)": lambda kind, _: replace(
+        kind, max_trips=kind.max_trips + 1),
     "fits with one more vehicl(e)": lambda kind, _: replace(kind, count=kind.count + 1),
 }
 ON_CUSTOMER: dict[str, Callable[[Customer, str], Customer]] = {

@@ -54,6 +54,22 @@ test('what changes vehicles by so much is applied once, the largest', () => {
     because('B', ['van', 'CAPACITY', 'fits with one more vehicle']),
   ]);
   assert.equal(more.changed.fleet[0].count, 2);
+  const another = 'fits if van could make another trip';
+  const [again] = groupUnassigned(request, [
+    because('A', ['van', 'FLEET_EXHAUSTED', another]),
+    because('B', ['van', 'FLEET_EXHAUSTED', another]),
+  ]);
+  assert.equal(again.changed.fleet[0].max_trips, 2);
+});
+
+test('a second remedy of the same reason makes a group of its own kind', () => {
+  const both = (id) => ({ id, reasons: [{ vehicle_type: 'van', code: 'FLEET_EXHAUSTED',
+    message: 'all are in use', remedy: 'fits with one more vehicle',
+    other_remedy: 'fits if van could make another trip' }] });
+  const [group] = groupUnassigned(request, [both('A'), both('B')]);
+  assert.equal(group.others.length, 1);
+  assert.equal(group.others[0].remedy, 'fits if van could make another trip');
+  assert.equal(group.others[0].changed.fleet[0].max_trips, 2);
 });
 
 test('what changes customers is applied to each', () => {

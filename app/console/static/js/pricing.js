@@ -20,7 +20,8 @@ export function priceOf(prices, entry, group) {
 /** Price the largest groups of an entry of `plans`, one after another, while it is looked at. */
 export async function priceLargest(entry, groups) {
   if (entry.request.customers.length > MOST_CUSTOMERS) return;
-  for (const group of groups.filter(({ changed }) => changed).slice(0, MOST_GROUPS)) {
+  const ways = groups.flatMap((group) => [group, ...group.others]);
+  for (const group of ways.filter(({ changed }) => changed).slice(0, MOST_GROUPS)) {
     const { prices, run, tab } = store.get();
     const isWanted = shownPlan(store.get()) === entry && tab === 'unassigned';
     if (!isWanted || run.state !== 'idle') return;

@@ -12,6 +12,11 @@ const CHANGES = [
   [/^fits if .+ may serve it$/, allowType, 'VEHICLE'],
   [/^fits with one more vehicle$/, (request, { type }) => add(request, [...type, 'count'], 1)],
   [
+    /^fits if .+ could make another trip$/,
+    (request, { type }) =>
+      setIn(request, [...type, 'max_trips'], (getIn(request, [...type, 'max_trips']) ?? 1) + 1),
+  ],
+  [
     new RegExp(`^served if unassigned_cost were above ${NUMBER}$`),
     (request, _, above) => ({
       ...request,
@@ -190,7 +195,8 @@ export function applyRemedy(request, id, reason) {
 }
 
 /** Remedies that change the vehicles of a type by so much: the largest suffices for all. */
-const BY_SO_MUCH = /(longer|later|more|more overtime|one more vehicle|were above [\d.,]+)$/;
+const BY_SO_MUCH =
+  /(longer|later|more|more overtime|one more vehicle|another trip|were above [\d.,]+)$/;
 
 /** Return a remedy without its numbers and names, which tells its kind from others. */
 function kindOf({ remedy }) {
@@ -206,7 +212,8 @@ function sizeOf({ remedy }) {
  * members, changed, isForEach}]`, the largest group first, each customer in one group.
  *
  * `members` are `{customer, reason}`; `changed` is the request with the remedy for all of them,
- * null if none is known; `isForEach` says that it changes the customers, not the vehicles.
+ * null if none is known; `isForEach` says that it changes the customers, not the vehicles;
+ * `others` are groups of the same members by the other remedy that all of them have.
  */
 export function groupUnassigned(request, unassigned) {
   const groups = new Map();
@@ -243,11 +250,24 @@ function oneEach(groups) {
   return found;
 }
 
+/** Return a reason as its other remedy has it, null if there is none. */
+export function otherReason({ other_remedy: other, ...reason }) {
+  return other ? { ...reason, remedy: other } : null;
+}
+
+function othersOf(request, key, members) {
+  const others = members.map(({ customer, reason }) => ({
+    customer,
+    reason: reason && otherReason(reason),
+  }));
+  return others.every(({ reason }) => reason) ? [grouped(request, `${key}|other`, others)] : [];
+}
+
 function grouped(request, key, members) {
   const { reason } = members[0];
   if (!reason?.remedy) {
     return { key, code: reason?.code, type: reason?.vehicle_type, remedy: null, members,
-      changed: null, isForEach: false };
+      changed: null, isForEach: false, others: [] };
   }
   const ordered = [...members].sort((one, other) => sizeOf(other.reason) - sizeOf(one.reason));
   const [most] = ordered;
@@ -262,5 +282,5 @@ function grouped(request, key, members) {
           request,
         );
   return { key, code: reason.code, type: reason.vehicle_type, remedy: most.reason.remedy, members,
-    changed, isForEach };
+    changed, isForEach, others: othersOf(request, key, members) };
 }

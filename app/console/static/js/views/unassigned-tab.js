@@ -2,7 +2,7 @@
 
 import { edit, indexOf, shownPlan } from '../actions.js';
 import { count, money, number, signed, timesInWords } from '../core/format.js';
-import { applyRemedy, groupUnassigned } from '../core/remedies.js';
+import { applyRemedy, groupUnassigned, otherReason } from '../core/remedies.js';
 import { html, useEffect, useMemo } from '../libraries.js';
 import { plan } from '../planning.js';
 import { priceGroup, priceLargest, priceOf } from '../pricing.js';
@@ -38,25 +38,32 @@ export function UnassignedTab() {
 
 function Group({ group, entry }) {
   const request = useStore((state) => state.request);
-  const { members, remedy, isForEach } = group;
-  const sentence = remedy && sentenceOf(remedy);
-  const most = isForEach && members.length > 1 ? 'Each its own, at most: ' : '';
+  const { members } = group;
   const customers = members.map(
     ({ customer }) => html`<${Unassigned} key=${customer.id} customer=${customer}
       index=${indexOf(entry)} request=${request} />`,
   );
-  const price = group.changed && html`<${Price} group=${group} entry=${entry} />`;
-  if (members.length === 1) return html`<section>${customers}${price}</section>`;
+  const ways = [group, ...group.others];
+  const price = (way) => way.changed && html`<${Price} group=${way} entry=${entry} />`;
+  const priced = ways.map((way) => html`<${Way} key=${way.key} way=${way} />${price(way)}`);
+  if (members.length === 1) {
+    return html`<section>${customers}${ways.length > 1 ? priced : price(group)}</section>`;
+  }
   return html`<section class="group" data-group=${group.key}>
     <h4>${count(members.length, 'customer')}:
       ${' '}${timesInWords(members[0].reason?.message ?? 'no reason found')}</h4>
-    ${sentence && html`<p>${most}${sentence}.</p>`}
-    ${price}
+    ${priced}
     <details open=${members.length <= FEW}><summary>${members
       .map(({ customer }) => customer.id)
       .slice(0, 2 * FEW)
       .join(', ')}${members.length > 2 * FEW ? ' \u2026' : ''}</summary>${customers}</details>
   </section>`;
+}
+
+/** What would help all of a group. */
+function Way({ way: { remedy, isForEach } }) {
+  if (!remedy) return null;
+  return html`<p>${isForEach ? 'Each its own, at most: ' : ''}${sentenceOf(remedy)}.</p>`;
 }
 
 /** What a remedy for a whole group serves and costs, and the button that applies it. */
@@ -104,8 +111,8 @@ function Unassigned({ customer, index, request }) {
     <div class="inside">${customer.reasons.map(
       (reason) => html`<div key=${reason.vehicle_type}>
       <p><strong>${reason.vehicle_type}</strong>: ${timesInWords(reason.message)}</p>
-      ${reason.remedy && html`<${Remedy} customer=${customer} reason=${reason}
-        request=${request} />`}
+      ${[reason, otherReason(reason)].filter((each) => each?.remedy).map((each) => html`<${Remedy}
+        key=${each.remedy} customer=${customer} reason=${each} request=${request} />`)}
     </div>`,
     )}<${StopMoves} id=${customer.id} /><${WhyHere} id=${customer.id} /></div></article>`;
 }
