@@ -2,6 +2,7 @@
 
 import { clock, hours } from './format.js';
 import { labelOf } from './schema.js';
+import { t } from '../texts.js';
 
 const LONGEST = 60;
 const INSTANT = /(earliest|latest|time)$/;
@@ -21,13 +22,15 @@ function placeOf(path) {
 }
 
 function shown(value, field) {
-  if (value === undefined || value === null) return 'none';
+  if (value === undefined || value === null) return t('change.none');
   if (typeof value === 'number' && INSTANT.test(field)) return clock(value, { precise: true });
   if (typeof value === 'number' && LENGTH.test(field)) return hours(value, { precise: true });
   if (Array.isArray(value) && value.every((entry) => typeof entry === 'number')) {
     return value.join(', ');
   }
-  if (typeof value === 'object' && value.count !== undefined) return `${value.count} each`;
+  if (typeof value === 'object' && value.count !== undefined) {
+    return t('change.each', { count: value.count });
+  }
   const text = typeof value === 'object' ? JSON.stringify(value) : String(value);
   return text.length > LONGEST ? `${text.slice(0, LONGEST)}\u2026` : text;
 }

@@ -4,8 +4,7 @@ import { amounts, clock, duration, km, length, money, percent } from './format.j
 import { lengthOf, planeOf } from './geometry.js';
 import { partsOf } from './plan.js';
 import { windowsInWords, windowsOf } from './windows.js';
-
-const SERVED_BY = { truck: 'truck only', drone: 'drone only', either: 'truck or drone' };
+import { t } from '../texts.js';
 
 /** Return title and facts of what a key names: `{title, facts: [[term, value]], late}`. */
 export function describe(request, index, key) {
@@ -27,30 +26,40 @@ export function describe(request, index, key) {
 
 function customerFacts(customer) {
   const facts = [
-    ['Demand', amounts(customer.demand)],
-    ['Window', windowsInWords(windowsOf(customer))],
+    [t('about.demand'), amounts(customer.demand)],
+    [t('about.window'), windowsInWords(windowsOf(customer))],
   ];
-  if (customer.pickup) facts.push(['Pickup', amounts(customer.pickup)]);
-  if (customer.service_duration) facts.push(['Service', duration(customer.service_duration)]);
+  if (customer.pickup) facts.push([t('about.pickup'), amounts(customer.pickup)]);
+  if (customer.service_duration) {
+    facts.push([t('about.service'), duration(customer.service_duration)]);
+  }
   for (const [type, seconds] of Object.entries(customer.service_duration_by_type ?? {})) {
-    facts.push([`By ${type}`, duration(seconds)]);
+    facts.push([t('about.by', { type }), duration(seconds)]);
   }
   if (customer.served_by && customer.served_by !== 'either') {
-    facts.push(['For', SERVED_BY[customer.served_by]]);
+    facts.push([t('about.for'), t(`servedBy.${customer.served_by}`)]);
   }
-  if (customer.skills?.length) facts.push(['Skills', customer.skills.join(', ')]);
+  if (customer.skills?.length) facts.push([t('about.skills'), customer.skills.join(', ')]);
   if (customer.max_time_aboard != null) {
-    facts.push(['Aboard', `at most ${duration(customer.max_time_aboard)}`]);
+    facts.push([
+      t('about.aboard'),
+      t('about.atMost', { time: duration(customer.max_time_aboard) }),
+    ]);
   }
-  if (customer.setup_duration) facts.push(['Setup', duration(customer.setup_duration)]);
-  if (customer.goods?.length) facts.push(['Goods', customer.goods.join(', ')]);
-  if (customer.release_time) facts.push(['Parcel there', `from ${clock(customer.release_time)}`]);
+  if (customer.setup_duration) facts.push([t('about.setup'), duration(customer.setup_duration)]);
+  if (customer.goods?.length) facts.push([t('about.goods'), customer.goods.join(', ')]);
+  if (customer.release_time) {
+    const from = clock(customer.release_time);
+    facts.push([t('about.parcel'), t('format.from', { from })]);
+  }
   const { allowed, forbidden } = customer.vehicles ?? {};
-  if (allowed) facts.push(['Only by', allowed.join(', ')]);
-  if (forbidden) facts.push(['Not by', forbidden.join(', ')]);
+  if (allowed) facts.push([t('about.onlyBy'), allowed.join(', ')]);
+  if (forbidden) facts.push([t('about.notBy'), forbidden.join(', ')]);
   facts.push(...Object.entries(customer.info ?? {}));
   const price = customer.unassigned_cost;
-  if (price !== null && price !== undefined) facts.push(['Left out', `costs ${money(price)}`]);
+  if (price !== null && price !== undefined) {
+    facts.push([t('about.leftOut'), t('about.costs', { price: money(price) })]);
+  }
   return facts;
 }
 
@@ -58,26 +67,29 @@ function servedFacts(index, halt, key) {
   if (!index) return [];
   if (halt) return haltFacts(halt);
   const isOut = index.plan.unassigned.some(({ id }) => id === key.slice(2));
-  return [['Served', isOut ? 'not: see Unassigned' : 'not planned yet']];
+  return [[t('about.served'), isOut ? t('about.isOut') : t('about.notYet')]];
 }
 
 /** Return what happens at a halt. */
 export function haltFacts(halt) {
   const facts = [
-    ['Served by', halt.sortie ? halt.sortie.drone : halt.vehicle.name],
-    ['Arrival', clock(halt.arrival, { precise: true })],
+    [t('about.servedBy'), halt.sortie ? halt.sortie.drone : halt.vehicle.name],
+    [t('about.arrival'), clock(halt.arrival, { precise: true })],
   ];
-  if (halt.kind !== 'customer') facts[0][0] = 'Vehicle';
-  if (halt.setup > 0) facts.push(['Sets up', duration(halt.setup)]);
+  if (halt.kind !== 'customer') facts[0][0] = t('about.vehicle');
+  if (halt.setup > 0) facts.push([t('about.setsUp'), duration(halt.setup)]);
   if (halt.waiting > 0) {
     facts.push([
-      'Waits',
-      `${duration(halt.waiting)}, until ` + clock(halt.serviceStart, { precise: true }),
+      t('about.waits'),
+      t('about.waitsUntil', {
+        time: duration(halt.waiting),
+        until: clock(halt.serviceStart, { precise: true }),
+      }),
     ]);
   }
-  facts.push(['Departure', clock(halt.departure, { precise: true })]);
-  if (halt.lateness > 0) facts.push(['Late by', duration(halt.lateness)]);
-  facts.push([halt.sortie ? 'Payload' : 'Load on leaving', amounts(halt.load)]);
+  facts.push([t('about.departure'), clock(halt.departure, { precise: true })]);
+  if (halt.lateness > 0) facts.push([t('about.lateBy'), duration(halt.lateness)]);
+  facts.push([halt.sortie ? t('about.payload') : t('about.load'), amounts(halt.load)]);
   return facts;
 }
 
@@ -86,15 +98,18 @@ function describeSortie(index, key) {
   if (!sortie) return null;
   const { reply } = sortie;
   return {
-    title: `Flight of ${sortie.drone}`,
+    title: t('about.flight', { drone: sortie.drone }),
     facts: [
-      ...(reply.drone_type ? [['Type', reply.drone_type]] : []),
-      ['From', sortie.from.id],
-      ['To', sortie.visits.map(({ id }) => id).join(', ')],
-      ['Back at', sortie.to.id],
-      ['Take-off', clock(reply.launch_time, { precise: true })],
-      ['Recovered', clock(reply.recovery_time, { precise: true })],
-      ['Flown', `${km(reply.distance)} in ${duration(reply.duration)}`],
+      ...(reply.drone_type ? [[t('about.type'), reply.drone_type]] : []),
+      [t('about.from'), sortie.from.id],
+      [t('about.to'), sortie.visits.map(({ id }) => id).join(', ')],
+      [t('about.backAt'), sortie.to.id],
+      [t('about.takeOff'), clock(reply.launch_time, { precise: true })],
+      [t('about.recovered'), clock(reply.recovery_time, { precise: true })],
+      [t('about.flown'), t('about.kmIn', {
+        way: km(reply.distance),
+        time: duration(reply.duration),
+      })],
     ],
   };
 }
@@ -109,13 +124,13 @@ function describeTrip(index, key) {
   const trip = index?.vehicles[vehicle]?.trips[number];
   if (!trip) return null;
   return {
-    title: `${trip.vehicle.name}, trip ${number + 1}`,
+    title: t('about.trip', { vehicle: trip.vehicle.name, number: number + 1 }),
     facts: [
-      ['Load', `${amounts(trip.reply.load)} (${percent(trip.reply.load_rate)})`],
-      ['Driven', km(trip.reply.distance)],
-      ['Takes', duration(trip.reply.duration)],
-      ['Stops', String(trip.stops.filter(({ kind }) => kind === 'customer').length)],
-      ['Flights', String(trip.sorties.length)],
+      [t('about.loaded'), `${amounts(trip.reply.load)} (${percent(trip.reply.load_rate)})`],
+      [t('about.driven'), km(trip.reply.distance)],
+      [t('about.takes'), duration(trip.reply.duration)],
+      [t('about.stops'), String(trip.stops.filter(({ kind }) => kind === 'customer').length)],
+      [t('about.flights'), String(trip.sorties.length)],
     ],
   };
 }
@@ -129,11 +144,11 @@ function describeLeg(request, index, key) {
   return {
     title: `${before.id} \u2192 ${leg.id}`,
     facts: [
-      ['Driven by', trip.vehicle.name],
-      [leg.line.length > 2 ? 'Road' : 'Straight', length(metres)],
-      ['Takes', duration(leg.arrival - before.departure)],
-      ['Departure', clock(before.departure, { precise: true })],
-      ['Arrival', clock(leg.arrival, { precise: true })],
+      [t('about.drivenBy'), trip.vehicle.name],
+      [leg.line.length > 2 ? t('about.road') : t('about.straight'), length(metres)],
+      [t('about.takes'), duration(leg.arrival - before.departure)],
+      [t('about.departure'), clock(before.departure, { precise: true })],
+      [t('about.arrival'), clock(leg.arrival, { precise: true })],
     ],
   };
 }
@@ -144,9 +159,9 @@ function describeVehicle(index, key) {
   return {
     title: vehicle.name,
     facts: [
-      ['Type', vehicle.route.type],
-      ['Trips', String(vehicle.trips.length)],
-      ['Works', duration(vehicle.route.working_duration)],
+      [t('about.type'), vehicle.route.type],
+      [t('about.trips'), String(vehicle.trips.length)],
+      [t('about.works'), duration(vehicle.route.working_duration)],
     ],
   };
 }

@@ -1,9 +1,10 @@
 /** What differs between two problems, and between two plans. */
 
-import { count, money } from './format.js';
+import { money } from './format.js';
 import { matchVehicles } from './matching.js';
 import { indexPlan } from './plan.js';
 import { trueCost } from './terms.js';
+import { t } from '../texts.js';
 
 /** Return `[{path, before, after}]` of two requests; entries with an id are matched by it. */
 export function requestDifferences(before, after, path = '') {
@@ -34,27 +35,27 @@ function entryDifferences(before, after, path) {
   const ids = new Set([...old.keys(), ...now.keys()]);
   return [...ids].flatMap((id) => {
     const place = `${path}[${id}]`;
-    if (!old.has(id)) return [{ path: place, before: undefined, after: 'added' }];
-    if (!now.has(id)) return [{ path: place, before: 'there', after: undefined }];
+    if (!old.has(id)) return [{ path: place, before: undefined, after: t('change.added') }];
+    if (!now.has(id)) return [{ path: place, before: t('change.there'), after: undefined }];
     return requestDifferences(old.get(id), now.get(id), place);
   });
 }
 
-const MEASURES = {
-  served: 'Customers served',
-  vehicles: 'Vehicles',
-  trips: 'Trips',
-  sorties: 'Flights',
-  distance: 'Driven',
-  drone_distance: 'Flown',
-  makespan: 'Last return',
-};
+const MEASURES = [
+  'served',
+  'vehicles',
+  'trips',
+  'sorties',
+  'distance',
+  'drone_distance',
+  'makespan',
+];
 
 /** Return measures of two plans: `[{key, name, before, now}]`. */
 export function planMeasures(before, now) {
-  const summaries = Object.entries(MEASURES).map(([key, name]) => ({
+  const summaries = MEASURES.map((key) => ({
     key,
-    name,
+    name: t(`measure.${key}`),
     before: before.summary[key],
     now: now.summary[key],
   }));
@@ -62,7 +63,7 @@ export function planMeasures(before, now) {
     ...summaries,
     {
       key: 'load_rate',
-      name: 'Mean load rate',
+      name: t('measure.load_rate'),
       before: before.summary.load_rate.mean,
       now: now.summary.load_rate.mean,
     },
@@ -74,10 +75,13 @@ export function planDifference(former, entry) {
   const change = trueCost(entry) - trueCost(former);
   const served = entry.plan.summary.served - former.plan.summary.served;
   const size = money(Math.abs(change));
-  const costs = size === money(0) ? 'the same' : `${size} ${change < 0 ? 'less' : 'more'}`;
-  if (!served) return `It costs ${costs}.`;
-  const customers = count(Math.abs(served), 'customer');
-  return `It costs ${costs} and serves ${customers} ${served < 0 ? 'fewer' : 'more'}.`;
+  const costs =
+    size === money(0)
+      ? t('difference.same')
+      : t(`difference.${change < 0 ? 'less' : 'more'}`, { size });
+  if (!served) return t('difference.costs', { costs });
+  const so = { count: Math.abs(served), costs };
+  return served < 0 ? t('difference.fewer', so) : t('difference.further', so);
 }
 
 /**
@@ -102,7 +106,7 @@ export function movedCustomers(former, entry, pairs = matchVehicles(former, entr
 
 /** Return who serves each customer: `{vehicle, drone, shown}`, no vehicle for nobody. */
 function serversOf(request, plan) {
-  const nobody = { vehicle: null, drone: null, shown: 'nobody' };
+  const nobody = { vehicle: null, drone: null, shown: t('difference.nobody') };
   const servers = new Map(plan.unassigned.map(({ id }) => [id, nobody]));
   for (const { kind, id, sortie, vehicle } of indexPlan(request, plan).halts.values()) {
     if (kind !== 'customer') continue;

@@ -4,6 +4,7 @@ import { csvCell } from './csv.js';
 import { clock } from './format.js';
 import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
+import { t } from '../texts.js';
 
 const COLUMNS = [
   'vehicle',
@@ -181,7 +182,7 @@ function closed(ring) {
 export function gpx(vehicle, legsOf) {
   const routes = vehicle.trips.map(
     (trip) => `  <rte>
-    <name>${escaped(`${vehicle.name}, trip ${trip.index + 1}`)}</name>
+    <name>${escaped(tripName(vehicle, trip))}</name>
 ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
   </rte>`,
   );
@@ -189,7 +190,7 @@ ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
     .filter((trip) => trip.stops.some(({ line }) => line.length > 2))
     .map((trip) =>
       track(
-        `${vehicle.name}, trip ${trip.index + 1}, road`,
+        t('take.road', { trip: tripName(vehicle, trip) }),
         trip.stops.map(({ line }) => line),
       ),
     );
@@ -197,7 +198,10 @@ ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
     .flatMap((trip) => trip.sorties)
     .map((sortie) =>
       track(
-        `${sortie.drone} to ${sortie.visits.map(({ id }) => id).join(', ')}`,
+        t('take.flightTo', {
+          drone: sortie.drone,
+          names: sortie.visits.map(({ id }) => id).join(', '),
+        }),
         legsOf(sortie),
       ),
     );
@@ -206,6 +210,10 @@ ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
 ${[...routes, ...drives, ...flights].join('\n')}
 </gpx>
 `;
+}
+
+function tripName({ name }, { index }) {
+  return t('about.trip', { vehicle: name, number: index + 1 });
 }
 
 function track(name, lines) {
@@ -221,10 +229,13 @@ ${points.join('\n')}
 function routePoint(halt, position) {
   const [lon, lat] = halt.location;
   const told = Object.entries(halt.source?.info ?? {}).map(([name, text]) => `, ${name}: ${text}`);
+  const times = t('take.times', {
+    arrival: clock(halt.arrival),
+    departure: clock(halt.departure),
+  });
   return (
     `    <rtept lat="${lat}" lon="${lon}"><name>${escaped(`${position} ${halt.id}`)}</name>` +
-    `<desc>Arrival ${clock(halt.arrival)}, departure ${clock(halt.departure)}` +
-    `${escaped(told.join(''))}</desc></rtept>`
+    `<desc>${escaped(times + told.join(''))}</desc></rtept>`
   );
 }
 

@@ -1,6 +1,7 @@
 /** Numbers and times as people read them, and back. Times in seconds, distances in metres. */
 
 import { dayOf } from './day.js';
+import { language, t } from '../texts.js';
 
 const MINUS = '\u2212';
 
@@ -124,7 +125,9 @@ export function duration(seconds) {
 
 /** Return a number with thousands set apart and at most `digits` decimals. */
 export function number(value, digits = 2) {
-  const text = Math.abs(value).toLocaleString('en', { maximumFractionDigits: digits });
+  const text = Math.abs(value).toLocaleString(language(), {
+    maximumFractionDigits: digits,
+  });
   return value < 0 && text !== '0' ? MINUS + text : text;
 }
 
@@ -135,8 +138,8 @@ export function money(value) {
 
 function plainMoney(value) {
   const options = { minimumFractionDigits: 2, maximumFractionDigits: 2 };
-  const text = Math.abs(value).toLocaleString('en', options);
-  return value < 0 && text !== '0.00' ? MINUS + text : text;
+  const text = Math.abs(value).toLocaleString(language(), options);
+  return value < 0 && /[1-9]/.test(text) ? MINUS + text : text;
 }
 
 /** Return a change with its sign, `0` as it is. */
@@ -169,9 +172,10 @@ export function amounts(values) {
 export function timeWindow(window) {
   const opens = window?.earliest > 0;
   const closes = window?.latest !== null && window?.latest !== undefined;
-  if (opens && closes) return `${clock(window.earliest)} to ${clock(window.latest)}`;
-  if (opens) return `from ${clock(window.earliest)}`;
-  return closes ? `until ${clock(window.latest)}` : 'any time';
+  const [from, until] = [window?.earliest, window?.latest].map((instant) => clock(instant));
+  if (opens && closes) return `${from} ${t('format.to')} ${until}`;
+  if (opens) return t('format.from', { from });
+  return closes ? t('format.until', { until }) : t('format.anyTime');
 }
 
 /** Return a count and its noun. */
@@ -181,7 +185,7 @@ export function count(value, noun, plural = `${noun}s`) {
 
 /** Return where a place is; degrees as navigators take them, latitude first. */
 export function pointText([x, y], { isGeographic }) {
-  return isGeographic ? `Latitude, longitude: ${y}, ${x}` : `x, y: ${x}, ${y}`;
+  return isGeographic ? t('format.point', { y: String(y), x: String(x) }) : `x, y: ${x}, ${y}`;
 }
 
 /** Return the name of a file without its ending. */

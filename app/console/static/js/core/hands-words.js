@@ -1,26 +1,30 @@
 /** Changes by hand, and best places, in words. */
 
 import { clock, timesInWords } from './format.js';
+import { t } from '../texts.js';
 
 /** Return what a change does, such as `B to truck-2, after C`. */
 export function moveInWords(index, id, place) {
-  if (!place) return `${id} left out`;
+  if (!place) return t('hand.leftOut', { id });
   const vehicle = index.vehicles.find(({ name }) => name === place.vehicle);
-  if (!vehicle) return `${id} to ${place.vehicle}`;
+  if (!vehicle) return t('hand.to', { id, vehicle: place.vehicle });
   const stops = vehicle.trips[place.trip].stops;
   const own = stops[place.stop - 1].key === `c:${id}` ? place.stop - 2 : place.stop - 1;
-  return `${id} to ${place.vehicle}, after ${stops[Math.max(own, 0)].id}`;
+  const { id: after } = stops[Math.max(own, 0)];
+  return t('hand.after', { id, vehicle: place.vehicle, after });
 }
 
 /** Return who serves a customer at a place that the service found, and where in its work. */
 export function placeInWords({ vehicle, by, position, service_start: start }) {
   const at = clock(start);
   if (by === 'drone') {
-    const own = position.own_trip ? 'a trip of its own, ' : '';
-    return [`a drone of ${vehicle}`,
-      `${own}from ${position.after}, back at ${position.recovered_at}, ${at}`];
+    const own = position.own_trip ? `${t('place.ownTrip')}, ` : '';
+    const flight = { from: position.after, back: position.recovered_at, at };
+    return [t('place.drone', { vehicle }), own + t('place.flight', flight)];
   }
-  const where = position.own_trip ? 'a trip of its own' : `after ${position.after}`;
+  const where = position.own_trip
+    ? t('place.ownTrip')
+    : t('place.after', { stop: position.after });
   return [vehicle, `${where}, ${at}`];
 }
 

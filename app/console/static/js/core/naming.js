@@ -3,20 +3,22 @@
 import { fieldChange } from './changed-words.js';
 import { requestDifferences } from './differences.js';
 import { droneCount } from './drones.js';
-import { clock, count } from './format.js';
+import { clock } from './format.js';
 import { fromNothing } from './replanning.js';
+import { labelOf } from './schema.js';
 import { windowsInWords, windowsOf } from './windows.js';
+import { language, t } from '../texts.js';
 
 const MOST_PARTS = 2;
 const LONGEST = 60;
-const NUMBERS = ['', 'one', 'two', 'three', 'four', 'five', 'six'];
+const LARGEST_WORD = 6;
 
 /** Sections of a problem by how a change of them is called. */
 const SECTIONS = {
-  'airspace.no_fly': 'other no-fly areas',
-  'airspace.wind': 'other wind',
-  depots: 'other depots',
-  matrices: 'other matrices',
+  'airspace.no_fly': 'areas',
+  'airspace.wind': 'wind',
+  depots: 'depots',
+  matrices: 'matrices',
 };
 
 /**
@@ -27,16 +29,16 @@ const SECTIONS = {
  * @param isFurther whether the search goes on from the former plan
  */
 export function planName(former, request, isFurther = false) {
-  if (!former) return 'first plan';
+  if (!former) return t('name.first');
   const parts = changedParts(former.request, request);
   const shown = parts.slice(0, MOST_PARTS);
   if (parts.length > MOST_PARTS) {
-    shown.push(count(parts.length - MOST_PARTS, 'more change'));
+    shown.push(t('name.more', { count: parts.length - MOST_PARTS }));
   }
   const now = request.replan?.freeze_before;
-  if (isFurther) shown.push('improved');
+  if (isFurther) shown.push(t('name.improved'));
   else if (now !== null && now !== undefined && now !== former.request.replan?.freeze_before) {
-    shown.push(`replanned at ${clock(now)}`);
+    shown.push(t('name.replanned', { at: clock(now) }));
   } else if (!shown.length) shown.push(searchName(former.request, request));
   return shown.join(', ');
 }
@@ -53,8 +55,10 @@ export function unlike(name, plans) {
 }
 
 function searchName({ options: before = {} }, { options: now = {} }) {
-  if (before.time_limit === now.time_limit || now.time_limit === undefined) return 'planned again';
-  return `planned for ${now.time_limit} s`;
+  if (before.time_limit === now.time_limit || now.time_limit === undefined) {
+    return t('name.again');
+  }
+  return t('name.plannedFor', { seconds: now.time_limit });
 }
 
 /** Return what differs between two problems, in few words each. */
@@ -79,7 +83,7 @@ function sectionPart(change) {
   const { path, before, after } = change;
   const whole = path === 'airspace' ? `${path}.${Object.keys(after ?? before)[0]}` : path;
   const found = Object.keys(SECTIONS).find((section) => whole.startsWith(section));
-  return found ? SECTIONS[found] : fieldChange(change);
+  return found ? t(`name.other.${SECTIONS[found]}`) : fieldChange(change);
 }
 
 function fleetParts(changes, before, now) {
@@ -90,10 +94,11 @@ function fleetParts(changes, before, now) {
 /** Return drones that come or go: of all types, or of one. */
 function dronesPart(changes, now) {
   if (!changes.length) return [];
-  if (!now.fleet.some((type) => droneCount(type))) return ['drones off'];
-  if (changes.length > 1 || now.fleet.length === 1) return ['other drones'];
+  if (!now.fleet.some((type) => droneCount(type))) return [t('name.dronesOff')];
+  if (changes.length > 1 || now.fleet.length === 1) return [t('name.other.drones')];
   const [{ path, after }] = changes;
-  return [`drones of ${/\[(.*)\]/.exec(path)[1]} ${after ? 'on' : 'off'}`];
+  const [, id] = /\[(.*)\]/.exec(path);
+  return [after ? t('name.dronesOnOf', { id }) : t('name.dronesOffOf', { id })];
 }
 
 /** Return what became of a vehicle type: more, fewer, another field. */
@@ -104,9 +109,12 @@ function typePart(change, before, now) {
   );
   if (field !== undefined && field !== 'count') return fieldChange(change);
   const size = Math.abs(after - then);
-  const amount = `${NUMBERS[size] ?? size} ${id}${size > 1 && /[a-z]$/i.test(id) ? 's' : ''}`;
-  if (after > then) return `${amount} more`;
-  return after || size === 1 ? `${amount} fewer` : `without ${id}`;
+  const amount = t('name.amount', {
+    number: size > LARGEST_WORD ? String(size) : t(`name.number.${size}`),
+    id: size > 1 && /[a-z]$/i.test(id) ? t('name.several', { id }) : id,
+  });
+  if (after > then) return t('name.vehicleMore', { amount });
+  return after || size === 1 ? t('name.vehicleFewer', { amount }) : t('name.without', { id });
 }
 
 function customerParts(changes, before, now) {
@@ -115,8 +123,8 @@ function customerParts(changes, before, now) {
   const gone = whole.filter(({ after: there }) => there === undefined).map(idOf);
   const [ofWindows, others] = parted(fields, ({ path }) => /\]\.time_windows?\b/.test(path));
   return [
-    ...many(added, (id) => `${id} added`, (number) => `${count(number, 'customer')} added`),
-    ...many(gone, (id) => `without ${id}`, (number) => `without ${count(number, 'customer')}`),
+    ...many(added, (id) => t('name.added', { id }), (count) => t('name.addedMany', { count })),
+    ...many(gone, (id) => t('name.without', { id }), (count) => t('name.withoutMany', { count })),
     ...windowParts(ofWindows, before, now),
     ...fieldParts(others),
   ];
@@ -136,13 +144,14 @@ function windowParts(changes, before, now) {
   if (!ids.length) return [];
   const found = now.customers.filter(({ id }) => ids.includes(id));
   if (ids.length === 1) {
-    const words = windowsInWords(windowsOf(found[0])).replaceAll(' to ', '\u2013');
-    return [`${ids[0]}'s window ${words}`];
+    const to = ` ${t('format.to')} `;
+    const windows = windowsInWords(windowsOf(found[0])).replaceAll(to, '\u2013');
+    return [t('name.window', { id: ids[0], windows })];
   }
-  if (!now.customers.some((customer) => windowsOf(customer).length)) return ['windows off'];
+  if (!now.customers.some((customer) => windowsOf(customer).length)) return [t('name.windowsOff')];
   const isSoft = changes.every(({ path, after }) => /late_cost_per_hour$/.test(path) && after);
-  if (isSoft) return ['windows soft'];
-  return [`windows of ${count(ids.length, 'customer')}`];
+  if (isSoft) return [t('name.windowsSoft')];
+  return [t('name.windowsOf', { count: ids.length })];
 }
 
 /** Return changes of other fields of customers, those of one field together. */
@@ -156,6 +165,12 @@ function fieldParts(changes) {
   return [...byField].map(([field, group]) =>
     group.length === 1
       ? fieldChange(group[0])
-      : `${field.replaceAll('_', ' ')} of ${count(group.length, 'customer')}`,
+      : t('name.fieldOf', { count: group.length, field: wordsOf(field) }),
   );
+}
+
+/** Return a field's name as it stands within a sentence: nouns keep their capital. */
+function wordsOf(field) {
+  const label = labelOf(field);
+  return language() === 'en' ? label.toLowerCase() : label;
 }

@@ -1,15 +1,7 @@
 /** What a plan's cost is made of. */
 
 import { labelOf } from './schema.js';
-
-/** Names of terms for people; a term without one is called as the service calls it. */
-const NAMES = {
-  fixed: 'Vehicles used',
-  stops: 'Customers of trucks',
-  time: 'Working time',
-  earliness: 'Waiting for windows',
-  unassigned: 'Left out',
-};
+import { t } from '../texts.js';
 
 /** The least amount of money that is shown. */
 const LEAST = 0.005;
@@ -19,7 +11,12 @@ export function costTerms(...costs) {
   const terms = new Set(costs.flatMap(Object.keys));
   return [...terms]
     .filter((term) => term !== 'total' && costs.some((cost) => cost[term]))
-    .map((term) => [term, NAMES[term] ?? labelOf(term)]);
+    .map((term) => [term, nameOf(term)]);
+}
+
+/** Return a term's name for people; one that has none is called as the service calls it. */
+function nameOf(term) {
+  return t(`term.${term}`, { defaultValue: labelOf(term) });
 }
 
 /** Return what of a plan's cost is a penalty for customers left out that nobody stated. */

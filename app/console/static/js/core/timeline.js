@@ -4,14 +4,7 @@ import { dronesOfSortie } from './drones.js';
 import { launchDurations } from './launches.js';
 
 /** What bars mean, in the order of the legend. */
-export const ACTIVITIES = {
-  drive: 'Drive',
-  fly: 'Fly',
-  serve: 'Serve',
-  wait: 'Wait',
-  handle: 'Launch and recover',
-  reload: 'Reload',
-};
+export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload'];
 
 /**
  * Return one row per vehicle and per drone that flies, vehicles followed by their drones.

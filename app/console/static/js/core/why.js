@@ -3,36 +3,31 @@
 import { clock, money, number, signed, timesInWords, timeWindow } from './format.js';
 import { costTerms } from './terms.js';
 import { windowsOf } from './windows.js';
+import { t } from '../texts.js';
 
 /** So many other vehicles are shown at first. */
 export const FIRST_SHOWN = 6;
 
-/** What is reached, by the field that states it, and what a unit more of it is called. */
-const RULES = {
-  'time_window.latest': ['the end of its window', 'later'],
-  'time_window.earliest': ['the beginning of its window', 'earlier'],
-  release_time: ['its release', 'earlier'],
-  max_time_aboard: ['its time aboard', 'longer'],
-  capacity: ['the capacity', 'more'],
-  'shift.latest': ['the end of the shift', 'later'],
-  max_working_duration: ['the longest working duration', 'more'],
-  max_trip_distance: ['the longest trip', 'more'],
-  'drones.endurance': ['the endurance', 'more'],
-  'drones.turnaround.batteries': ['the number of batteries', 'more'],
-  'drones.turnaround.charge_w': ['the power to charge drones', 'more'],
-  'drones.energy.battery_wh': ['the battery of drones', 'more'],
-  'drones.capacity': ['the drone capacity', 'more'],
-  count: ['the number', 'more'],
-  max_trips: ['the most trips', 'more'],
-  'overtime.max_duration': ['the overtime', 'more'],
-  max_stops: ['the most stops on a trip', 'more'],
-  max_sorties: ['the most sorties on a trip', 'more'],
-  vehicles: ['which vehicles may serve it'],
-  served_by: ['whether a truck or a drone must serve it'],
-  skills: ['the skills that it needs'],
-  goods: ['its goods, kept apart from others'],
-  pickups: ['the order of pickups'],
+/** What is called more of when there is a unit more of it; all else is `more`. */
+const MORE = {
+  'time_window.latest': 'later',
+  'time_window.earliest': 'earlier',
+  release_time: 'earlier',
+  max_time_aboard: 'longer',
+  'shift.latest': 'later',
 };
+
+/** Rules that are a customer's: what they are called says so. */
+const ITS_OWN = [
+  'time_window.latest',
+  'time_window.earliest',
+  'release_time',
+  'max_time_aboard',
+  'vehicles',
+  'served_by',
+  'skills',
+  'goods',
+];
 
 /** Return the rows of a table: `{key, what, where, cost, terms, feasible, reasons}`. */
 export function alternativeRows(alternatives, customer) {
@@ -51,18 +46,25 @@ export function alternativeRows(alternatives, customer) {
 }
 
 function whatInWords({ kind, vehicle, by, window }, customer) {
-  if (kind === 'unassigned') return 'Not at all';
-  const who = by === 'drone' ? `a drone of ${vehicle}` : vehicle;
-  if (kind === 'place') return `Elsewhere with ${who}`;
-  if (kind === 'window') return `Only ${timeWindow(windowsOf(customer)[window])}, by ${who}`;
-  return kind === 'by' && by === 'truck' ? `By truck, ${who}` : `By ${who}`;
+  if (kind === 'unassigned') return t('why.notAtAll');
+  const who = by === 'drone' ? t('place.drone', { vehicle }) : vehicle;
+  if (kind === 'place') return t('why.elsewhere', { who });
+  if (kind === 'window') {
+    return t('why.only', { window: timeWindow(windowsOf(customer)[window]), who });
+  }
+  return kind === 'by' && by === 'truck' ? t('why.byTruck', { who }) : t('why.by', { who });
 }
 
 function whereInWords({ position, by, service_start: start }) {
   if (!position) return '';
   const at = clock(start);
-  if (by === 'drone') return `from ${position.after}, back at ${position.recovered_at}, ${at}`;
-  return position.own_trip ? `on a trip of its own, ${at}` : `after ${position.after}, ${at}`;
+  if (by === 'drone') {
+    return t('place.flight', { from: position.after, back: position.recovered_at, at });
+  }
+  const where = position.own_trip
+    ? t('place.onOwnTrip')
+    : t('place.after', { stop: position.after });
+  return `${where}, ${at}`;
 }
 
 /** Return a sentence for a limit that binds, or a rule without a number. */
@@ -72,19 +74,23 @@ export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves })
     .replace(/^time_windows\[-?\d+\]/, 'time_window')
     .replace(/^drones\[.+\]\./, 'drones.')
     .replace(/\[\d+\]$/, '');
-  const [told, more] = RULES[field] ?? [rule, 'more'];
-  const name = drones && RULES[field] ? `${told} of ${drones}` : told;
-  const whose = /^its |its window| it( |$)/.test(name) ? '' : ` of ${at}`;
-  const subject = name.charAt(0).toUpperCase() + name.slice(1) + whose;
-  if (unit === 'rule') return `${subject}: without this rule ${money(saves)} would be saved.`;
-  const one = unit === 'unit' ? `one ${more}` : `one ${unit} ${more}`;
-  const left = slack > 0 ? ` (${number(slack)} ${plural(unit, slack)} left)` : '';
-  if (saves > 0) return `${subject}${left}: ${one} would save ${money(saves)}.`;
-  return `${subject} is reached: ${one} would save nothing.`;
+  const told = t(`rule.${field.replaceAll('.', '_')}`, { defaultValue: rule });
+  const name = drones ? t('why.of', { what: told, whose: drones }) : told;
+  const subject = ITS_OWN.includes(field) ? name : t('why.of', { what: name, whose: at });
+  const sum = money(saves);
+  if (unit === 'rule') return t('why.without', { subject, sum });
+  const more = t(`why.unit.${MORE[field] ?? 'more'}`, { unit: unitOf(unit, 1) });
+  const one = unit === 'unit' ? t('why.oneMore') : more;
+  const left = slack > 0
+    ? ` (${t('why.left', { amount: `${number(slack)} ${unitOf(unit, slack)}` })})`
+    : '';
+  return saves > 0
+    ? t('why.saves', { subject: subject + left, one, sum })
+    : t('why.saveNothing', { subject, one });
 }
 
-function plural(unit, value) {
-  return unit === 'km' || unit === 'Wh' || unit === 'W' || value === 1 ? unit : `${unit}s`;
+function unitOf(unit, count) {
+  return t(`unit.${unit}`, { count, defaultValue: unit });
 }
 
 /** Return sentences on what drones save in sum. */
@@ -92,18 +98,18 @@ export function drones(told, cost) {
   const { saves, saves_at_most: most, seconds } = told;
   if (saves === null && most === null) {
     const out = (told.trucks_alone?.unassigned ?? 0) > (told.with_drones?.unassigned ?? 0);
-    return [out ? 'Trucks alone would leave out more customers.'
-      : 'No figure in sum can be told of this plan.'];
+    return [out ? t('why.drones.leaveOut') : t('why.drones.unknown')];
   }
-  const share = cost > 0 ? ` (${number((100 * most) / cost, 1)} % of this plan)` : '';
+  const share = cost > 0
+    ? ` (${t('why.drones.share', { share: number((100 * most) / cost, 1) })})`
+    : '';
   const sentences = [];
   if (saves !== null) {
-    sentences.push(`Drones save ${money(saves)} against trucks alone: two searches of ` +
-      `${number(seconds, 1)} s from the same plan, one without drones.`);
+    const searched = { sum: money(saves), seconds: number(seconds, 1) };
+    sentences.push(t('why.drones.save', searched));
   }
   if (most !== null) {
-    sentences.push(`Against this plan trucks alone cost ${signed(most, money)}${share}: at most ` +
-      'that much is saved, as this plan may have been searched for longer.');
+    sentences.push(t('why.drones.atMost', { sum: signed(most, money) + share }));
   }
   return sentences;
 }

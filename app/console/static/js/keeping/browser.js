@@ -2,6 +2,7 @@
 
 import { ApiError } from '../api.js';
 import { newId, readAll, transact, whenRead } from './database.js';
+import { t } from '../texts.js';
 
 /** Return all plans without their content. */
 export const list = () => readAll('plan');
@@ -59,7 +60,7 @@ async function change(id, version, patch, further) {
 }
 
 const changed = () =>
-  new ApiError(412, 'The plan was changed meanwhile', 'Another tab has saved it since.');
+  new ApiError(412, t('kept.changed'), t('kept.savedSince'));
 
 const gone = () =>
-  new ApiError(412, 'The plan was deleted', 'Another tab has deleted it since.');
+  new ApiError(412, t('kept.deleted'), t('kept.deletedSince'));

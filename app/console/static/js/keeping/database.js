@@ -1,6 +1,7 @@
 /** What this browser keeps: records by keys that are lists, in one database. */
 
 import { createStore } from '../../vendor/idb-keyval-6.3.0/index.js';
+import { t } from '../texts.js';
 
 const DATABASE = 'tandem';
 
@@ -8,15 +9,8 @@ const DATABASE = 'tandem';
 export class StorageError extends Error {
   constructor(cause) {
     const isFull = cause?.name === 'QuotaExceededError';
-    super(
-      isFull
-        ? 'This browser has no room left for what you do here: save it on the service or as a ' +
-            'file, or delete kept plans.'
-        : 'This browser keeps nothing here, as in a private window: save what matters on the ' +
-            'service or as a file.',
-      { cause },
-    );
-    Object.assign(this, { isFull, title: 'The browser does not keep this' });
+    super(isFull ? t('kept.full') : t('kept.private'), { cause });
+    Object.assign(this, { isFull, title: t('kept.unkept') });
   }
 }
 

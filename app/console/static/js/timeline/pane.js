@@ -11,6 +11,7 @@ import { isHere, placeAt } from '../core/moving.js';
 import { standingIn } from '../core/replanning.js';
 import { AXIS, drawTimeline, heightOf, hit, placeRows, scaleOf } from './draw.js';
 import { Player } from './player.js';
+import { t } from '../texts.js';
 
 const CLOSEST = 300; // seconds
 const LEAST_DRAG = 4; // pixels, below which it is a click
@@ -26,23 +27,25 @@ export function TimelinePane() {
   const shown = range ?? whole;
   const request = useStore((state) => state.request);
   const parts = settledOf(entry, request);
-  return html`<section class="timeline" aria-label="Timeline">
+  return html`<section class="timeline" aria-label=${t('timeline.title')}>
     <div class="timeline-bar">
       <${Player} index=${index} />
       <${Legend} isSettled=${parts.size > 0} />
       <span class="zoom">
         <button type="button" class="quiet" onClick=${() => setRange(zoomed(shown, whole, 0.5))}
-          aria-label="Zoom into the timeline">+</button>
+          aria-label=${t('timeline.zoomIn')}>+</button>
         <button type="button" class="quiet" onClick=${() => setRange(zoomed(shown, whole, 2))}
-          aria-label="Zoom out of the timeline">\u2212</button>
-        <button type="button" class="quiet" onClick=${() => setRange(null)}>Whole day</button>
+          aria-label=${t('timeline.zoomOut')}>\u2212</button>
+        <button type="button" class="quiet" onClick=${() => setRange(null)}>
+          ${t('timeline.whole')}</button>
       </span>
     </div>
     ${
       rows.length
         ? html`<${Rows} index=${index} rows=${rows} range=${shown} whole=${whole}
       setRange=${setRange} parts=${parts} now=${nowOf(entry, request)} />`
-        : html`<p class="empty">${entry ? 'No vehicle is used.' : 'Nothing is planned yet.'}</p>`
+        : html`<p class="empty">${
+          entry ? t('timeline.unused') : t('timeline.nothing')}</p>`
     }
   </section>`;
 }
@@ -72,12 +75,14 @@ function nowOf(entry, request) {
 }
 
 function Legend({ isSettled }) {
-  return html`<ul class="legend" aria-label="Bars">${Object.entries(ACTIVITIES).map(
-    ([kind, name]) =>
-      html`<li key=${kind}><span class=${`swatch swatch-${kind}`}></span>${name}</li>`,
+  return html`<ul class="legend" aria-label=${t('timeline.bars')}>${ACTIVITIES.map(
+    (kind) =>
+      html`<li key=${kind}><span class=${`swatch swatch-${kind}`}></span>
+        ${t(`activity.${kind}`)}</li>`,
   )}
-    <li><span class="swatch swatch-window"></span>Window</li>
-    ${isSettled && html`<li><span class="swatch swatch-settled"></span>Settled</li>`}</ul>`;
+    <li><span class="swatch swatch-window"></span>${t('timeline.window')}</li>
+    ${isSettled && html`<li><span class="swatch swatch-settled"></span>
+      ${t('timeline.settled')}</li>`}</ul>`;
 }
 
 function Rows({ index, rows, range, whole, setRange, parts, now }) {
@@ -89,8 +94,7 @@ function Rows({ index, rows, range, whole, setRange, parts, now }) {
   useEffect(() => state.current.redraw?.());
   return html`<div class="rows" ref=${box}>
     <canvas ref=${canvas} tabindex="0" role="application"
-      aria-label="Timeline of vehicles and drones. Left and right go from stop to stop, up and down
-        from vehicle to vehicle; the same is in the Routes tab as tables."></canvas>
+      aria-label=${t('timeline.about')}></canvas>
     <div style=${{ height: `${heightOf(rows) + AXIS}px` }}></div>
   </div>`;
 }

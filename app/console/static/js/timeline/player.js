@@ -5,6 +5,7 @@ import { replanFromClock } from '../actions.js';
 import { spanOf } from '../core/plan.js';
 import { html, useEffect } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { t } from '../texts.js';
 
 const SPEEDS = [60, 300, 600, 1800, 3600];
 
@@ -42,21 +43,23 @@ export function Player({ index }) {
   const [start, end] = index ? spanOf(index) : [0, 3600];
   return html`<div class="player">
     <button type="button" disabled=${!index} onClick=${() => togglePlaying(index)}
-      aria-pressed=${playing}>${playing ? 'Pause' : 'Play the day'}</button>
+      aria-pressed=${playing}>${
+        playing ? t('player.pause') : t('player.play')}</button>
     <input type="range" min=${start} max=${end} step="10" value=${time ?? start} disabled=${!index}
-      aria-label="Time of day" aria-valuetext=${clock(time ?? start)}
+      aria-label=${t('player.time')} aria-valuetext=${clock(time ?? start)}
       onInput=${(event) => store.set({ time: Number(event.target.value), playing: false })} />
     <output class="clock">${clock(time ?? start)}</output>
-    <select class="speed" aria-label="Speed of the clock" value=${speed}
+    <select class="speed" aria-label=${t('player.speed')} value=${speed}
       onChange=${(event) => store.set({ speed: Number(event.target.value) })}>
       ${SPEEDS.map((value) => html`<option key=${value}
         value=${value}>${value / 60} min/s</option>`)}
     </select>
     ${
       time !== null &&
-      html`<button type="button" onClick=${replanFromClock}>Replan from here</button>
+      html`<button type="button" onClick=${replanFromClock}>
+        ${t('player.replan')}</button>
       <button type="button" class="quiet"
-        onClick=${() => store.set({ time: null, playing: false })}>End</button>`
+        onClick=${() => store.set({ time: null, playing: false })}>${t('player.end')}</button>`
     }
   </div>`;
 }

@@ -7,7 +7,7 @@ import {
 } from '../core/differences.js';
 import { droneCount } from '../core/drones.js';
 import { fromNothing } from '../core/replanning.js';
-import { clock, count, km, money, number, percent, signed } from '../core/format.js';
+import { clock, km, money, number, percent, signed } from '../core/format.js';
 import { matchVehicles } from '../core/matching.js';
 import { costTerms, penaltyOf, trueCost } from '../core/terms.js';
 import { html } from '../libraries.js';
@@ -16,6 +16,7 @@ import { store, useStore } from '../store.js';
 import { Change } from './change-words.js';
 import { windowsOf } from '../core/windows.js';
 import { WindowFields } from './window-fields.js';
+import { t } from '../texts.js';
 
 const MOST_LISTED = 40;
 const SOFT_COST = 30; // per hour
@@ -28,8 +29,7 @@ export function ChangesTab() {
     ${
       entry && former
         ? html`<${Differences} entry=${entry} former=${former} />`
-        : html`<p class="help">
-          After a change the former plan stays, and the differences appear here.</p>`
+        : html`<p class="help">${t('whatIf.help')}</p>`
     }`;
 }
 
@@ -44,26 +44,28 @@ function Changes() {
   const hasDrones = request.fleet.some((type) => droneCount(type));
   const windows = request.customers.filter((customer) => windowsOf(customer).length).length;
   const onlyOne = request.fleet.length === 1;
-  return html`<section class="section"><h3>Change one thing and plan again</h3>
+  return html`<section class="section"><h3>${t('whatIf.title')}</h3>
     ${request.fleet.map(
       (type, position) => html`<div class="buttons" key=${position}>
       <button type="button" disabled=${onlyOne && type.count === 1}
-        aria-label=${`One ${type.id} fewer`}
-        onClick=${() => changeAndPlan(addVehicles(request, position, -1))}>One fewer</button>
-      <button type="button" aria-label=${`One ${type.id} more`}
-        onClick=${() => changeAndPlan(addVehicles(request, position, 1))}>One more</button>
-      <span>${type.id}, now ${type.count}</span></div>`,
+        aria-label=${t('whatIf.fewerOf', { id: type.id })}
+        onClick=${() => changeAndPlan(addVehicles(request, position, -1))}>
+        ${t('whatIf.fewer')}</button>
+      <button type="button" aria-label=${t('whatIf.moreOf', { id: type.id })}
+        onClick=${() => changeAndPlan(addVehicles(request, position, 1))}>
+        ${t('whatIf.more')}</button>
+      <span>${t('whatIf.now', { id: type.id, count: type.count })}</span></div>`,
     )}
     <div class="buttons">
       <button type="button" disabled=${!hasDrones}
         onClick=${() => changeAndPlan(withoutDrones(request))}>
-        Drones off</button>
+        ${t('whatIf.dronesOff')}</button>
       <button type="button" disabled=${!windows}
         onClick=${() => changeAndPlan(changeWindows(request, null))}>
-        Windows off</button>
+        ${t('whatIf.windowsOff')}</button>
       <button type="button" disabled=${!windows}
         onClick=${() => changeAndPlan(changeWindows(request, SOFT_COST))}>
-          Windows soft, ${SOFT_COST} per hour</button>
+        ${t('whatIf.windowsSoft', { cost: SOFT_COST })}</button>
     </div>
     <${WindowChange} request=${request} />
   </section>`;
@@ -74,7 +76,8 @@ function WindowChange({ request }) {
   const id = selection?.startsWith('c:') ? selection.slice(2) : request.customers[0]?.id;
   const customer = request.customers.find((other) => other.id === id);
   if (!customer) return null;
-  return html`<div class="buttons"><label>Window of <select value=${id} aria-label="Customer"
+  return html`<div class="buttons"><label>${t('whatIf.windowOf')}
+    ${' '}<select value=${id} aria-label=${t('whatIf.customer')}
       onChange=${(event) => select(`c:${event.target.value}`)}>
       ${request.customers.map((other) => html`<option key=${other.id}
         value=${other.id}>${other.id}</option>`)}
@@ -97,25 +100,28 @@ function Plans() {
       request: state.plans.find((entry) => entry.number === number).request,
       past: [...state.past, state.request],
     }));
-  return html`<section class="section"><h3>Plans</h3>
-    <table><thead><tr><th scope="col">Plan</th><th scope="col" class="number">Cost</th>
-      <th scope="col" class="number">Served</th><th scope="col">Shown</th><th
-        scope="col">Beside</th></tr></thead>
+  return html`<section class="section"><h3>${t('whatIf.plans')}</h3>
+    <table><thead><tr><th scope="col">${t('whatIf.plan')}</th>
+      <th scope="col" class="number">${t('whatIf.cost')}</th>
+      <th scope="col" class="number">${t('whatIf.served')}</th>
+      <th scope="col">${t('whatIf.shown')}</th>
+      <th scope="col">${t('whatIf.beside')}</th></tr></thead>
     <tbody>${plans.map(
       (entry) => html`<tr key=${entry.number}>
       <th scope="row"><${PlanName} entry=${entry} /></th>
       <td class="number">${money(trueCost(entry))}</td>
       <td class="number">${served(entry.plan.summary)}</td>
-      <td><input type="radio" name="shown" aria-label=${`Show ${entry.name}`}
+      <td><input type="radio" name="shown" aria-label=${t('whatIf.show', { name: entry.name })}
         checked=${shown === entry.number} onChange=${() => open(entry.number)} /></td>
-      <td><input type="radio" name="besides" aria-label=${`Put ${entry.name} beside`}
+      <td><input type="radio" name="besides" 
+        aria-label=${t('whatIf.putBeside', { name: entry.name })}
         disabled=${shown === entry.number} checked=${besides === entry.number}
         onChange=${() => store.set({ besides: entry.number })} /></td></tr>`,
     )}</tbody></table></section>`;
 }
 
 function served({ served: number, customers }) {
-  return number < customers ? `${number} of ${customers}` : number;
+  return number < customers ? t('whatIf.servedOf', { number, customers }) : number;
 }
 
 /** The name of a plan, which can be written over. */
@@ -126,7 +132,8 @@ function PlanName({ entry }) {
     else event.target.value = entry.name;
   };
   return html`<input type="text" class="plan-name" value=${entry.name} title=${entry.name}
-    aria-label=${`Name of plan ${entry.number}`} maxlength="100" onChange=${commit} />`;
+    aria-label=${t('whatIf.nameOf', { number: entry.number })}
+    maxlength="100" onChange=${commit} />`;
 }
 
 const SHOWN = { distance: km, drone_distance: km, makespan: clock, load_rate: percent };
@@ -140,28 +147,30 @@ export function Differences({ entry, former }) {
   const pairs = matchVehicles(former, entry);
   const moved = movedCustomers(former, entry, pairs);
   return html`<section class="section"
-    id="differences"><h3>${entry.name}, beside ${former.name}</h3>
+    id="differences"><h3>${t('whatIf.besideOf', { name: entry.name, former: former.name })}</h3>
     <p id="plan-difference"><strong>${planDifference(former, entry)}</strong></p>
     ${
       changes.length > 0
         ? html`<ul>${changes.slice(0, MOST_LISTED).map(
             (change) => html`<li key=${change.path}><${Change} ...${change} /></li>`,
           )}
-      ${changes.length > MOST_LISTED && html`<li>and ${changes.length - MOST_LISTED} more</li>`}
-        </ul>`
-        : html`<p class="help">The problem is the same.</p>`
+      ${changes.length > MOST_LISTED && html`<li>${t('app.more', {
+        count: changes.length - MOST_LISTED,
+      })}</li>`}</ul>`
+        : html`<p class="help">${t('whatIf.same')}</p>`
     }
     <${Figures} entry=${entry} former=${former} />
     <${Tours} tours=${renamedTours(pairs)} />
-    <h4>${count(moved.length, 'customer')} with another vehicle, or none</h4>
+    <h4>${t('whatIf.moved', { count: moved.length })}</h4>
     <table><tbody>${moved.slice(0, MOST_LISTED).map(
       ({ id, before, now }) => html`<tr key=${id}>
       <th scope="row"><button type="button" class="link"
         onClick=${() => select(`c:${id}`)}>${id}</button></th>
-      <td>${before ?? 'not there'}</td><td>${now ?? 'not there'}</td></tr>`,
+      <td>${before ?? t('whatIf.notThere')}</td><td>${now ?? t('whatIf.notThere')}</td></tr>`,
     )}</tbody></table>
-    ${moved.length > MOST_LISTED && html`<p
-      class="help">and ${moved.length - MOST_LISTED} more</p>`}
+    ${moved.length > MOST_LISTED && html`<p class="help">${t('app.more', {
+      count: moved.length - MOST_LISTED,
+    })}</p>`}
   </section>`;
 }
 
@@ -177,25 +186,24 @@ function Figures({ entry, former }) {
   return html`<table><thead><tr><th scope="col"></th>
       <th scope="col" class="number">${former.name}</th>
       <th scope="col" class="number">${entry.name}</th>
-      <th scope="col" class="number">Difference</th></tr></thead><tbody>
-    ${line('Costs', both.map(trueCost))}
+      <th scope="col" class="number">${t('whatIf.difference')}</th></tr></thead><tbody>
+    ${line(t('whatIf.costs'), both.map(trueCost))}
     ${costTerms(...costs)
       .filter(([term]) => term !== 'unassigned' || paid(term).some((amount) => amount > 0))
       .map(([term, name]) => line(name, paid(term)))}
     ${planMeasures(former.plan, entry.plan).map(({ key, name, before, now }) =>
       line(name, [before, now], SHOWN[key] ?? ((value) => number(value, 0)), false))}
-    ${penalties.some(Boolean) && html`${line('Penalty for who is left out', penalties)}
-      ${line('Costs and penalty', costs.map(({ total }) => total))}`}
+    ${penalties.some(Boolean) && html`${line(t('whatIf.penalty'), penalties)}
+      ${line(t('whatIf.withPenalty'), costs.map(({ total }) => total))}`}
   </tbody></table>
-  ${penalties.some(Boolean) && html`<p class="help">Nobody pays the penalty: it makes the planner
-    serve whom it can. What leaving out truly costs is stated under Fleet.</p>`}`;
+  ${penalties.some(Boolean) && html`<p class="help">${t('whatIf.penaltyHelp')}</p>`}`;
 }
 
 /** Tours that go on under another vehicle's name. */
 function Tours({ tours }) {
   if (!tours.length) return null;
-  return html`<ul>${tours.map(({ before, now, shared }) => html`<li key=${now}>${now} does what
-    ${' '}${before} did, with ${count(shared, 'customer')} of it</li>`)}</ul>`;
+  return html`<ul>${tours.map(({ before, now, shared }) => html`<li key=${now}>${
+    t('whatIf.renamed', { now, before, count: shared })}</li>`)}</ul>`;
 }
 
 function Difference({ name, before, now, show, cost = false }) {

@@ -8,31 +8,33 @@ import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { DronesWorth } from './drones-worth.js';
 import { ShareBar } from './parts.js';
+import { t } from '../texts.js';
 
 /** The tab. */
 export function CostsTab() {
   const entry = useStore(shownPlan);
   const former = useStore(besidePlan);
-  if (!entry) return html`<p class="empty">Nothing is planned yet.</p>`;
+  if (!entry) return html`<p class="empty">${t('timeline.nothing')}</p>`;
   const { plan } = entry;
-  return html`<section class="section"><h3>Cost by term</h3>
-      <table><thead><tr><th scope="col">Term</th><th scope="col" class="number">Cost</th>
-        <th scope="col">Share</th></tr></thead>
+  return html`<section class="section"><h3>${t('costs.byTerm')}</h3>
+      <table><thead><tr><th scope="col">${t('costs.term')}</th>
+        <th scope="col" class="number">${t('costs.cost')}</th>
+        <th scope="col">${t('costs.share')}</th></tr></thead>
       <tbody>${costTerms(plan.cost).map(
         ([term, name]) => html`<tr key=${term}><th scope="row">${name}</th>
         <td class="number">${money(plan.cost[term])}</td>
         <td><${ShareBar} share=${shareOf(plan.cost, term)} text=${percent(shareOf(plan.cost, term))}
           label=${name} /></td></tr>`,
       )}
-        <tr><th scope="row"><strong>Total</strong></th>
+        <tr><th scope="row"><strong>${t('costs.total')}</strong></th>
           <td class="number"><strong>${money(plan.cost.total)}</strong></td><td></td></tr></tbody>
             </table>
-      ${former && html`<p class="help">
-        What if shows this plan beside \u201c${former.name}\u201d.</p>`}
+      ${former && html`<p class="help">${t('costs.beside', { name: former.name })}</p>`}
     </section>
-    <section class="section"><h3>Cost by vehicle</h3>
-      <table><thead><tr><th scope="col">Vehicle</th><th scope="col" class="number">Cost</th>
-        <th scope="col">Works</th></tr></thead>
+    <section class="section"><h3>${t('costs.byVehicle')}</h3>
+      <table><thead><tr><th scope="col">${t('costs.vehicle')}</th>
+        <th scope="col" class="number">${t('costs.cost')}</th>
+        <th scope="col">${t('costs.works')}</th></tr></thead>
       <tbody>${plan.routes.map(
         (route) => html`<tr key=${route.vehicle}><th scope="row">${route.vehicle}</th>
         <td class="number">${money(route.cost)}</td><td>${duration(route.working_duration)}</td>
@@ -51,7 +53,7 @@ function shareOf(cost, term) {
 function Legs({ legs }) {
   const lines = legsInWords(legs);
   if (lines.length === 0) return null;
-  return html`<section class="section"><h3>Driving</h3>${lines.map(
+  return html`<section class="section"><h3>${t('costs.driving')}</h3>${lines.map(
     (line) => html`<p class="help" key=${line}>${line}</p>`,
   )}</section>`;
 }
@@ -59,17 +61,22 @@ function Legs({ legs }) {
 function Summary({ summary }) {
   const rates = summary.load_rate;
   const rows = [
-    ['Driven', km(summary.distance)],
-    ['Flown', km(summary.drone_distance)],
+    [t('about.driven'), km(summary.distance)],
+    [t('about.flown'), km(summary.drone_distance)],
     ...(summary.energy_wh == null
       ? []
-      : [['Energy of flights', `${number(summary.energy_wh, 1)} Wh`]]),
-    ['Trips', number(summary.trips, 0)],
-    ['Flights', number(summary.sorties, 0)],
+      : [[t('costs.energy'), `${number(summary.energy_wh, 1)} Wh`]]),
+    [t('about.trips'), number(summary.trips, 0)],
+    [t('about.flights'), number(summary.sorties, 0)],
     ...(summary.co2_kg == null ? [] : [['CO\u2082', `${number(summary.co2_kg, 1)} kg`]]),
-    ['Load rate', `${percent(rates.min)} to ${percent(rates.max)}, mean ${percent(rates.mean)}`],
+    [t('costs.loadRate'), t('costs.rates', {
+      min: percent(rates.min),
+      max: percent(rates.max),
+      mean: percent(rates.mean),
+    })],
   ];
-  return html`<section class="section"><h3>In numbers</h3><table><tbody>${rows.map(
+  return html`<section class="section"><h3>${t('costs.numbers')}</h3>
+    <table><tbody>${rows.map(
     ([name, value]) => html`<tr key=${name}><th scope="row">${name}</th><td>${value}</td></tr>`,
   )}</tbody></table></section>`;
 }

@@ -1,12 +1,13 @@
 /** What the plan's drones save: in sum, and which sorties save nothing. */
 
 import { indexOf, shownPlan } from '../actions.js';
-import { count, money } from '../core/format.js';
+import { money } from '../core/format.js';
 import { countWorth, drones, savesNothing } from '../core/why.js';
 import { askDrones, toldOf } from '../explaining.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { SelectButton } from './parts.js';
+import { t } from '../texts.js';
 
 /** The section, for plans with sorties. */
 export function DronesWorth() {
@@ -14,10 +15,11 @@ export function DronesWorth() {
   const answer = toldOf(useStore((state) => state.why), entry, null);
   if (!entry || !entry.plan.summary.sorties) return null;
   const isAsking = answer?.state === 'asking';
-  return html`<section class="section" id="drones-worth"><h3>What drones save</h3>
+  return html`<section class="section" id="drones-worth">
+    <h3>${t('worth.title')}</h3>
     <div class="buttons"><button type="button" disabled=${isAsking}
-      onClick=${() => askDrones(entry)}>Compare with trucks alone</button>
-      <span role="status">${isAsking ? 'Searching, with drones and without' : ''}</span></div>
+      onClick=${() => askDrones(entry)}>${t('worth.compare')}</button>
+      <span role="status">${isAsking ? t('worth.searching') : ''}</span></div>
     ${answer?.told && html`<${Told} told=${answer.told.drones} entry=${entry} />`}</section>`;
 }
 
@@ -27,10 +29,9 @@ function Told({ told, entry }) {
   return html`${drones(told, entry.plan.cost.total).map(
       (sentence) => html`<p key=${sentence}>${sentence}</p>`,
     )}
-    <p>${useless ? `${count(useless, 'sortie')} of ${total} save nothing: trucks would serve their
-      customers for no more, all others staying.` : 'No sortie was found that saves nothing.'}
-      ${needed > 0 && ` ${count(needed, 'sortie')} ${needed === 1 ? 'has' : 'have'} to be flown.`}
-      ${untried > 0 && ` There was no time to try ${untried}.`}</p>
+    <p>${useless ? t('worth.useless', { count: useless, total }) : t('worth.none')}
+      ${needed > 0 && ` ${t('worth.needed', { count: needed })}`}
+      ${untried > 0 && ` ${t('worth.untried', { count: untried })}`}</p>
     <ul>${told.sorties.filter(savesNothing).map(
       (sortie) => html`<${Useless} key=${`${sortie.vehicle}/${sortie.trip}/${sortie.sortie}`}
         sortie=${sortie} index=${indexOf(entry)} />`,
@@ -41,9 +42,11 @@ function Useless({ sortie, index }) {
   const vehicle = index.vehicles.find(({ name }) => name === sortie.vehicle);
   const key = `s:${vehicle.index}/${sortie.trip}/${sortie.sortie}`;
   const gain = -sortie.saves;
-  return html`<li><${SelectButton} of=${key}>${sortie.vehicle} to
-    ${' '}${sortie.customers.join(', ')}</${SelectButton}>: by truck ${
-      gain < 0.005 ? 'the same' : `${money(gain)} less`}</li>`;
+  return html`<li><${SelectButton} of=${key}>${t('worth.to', {
+    vehicle: sortie.vehicle,
+    names: sortie.customers.join(', '),
+  })}</${SelectButton}>: ${
+    gain < 0.005 ? t('worth.same') : t('worth.less', { sum: money(gain) })}</li>`;
 }
 
 /** Return whether a sortie of the plan that is looked at was found to save nothing. */

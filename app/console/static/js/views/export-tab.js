@@ -10,6 +10,7 @@ import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Badge } from './parts.js';
 import { printSheets } from './driver-sheets.js';
+import { t } from '../texts.js';
 
 const PNG_SCALE = 2;
 
@@ -21,46 +22,47 @@ export function ExportTab() {
   const entry = useStore(shownPlan);
   const links = linksByVehicle(useStore((state) => state.dispatch));
   const index = indexOf(entry);
-  const problem = html`<section class="section"><h3>Problem</h3><div class="buttons">
+  const problem = html`<section class="section"><h3>${t('take.problem')}</h3><div class="buttons">
     <button type="button" onClick=${() =>
-      saveJson('problem.json', asStated(schemas, request, stated))}>Problem as JSON
-      </button></div></section>`;
-  if (!index) return html`${problem}<p class="empty">Nothing is planned yet.</p>`;
+      saveJson('problem.json', asStated(schemas, request, stated))}>
+      ${t('take.problemJson')}</button></div></section>`;
+  if (!index) return html`${problem}<p class="empty">${t('timeline.nothing')}</p>`;
   const drawnOf = flightLines(entry.request);
   const legsOf = flownLines(entry.request);
   const parts = settledOf(entry, request);
   const isGeographic = entry.request.coordinate_system === 'geographic';
   const print = (vehicles) => printSheets(vehicles, parts, isGeographic, links);
   return html`${problem}
-    <section class="section"><h3>Plan</h3><div class="buttons">
-      <button type="button" onClick=${() => saveJson('plan.json', entry.plan)}>Plan as JSON</button>
+    <section class="section"><h3>${t('take.plan')}</h3><div class="buttons">
+      <button type="button" onClick=${() => saveJson('plan.json', entry.plan)}>
+        ${t('take.planJson')}</button>
       <button type="button" onClick=${() => save('stops.csv', 'text/csv', stopsCsv(index))}>
-        Stops as CSV</button>
+        ${t('take.stops')}</button>
       <button type="button" onClick=${() =>
         save(
           'plan.geojson',
           'application/geo+json',
           JSON.stringify(geoJson(index, legsOf)),
         )}>GeoJSON</button></div></section>
-    <section class="section"><h3>Picture</h3><div class="buttons">
+    <section class="section"><h3>${t('take.picture')}</h3><div class="buttons">
       <button type="button" onClick=${() =>
         save('plan.svg', 'image/svg+xml', toSvg(pictureOf(index, drawnOf)))}>
         SVG</button>
       <button type="button" onClick=${() => savePng('plan.png', pictureOf(index, drawnOf))}>PNG
         </button></div></section>
-    <section class="section"><h3>For drivers</h3>
+    <section class="section"><h3>${t('take.drivers')}</h3>
       <div class="buttons">
         <button type="button" onClick=${() => print(index.vehicles)}>
-          Print all driver sheets</button></div>
-      ${!isGeographic && html`<p
-        class="help">GPX needs longitudes and latitudes; this problem lies on a plane.</p>`}
+          ${t('take.printAll')}</button></div>
+      ${!isGeographic && html`<p class="help">${t('take.planar')}</p>`}
       <table><tbody>${index.vehicles.map(
         (vehicle) => html`<tr key=${vehicle.key}>
         <th scope="row"><${Badge} vehicle=${vehicle} /> ${vehicle.name}</th>
         <td><div class="buttons">
           <button type="button" onClick=${() => print([vehicle])}
-            aria-label=${`Print the driver sheet of ${vehicle.name}`}>Print sheet</button>
-          <button type="button" disabled=${!isGeographic} aria-label=${`GPX of ${vehicle.name}`}
+            aria-label=${t('take.printOf', { vehicle: vehicle.name })}>${t('take.print')}</button>
+          <button type="button" disabled=${!isGeographic} 
+            aria-label=${t('take.gpxOf', { vehicle: vehicle.name })}
             onClick=${() =>
               save(`${vehicle.name}.gpx`, 'application/gpx+xml', gpx(vehicle, legsOf))}>GPX</button>
         </div></td></tr>`,

@@ -3,6 +3,7 @@
 import { html } from '../libraries.js';
 import { askName } from '../keeping/kept.js';
 import { store, useStore } from '../store.js';
+import { t } from '../texts.js';
 
 /** Tell whether there is something to be told. */
 export const isToBeTold = ({ unkept, viewing }) => Boolean(unkept || viewing);
@@ -12,13 +13,13 @@ export function KeepingNotice() {
   const unkept = useStore((state) => state.unkept);
   const viewing = useStore((state) => state.viewing);
   if (viewing) {
-    return html`<div class="notice calm" role="status"><div><strong>You look at a shared
-      plan.</strong> Nobody else sees what you change here.</div>
-      <button type="button" onClick=${askName}>Save as</button></div>`;
+    return html`<div class="notice calm" role="status"><div><strong>${
+      t('kept.shared')}</strong> ${t('kept.sharedHelp')}</div>
+      <button type="button" onClick=${askName}>${t('kept.saveAs')}</button></div>`;
   }
   if (!unkept) return null;
   return html`<div class="notice" role="alert"><div>${unkept}</div>
-    <button type="button" onClick=${askName}>Save</button>
+    <button type="button" onClick=${askName}>${t('kept.save')}</button>
     <button type="button" class="quiet"
-      onClick=${() => store.set({ unkept: null })}>Close</button></div>`;
+      onClick=${() => store.set({ unkept: null })}>${t('app.close')}</button></div>`;
 }

@@ -3,6 +3,7 @@
 import { isHere, placeAt, placeBeside } from '../core/moving.js';
 import { html } from '../libraries.js';
 import { move } from './stop-moves.js';
+import { t } from '../texts.js';
 
 const EDGE = 40; // pixels from the list's edge, where it scrolls
 const SCROLL = 12;
@@ -23,8 +24,8 @@ export function Grip({ index, halt }) {
     const place = placeBeside(halt, step);
     if (place) move(index, halt.id, place).then(() => focusOn(halt.key));
   };
-  return html`<button type="button" class="grip" aria-label=${`Move ${halt.id}`}
-    title="Drag, or use the up and down keys" onKeyDown=${onKeyDown}
+  return html`<button type="button" class="grip" aria-label=${t('stop.move', { id: halt.id })}
+    title=${t('stop.drag')} onKeyDown=${onKeyDown}
     onPointerDown=${(event) => begin(event, index, halt)}>\u2807</button>`;
 }
 

@@ -2,7 +2,7 @@
 
 import { indexOf, shownPlan } from '../actions.js';
 import { describe } from '../core/describe.js';
-import { amounts, clock, count, duration, km, money, percent, timeWindow } from '../core/format.js';
+import { amounts, clock, duration, km, money, percent, timeWindow } from '../core/format.js';
 import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { customersOf } from '../core/replanning.js';
@@ -14,6 +14,7 @@ import { dropOn, Grip } from './list-drag.js';
 import { Badge, Facts, linked, SelectButton, ShareBar } from './parts.js';
 import { StopMoves } from './stop-moves.js';
 import { WhyHere } from './why-here.js';
+import { t } from '../texts.js';
 
 /** Vehicles are unfolded at first if there are fewer. */
 const MOST_OPEN = 3;
@@ -21,8 +22,8 @@ const MOST_OPEN = 3;
 /** The tab. */
 export function RoutesTab() {
   const index = indexOf(useStore(shownPlan));
-  if (!index) return html`<p class="empty">Nothing is planned yet.</p>`;
-  if (!index.vehicles.length) return html`<p class="empty">No vehicle is used.</p>`;
+  if (!index) return html`<p class="empty">${t('timeline.nothing')}</p>`;
+  if (!index.vehicles.length) return html`<p class="empty">${t('timeline.unused')}</p>`;
   return html`<${Selected} index=${index} /><${Rates} index=${index} />
     ${index.vehicles.map(
       (vehicle) => html`<${Vehicle} key=${vehicle.key} index=${index}
@@ -35,8 +36,7 @@ function Selected({ index }) {
   const request = useStore((state) => state.request);
   const about = describe(request, index, selection);
   if (!about)
-    return html`<p class="help">Select a stop, flight or trip here, on the map or in the timeline.
-      </p>`;
+    return html`<p class="help">${t('routes.select')}</p>`;
   return html`<section class="card"><header><strong>${about.title}</strong></header>
     <div class="inside"><${Facts} facts=${about.facts} />
       ${selection.startsWith('c:') && html`<${StopMoves} id=${selection.slice(2)} />
@@ -49,15 +49,16 @@ function Rates({ index }) {
   const hovered = useStore((state) => state.hover);
   const dark = useStore((state) => state.dark);
   const trips = index.vehicles.flatMap(({ trips: own }) => own);
-  return html`<section class="section"><h3>Load rate and working rate</h3>
-    <table><thead><tr><th scope="col">Trip</th><th scope="col">Load rate</th>
-      <th scope="col">Working rate</th></tr></thead>
+  return html`<section class="section"><h3>${t('routes.rates')}</h3>
+    <table><thead><tr><th scope="col">${t('routes.trip')}</th>
+      <th scope="col">${t('routes.loadRate')}</th>
+      <th scope="col">${t('routes.workingRate')}</th></tr></thead>
     <tbody>${trips.map(
       (trip) => html`<tr key=${trip.key} ...${linked(index, trip.key, selection, hovered)}>
       <th scope="row"><${SelectButton} of=${trip.key}><${Badge} vehicle=${trip.vehicle}
         label=${trip.label} /> ${trip.vehicle.name}</${SelectButton}></th>
       <td><${ShareBar} share=${trip.reply.load_rate} text=${percent(trip.reply.load_rate)}
-        label="Load rate" colour=${vehicleColour(trip.vehicle.number, dark)} /></td>
+        label=${t('routes.loadRate')} colour=${vehicleColour(trip.vehicle.number, dark)} /></td>
       <td>${working(trip, dark)}</td></tr>`,
     )}</tbody></table></section>`;
 }
@@ -65,9 +66,13 @@ function Rates({ index }) {
 /** The trip's share of the longest working duration, or why there is none. */
 function working(trip, dark) {
   const longest = trip.vehicle.type?.max_working_duration;
-  if (!longest) return html`<span class="help">${duration(trip.reply.duration)}, no limit</span>`;
+  if (!longest) {
+    return html`<span class="help">${t('routes.noLimit', {
+      time: duration(trip.reply.duration),
+    })}</span>`;
+  }
   const share = trip.reply.duration / longest;
-  return html`<${ShareBar} share=${share} text=${percent(share)} label="Working rate"
+  return html`<${ShareBar} share=${share} text=${percent(share)} label=${t('routes.workingRate')}
     colour=${vehicleColour(trip.vehicle.number, dark)} />`;
 }
 
@@ -86,9 +91,11 @@ function Vehicle({ index, vehicle }) {
     <summary data-drop-vehicle=${vehicle.index}><${Badge} vehicle=${vehicle} />
       <strong>${vehicle.name}</strong>
       <span class="right">${[
-        count(vehicle.trips.length, 'trip'),
+        t('routes.trips', { count: vehicle.trips.length }),
         duration(route.working_duration) + rate,
-        ...(route.overtime > 0 ? [`${duration(route.overtime)} overtime`] : []),
+        ...(route.overtime > 0
+          ? [t('routes.overtime', { time: duration(route.overtime) })]
+          : []),
         money(route.cost),
       ].join(', ')}</span></summary>
     ${
@@ -106,8 +113,9 @@ function LockAll({ vehicle }) {
   const ids = customersOf(vehicle.route);
   const isLocked = ids.length > 0 && ids.every((id) => locks.includes(id));
   return html`<div class="buttons"><button type="button" aria-pressed=${isLocked}
-    aria-label=${`Lock the customers of ${vehicle.name}`}
-    onClick=${() => setLocked(ids, !isLocked)}>${isLocked ? 'All locked' : 'Lock all'}</button>
+    aria-label=${t('routes.lockOf', { vehicle: vehicle.name })}
+    onClick=${() => setLocked(ids, !isLocked)}>${
+      isLocked ? t('routes.allLocked') : t('routes.lockAll')}</button>
     </div>`;
 }
 
@@ -116,15 +124,18 @@ function Trip({ index, trip }) {
   const hovered = useStore((state) => state.hover);
   const { reply } = trip;
   return html`<div class="section"><h4><${SelectButton}
-    of=${trip.key}>Trip ${trip.index + 1}</${SelectButton}>
+    of=${trip.key}>${t('routes.tripNumber', { number: trip.index + 1 })}</${SelectButton}>
       ${' '}<span class="help">${[
-        `load ${amounts(reply.load)} (${percent(reply.load_rate)})`,
+        t('routes.load', {
+          load: `${amounts(reply.load)} (${percent(reply.load_rate)})`,
+        }),
         km(reply.distance),
         duration(reply.duration),
       ].join(', ')}</span></h4>
-    <table><thead><tr><th scope="col">Stop</th><th scope="col">Arrival</th><th
-      scope="col">Window</th>
-      <th scope="col">Late</th><th scope="col" class="number">Load</th></tr></thead>
+    <table><thead><tr><th scope="col">${t('routes.stop')}</th>
+      <th scope="col">${t('about.arrival')}</th><th scope="col">${t('about.window')}</th>
+      <th scope="col">${t('routes.late')}</th>
+      <th scope="col" class="number">${t('about.loaded')}</th></tr></thead>
     <tbody>${trip.stops.map(
       (halt) => html`
       <${Stop} key=${halt.key} index=${index} halt=${halt} selection=${selection}
@@ -146,7 +157,8 @@ function Stop({ index, halt, selection, hovered }) {
     ...${linked(index, halt.key, selection, hovered)}>
     <th scope="row">${halt.kind === 'customer' && html`<${Grip} index=${index} halt=${halt} />`}
       <${SelectButton} of=${halt.key}>${halt.id}</${SelectButton}>${isLocked
-        && halt.kind === 'customer' && html` <span class="lock-mark">locked</span>`}</th>
+        && halt.kind === 'customer' && html` <span
+          class="lock-mark">${t('routes.locked')}</span>`}</th>
     <td>${clock(halt.arrival)}${halt.waiting > 0 && html` <span
       class="help">+${duration(halt.waiting)}</span>`}</td>
     <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
@@ -160,10 +172,14 @@ function Sortie({ index, sortie, selection, hovered }) {
   const drone = sortie.drone.slice(sortie.drone.lastIndexOf('/') + 1);
   return html`<tr ...${linked(index, sortie.key, selection, hovered)}>
       <td colspan="5" class="help"><${SelectButton}
-        of=${sortie.key}>${drone} flies</${SelectButton}>
-        ${' '}${clock(reply.launch_time)} to ${clock(reply.recovery_time)}, ${km(reply.distance)},
-        back at ${sortie.to.id}${isUseless && html`<strong class="late-text">, saves
-          nothing</strong>`}</td></tr>
+        of=${sortie.key}>${t('routes.flies', { drone })}</${SelectButton}>
+        ${' '}${t('routes.flight', {
+          from: clock(reply.launch_time),
+          until: clock(reply.recovery_time),
+          way: km(reply.distance),
+          back: sortie.to.id,
+        })}${isUseless && html`<strong class="late-text">, ${
+          t('routes.useless')}</strong>`}</td></tr>
     ${sortie.visits.map(
       (halt) => html`<${Stop} key=${halt.key} index=${index} halt=${halt}
       selection=${selection} hovered=${hovered} />`,

@@ -2,7 +2,7 @@
 
 import { withoutDrones } from '../core/changes.js';
 import { droneCount } from '../core/drones.js';
-import { count, hours, money, number, percent } from '../core/format.js';
+import { hours, money, number, percent } from '../core/format.js';
 import {
   axesAround, heatTable, readValues, valuesAround, variableFields, writeAt,
 } from '../core/grid.js';
@@ -12,6 +12,7 @@ import { costTerms } from '../core/terms.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { showScenarioJob, showScenarioPlan, startScenario, stopScenario } from '../scenarios.js';
 import { store, useStore } from '../store.js';
+import { language, t } from '../texts.js';
 
 /** The tab. */
 export function ScenariosTab() {
@@ -28,7 +29,7 @@ export function ScenariosTab() {
 
 function SecondsEach() {
   const seconds = useStore((state) => state.scenarioSeconds);
-  return html`<label>Seconds of search for each scenario <input type="text" inputmode="decimal"
+  return html`<label>${t('scenario.seconds')} <input type="text" inputmode="decimal"
     size="5"
     value=${seconds} onChange=${(event) => {
       const value = Number(event.target.value);
@@ -45,16 +46,22 @@ function baseOf({ request, scenarioSeconds }) {
 
 /** Return fleets worth a comparison with a request's own. */
 function suggestedFleets(request) {
-  const fleets = { 'as it is': request.fleet };
+  const fleets = { [t('scenario.asItIs')]: request.fleet };
   if (request.fleet.some((type) => droneCount(type)))
-    fleets['without drones'] = withoutDrones(request).fleet;
+    fleets[t('scenario.withoutDrones')] = withoutDrones(request).fleet;
   if (request.fleet.length > 1) {
     const total = request.fleet.reduce((sum, { count }) => sum + count, 0);
     request.fleet.forEach((type) => {
-      fleets[`only ${type.id}`] = [{ ...type, count: total }];
+      fleets[t('scenario.only', { id: type.id })] = [{ ...type, count: total }];
     });
   }
   return fleets;
+}
+
+function typeInWords(type) {
+  const vehicles = `${type.count} ${type.id}`;
+  const drones = droneCount(type);
+  return drones ? t('scenario.withDrones', { vehicles, count: drones }) : vehicles;
 }
 
 function Compare() {
@@ -70,34 +77,23 @@ function Compare() {
     store.set({ keptFleets: { ...kept, [name.trim()]: request.fleet } });
     setName('');
   };
-  const text = (fleet) =>
-    fleet
-      .map(
-        (type) =>
-          `${type.count} ${type.id}${
-            droneCount(type)
-              ? ` with ${droneCount(type)} drone${droneCount(type) > 1 ? 's' : ''}`
-              : ''
-          }`,
-      )
-      .join(', ');
-  return html`<section class="section"><h3>Compare fleets</h3>
+  return html`<section class="section"><h3>${t('scenario.compare')}</h3>
     ${Object.entries(fleets).map(
       ([fleet, types]) => html`<label key=${fleet}><input type="checkbox"
       checked=${!left.includes(fleet)}
         onChange=${() => toggle(fleet)} /> <strong>${fleet}:</strong>${' '}
-      <span class="help">${text(types)}</span></label>`,
+      <span class="help">${types.map(typeInWords).join(', ')}</span></label>`,
     )}
-    <div class="buttons"><input type="text" value=${name} placeholder="Name of this fleet"
-        aria-label="Name to keep this fleet by" onInput=${(event) => setName(event.target.value)} />
+    <div class="buttons"><input type="text" value=${name} placeholder=${t('scenario.fleetName')}
+        aria-label=${t('scenario.keepBy')} onInput=${(event) => setName(event.target.value)} />
       <button type="button" disabled=${!name.trim()}
-        onClick=${keep}>Keep this fleet for comparing</button></div>
+        onClick=${keep}>${t('scenario.keep')}</button></div>
     <div class="buttons"><button type="button" class="primary" disabled=${chosen.length < 1}
       onClick=${() =>
         startScenario('compare', {
           base: baseOf(store.get()),
           fleets: Object.fromEntries(chosen),
-        })}>Compare ${count(chosen.length, 'fleet')}</button></div>
+        })}>${t('scenario.compareCount', { count: chosen.length })}</button></div>
   </section>`;
 }
 
@@ -128,39 +124,40 @@ function Sweep() {
       base: baseOf(store.get()),
       grid: Object.fromEntries(used.map(({ path }, index) => [path, values[index]])),
     });
-  return html`<section class="section"><h3>Sweep</h3>
+  return html`<section class="section"><h3>${t('scenario.sweep')}</h3>
     ${axes.map(
       (axis, index) => html`<div class="sweep-axis" key=${index}>
-      <select aria-label=${`Field of axis ${index + 1}`} value=${axis.path}
+      <select aria-label=${t('scenario.axis', { number: index + 1 })} value=${axis.path}
           onChange=${(event) => choose(index, event.target.value)}>
-        ${index > 0 && html`<option value="">nothing more</option>`}
+        ${index > 0 && html`<option value="">${t('scenario.nothing')}</option>`}
         ${fields.map(({ path, label }) => html`<option key=${path}
           value=${path}>${label}</option>`)}</select>
       ${
         axis.path &&
-        html`<input type="text" value=${axis.text} aria-label=${`Values of axis ${index + 1}`}
+        html`<input type="text" value=${axis.text} 
+        aria-label=${t('scenario.values', { number: index + 1 })}
         aria-invalid=${readValues(axis.text, unit(axis)) === null}
         placeholder=${unit(axis) === 's' ? '4:00, 5:30' : '100, 150'}
         onInput=${(event) => set(index, { text: event.target.value })} />
         <span class="unit">${unit(axis) === 's' ? 'h:mm' : unit(axis)}</span>`
       }</div>`,
     )}
-    <p class="help">Values of all vehicle types alike, commas between.</p>
+    <p class="help">${t('scenario.alike')}</p>
     <div class="buttons"><button type="button" class="primary" disabled=${!ready} onClick=${start}>
-      Sweep ${count(size, 'scenario')}</button></div></section>`;
+      ${t('scenario.sweepCount', { count: size })}</button></div></section>`;
 }
 
 function Running({ scenario }) {
   const over = ['done', 'failed', 'cancelled'].includes(scenario.state);
   return html`<section class="section" aria-live="polite"><div class="buttons"><span
     id="scenario-state">
-      ${scenario.kind === 'compare' ? 'Comparison' : 'Sweep'}: ${scenario.state}</span>
+      ${t(`scenario.kind.${scenario.kind}`)}: ${t(`scenario.state.${scenario.state}`)}</span>
     ${
       !over &&
-      html`<span class="progress" role="progressbar" aria-label="Scenarios" aria-valuemin="0"
-      aria-valuemax="100" aria-valuenow=${Math.round(scenario.progress * 100)}>
+      html`<span class="progress" role="progressbar" aria-label=${t('scenario.progress')}
+      aria-valuemin="0" aria-valuemax="100" aria-valuenow=${Math.round(scenario.progress * 100)}>
       <span style=${{ width: `${scenario.progress * 100}%` }}></span></span>
-      <button type="button" onClick=${stopScenario}>Stop</button>`
+      <button type="button" onClick=${stopScenario}>${t('scenario.stop')}</button>`
     }</div>
     ${scenario.error && html`<p class="error">${scenario.error}</p>`}</section>`;
 }
@@ -171,42 +168,48 @@ function CompareResult({ scenario: { body, result } }) {
   const line = (name, read) => html`<tr key=${name}><th scope="row">${name}</th>
     ${entries.map(([fleet, found]) => html`<td key=${fleet}
       class="number">${found.cost ? read(found) : ''}</td>`)}</tr>`;
-  return html`<section class="section wide"><h3>Fleets side by side</h3><table id="compare-table">
+  return html`<section class="section wide"><h3>${t('scenario.sideBySide')}</h3>
+    <table id="compare-table">
     <thead><tr><th scope="col"></th>${entries.map(
       ([fleet]) => html`<th scope="col" class="number"
       key=${fleet}>${fleet}</th>`,
     )}</tr></thead>
     <tbody>
-      <tr><th scope="row"><strong>Total cost</strong></th>${entries.map(
+      <tr><th scope="row"><strong>${t('scenario.total')}</strong></th>${entries.map(
         ([fleet, { cost, error }]) => html`<td
         key=${fleet} class="number">${
           cost
             ? html`<strong class=${cost.total === least ? 'delta-good' : ''}>
         ${money(cost.total)}</strong>`
-            : (error ?? 'no plan')
+            : (error ?? t('scenario.noPlan'))
         }</td>`,
       )}</tr>
       ${costTerms(...entries.flatMap(([, { cost }]) => (cost ? [cost] : []))).map(([term, name]) =>
         line(name, ({ cost }) => money(cost[term] ?? 0)),
       )}
-      ${line('Load rate, mean', ({ load_rate: rate }) => percent(rate?.mean))}
-      ${line('Load rate, least', ({ load_rate: rate }) => percent(rate?.min))}
-      ${line('Working rate, mean', ({ working_rate: rate }) => percent(rate?.mean))}
-      ${line('Vehicles', ({ vehicles }) => number(vehicles, 0))}
-      ${line('Trips', ({ trips }) => number(trips, 0))}
-      ${line('Unassigned', ({ unassigned }) => number(unassigned, 0))}
+      ${line(t('scenario.loadMean'), ({ load_rate: rate }) => percent(rate?.mean))}
+      ${line(t('scenario.loadLeast'), ({ load_rate: rate }) => percent(rate?.min))}
+      ${line(t('scenario.workMean'), ({ working_rate: rate }) => percent(rate?.mean))}
+      ${line(t('measure.vehicles'), ({ vehicles }) => number(vehicles, 0))}
+      ${line(t('measure.trips'), ({ trips }) => number(trips, 0))}
+      ${line(t('scenario.unassigned'), ({ unassigned }) => number(unassigned, 0))}
       <tr><th scope="row"></th>${entries.map(
         ([fleet, { plan }]) => html`<td key=${fleet} class="number">
         ${
           plan &&
-          html`<button type="button" aria-label=${`Show the plan of ${fleet}`}
+          html`<button type="button" aria-label=${t('scenario.showOf', { fleet })}
           onClick=${() =>
-            showScenarioPlan({ ...body.base, fleet: body.fleets[fleet] }, plan, fleet)}>Show
-            </button>`
+            showScenarioPlan({ ...body.base, fleet: body.fleets[fleet] }, plan, fleet)}>
+            ${t('scenario.show')}</button>`
         }
       </td>`,
       )}</tr>
     </tbody></table></section>`;
+}
+
+/** Return a label as it stands within a sentence: German nouns keep their capital. */
+function withinText(label) {
+  return language() === 'en' ? label.toLowerCase() : label;
 }
 
 function SweepResult({ scenario: { body, result } }) {
@@ -217,14 +220,14 @@ function SweepResult({ scenario: { body, result } }) {
   const [down, across] = result.axes.map(field);
   const show = (found, value) =>
     value === null
-      ? 'Cost'
+      ? t('scenario.cost')
       : found?.unit === 's'
         ? `${hours(value)} h`
         : `${number(value)} ${found?.unit ?? ''}`;
   const table = heatTable(result);
-  return html`<section class="section wide"><h3>Cost by ${down.label.toLowerCase()}${
-    across && ` and ${across.label.toLowerCase()}`
-  }</h3>
+  return html`<section class="section wide"><h3>${across
+    ? t('scenario.costByBoth', { down: withinText(down.label), across: withinText(across.label) })
+    : t('scenario.costBy', { down: withinText(down.label) })}</h3>
     <table class="heat" id="heat-map"><thead><tr><th
       scope="col">${down.label}${across && ` \\ ${across.label}`}</th>
       ${table.columns.map((value) => html`<th scope="col"
@@ -236,13 +239,12 @@ function SweepResult({ scenario: { body, result } }) {
         body=${body} axes=${result.axes} />`,
       )}</tr>`,
     )}</tbody></table>
-    <p class="help">Light is cheap, dark is dear; the cheapest is framed. A cell opens its plan.</p>
-      </section>`;
+    <p class="help">${t('scenario.legend')}</p></section>`;
 }
 
 function HeatCell({ cell, table, body, axes }) {
   if (!cell || cell.cost === null)
-    return html`<td title=${cell?.error}>${cell?.error ? 'failed' : ''}</td>`;
+    return html`<td title=${cell?.error}>${cell?.error ? t('scenario.failed') : ''}</td>`;
   const spread = table.most - table.least;
   const colour = heatColour(spread > 0 ? (cell.cost - table.least) / spread : 0);
   const open = () =>
@@ -253,11 +255,16 @@ function HeatCell({ cell, table, body, axes }) {
         body.base,
       ),
     );
-  const out = cell.unassigned > 0 ? html`<br /><small>${cell.unassigned} out</small>` : '';
+  const out = cell.unassigned > 0 ? html`<br /><small>${t('scenario.out', {
+    count: cell.unassigned,
+  })}</small>` : '';
   return html`<td class=${cell.cost === table.least ? 'least' : ''}
       style=${{ background: colour.background, color: colour.text }}>
     <button type="button" class="link" style=${{ color: colour.text }} onClick=${open}
-      title=${[`Load rate ${percent(cell.load_rate?.mean)}`, `${cell.vehicles} vehicles`,
-        `${cell.trips} trips`].join(', ')}>
+      title=${[
+        t('scenario.loadRate', { rate: percent(cell.load_rate?.mean) }),
+        t('scenario.vehicles', { count: cell.vehicles }),
+        t('routes.trips', { count: cell.trips }),
+      ].join(', ')}>
       ${money(cell.cost)}</button>${out}</td>`;
 }

@@ -6,6 +6,7 @@ import { placeAt, placeBeside, vehiclesFor } from '../core/moving.js';
 import { askFit, moveCustomerTo, setLocked } from '../hands.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
+import { t } from '../texts.js';
 
 /** Put a customer at a place, and say so. */
 export function move(index, id, place) {
@@ -21,14 +22,19 @@ export function StopMoves({ id }) {
   const isKnown = index && (halt || entry.plan.unassigned.some((other) => other.id === id));
   if (!isKnown) return null;
   const isLocked = locks.includes(id);
-  return html`<div class="buttons" role="group" aria-label=${`Move ${id}`}>
-    ${halt && html`<${Beside} index=${index} halt=${halt} step=${-1} name="Earlier" />
-      <${Beside} index=${index} halt=${halt} step=${1} name="Later" />`}
+  return html`<div class="buttons" role="group" aria-label=${t('stop.move', { id })}>
+    ${halt && html`<${Beside} index=${index} halt=${halt} step=${-1}
+        name=${t('stop.earlier')} />
+      <${Beside} index=${index} halt=${halt} step=${1}
+        name=${t('stop.later')} />`}
     <${ToVehicle} index=${index} id=${id} halt=${halt} />
-    <button type="button" onClick=${() => askFit(customerOf(entry, id))}>Best places</button>
+    <button type="button" onClick=${() => askFit(customerOf(entry, id))}>
+      ${t('stop.best')}</button>
     ${halt && html`<button type="button" aria-pressed=${isLocked}
-      onClick=${() => setLocked([id], !isLocked)}>${isLocked ? 'Locked' : 'Lock'}</button>
-      <button type="button" onClick=${() => move(index, id, null)}>Leave out</button>`}</div>`;
+      onClick=${() => setLocked([id], !isLocked)}>${
+        isLocked ? t('stop.locked') : t('stop.lock')}</button>
+      <button type="button" onClick=${() => move(index, id, null)}>
+        ${t('stop.leaveOut')}</button>`}</div>`;
 }
 
 function customerOf({ request }, id) {
@@ -51,8 +57,8 @@ function ToVehicle({ index, id, halt }) {
     const time = halt?.serviceStart ?? 0;
     move(index, id, vehicle ? placeAt(vehicle, time, halt) : { vehicle: name, type });
   };
-  return html`<select aria-label=${`Give ${id} to`} value="" onChange=${give}>
-    <option value="" disabled hidden>To vehicle\u2026</option>
+  return html`<select aria-label=${t('stop.give', { id })} value="" onChange=${give}>
+    <option value="" disabled hidden>${t('stop.toVehicle')}</option>
     ${others.map(({ name, vehicle }, position) => html`<option key=${name}
-      value=${position}>${name}${vehicle ? '' : ' (unused)'}</option>`)}</select>`;
+      value=${position}>${vehicle ? name : t('stop.unused', { name })}</option>`)}</select>`;
 }

@@ -6,6 +6,7 @@ import { alternativeRows, bindingInWords, FIRST_SHOWN } from '../core/why.js';
 import { askWhy, toldOf } from '../explaining.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
+import { t } from '../texts.js';
 
 /** The button of a customer of the plan that is looked at, and what came of it. */
 export function WhyHere({ id }) {
@@ -16,8 +17,8 @@ export function WhyHere({ id }) {
   const isOut = entry.plan.unassigned.some((each) => each.id === id);
   const isAsking = answer?.state === 'asking';
   return html`<div class="section"><div class="buttons"><button type="button" disabled=${isAsking}
-      onClick=${() => askWhy(entry, id)}>${isOut ? 'What would it cost?' : 'Why here?'}</button>
-      <span role="status">${isAsking ? 'Trying other places' : ''}</span></div>
+      onClick=${() => askWhy(entry, id)}>${isOut ? t('why.ask.price') : t('why.ask.here')}</button>
+      <span role="status">${isAsking ? t('why.ask.asking') : ''}</span></div>
     ${answer?.told && html`<${Told} told=${answer.told} customer=${customer} />`}</div>`;
 }
 
@@ -27,29 +28,34 @@ function Told({ told, customer }) {
   const more = vehicles.slice(FIRST_SHOWN);
   const first = rows.filter((row) => !more.includes(row));
   return html`
-    ${told.here && html`<p>Without it the plan would cost
-      ${' '}${money(told.here.saving.total)} less.</p>`}
+    ${told.here && html`<p>${t('why.ask.saving', {
+      sum: money(told.here.saving.total),
+    })}</p>`}
     ${rows.length > 0
       ? html`<${Alternatives} rows=${first} id=${customer.id} />`
-      : html`<p>Nothing else was found in the time there was.</p>`}
-    ${more.length > 0 && html`<details><summary>${more.length} more vehicles</summary>
-      <${Alternatives} rows=${more} id=${`${customer.id}, more vehicles`} /></details>`}
-    ${told.binding.length > 0 && html`<h4>What binds</h4><ul>${told.binding.map(
+      : html`<p>${t('why.ask.nothing')}</p>`}
+    ${more.length > 0 && html`<details><summary>${t('why.ask.more', {
+      count: more.length,
+    })}</summary>
+      <${Alternatives} rows=${more} id=${t('why.ask.moreOf', { id: customer.id })} /></details>`}
+    ${told.binding.length > 0 && html`<h4>${t('why.ask.binds')}</h4><ul>${told.binding.map(
       (limit) => html`<li key=${limit.rule + limit.at}>${bindingInWords(limit)}</li>`,
     )}</ul>`}
-    <p class="help">All others stay where they are, in their order.${
-      told.complete ? '' : ' There was not time to try every place.'}</p>`;
+    <p class="help">${t('why.ask.others')}${
+      told.complete ? '' : ` ${t('why.ask.noTime')}`}</p>`;
 }
 
 function Alternatives({ rows, id }) {
-  return html`<table aria-label=${`Instead, for ${id}`}><thead><tr><th scope="col">Instead</th>
-      <th scope="col" class="number">Costs</th></tr></thead>
+  return html`<table aria-label=${t('why.ask.insteadOf', { id })}><thead><tr>
+      <th scope="col">${t('why.ask.instead')}</th>
+      <th scope="col" class="number">${t('why.ask.costs')}</th></tr></thead>
     <tbody>${rows.map(
       (row) => html`<tr key=${row.key}>
       <th scope="row">${row.what} <span class="help">${row.where}</span>
         ${!row.feasible && html`<ul class="help">${row.reasons.map(
           (reason) => html`<li key=${reason}>${reason}</li>`,
         )}</ul>`}</th>
-      <td class="number" title=${row.terms}>${row.feasible ? row.cost : 'not allowed'}</td></tr>`,
+      <td class="number" title=${row.terms}>${
+        row.feasible ? row.cost : t('why.ask.forbidden')}</td></tr>`,
     )}</tbody></table>`;
 }

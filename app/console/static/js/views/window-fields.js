@@ -3,6 +3,7 @@
 import { clock, parseClock } from '../core/format.js';
 import { windowsOf } from '../core/windows.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
+import { t } from '../texts.js';
 
 const ANY_TIME = [{ earliest: 0, latest: null }];
 
@@ -31,15 +32,16 @@ export function WindowFields({ customer, onApply }) {
       })),
     );
   const input = (at, label) => html`<label>${label} <input type="text" size="6"
-    value=${text[at] ?? ''} placeholder=${at % 2 ? 'never' : '0:00'}
+    value=${text[at] ?? ''} placeholder=${at % 2 ? t('windows.never') : '0:00'}
     aria-invalid=${Boolean(isWrong[at])}
     onKeyDown=${(event) => event.key === 'Enter' && !isWrong.includes(true) && apply()}
     onInput=${({ target }) =>
       setText(text.map((part, other) => (other === at ? target.value : part)))} /></label>`;
   return html`${windows.map((_, number) => {
     const which = windows.length > 1 ? `${number + 1} ` : '';
-    return html`${input(2 * number, `${which}opens`)} ${input(2 * number + 1, `${which}closes`)} `;
+    return html`${input(2 * number, which + t('windows.opens'))} ${
+      input(2 * number + 1, which + t('windows.closes'))} `;
   })}
     <button type="button" disabled=${isWrong.includes(true)}
-      onClick=${apply}>Change ${windows.length > 1 ? 'these windows' : 'this window'}</button>`;
+      onClick=${apply}>${t('windows.change', { count: windows.length })}</button>`;
 }
