@@ -12,6 +12,7 @@ const plan = { cost: { total: 5 } };
 const first = { customers: [{ id: 'A' }] };
 const second = { customers: [{ id: 'A' }, { id: 'B' }], replan: { now: 60, plan } };
 const third = { customers: [] };
+const fourth = { customers: [{ id: 'C' }] };
 
 const state = {
   name: 'Monday',
@@ -19,6 +20,7 @@ const state = {
   home: null,
   request: second,
   past: [first],
+  ahead: [fourth],
   plans: [{ number: 1, request: first, plan, name: 'one more van' }],
   saved: { request: first, plan },
   shown: 1,

@@ -15,8 +15,7 @@ export function edit(change) {
     const request = typeof change === 'function' ? change(state.request) : change;
     if (request === state.request) return {};
     return {
-      request,
-      past: [...state.past.slice(-MOST_UNDOS), state.request],
+      ...editedTo(state, request),
       errors: state.errors.filter(({ keys }) => isUntouched(state.request, request, keys)),
     };
   });
@@ -28,15 +27,43 @@ function isUntouched(before, after, keys) {
   return count(before) === count(after) && getIn(before, keys) === getIn(after, keys);
 }
 
-/** Bring back the problem as it was before the last edit. */
+/** Return what changes of the state where its problem becomes another, so that it is undone. */
+export function editedTo({ request: former, past }, request) {
+  return { request, past: [...past.slice(-MOST_UNDOS), former], ahead: [] };
+}
+
+/** Bring back the problem as it was before the last edit since it was opened. */
 export function undo() {
-  store.set(({ past }) =>
-    past.length ? { request: past[past.length - 1], past: past.slice(0, -1), errors: [] } : {},
+  store.set(({ request, past, ahead }) =>
+    past.length
+      ? {
+          request: past[past.length - 1],
+          past: past.slice(0, -1),
+          ahead: [...ahead, request],
+          errors: [],
+        }
+      : {},
+  );
+}
+
+/** Make the edit again that was undone last. */
+export function redo() {
+  store.set(({ request, past, ahead }) =>
+    ahead.length
+      ? {
+          request: ahead[ahead.length - 1],
+          past: [...past, request],
+          ahead: ahead.slice(0, -1),
+          errors: [],
+        }
+      : {},
   );
 }
 
 /**
  * Begin anew with a problem; what is still planned for another is no longer wanted.
+ *
+ * Nothing is undone across it: what was open would stand under this one's name.
  *
  * @param stated the problem, its times as anybody may write them
  * @param name what the problem is called
@@ -54,7 +81,8 @@ export function openRequest(stated, { name = 'Untitled', isSafe = false, ...othe
     saved: isSafe ? { request, plan: null } : null,
     viewing: null,
     epoch: state.epoch + 1,
-    past: state.request ? [...state.past, state.request] : [],
+    past: [],
+    ahead: [],
     errors: [],
     failure: null,
     selection: null,

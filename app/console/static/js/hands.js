@@ -98,6 +98,7 @@ function applied(state, entry, { request, added, words, verdict, plan }) {
     fit: null,
     steps: [...state.steps.slice(-MOST_STEPS), step],
     undone: [],
+    ...(now !== state.request && { ahead: [] }),
   };
 }
 

@@ -1,6 +1,6 @@
 /** Comparisons and sweeps: jobs that plan a problem in several ways. */
 
-import { openTab, showFailure, shownPlan } from './actions.js';
+import { editedTo, openTab, showFailure, shownPlan } from './actions.js';
 import * as api from './api.js';
 import { entryAfter } from './core/entries.js';
 import { planName, unlike } from './core/naming.js';
@@ -112,8 +112,7 @@ export function showScenarioPlan(request, plan, name = null) {
       plans: [...state.plans, entry],
       shown: number,
       besides: state.shown,
-      request,
-      past: [...state.past, state.request],
+      ...editedTo(state, request),
       selection: null,
       hover: null,
     };

@@ -41,6 +41,7 @@ export const store = createStore({
   unkept: null, // why the browser doesn't keep what is done here
   epoch: 0, // counts the problems that were opened
   past: [], // requests before the last edits
+  ahead: [], // those that were undone, the one undone last at the end
   plans: [], // {number, name, request, plan, numbers}, the newest last, see core/entries.js
   shown: null, // number of the plan that is looked at
   besides: null, // number of the plan that stands beside it

@@ -22,7 +22,7 @@ const PLAIN = [
 ];
 
 /** What of the state has to be kept anew when it is another. */
-const KEPT = [...PLAIN, 'request', 'stated', 'past', 'plans', 'saved', 'scenario'];
+const KEPT = [...PLAIN, 'request', 'stated', 'past', 'ahead', 'plans', 'saved', 'scenario'];
 
 /** Return a function that names objects: the same while they live. */
 export function identifier(makeId) {
@@ -75,6 +75,7 @@ export function pack(state, identify) {
     request: keepRequest(state.request),
     stated: keepRequest(state.stated),
     past: state.past.slice(-MOST_PAST).map(keepRequest),
+    ahead: state.ahead.slice(-MOST_PAST).map(keepRequest),
     plans: state.plans.map((entry) => ({
       ...entry,
       request: keepRequest(entry.request),
@@ -125,6 +126,7 @@ export function unpack(head, parts, identify) {
     request: part(head.request),
     ...(head.stated && { stated: part(head.stated) }),
     past: head.past.map(part),
+    ahead: (head.ahead ?? []).map(part),
     plans: head.plans.map((entry) => ({
       ...entry,
       request: part(entry.request),
@@ -142,11 +144,12 @@ export function unpack(head, parts, identify) {
 
 /** Return the ids of all parts that a head needs. */
 export function partsOf(head) {
-  const { request, stated, past, plans, saved, run, scenario, bases } = head;
+  const { request, stated, past, ahead = [], plans, saved, run, scenario, bases } = head;
   const ids = [
     request,
     stated,
     ...past,
+    ...ahead,
     ...plans.flatMap((entry) => [entry.request, entry.plan]),
     saved?.request,
     saved?.plan,

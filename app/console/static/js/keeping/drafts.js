@@ -113,7 +113,9 @@ function note(state) {
   const former = last;
   last = state;
   if (state.epoch !== former.epoch && former.request && isUnsaved(former)) leave(former);
-  timer ??= setTimeout(keepNow, Math.max(SOON_MS, longest / MOST_WRITING));
+  // What was opened is kept before anything is done to it.
+  const isOpened = state.epoch !== former.epoch;
+  timer ??= setTimeout(keepNow, isOpened ? 0 : Math.max(SOON_MS, longest / MOST_WRITING));
 }
 
 /** Leave a draft as it is, and begin another for what was opened in its place. */

@@ -1,6 +1,6 @@
 /** What if: change one thing, plan, and see the plan beside the former. */
 
-import { besidePlan, edit, renamePlan, select, shownPlan } from '../actions.js';
+import { besidePlan, edit, editedTo, renamePlan, select, shownPlan } from '../actions.js';
 import { addVehicles, changeWindows, giveWindows, withoutDrones } from '../core/changes.js';
 import {
   movedCustomers, planDifference, planMeasures, renamedTours, requestDifferences,
@@ -97,8 +97,7 @@ function Plans() {
       selection: null,
       hover: null,
       besides: state.besides === number ? state.shown : state.besides,
-      request: state.plans.find((entry) => entry.number === number).request,
-      past: [...state.past, state.request],
+      ...editedTo(state, state.plans.find((entry) => entry.number === number).request),
     }));
   return html`<section class="section"><h3>${t('whatIf.plans')}</h3>
     <table><thead><tr><th scope="col">${t('whatIf.plan')}</th>

@@ -5,7 +5,7 @@ import { store, useStore } from '../store.js';
 import { ImportDialog } from './import-dialog.js';
 import { KeepingDialogs } from './keeping-dialogs.js';
 import { Dialog } from './parts.js';
-import { SHORTCUTS } from './shortcuts.js';
+import { OTHER_KEYS, setSingleKeys, SINGLE_KEYS, singleKeysWork } from './shortcuts.js';
 
 /** The open dialog, if any. */
 export function Dialogs() {
@@ -20,11 +20,25 @@ function close() {
 }
 
 function KeysDialog() {
+  const [work, setWork] = useState(singleKeysWork());
+  const choose = (event) => {
+    setSingleKeys(event.target.checked);
+    setWork(event.target.checked);
+  };
   return html`<${Dialog} title="Keys" name="keys" onClose=${close}>
-    <table><tbody>${SHORTCUTS.map(
-      ([key, what]) => html`<tr key=${key}><th scope="row"><kbd>${key}</kbd></th>
+    <${Keys} keys=${OTHER_KEYS} />
+    <label class="check"><input type="checkbox" checked=${work} onChange=${choose} />
+      Single keys do something</label>
+    <p class="help">Put them off if you speak to your computer, or press keys by chance. This
+      browser remembers it.</p>
+    <${Keys} keys=${SINGLE_KEYS} off=${!work} /></${Dialog}>`;
+}
+
+function Keys({ keys, off = false }) {
+  return html`<table class=${off ? 'keys-off' : ''}><tbody>${keys.map(
+    ([key, what]) => html`<tr key=${key}><th scope="row"><kbd>${key}</kbd></th>
       <td>${what}</td></tr>`,
-    )}</tbody></table></${Dialog}>`;
+  )}</tbody></table>`;
 }
 
 function KeyDialog({ wasWrong, answer }) {

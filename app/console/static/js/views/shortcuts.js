@@ -1,6 +1,8 @@
 /** Keys that work everywhere but in fields. */
 
-import { indexOf, openTab, replanFromClock, select, shownPlan, undo } from '../actions.js';
+import {
+  indexOf, openTab, redo, replanFromClock, select, shownPlan, undo,
+} from '../actions.js';
 import { redoStep, undoStep } from '../hands.js';
 import { openPlans, save } from '../keeping/kept.js';
 import { improvePlan, plan, stop } from '../planning.js';
@@ -9,45 +11,69 @@ import { togglePlaying } from '../timeline/player.js';
 import { switchTheme } from './header.js';
 import { TABS } from './panel.js';
 
-/** Keys and what they do, as the list of keys shows them. */
-export const SHORTCUTS = [
+/** Where the browser keeps that single keys do nothing. */
+const KEPT = 'tandem-single-keys';
+
+/** Keys that do something by themselves, as the list of keys shows them; they can be put off. */
+export const SINGLE_KEYS = [
   ['P', 'Plan'],
   ['S', 'Stop planning'],
   ['I', 'Improve the plan: search on from it'],
   ['R', 'Replan from the clock of the day'],
   ['Space', 'Play or pause the day'],
   ['1 to 9, 0', 'Open a tab of the panel'],
-  ['Ctrl S', 'Save: keep what is open by a name'],
   ['O', 'Open a saved plan'],
-  ['U', 'Undo the last change by hand, or edit of the problem'],
-  ['Y', 'Redo a change by hand'],
+  ['U', 'Undo, as Ctrl Z'],
+  ['Y', 'Redo, as Ctrl Y'],
   ['T', 'Go to the timeline; arrows then go from stop to stop'],
   ['M', 'Go to the map; arrows pan, + and \u2212 zoom'],
   ['L', 'Light or dark'],
-  ['Esc', 'Put a drawing tool down, else select nothing'],
   ['?', 'This list'],
 ];
+
+/** Keys that work in any case. */
+export const OTHER_KEYS = [
+  ['Ctrl Z', 'Undo the last change by hand, or edit of the problem since it was opened'],
+  ['Ctrl Y', 'Redo what was undone last'],
+  ['Ctrl S', 'Save: keep what is open by a name'],
+  ['Esc', 'Put a drawing tool down, else select nothing'],
+];
+
+const undoLast = () => undoStep() || undo();
+const redoLast = () => redoStep() || redo();
 
 const ACTIONS = {
   p: plan,
   i: improvePlan,
   r: replanOrAsk,
   s: stop,
-  u: () => undoStep() || undo(),
-  y: redoStep,
+  u: undoLast,
+  y: redoLast,
   o: openPlans,
   l: switchTheme,
   ' ': () => togglePlaying(indexOf(shownPlan(store.get()))),
   t: () => document.querySelector('.rows canvas')?.focus(),
   m: () => document.querySelector('.map')?.focus(),
   '?': () => store.set({ dialog: { name: 'keys' } }),
-  Escape: () => (store.get().tool ? store.set({ tool: null }) : select(null)),
 };
+
+const putDown = () => (store.get().tool ? store.set({ tool: null }) : select(null));
 
 /** Go on from the clock of the day; without one, ask for the time. */
 function replanOrAsk() {
   if (store.get().time === null) openTab('replan');
   else replanFromClock();
+}
+
+/** Tell whether keys do something by themselves. */
+export function singleKeysWork() {
+  return localStorage.getItem(KEPT) !== 'off';
+}
+
+/** Have keys do something by themselves or not, from now on in this browser. */
+export function setSingleKeys(work) {
+  if (work) localStorage.removeItem(KEPT);
+  else localStorage.setItem(KEPT, 'off');
 }
 
 /** Tell whether a dialog is open. */
@@ -56,23 +82,50 @@ function isAsked() {
   return Boolean(dialog || importing || keeping);
 }
 
+/** Return what a key pressed with Ctrl does, if anything. */
+function actionWithControl({ key, shiftKey }) {
+  const letter = key.toLowerCase();
+  if (letter === 's') return save;
+  if (letter === 'z') return shiftKey ? redoLast : undoLast;
+  return letter === 'y' ? redoLast : null;
+}
+
+/** Return what a key does by itself, if anything. */
+function actionAlone({ key, target }) {
+  if (key === 'Escape') return putDown;
+  if (!singleKeysWork()) return null;
+  if (key === ' ' && target.matches('button, summary, a, input')) return null;
+  if (/^\d$/.test(key)) {
+    const tab = Object.keys(TABS)[(Number(key) + 9) % 10];
+    return tab && (() => openTab(tab));
+  }
+  return ACTIONS[key.length === 1 ? key.toLowerCase() : key];
+}
+
+/** Return what a press of a key does, if anything. */
+function actionOf(event) {
+  const typing = event.target.matches(
+    'input:not([type=range]), select, textarea, [contenteditable]',
+  );
+  if (event.altKey) return null;
+  if (event.ctrlKey || event.metaKey) {
+    const action = actionWithControl(event);
+    // Within a field its own typing is undone.
+    return typing && action !== save ? null : action;
+  }
+  return typing && event.key !== 'Escape' ? null : actionAlone(event);
+}
+
 /** Begin to listen. */
 export function listenToKeys() {
   document.addEventListener('keydown', (event) => {
-    const isSave = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 's';
-    if (isSave) event.preventDefault();
-    if (isAsked()) return;
-    if (isSave) save();
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const target = event.target;
-    const typing = target.matches('input:not([type=range]), select, textarea, [contenteditable]');
-    if (typing && event.key !== 'Escape') return;
-    if (event.key === ' ' && target.matches('button, summary, a, input')) return;
-    const action = ACTIONS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    const tab = /^\d$/.test(event.key) && Object.keys(TABS)[(Number(event.key) + 9) % 10];
-    if (!action && !tab) return;
+    const action = actionOf(event);
+    if (isAsked()) {
+      if (action === save) event.preventDefault();
+      return;
+    }
+    if (!action) return;
     event.preventDefault();
-    if (tab) openTab(tab);
-    else action();
+    action();
   });
 }
