@@ -116,26 +116,6 @@ def bar_of(page: Page, key: str) -> tuple[float, float]:
     return x, y
 
 
-def test_bars_and_places_are_dragged_to_other_vehicles(hands: Page) -> None:
-    hands.mouse.move(*bar_of(hands, "c:B"))
-    hands.mouse.down()
-    x, y = bar_of(hands, "c:F")
-    hands.mouse.move(x + 30, y, steps=5)
-    hands.mouse.up()
-    told(hands, "B to truck-2, after F")
-    assert tours(hands) == ["AC", "DEFB"]
-    hands.keyboard.press("u")
-    # From its place on the map onto the leg from D to E; nothing else is pointed at meanwhile.
-    hands.mouse.move(1, 1)
-    (left, top), (right, bottom) = place_of(hands, "c:D"), place_of(hands, "c:E")
-    hands.mouse.move(*place_of(hands, "c:A"))
-    hands.mouse.down()
-    hands.mouse.move((left + right) / 2, (top + bottom) / 2, steps=5)
-    hands.mouse.up()
-    told(hands, "A to truck-2, after D")
-    assert tours(hands) == ["BC", "DAEF"]
-
-
 def test_the_best_places_of_a_new_customer_are_a_click_away(hands: Page) -> None:
     hands.get_by_role("button", name="Draw", exact=True).click()
     hands.get_by_role("button", name="Best places", exact=True).click()

@@ -75,6 +75,34 @@ def test_areas_are_drawn_and_erased(page: Page) -> None:
     assert state(page, "state.request.airspace.no_fly") == []
 
 
+def test_marks_and_lines_take_no_click_of_who_draws_on_the_ground(page: Page) -> None:
+    tools, _ = drawing(page)
+    customers = [customer["id"] for customer in state(page, "state.request.customers")]
+    corners = [place_of(page, f"c:{name}") for name in customers]
+    tools.get_by_role("button", name="No-fly area").click()
+    expect(page.locator(".marker-icon.cursor-marker")).to_be_attached()
+    (x, y), (other_x, other_y) = corners[0], corners[1]
+    on_line = ((x + other_x) / 2, (y + other_y) / 2)
+    ring = [corners[0], on_line, corners[1], (other_x + 60, other_y - 60), (x + 90, y - 40)]
+    for place in [*ring, ring[0]]:
+        page.mouse.move(*place)
+        page.mouse.click(*place)
+    assert state(page, "state.request.airspace.no_fly.0.length") == len(ring)
+    tools.get_by_role("button", name="Customer").click()
+    page.mouse.click(corners[1][0] + 3, corners[1][1] + 3)
+    first, second = (state(page, f"state.request.customers.{number}.location")
+                     for number in (1, len(customers)))
+    assert first != second
+    tools.get_by_role("button", name="Depot").click()
+    depots = state(page, "state.request.depots.length")
+    page.mouse.click(*corners[0])
+    assert state(page, "state.request.depots.length") == depots + 1
+    assert state(page, "state.selection") is None
+    page.keyboard.press("Escape")
+    page.mouse.click(*corners[0])
+    assert state(page, "state.selection") is not None
+
+
 def test_corner_of_an_area_is_dragged(page: Page) -> None:
     open_example(page, "city_day")
     before = state(page, "state.request.airspace.no_fly.0")

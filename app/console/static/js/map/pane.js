@@ -17,7 +17,8 @@ import {
 } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { DrawBar } from './draw-bar.js';
-import { attachPlanDrag, followFit } from './plan-drag.js';
+import { attachHandle } from './handle.js';
+import { followFit } from './plan-drag.js';
 import { MapLegend } from './legend.js';
 import { attachTools } from './tools.js';
 import { MapView, synchronise } from './view.js';
@@ -98,10 +99,11 @@ function Map({ request, entry, onView, isMain = false }) {
     });
     setView(made);
     onView(made);
-    if (isMain) attachPlanDrag(made);
+    const endHandle = isMain ? attachHandle(made) : () => {};
     const endTools = isMain ? attachTools(made) : () => {};
     const endFit = isMain ? followFit(made) : () => {};
     return () => {
+      endHandle();
       endTools();
       endFit();
       made.destroy();

@@ -1,72 +1,34 @@
 /** Customers of the plan are dragged onto the leg of another trip, or another one of their own. */
 
-import { indexOf, settledOf, shownPlan } from '../actions.js';
 import { distanceToLine } from '../core/geometry.js';
 import { isHere } from '../core/moving.js';
 import { vehicleColour } from '../core/palette.js';
-import { standingIn } from '../core/replanning.js';
 import { leaflet } from '../libraries.js';
 import { store } from '../store.js';
 import { move } from '../views/stop-moves.js';
 import { labelIcon, latLng, legKey, pixelsOf } from './layers.js';
 
 const L = leaflet();
-const LEAST = 6; // pixels of a drag, below which it is a click
 const NEAREST = 40; // pixels to the leg that takes a stop
 
-/** Let a map take stops elsewhere while nothing is drawn. */
-export function attachPlanDrag(view) {
-  view.onPress = (key, layer, event) => {
-    const state = store.get();
-    const entry = shownPlan(state);
-    const halt = indexOf(entry)?.halts.get(key);
-    if (state.tool || halt?.kind !== 'customer' || event.originalEvent.button !== 0) return;
-    if (standingIn(settledOf(entry, state.request), halt) === 'settled') return;
-    begin(view, indexOf(entry), halt, event);
-  };
-}
-
-function begin(view, index, halt, event) {
-  const { map } = view;
-  // Events on a customer tell its own place, not the pointer's.
-  const pointOf = ({ originalEvent }) => map.mouseEventToContainerPoint(originalEvent);
-  const from = pointOf(event);
-  let [target, ghost, isDrag] = [null, null, false];
-  map.dragging.disable();
+/** Return what follows a drag that puts a customer of the plan onto the leg of a trip. */
+export function stopDrag(view, index, halt) {
+  let [target, ghost] = [null, null];
   const clear = () => {
     ghost?.remove();
     ghost = null;
     view.light(null);
   };
-  const follow = (moved) => {
-    const point = pointOf(moved);
-    isDrag ||= point.distanceTo(from) > LEAST;
-    if (!isDrag) return;
-    clear();
-    target = nearestLeg(map, index, halt, point);
-    ghost = ghostOf(view, target, halt, map.containerPointToLatLng(point)).addTo(map);
-    if (target) view.light(target.key);
+  return {
+    clear,
+    follow(point) {
+      clear();
+      target = nearestLeg(view.map, index, halt, point);
+      ghost = ghostOf(view, target, halt, view.map.containerPointToLatLng(point)).addTo(view.map);
+      if (target) view.light(target.key);
+    },
+    drop: () => target && move(index, halt.id, target.place),
   };
-  const end = (isDone) => () => {
-    map.off('mousemove', follow);
-    map.off('mouseup', drop);
-    document.removeEventListener('keydown', onKey);
-    map.dragging.enable();
-    clear();
-    if (!isDrag) return;
-    view.ignoreClick();
-    if (isDone && target) move(index, halt.id, target.place);
-  };
-  // The last moves before it may not have been told.
-  const drop = (event) => {
-    follow(event);
-    end(true)();
-  };
-  const cancel = end(false);
-  const onKey = ({ key }) => key === 'Escape' && cancel();
-  map.on('mousemove', follow);
-  map.on('mouseup', drop);
-  document.addEventListener('keydown', onKey);
 }
 
 /** Return the leg nearest to a point of the map: `{key, place, halt}`; null: none is near. */

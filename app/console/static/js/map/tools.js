@@ -8,17 +8,15 @@ import {
   customersWithin,
   eraseAreasAt,
   giveWindows,
-  moveCustomer,
   removeCustomer,
   rounded,
   setArea,
 } from '../core/changes.js';
 import { askFit, askFitAt } from '../hands.js';
 import { choicesOf, setPinned } from '../core/replanning.js';
-import { drawing, leaflet } from '../libraries.js';
+import { drawing } from '../libraries.js';
 import { store } from '../store.js';
-
-const L = leaflet();
+import { pressPlace } from './place-drag.js';
 
 /** What can be drawn, in the order of the buttons. */
 export const TOOLS = {
@@ -34,11 +32,17 @@ export const TOOLS = {
     name: 'Best places',
     hint: 'Click where somebody is to be served, or a customer: the three best places, with costs.',
   },
-  change: { name: 'Move', hint: 'Drag customers, and corners of no-fly areas.' },
+  change: {
+    name: 'Move',
+    hint: 'Drag customers, by a finger their handle once selected, and corners of no-fly areas.',
+  },
   place: { name: 'Place', hint: 'Click where the selected customer is.' },
   pin: { name: 'Pin', hint: 'Click customers to keep them with their vehicles.' },
   erase: { name: 'Erase', hint: 'Click customers or no-fly areas to remove them.' },
 };
+
+/** Tools for which it doesn't matter what is on the map already. */
+const ON_GROUND = new Set(['customer', 'depot', 'windowArea', 'area', 'place']);
 
 const isCustomer = (key) => key?.startsWith('c:');
 const idOf = (key) => key.slice(2);
@@ -70,17 +74,19 @@ function start(view, tool) {
   const former = { onSelect: view.onSelect, onGround: view.onGround, onPress: view.onPress };
   view.map.getContainer().classList.toggle('drawing', Boolean(tool));
   const end = tool ? BEGIN[tool](view) : () => {};
+  // Whoever draws on the ground may click where somebody's mark, or a line, is.
+  view.letThrough(ON_GROUND.has(tool));
   return () => {
     end?.();
+    view.letThrough(false);
     Object.assign(view, former);
   };
 }
 
 const BEGIN = {
   customer(view) {
-    const add = (point) => edit((request) => addCustomer(request, point, store.get().brush));
-    view.onGround = add;
-    view.onSelect = (key, point) => add(point);
+    view.onGround = (point) =>
+      edit((request) => addCustomer(request, point, store.get().brush));
   },
   depot(view) {
     view.onGround = (point) => edit((request) => addDepot(request, point));
@@ -101,7 +107,8 @@ const BEGIN = {
     view.onSelect = (key, point) => (isCustomer(key) ? askFit({ id: idOf(key) }) : askFitAt(point));
   },
   change(view) {
-    view.onPress = (key, layer, event) => isCustomer(key) && drag(view, key, layer, event);
+    view.onGround = () => {}; // The click that ends a drag selects nothing else.
+    view.onPress = (key, event) => isCustomer(key) && pressPlace(view, idOf(key), event);
     return changeAreas(view);
   },
   place(view) {
@@ -110,7 +117,6 @@ const BEGIN = {
       if (isCustomer(selection)) putAt(idOf(selection), rounded(request, point));
       store.set({ tool: null });
     };
-    view.onSelect = (key, point) => view.onGround(point);
   },
   pin(view) {
     view.onSelect = (key) => {
@@ -150,6 +156,7 @@ function drawShape(view, shape, onShape) {
     layer.remove();
     onShape(layer);
   };
+  view.onGround = () => {};
   view.map.on('pm:create', create);
   prepareDrawing(view).then(() => {
     if (ended) return;
@@ -184,17 +191,4 @@ function changeAreas(view) {
     view.map.off('drawn', take);
     view.noFly.forEach((shape) => shape.pm?.disable());
   };
-}
-
-function drag(view, key, layer, event) {
-  L.DomEvent.stop(event);
-  view.map.dragging.disable();
-  const follow = ({ latlng }) => layer.setLatLng(latlng);
-  view.map.on('mousemove', follow);
-  view.map.once('mouseup', ({ latlng }) => {
-    view.map.off('mousemove', follow);
-    view.map.dragging.enable();
-    edit((request) => moveCustomer(request, idOf(key), [latlng.lng, latlng.lat]));
-    select(key);
-  });
 }

@@ -74,22 +74,21 @@ export class MapView {
   #listen(onHover, onSelect) {
     this.onHover = onHover;
     this.onSelect = onSelect;
+    this.isThrough = false;
     this.onGround = () => this.onSelect(null);
     this.onPress = () => {};
-    this.map.on('click', ({ latlng }) => {
-      if (!this.isDeaf) this.onGround([latlng.lng, latlng.lat]);
-    });
+    this.map.on('click', ({ latlng }) => this.onGround([latlng.lng, latlng.lat]));
     // Each has them itself: of one that was drawn anew under the pointer, its group hears no more.
     const pointed = (event) => this.onHover(this.#keyAt(event));
     this.listeners = {
       mouseover: pointed,
       mousemove: pointed,
       mouseout: () => this.onHover(null),
-      mousedown: (event) => this.onPress(event.target.options.key, event.target, event),
+      mousedown: (event) => this.onPress(event.target.options.key, event),
       click: (event) => {
         L.DomEvent.stopPropagation(event);
         const { lng, lat } = event.latlng;
-        if (!this.isDeaf) this.onSelect(this.#keyAt(event), [lng, lat]);
+        this.onSelect(this.#keyAt(event), [lng, lat]);
       },
     };
   }
@@ -135,6 +134,7 @@ export class MapView {
 
   #add(entry) {
     this.shapes.addLayer(entry.layer.on(this.listeners));
+    this.#setReach(entry);
     if (!this.byKey.has(entry.key)) this.byKey.set(entry.key, []);
     this.byKey.get(entry.key).push(entry);
   }
@@ -202,12 +202,20 @@ export class MapView {
     this.lit?.layer.setStyle({ opacity: LEAST_FOCUS, weight: this.lit.base.weight + LIT });
   }
 
-  /** Take no notice of the click that ends a drag. */
-  ignoreClick() {
-    this.isDeaf = true;
-    setTimeout(() => {
-      this.isDeaf = false;
-    }, 0);
+  /** Return the layers that mark what a key names. */
+  marksOf(key) {
+    return (this.byKey.get(key) ?? []).map(({ layer }) => layer);
+  }
+
+  /** Let the pointer through lines and marks to the ground, or to them again. */
+  letThrough(isThrough) {
+    this.isThrough = isThrough;
+    this.entries.forEach((entry) => this.#setReach(entry));
+    if (isThrough) this.onHover(null);
+  }
+
+  #setReach({ layer, base }) {
+    layer.options.interactive = !this.isThrough && base.interactive !== false;
   }
 
   /** Show a tip at what a key names; null hides it. */

@@ -57,6 +57,15 @@ export function hit(rows, { x, y }, { range, width, scroll }) {
   return { row, bar, onLabel: x < gutterOf(width) };
 }
 
+/** Tell whether a point is on a bar of what a key names, or at most so many pixels beside it. */
+export function isNear(rows, key, { x, y }, { range, width, scroll }, reach) {
+  const scale = scaleOf(range, width);
+  const below = y - AXIS + scroll;
+  return rows.some(({ top, height, bars }) => below >= top && below < top + height
+    && bars.some((bar) => bar.key === key
+      && x >= scale.x(bar.from) - reach && x <= scale.x(bar.until) + reach));
+}
+
 /** Draw everything. `view` holds size, range, scroll, marks, time and colours. */
 export function drawTimeline(context, rows, view) {
   const { width, height, scroll } = view;

@@ -9,12 +9,13 @@ import { store, useStore } from '../store.js';
 import { move } from '../views/stop-moves.js';
 import { isHere, placeAt } from '../core/moving.js';
 import { standingIn } from '../core/replanning.js';
-import { AXIS, drawTimeline, heightOf, hit, placeRows, scaleOf } from './draw.js';
+import { AXIS, drawTimeline, heightOf, hit, isNear, placeRows, scaleOf } from './draw.js';
 import { Player } from './player.js';
 import { t } from '../texts.js';
 
 const CLOSEST = 300; // seconds
 const LEAST_DRAG = 4; // pixels, below which it is a click
+const REACH = 10; // pixels around the bar of who is selected, since it may be thin
 
 /** The pane below the map. */
 export function TimelinePane() {
@@ -197,11 +198,13 @@ function pointer(box, canvas, state, view) {
     if (!row) return null;
     return onLabel ? row.vehicle.key : (bar?.key ?? null);
   };
-  /** Return the customer at a pointer who may be put elsewhere. */
+  /** Return who is selected, if at a pointer and free to be put elsewhere: others are panned. */
   const haltAt = (event) => {
-    const { index, parts } = state.current;
-    const { halt } = partsOf(index, keyAt(event));
-    return halt?.kind === 'customer' && standingIn(parts, halt) !== 'settled' ? halt : null;
+    const { index, parts, rows } = state.current;
+    const { selection } = store.get();
+    const { halt } = partsOf(index, selection);
+    if (halt?.kind !== 'customer' || standingIn(parts, halt) === 'settled') return null;
+    return isNear(rows, selection, place(event), view(), REACH) ? halt : null;
   };
   /** Return where who is dragged would come: `{row, time, place}`; null: nowhere new. */
   const dropAt = (event) => {
@@ -226,7 +229,7 @@ function pointer(box, canvas, state, view) {
       if (!drag) {
         const key = keyAt(event);
         hover(key);
-        canvas.style.cursor = key ? 'pointer' : '';
+        canvas.style.cursor = haltAt(event) ? 'grab' : key ? 'pointer' : '';
         canvas.title = tipOf(state.current.index, key);
         return;
       }

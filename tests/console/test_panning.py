@@ -1,0 +1,171 @@
+"""Panning changes no plan; a customer is moved by the handle of a selected one."""
+
+import json
+import random
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.console.steps import idle, open_example, open_file, place_of, planned, state
+from tests.console.test_hands import bar_of, hands, told, tours
+from tests.console.test_speed import COUNT, large_problem
+
+__all__ = ["hands"]
+
+DRAGS = 20
+Stroke = Callable[[list[tuple[float, float]]], None]
+
+POSITION = """() => {
+  const place = (one) => one.getBoundingClientRect();
+  const pane = place(document.querySelector('.leaflet-map-pane'));
+  return [pane.left, pane.top];
+}"""
+
+
+def crowded(page: Page) -> Page:
+    """Return a console with two thousand customers planned."""
+    idle(page)
+    problem = large_problem() | {"options": {"time_limit": 0}}
+    open_file(page, "large.json", json.dumps(problem))
+    planned(page, f"{COUNT} of {COUNT} served")
+    return page
+
+
+def by_mouse(page: Page) -> Stroke:
+    """Return what drags with the mouse from place to place."""
+    def stroke(places: list[tuple[float, float]]) -> None:
+        page.mouse.move(*places[0])
+        page.mouse.down()
+        for place in places[1:]:
+            page.mouse.move(*place, steps=3)
+        page.mouse.up()
+
+    return stroke
+
+
+def by_finger(page: Page) -> Stroke:
+    """Return what drags with a finger from place to place."""
+    session = page.context.new_cdp_session(page)
+
+    def touch(kind: str, *places: tuple[float, float]) -> None:
+        session.send("Input.dispatchTouchEvent",
+                     {"type": kind, "touchPoints": [{"x": x, "y": y} for x, y in places]})
+
+    def stroke(places: list[tuple[float, float]]) -> None:
+        touch("touchStart", places[0])
+        for (x, y), (to_x, to_y) in pairwise(places):
+            for step in (0.25, 0.5, 0.75, 1):
+                touch("touchMove", (x + (to_x - x) * step, y + (to_y - y) * step))
+        touch("touchEnd")
+
+    return stroke
+
+
+def random_drags(page: Page, selector: str, stroke: Stroke) -> int:
+    """Drag twenty times within an element; return how often the map stood elsewhere after it."""
+    page.locator(selector).scroll_into_view_if_needed()
+    box = page.locator(selector).bounding_box()
+    assert box is not None
+    rng = random.Random(7)
+    moved = 0
+    for _ in range(DRAGS):
+        ends = [(box["x"] + rng.uniform(0.2, 0.8) * box["width"],
+                 box["y"] + rng.uniform(0.25, 0.75) * box["height"]) for _ in range(2)]
+        before = page.evaluate(POSITION)
+        stroke(ends)
+        moved += page.evaluate(POSITION) != before
+    return moved
+
+
+def plan_shown(page: Page) -> Any:
+    """Return which plan is shown, its routes, and what was done by hand."""
+    plans = state(page, "state.plans")
+    return (state(page, "state.shown"), [entry["plan"]["routes"] for entry in plans],
+            state(page, "state.steps"), state(page, "state.request.customers"))
+
+
+SIZES = [(1440, 900, False), (1024, 768, False), (390, 844, True)]
+
+
+@pytest.mark.parametrize(("width", "height", "has_touch"), SIZES)
+def test_panning_among_two_thousand_customers_changes_nothing(
+        open_page: Callable[..., Page], service: str, width: int, height: int,
+        has_touch: bool) -> None:
+    page = crowded(open_page(service, viewport={"width": width, "height": height},
+                             has_touch=has_touch))
+    before = plan_shown(page)
+    stroke = by_finger(page) if has_touch else by_mouse(page)
+    assert random_drags(page, ".map", stroke) > DRAGS / 2
+    page.get_by_role("button", name="Zoom into the timeline").click()
+    random_drags(page, ".rows canvas", stroke)
+    assert plan_shown(page) == before
+    assert state(page, "state.judging") is None
+
+
+def handle_of(page: Page, key: str) -> tuple[float, float]:
+    """Return where the handle of a customer is, who is selected with it."""
+    page.evaluate("""async (key) => {
+      const { select } = await import(`${modules}/actions.js`);
+      select(key);
+    }""", key)
+    box = page.locator(".map-handle span").bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+@pytest.mark.parametrize("way", [by_mouse, by_finger])
+def test_a_handle_moves_a_selected_customer_by_mouse_or_finger(
+        hands: Page, way: Callable[[Page], Stroke]) -> None:
+    hands.mouse.move(1, 1)
+    (left, top), (right, bottom) = place_of(hands, "c:D"), place_of(hands, "c:E")
+    leg = ((left + right) / 2, (top + bottom) / 2)
+    way(hands)([handle_of(hands, "c:A"), leg])
+    told(hands, "A to truck-2, after D")
+    assert tours(hands) == ["BC", "DAEF"]
+    hands.keyboard.press("u")
+    assert tours(hands) == ["ABC", "DEF"]
+    hands.keyboard.press("Escape")
+    expect(hands.locator(".map-handle")).to_have_count(0)
+
+
+def test_a_drag_by_the_handle_is_given_up_with_escape(hands: Page) -> None:
+    x, y = place_of(hands, "c:E")
+    hands.mouse.move(*handle_of(hands, "c:A"))
+    hands.mouse.down()
+    hands.mouse.move(x, y, steps=4)
+    expect(hands.locator(".map-handle .held")).to_have_count(1)
+    hands.keyboard.press("Escape")
+    hands.mouse.up()
+    assert tours(hands) == ["ABC", "DEF"]
+
+
+def test_a_bar_moves_its_customer_once_that_is_selected(hands: Page) -> None:
+    stroke = by_mouse(hands)
+    x, y = bar_of(hands, "c:F")
+    stroke([bar_of(hands, "c:B"), (x + 30, y)])
+    assert state(hands, "state.judging") is None
+    assert tours(hands) == ["ABC", "DEF"]
+    hands.mouse.click(*bar_of(hands, "c:B"))
+    assert state(hands, "state.selection") == "c:B"
+    stroke([bar_of(hands, "c:B"), (x + 30, y)])
+    told(hands, "B to truck-2, after F")
+
+
+def test_a_finger_gives_a_customer_another_place_by_the_handle(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, viewport={"width": 700, "height": 844}, has_touch=True)
+    open_example(page, "smallest")
+    page.get_by_role("button", name="Draw", exact=True).tap()
+    page.get_by_role("button", name="Move", exact=True).tap()
+    before = state(page, "state.request.customers.0.location")
+    page.touchscreen.tap(*place_of(page, "c:A"))
+    assert state(page, "state.selection") == "c:A"
+    assert state(page, "state.request.customers.0.location") == before
+    x, y = handle_of(page, "c:A")
+    by_finger(page)([(x, y), (x - 60, y + 30)])
+    after = state(page, "state.request.customers.0.location")
+    assert after[0] < before[0]
+    assert after[1] < before[1]
