@@ -1,7 +1,7 @@
 """Rows that have addresses and no coordinates: looked up, and what is doubtful about that."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from statistics import median
 
@@ -101,8 +101,10 @@ def locate(rows: Sequence[Row], ground: Ground, finder: Finder, *,
     """
     lacking = {row.number: row for row in rows
                if ground.pair(row) is None and not row.errors and address_of(row)}
-    if not finder.finds or not ground.is_geographic or not lacking:
+    if not ground.is_geographic or not lacking:
         return Located()
+    if not finder.finds:
+        return _by_hand(lacking) if keeps else Located()
     asked = {number: address_of(row) for number, row in lacking.items()}
     looked_up = finder.look_up(list(dict.fromkeys(asked.values())))
     known = {number: looked_up.candidates[text] for number, text in asked.items()
@@ -133,6 +135,25 @@ def locate(rows: Sequence[Row], ground: Ground, finder: Finder, *,
         located.errors.append(CellError(
             "ADDRESSES_PENDING", f"{len(known)} of {len(asked)} addresses are looked up so far: "
             f"{looked_up.error} Import the file again to go on."))
+    return located
+
+
+def _by_hand(lacking: Mapping[int, Row]) -> Located:
+    """Return what becomes of rows whose addresses nobody looks up, where they are kept."""
+    customers = {number: row for number, row in lacking.items() if not row.is_depot}
+    located = Located(unplaced={number: address_of(row) for number, row in customers.items()})
+    if customers:
+        cell = next(iter(customers.values())).cell(*CELLS)
+        located.doubts.append(Doubt(
+            "PLACED_BY_HAND", f"{len(customers)} rows have an address and no coordinates, such as "
+            f"{cell}: addresses are not looked up here, so that they are to be placed by hand.",
+            cell=cell))
+    for row in lacking.values():
+        if row.is_depot:
+            cell = row.cell(*CELLS)
+            located.doubts.append(Doubt(
+                "DEPOT_BY_HAND", f"{cell}: the depot's address is not looked up here: state where "
+                "it is.", cell=cell))
     return located
 
 

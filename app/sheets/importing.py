@@ -264,7 +264,8 @@ def _ground(work: Import, rows: Sequence[Row], settings: ImportSettings,
     language = language_of(work.columns)
     ground = ground_of(rows, language != "en", stated_depot(settings))
     work.doubts += ground.doubts
-    if finder.finds and ground.is_geographic:
+    keeps = settings.not_found == "address"
+    if ground.is_geographic and (finder.finds or keeps):
         ground = replace(ground, looks_up=True)
     if not ground.columns and not (ground.looks_up and any(map(address_of, rows))):
         addresses = any(column.meaning in ("address", "street", "town") for column in work.columns)

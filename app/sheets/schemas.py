@@ -79,7 +79,8 @@ class ImportSettings(Input):
     not_found: Literal["error", "address"] = Field(
         "error", description="Rows whose address isn't found, or may be several places: `error` "
         "refuses them; with `address` they are doubts, and the request has the address itself as "
-        "such a customer's `location`, to be placed by whoever knows better.")
+        "such a customer's `location`, to be placed by whoever knows better. So it is of all "
+        "addresses where the service has no geocoder.")
 
 
 class _Reply(BaseModel):

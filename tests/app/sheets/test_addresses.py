@@ -127,6 +127,26 @@ def test_depot_may_be_an_address() -> None:
     assert named.request["depots"] == [{"id": "depot", "location": [10.001, 50.0]}]
 
 
+def test_without_a_geocoder_addresses_may_be_kept_to_be_placed_by_hand() -> None:
+    def by_hand(*rows: str, **settings: Any) -> ImportReply:
+        return import_file("\n".join([f"{HEAD},lat,lon", *rows]).encode(),
+                           ImportSettings.model_validate({"not_found": "address"} | settings))
+
+    some = by_hand("Anna,Ring 1,10000,Adorf,5,50.5,10.5", "Ben,Ring 2,10000,Adorf,5,,")
+    assert some.request is not None
+    assert [customer["location"] for customer in some.request["customers"]] == [
+        [10.5, 50.5], {"address": "Ring 2, 10000 Adorf"}]
+    assert [(doubt.code, doubt.cell) for doubt in some.doubts
+            if doubt.code.endswith("BY_HAND")] == [("PLACED_BY_HAND", "B3")]
+    rows = [f"{row},," for row in ROWS]
+    assert [error.code for error in by_hand(*rows).errors] == ["DEPOT"]
+    stated = by_hand("Depot,Ring 9,10000,Adorf,,,", *rows, depot="50.1, 10.1")
+    assert stated.request is not None
+    assert stated.request["depots"] == [{"id": "depot", "location": [10.1, 50.1]}]
+    assert all("address" in customer["location"] for customer in stated.request["customers"])
+    assert by_hand(*rows, not_found="error").request is None
+
+
 def test_places_on_a_plane_are_not_looked_up() -> None:
     reply = read("Anna,Ring 1,1000,2000,5", "Ben,Ring 2,1000,,5", "Cleo,Ring 3,1500,100,5",
                  head="Name,Street,x,y,kg")
