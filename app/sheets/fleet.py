@@ -15,6 +15,16 @@ CUSTOMERS_PER_VEHICLE = 25
 
 TYPE_ID = "vehicle"
 
+TRIPS = 5
+"""Most trips of a vehicle where none are stated: whoever is back may take what came later."""
+
+USUAL_HOUR = 30.0
+COST_OF_HOUR = {
+    "AUD": 45.0, "BRL": 60.0, "CAD": 40.0, "CHF": 45.0, "CNY": 90.0, "CZK": 400.0, "DKK": 240.0,
+    "EUR": 30.0, "GBP": 25.0, "HUF": 6000.0, "INR": 300.0, "JPY": 2500.0, "MXN": 200.0,
+    "NOK": 320.0, "NZD": 45.0, "PLN": 75.0, "RON": 75.0, "SEK": 300.0, "TRY": 600.0, "USD": 30.0}
+"""About what an hour of a van's driver costs, by currency; in others, and in none, `USUAL_HOUR`."""
+
 Data = dict[str, Any]
 
 
@@ -49,12 +59,38 @@ def fleet_of(stops: Sequence[Entry], columns: Sequence[Column],
         doubts.append(Doubt("SHIFT_ASSUMED", "No shift is stated: vehicles work at any time."))
     else:
         kind["shift"] = _shift(settings.shift)
+    usual, told = _usual_work(settings)
+    kind |= usual
+    doubts += told
     if settings.speed_kmh is not None:
         kind["speed_kmh"] = settings.speed_kmh
     if settings.drones:
         kind["drones"] = {"count": settings.drones, "capacity": list(settings.drone_capacity or ())}
     abilities, assumed = _abilities(stops, settings)
     return [kind | abilities], doubts + assumed
+
+
+def _usual_work(settings: ImportSettings) -> tuple[Data, list[Doubt]]:
+    """Return how often vehicles go out and what they cost, and what of it was assumed."""
+    doubts = []
+    if settings.trips is None:
+        doubts.append(Doubt("TRIPS_ASSUMED", f"Vehicles may go out again, up to {TRIPS} times: "
+                            "state trips of 1 if each goes out once."))
+    hour = settings.cost_per_hour
+    kilometre = settings.cost_per_km
+    usual = COST_OF_HOUR.get(settings.currency or "", USUAL_HOUR)
+    money = f" {settings.currency}" if settings.currency else ""
+    if hour is None:
+        hour = usual
+        doubts.append(Doubt("HOURS_ASSUMED", "What drivers cost isn't stated: an hour is taken to "
+                            f"cost {hour:g}{money}, and whoever is needed at all to be paid for an "
+                            "hour more."))
+    if kilometre is None:
+        kilometre = float(f"{usual / USUAL_HOUR:.1g}")
+        doubts.append(Doubt("KILOMETRES_ASSUMED", "What a kilometre costs isn't stated: "
+                            f"{kilometre:g}{money} is taken."))
+    costs = {"fixed": hour, "per_km": kilometre, "per_hour": hour}
+    return {"max_trips": settings.trips or TRIPS, "costs": costs}, doubts
 
 
 def _capacity(stops: Sequence[Entry], columns: Sequence[Column],

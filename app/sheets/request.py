@@ -52,7 +52,9 @@ def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
         doubts.append(Doubt("PLANE", "x and y are taken for places on a plane, in "
                             f"{'kilometres' if in_km else 'metres'}."))
     system = "geographic" if ground.is_geographic else "planar"
-    request: Data = {"coordinate_system": system, **unit, **_loads(columns), "depots": depot,
+    currency = {"currency": settings.currency} if settings.currency else {}
+    request: Data = {"coordinate_system": system, **unit, **currency, **_loads(columns),
+                     "depots": depot,
                      "customers": [stop.customer for stop in stops], "fleet": fleet}
     return request, [*doubts, *assumed]
 

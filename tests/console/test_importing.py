@@ -68,9 +68,34 @@ def test_an_import_takes_nothing_from_what_was_open(page: Page) -> None:
     planned(page, "2 of 2 served")
     request = state(page, "state.request")
     assert request["depots"] == [{"id": "depot", "location": [8.53, 47.37]}]
-    assert request["fleet"] == [{"id": "vehicle", "count": 2, "capacity": [20],
-                                 "shift": {"earliest": 25200, "latest": 64800}}]
+    assert request["fleet"] == [{"id": "vehicle", "count": 2, "capacity": [20], "max_trips": 5,
+                                 "shift": {"earliest": 25200, "latest": 64800},
+                                 "costs": {"fixed": 30, "per_km": 1, "per_hour": 30}}]
     assert "airspace" not in request
+
+
+@pytest.mark.parametrize("zone", ["Europe/Zurich", "America/New_York"])
+def test_trips_costs_and_currency_are_assumed_told_and_changed(
+        open_page: Callable[..., Page], service: str, zone: str) -> None:
+    page = open_page(service, timezone_id=zone)
+    expect(page.locator("#total-cost")).to_be_visible()
+    open_file(page, "today.csv", SHEET)
+    shown = dialog(page)
+    hour, currency = {"Europe/Zurich": ("45", "CHF"), "America/New_York": ("30", "USD")}[zone]
+    expect(shown.get_by_text(f"an hour is taken to cost {hour} {currency}")).to_be_visible()
+    expect(shown.get_by_text("Vehicles may go out again")).to_be_visible()
+    for field, assumed in (("trips", "5"), ("cost_per_hour", hour), ("currency", currency)):
+        expect(page.locator(f"#import-{field}")).to_have_attribute("placeholder", assumed)
+    state_field(page, "trips", "1")
+    state_field(page, "cost_per_hour", "20")
+    state_field(page, "currency", "pln")
+    expect(shown.get_by_text("Vehicles may go out again")).to_have_count(0)
+    use(page)
+    planned(page, "2 of 2 served")
+    request = state(page, "state.request")
+    assert request["currency"] == "PLN"
+    assert (request["fleet"][0]["max_trips"], request["fleet"][0]["costs"]["per_hour"]) == (1, 20)
+    expect(page.locator("#total-cost")).to_contain_text("PLN")
 
 
 def test_what_is_assumed_is_told(page: Page) -> None:

@@ -71,20 +71,36 @@ def test_nothing_is_inherited_and_what_is_assumed_is_told() -> None:
     reply = read()
     assert reply.request is not None
     assert reply.request["depots"] == [{"id": "depot", "location": [11.55, 48.15]}]
-    assert reply.request["fleet"] == [{"id": "vehicle", "count": 1, "capacity": [15]}]
+    costs = {"fixed": 30, "per_km": 1, "per_hour": 30}
+    assert reply.request["fleet"] == [
+        {"id": "vehicle", "count": 1, "capacity": [15], "max_trips": 5, "costs": costs}]
     assert set(reply.request) == {"coordinate_system", "load_dimensions", "depots", "customers",
                                   "fleet"}
     assert codes(reply) == {"DEPOT_ASSUMED", "FLEET_ASSUMED", "CAPACITY_ASSUMED", "SHIFT_ASSUMED",
-                            "MIDNIGHT"}
+                            "TRIPS_ASSUMED", "HOURS_ASSUMED", "KILOMETRES_ASSUMED", "MIDNIGHT"}
+
+
+def test_costs_that_nobody_states_go_by_the_currency() -> None:
+    francs = read(currency="CHF").request
+    assert francs is not None
+    assert francs["currency"] == "CHF"
+    assert francs["fleet"][0]["costs"] == {"fixed": 45, "per_km": 2, "per_hour": 45}
+    [told] = [doubt.message for doubt in read(currency="CHF").doubts
+              if doubt.code == "HOURS_ASSUMED"]
+    assert "45 CHF" in told
+    free = read(currency="CHF", cost_per_hour=0).request
+    assert free is not None
+    assert free["fleet"][0]["costs"] == {"fixed": 0, "per_km": 2, "per_hour": 0}
 
 
 def test_what_is_stated_is_taken_and_not_doubted() -> None:
     reply = read(depot="48.0, 11.0", vehicles=4, capacity=[9], shift="7:30-16:00", speed_kmh=30.0,
-                 drones=1, drone_capacity=[2])
+                 drones=1, drone_capacity=[2], trips=1, cost_per_hour=20, cost_per_km=0.5)
     assert reply.request is not None
     assert reply.request["depots"] == [{"id": "depot", "location": [11.0, 48.0]}]
     assert reply.request["fleet"] == [{
         "id": "vehicle", "count": 4, "capacity": [9], "shift": {"earliest": 27000, "latest": 57600},
+        "max_trips": 1, "costs": {"fixed": 20, "per_km": 0.5, "per_hour": 20},
         "speed_kmh": 30.0, "drones": {"count": 1, "capacity": [2]}}]
     assert codes(reply) == {"MIDNIGHT"}
 

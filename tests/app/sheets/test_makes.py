@@ -72,9 +72,11 @@ def test_german_commas_and_points_in_clocks() -> None:
         "notes": "Hof"}
     assert reply.request is not None
     assert reply.request["depots"] == [{"id": "depot", "location": [11.56, 48.14]}]
-    assert reply.request["fleet"] == [{"id": "vehicle", "count": 3, "capacity": [1500],
-                                       "shift": {"earliest": 25200, "latest": 61200}}]
-    assert told(reply) == {"ENCODING_GUESSED", "MIDNIGHT"}
+    [kind] = reply.request["fleet"]
+    assert (kind["count"], kind["capacity"]) == (3, [1500])
+    assert kind["shift"] == {"earliest": 25200, "latest": 61200}
+    assert told(reply) == {"ENCODING_GUESSED", "MIDNIGHT", "TRIPS_ASSUMED", "HOURS_ASSUMED",
+                           "KILOMETRES_ASSUMED"}
 
 
 def test_french_windows_in_one_cell() -> None:

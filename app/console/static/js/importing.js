@@ -3,12 +3,17 @@
 import { openRequest, showFailure } from './actions.js';
 import * as api from './api.js';
 import { withoutEnding } from './core/format.js';
-import { doubtsOfImport } from './core/places.js';
-import { readFields, remember, signatureOf, withColumn } from './core/importing.js';
+import { currencyOf } from './core/currencies.js';
+import { doubtsOfImport, withFound } from './core/places.js';
+import {
+  byAddress, placing, readFields, remember, rememberPlaces, signatureOf, unplacedIn, withAnswer,
+  withColumn, withoutUnplaced,
+} from './core/importing.js';
 import { plan } from './planning.js';
 import { store } from './store.js';
 
 const KEPT = 'tandem-imports';
+const KEPT_PLACES = 'tandem-import-places';
 
 /** Have a file read, and show what it is taken for. */
 export async function beginImport(file) {
@@ -20,13 +25,17 @@ export async function beginImport(file) {
       mapping: {},
       texts: {},
       choices: {},
+      places: kept(KEPT_PLACES) ?? {},
+      leavesUnplaced: false,
+      placing: null,
       reply: null,
       busy: true,
       failure: null,
     },
   });
   const reply = await ask();
-  const known = reply && kept().find(({ signature }) => signature === signatureOf(reply));
+  const imports = kept(KEPT) ?? [];
+  const known = reply && imports.find(({ signature }) => signature === signatureOf(reply));
   if (known) change({ mapping: known.mapping, texts: known.texts, isRemembered: true });
 }
 
@@ -49,6 +58,36 @@ export function changeColumn(column, patch) {
   return change({ mapping: withColumn(mapping, column, patch) });
 }
 
+/** Answer a question about the file. */
+export function answer(id, given) {
+  const { mapping } = store.get().importing;
+  return change({ mapping: withAnswer(mapping, id, given) });
+}
+
+/** Say what a place on the map is for: `depot`, an address, or nothing. */
+export function place(what) {
+  note({ placing: what });
+}
+
+/** Put where the map was clicked what is being placed; the next address follows. */
+export function placeAt([lon, lat]) {
+  const { placing: what, texts, places, reply } = store.get().importing;
+  if (what === null) return;
+  if (what === 'depot') {
+    note({ placing: null });
+    change({ texts: { ...texts, depot: placing(reply.request, [lon, lat]) } });
+  } else {
+    const known = { ...places, [what.address]: [lon, lat] };
+    const [next = null] = unplacedIn(reply.request, known);
+    note({ places: known, placing: next && { address: next.address } });
+  }
+}
+
+/** Plan without the rows that have no place, or don't. */
+export function leaveUnplaced(leaves) {
+  note({ leavesUnplaced: leaves });
+}
+
 /** Leave the import; what was open stays. */
 export function leaveImport() {
   store.set({ importing: null });
@@ -56,15 +95,19 @@ export function leaveImport() {
 
 /** Plan what was imported, in place of what was open. */
 export async function useImport() {
-  const { reply, texts, name } = store.get().importing;
+  const { reply, texts, name, places, leavesUnplaced } = store.get().importing;
   const entry = { mapping: reply.mapping, texts };
   try {
-    localStorage.setItem(KEPT, JSON.stringify(remember(kept(), signatureOf(reply), entry)));
+    const known = remember(kept(KEPT) ?? [], signatureOf(reply), entry);
+    localStorage.setItem(KEPT, JSON.stringify(known));
+    localStorage.setItem(KEPT_PLACES, JSON.stringify(rememberPlaces(places)));
   } catch {
     // A browser that keeps nothing asks again next time.
   }
   store.set({ importing: null });
-  openRequest(reply.request, { name: withoutEnding(name), doubts: doubtsOfImport(reply) });
+  const placed = withFound(reply.request, byAddress(places)).request;
+  const others = { name: withoutEnding(name), doubts: doubtsOfImport(reply) };
+  openRequest(leavesUnplaced ? withoutUnplaced(placed) : placed, others);
   await plan();
 }
 
@@ -75,8 +118,9 @@ async function ask() {
   const { file, mapping, texts, choices } = store.get().importing;
   const { stated } = readFields(texts);
   stated.time_zone = Intl.DateTimeFormat().resolvedOptions().timeZone;
+  stated.currency ??= currencyOf(stated.time_zone, navigator.language);
   // Who isn't found is placed by hand, on the map.
-  if (store.get().config.finds_addresses) stated.not_found = 'address';
+  stated.not_found = 'address';
   asked += 1;
   const number = asked;
   const isNewest = () => number === asked && store.get().importing?.file === file;
@@ -84,7 +128,9 @@ async function ask() {
   try {
     const reply = await api.postImport(file, { ...stated, ...choices, mapping });
     if (!isNewest()) return null;
-    note({ reply, busy: false, failure: null });
+    const { placing: now, places, reply: before } = store.get().importing;
+    const next = before?.request ? null : firstToPlace(reply, places);
+    note({ reply, busy: false, failure: null, placing: now ?? next });
     return reply;
   } catch (error) {
     if (!isNewest()) return null;
@@ -97,14 +143,21 @@ async function ask() {
   }
 }
 
+/** Return what has to be placed before anything can be planned, else null. */
+function firstToPlace({ request, errors }, places) {
+  if (errors.some(({ code }) => code === 'DEPOT')) return 'depot';
+  const [first] = unplacedIn(request, places);
+  return first ? { address: first.address } : null;
+}
+
 function note(patch) {
   store.set(({ importing }) => ({ importing: { ...importing, ...patch } }));
 }
 
-function kept() {
+function kept(name) {
   try {
-    return JSON.parse(localStorage.getItem(KEPT)) ?? [];
+    return JSON.parse(localStorage.getItem(name));
   } catch {
-    return [];
+    return null;
   }
 }

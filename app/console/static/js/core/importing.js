@@ -3,31 +3,28 @@
 import { parseNumber } from './format.js';
 
 const MOST_REMEMBERED = 30;
+const MOST_PLACES = 3000;
 
 /** Fields beside the columns, as the settings name them: an example, and what holds if empty. */
 export const FIELDS = [
-  { name: 'depot', label: 'Depot', help: 'latitude first', example: '48.137, 11.575', read: text },
-  { name: 'vehicles', label: 'Vehicles', example: '3', read: whole },
-  { name: 'capacity', label: 'Capacity', help: 'of each amount', example: '800', read: numbers },
-  { name: 'shift', label: 'Shift', help: 'any time if empty', example: '8:00-17:00', read: text },
-  { name: 'speed_kmh', label: 'Speed', help: 'km/h', example: '40', empty: '40', read: number },
-  { name: 'service_minutes', label: 'Stop time', help: 'min', example: '5', read: number },
-  { name: 'drones', label: 'Drones', help: 'a vehicle', example: '1', empty: '0', read: whole },
-  { name: 'drone_capacity', label: 'A drone carries', example: '5', read: numbers },
+  { name: 'depot', example: '48.137, 11.575', read: text },
+  { name: 'vehicles', example: '3', read: whole },
+  { name: 'capacity', example: '800', read: numbers },
+  { name: 'shift', example: '8:00-17:00', read: text },
+  { name: 'trips', example: '2', read: whole },
+  { name: 'cost_per_hour', example: '30', read: number },
+  { name: 'cost_per_km', example: '0.5', read: number },
+  { name: 'currency', example: 'EUR', read: currency },
+  { name: 'speed_kmh', example: '40', empty: '40', read: number },
+  { name: 'service_minutes', example: '5', read: number },
+  { name: 'drones', example: '1', empty: '0', read: whole },
+  { name: 'drone_capacity', example: '5', read: numbers },
 ];
 
-/** What bare numbers mean, in words. */
-export const UNITS = {
-  clock: 'as 8:30',
-  hours: 'hours, as 8.5',
-  'h.mm': 'as 8.30',
-  hhmm: 'as 0830',
-  minutes: 'minutes',
-  seconds: 'seconds',
-  days: 'shares of a day',
-  m: 'metres',
-  km: 'kilometres',
-};
+/** Return a text, or what stands in its place where the language has none by its key. */
+export function knownOr(text, fallback) {
+  return /^import\.\S+$/.test(text) ? fallback : text;
+}
 
 function text(value) {
   return value;
@@ -40,6 +37,10 @@ function number(value) {
 function whole(value) {
   const read = parseNumber(value);
   return Number.isInteger(read) ? read : null;
+}
+
+function currency(value) {
+  return /^[a-z]{3}$/i.test(value) ? value.toUpperCase() : null;
 }
 
 function numbers(value) {
@@ -68,6 +69,52 @@ export function withColumn(mapping, { heading, column }, change) {
     (entry) => entry.heading !== heading || (entry.column ?? column) !== column,
   );
   return { ...mapping, columns: [...others, { heading, column, ...change }] };
+}
+
+/** Return a mapping in which a question is answered. */
+export function withAnswer(mapping, id, answer) {
+  return { ...mapping, answers: { ...mapping.answers, [id]: answer } };
+}
+
+/** Return the addresses of a request that nobody has placed yet: `[{address, ids}]`. */
+export function unplacedIn(request, places) {
+  return addressesIn(request).filter(({ address }) => !places[address]);
+}
+
+/** Return the addresses of customers that are not looked up: `[{address, ids}]`. */
+export function addressesIn(request) {
+  const ids = new Map();
+  for (const { id, location } of request?.customers ?? []) {
+    if (location?.address) ids.set(location.address, [...(ids.get(location.address) ?? []), id]);
+  }
+  return [...ids].map(([address, named]) => ({ address, ids: named }));
+}
+
+/** Return places that were chosen by hand as `withFound` takes them. */
+export function byAddress(places) {
+  return new Map(
+    Object.entries(places).map(([address, location]) => [
+      address,
+      { places: [{ location, quality: 'house' }], doubt: null },
+    ]),
+  );
+}
+
+/** Return a request without the customers whose addresses have no place. */
+export function withoutUnplaced(request) {
+  return { ...request, customers: request.customers.filter(({ location }) => !location?.address) };
+}
+
+/** Return how a place is written where latitude comes first, or x where the map is a plane. */
+export function placing(request, [x, y]) {
+  const digits = (value) => Number(value.toFixed(6));
+  const isPlane = request && request.coordinate_system !== 'geographic';
+  return (isPlane ? [x, y] : [y, x]).map(digits).join(', ');
+}
+
+/** Return the places by address that are worth keeping for other files, the newest. */
+export function rememberPlaces(places) {
+  return Object.fromEntries(Object.entries(places).slice(-MOST_PLACES));
 }
 
 /** Return what tells files alike: their headings in order. */

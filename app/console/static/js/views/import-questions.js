@@ -1,0 +1,64 @@
+/** What a file leaves open, each answered by a click; what is taken without one is marked. */
+
+import { knownOr } from '../core/importing.js';
+import { answer, changeColumn } from '../importing.js';
+import { html } from '../libraries.js';
+import { t } from '../texts.js';
+
+/** All questions, in the order of the service. */
+export function Questions({ importing: { reply, mapping } }) {
+  const { questions = [] } = reply;
+  if (!questions.length) return null;
+  const open = questions.filter(({ is_answered: isAnswered }) => !isAnswered).length;
+  return html`<section class="import-questions" aria-labelledby="import-questions-title">
+    <h3 id="import-questions-title">${t('import.questions', { count: questions.length })}</h3>
+    <p class="help">${
+      open ? t('import.questionsOpen', { count: open }) : t('import.questionsDone')
+    }</p>
+    <ol>${questions.map((question) => html`<${Question} key=${question.id} question=${question}
+      reply=${reply} given=${mapping.answers?.[question.id]} />`)}</ol></section>`;
+}
+
+function Question({ question, reply, given }) {
+  const { id, kind, default: assumed, is_answered: isAnswered, examples } = question;
+  const taken = given ?? question.answer;
+  const column =
+    kind === 'column' && reply.columns.find((entry) => entry.column === question.column);
+  const choose = (chosen) =>
+    column ? changeColumn(column, { meaning: chosen, unit: null }) : answer(id, chosen);
+  const state = isAnswered ? 'answered' : taken === null ? 'wanted' : 'open';
+  return html`<li class=${state}><div role="group" aria-labelledby=${`question-${id}`}>
+    <p><span id=${`question-${id}`}>${textOf(question)}</span>
+      ${examples?.length > 0 && html` <small>${examples.join(' \u00b7 ')}</small>`}</p>
+    <div class="answers">${question.choices.map(({ answer: choice, title }) => html`<button
+      type="button" key=${choice} aria-pressed=${taken === choice}
+      onClick=${() => choose(choice)}>${titleOf(kind, choice, title)}${
+        choice === assumed && !isAnswered && html` <small>${t('import.assumed')}</small>`
+      }</button>`)}
+    ${column && html`<${OtherMeaning} question=${question} column=${column} reply=${reply}
+      onChoose=${choose} />`}</div></div></li>`;
+}
+
+/** Every meaning that a column may have beside the likely ones. */
+function OtherMeaning({ question, column, reply, onChoose }) {
+  const likely = question.choices.map((choice) => choice.answer);
+  const name = column.heading || column.column;
+  return html`<select aria-label=${t('import.otherMeaning', { name })}
+    value=${likely.includes(column.meaning) ? '' : column.meaning}
+    onChange=${(event) => onChoose(event.target.value)}>
+    <option value="" disabled hidden>${t('import.other')}</option>
+    ${reply.meanings
+      .filter(({ meaning }) => !likely.includes(meaning))
+      .map(({ meaning, title }) => html`<option key=${meaning}
+        value=${meaning}>${knownOr(t(`import.meaning.${meaning}`), title)}</option>`)}</select>`;
+}
+
+/** Return a question in the reader's language, as the service has it where it is a new kind. */
+function textOf({ kind, values, text }) {
+  return knownOr(t(`import.question.${kind}`, values), text);
+}
+
+function titleOf(kind, choice, title) {
+  if (kind === 'column') return knownOr(t(`import.meaning.${choice}`), title);
+  return knownOr(t(`import.answer.${choice}`), title);
+}

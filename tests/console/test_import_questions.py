@@ -1,0 +1,81 @@
+"""What a sheet leaves open is asked in the dialog, and answered by a click."""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, Route, expect
+
+from tests.console.steps import open_file, planned, state
+from tests.console.test_importing import SHEET, dialog, read_anew, use
+
+UNKNOWN = {"id": "later:1", "kind": "later", "text": "Something that this console doesn't know?",
+           "values": {}, "choices": [{"answer": "yes", "title": "Yes"},
+                                     {"answer": "no", "title": "No"}], "default": None}
+"""A question of a kind that came later, which must be answered."""
+
+
+class Asking:
+    """Has the service's replies to imports ask questions; keeps the answers that it was sent."""
+
+    def __init__(self, page: Page, questions: list[dict[str, Any]]) -> None:
+        self.answers: dict[str, str] = {}
+        self._questions = questions
+        page.route("**/import", self._answer)
+
+    def _answer(self, route: Route) -> None:
+        content = route.request.post_data_buffer or b""
+        settings = content[content.index(b'name="settings"'):].split(b"\r\n\r\n")[1]
+        stated = json.loads(settings.split(b"\r\n")[0])
+        self.answers = stated["mapping"].pop("answers", {})
+        sent = json.dumps(stated).encode()
+        response = route.fetch(post_data=content.replace(settings.split(b"\r\n")[0], sent))
+        reply = response.json()
+        reply["questions"] = [self._told(question) for question in self._questions]
+        if any(question["answer"] is None for question in reply["questions"]):
+            reply["request"] = None
+        route.fulfill(response=response, json=reply)
+
+    def _told(self, question: dict[str, Any]) -> dict[str, Any]:
+        given = self.answers.get(question["id"])
+        return question | {"answer": given or question["default"], "is_answered": given is not None,
+                           "column": None, "cell": None, "sheet": None, "examples": []}
+
+
+def test_questions_of_any_kind_are_asked_and_must_be_answered_where_nothing_is_taken(
+        page: Page) -> None:
+    asking = Asking(page, [UNKNOWN])
+    open_file(page, "today.csv", SHEET)
+    shown = dialog(page)
+    question = shown.get_by_role("group", name=UNKNOWN["text"])
+    expect(question).to_be_visible()
+    expect(page.locator("#use-import")).to_be_disabled()
+    question.get_by_role("button", name="No").click()
+    read_anew(page)
+    expect(question.get_by_role("button", name="No")).to_have_attribute("aria-pressed", "true")
+    assert asking.answers == {"later:1": "no"}
+    use(page)
+    planned(page, "2 of 2 served")
+
+
+@pytest.mark.parametrize("options", [
+    {}, {"color_scheme": "dark"}, {"viewport": {"width": 390, "height": 844}},
+    {"viewport": {"width": 1024, "height": 768}}], ids=["light", "dark", "phone", "small"])
+def test_everyone_can_answer(open_page: Callable[..., Page], service: str,
+                             options: dict[str, object]) -> None:
+    page = open_page(service, **options)
+    expect(page.locator("#total-cost")).to_be_visible()
+    Asking(page, [UNKNOWN])
+    open_file(page, "today.csv", SHEET)
+    shown = dialog(page)
+    expect(shown.get_by_role("group", name=UNKNOWN["text"])).to_be_visible()
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
+    assert state(page, "state.importing.reply.questions.0.answer") is None
+    widths = page.evaluate("""() => {
+      const { scrollWidth, clientWidth } = document.querySelector('dialog');
+      return [scrollWidth, clientWidth];
+    }""")
+    assert widths[0] <= widths[1]
