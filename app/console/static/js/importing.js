@@ -129,8 +129,8 @@ async function ask() {
     const reply = await api.postImport(file, { ...stated, ...choices, mapping });
     if (!isNewest()) return null;
     const { placing: now, places, reply: before } = store.get().importing;
-    const next = before?.request ? null : firstToPlace(reply, places);
-    note({ reply, busy: false, failure: null, placing: now ?? next });
+    const next = before?.request ? now : firstToPlace(reply, places);
+    note({ reply, busy: false, failure: null, placing: next });
     return reply;
   } catch (error) {
     if (!isNewest()) return null;

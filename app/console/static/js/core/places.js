@@ -1,5 +1,6 @@
 /** Places of a problem: coordinates, or addresses that are still to be looked up. */
 
+import { t } from '../texts.js';
 import { getIn, setIn } from './paths.js';
 
 /** Return a place's coordinates, null where it has none, or only an address. */
@@ -97,17 +98,9 @@ export function withDepot(request, location) {
   return setIn(request, ['depots', 0, 'location'], location);
 }
 
-/** Qualities of places that were found, in words. */
-const QUALITIES = {
-  house: 'the house',
-  interpolated: 'between the houses next to it',
-  street: 'the street alone',
-  town: 'the town alone',
-};
-
 /** Return a candidate in words. */
 export function candidateInWords({ label, quality }) {
-  return quality === 'house' ? label : `${label} (${QUALITIES[quality]})`;
+  return quality === 'house' ? label : `${label} (${t(`places.quality.${quality}`)})`;
 }
 
 function isSame(one, other) {

@@ -2,11 +2,11 @@
 
 import { addAt, find, leaveOutUnplaced, putAt, putDepotAt, settle } from '../addressing.js';
 import { select, showFailure } from '../actions.js';
-import { count } from '../core/format.js';
 import { candidateInWords, doubtedPlaces } from '../core/places.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { takeTool } from '../map/draw-bar.js';
 import { useStore } from '../store.js';
+import { t } from '../texts.js';
 
 /** A field for an address, and what can be done with the places that are found. */
 export function AddressSearch({ request }) {
@@ -32,19 +32,22 @@ export function AddressSearch({ request }) {
     setText('');
   };
   return html`<section class="section"><form class="buttons" role="search" onSubmit=${search}>
-      <input type="text" id="address-search" value=${text} placeholder="Find an address"
-        aria-label="Find an address" onInput=${(event) => setText(event.target.value)} />
-      <button type="submit">Find</button></form>
+      <input type="text" id="address-search" value=${text} placeholder=${t('places.find')}
+        aria-label=${t('places.find')} onInput=${(event) => setText(event.target.value)} />
+      <button type="submit">${t('places.search')}</button></form>
     <div aria-live="polite">${found && !found.places.length && html`<p class="help">
-      ${found.address} is not found: check it, name the town.</p>`}
+      ${t('places.notFound', { address: found.address })}</p>`}
     ${found?.places.map((place) => html`<div key=${place.label} class="found-place">
       <p>${candidateInWords(place)}</p><div class="buttons">
-      <button type="button" onClick=${done(() => addAt(found.address, place))}>Add a customer
+      <button type="button" onClick=${done(() => addAt(found.address, place))}>${t('places.add')}
         </button>
-      ${id && html`<button type="button" onClick=${done(() => putAt(id, place.location))}>Move
-        ${' '}${id} here</button>`}
-      <button type="button" onClick=${done(() => putDepotAt(place.location))}>Move the depot here
-        </button></div></div>`)}</div></section>`;
+      ${id && html`<button type="button" onClick=${done(() => putAt(id, place.location))}>${t(
+        'places.move',
+        { id },
+      )}</button>`}
+      <button type="button" onClick=${done(() => putDepotAt(place.location))}>${t(
+        'places.moveDepot',
+      )}</button></div></div>`)}</div></section>`;
 }
 
 /** Customers whose place is doubtful or not known. */
@@ -53,16 +56,16 @@ export function DoubtedPlaces({ request }) {
   const found = doubtedPlaces(request, doubts);
   const unplaced = found.filter(({ doubt }) => doubt === null).length;
   if (!found.length) return null;
-  return html`<details class="card" open id="doubted"><summary>${count(
-    found.length,
-    'doubtful place',
-  )}<span class="right">${unplaced ? `${unplaced} without any` : ''}</span></summary>
+  return html`<details class="card" open id="doubted"><summary>${t('places.doubtful', {
+    count: found.length,
+  })}<span class="right">${unplaced ? t('places.without', { count: unplaced }) : ''}</span>
+    </summary>
     <div class="inside"><ul>${found.map(
       ({ id, key, address, doubt }) => html`<li key=${id}><button type="button" class="link"
-        onClick=${() => select(key)}>${id}</button> ${doubt ?? `${address}: no place yet.`}</li>`,
+        onClick=${() => select(key)}>${id}</button> ${doubt ?? t('places.none', { address })}</li>`,
     )}</ul>
     ${unplaced > 0 && html`<div class="buttons"><button type="button"
-      onClick=${leaveOutUnplaced}>Leave out those without a place</button></div>`}</div></details>`;
+      onClick=${leaveOutUnplaced}>${t('places.leaveOut')}</button></div>`}</div></details>`;
 }
 
 /** What is doubtful about a customer's place, and what it may be instead. */
@@ -83,12 +86,18 @@ export function PlaceOf({ request, id }) {
   }, [address, finds]);
   if (!doubted) return null;
   const { doubt } = doubted;
-  return html`<div class="doubted-place" role="group" aria-label=${`Place of ${id}`}>
-    <p>${doubt ?? `${address} ${places.length > 1 ? 'may be several places' : 'has no place yet'}.`}
+  return html`<div class="doubted-place" role="group" aria-label=${t('places.placeOf', { id })}>
+    <p>${doubt ?? openWords(address, places)}
     </p><div class="buttons">${places.map(
       (place) => html`<button type="button" key=${place.label}
         onClick=${() => putAt(id, place.location)}>${candidateInWords(place)}</button>`,
-    )}<button type="button" onClick=${() => takeTool('place')}>Show it on the map</button>
-    ${doubt && html`<button type="button" onClick=${() => settle(id)}>It is right</button>`}
+    )}<button type="button" onClick=${() => takeTool('place')}>${t('places.show')}</button>
+    ${doubt && html`<button type="button" onClick=${() => settle(id)}>${t('places.right')}
+    </button>`}
     </div></div>`;
+}
+
+/** Return what is to be said of an address that has no place. */
+function openWords(address, places) {
+  return places.length > 1 ? t('places.several', { address }) : t('places.none', { address });
 }

@@ -5,6 +5,7 @@ import { count, duration, money } from '../core/format.js';
 import { html, useRef } from '../libraries.js';
 import { plan, stop } from '../planning.js';
 import { store, useStore } from '../store.js';
+import { t } from '../texts.js';
 import { openPlans } from '../keeping/kept.js';
 import { openFile } from './files.js';
 import { LanguageChoice } from './language-choice.js';
@@ -88,10 +89,10 @@ function Result() {
       ['decoding', 'improving'].includes(run.state) &&
       run.limit?.isChosen &&
       run.limit.seconds > MOST_UNTOLD &&
-      html`<span id="chosen-limit">for up to ${duration(run.limit.seconds)}, which fits ${count(
-        run.request.customers.length,
-        'customer',
-      )}</span>`
+      html`<span id="chosen-limit">${t('solve.upTo', {
+        time: duration(run.limit.seconds),
+        count: run.request.customers.length,
+      })}</span>`
     }
     ${waits && entry && html`<span class="stale">The plan before is shown meanwhile.</span>`}
     ${

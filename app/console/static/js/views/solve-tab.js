@@ -1,12 +1,13 @@
 /** How to plan, and how the cost fell. */
 
 import { edit, shownPlan } from '../actions.js';
-import { count, duration, money, number } from '../core/format.js';
+import { duration, money, number } from '../core/format.js';
 import { fittingSeconds } from '../core/limits.js';
 import { labelOf } from '../core/schema.js';
 import { html, uPlot, useEffect, useRef } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Fields } from './form.js';
+import { t } from '../texts.js';
 import { Facts } from './parts.js';
 
 /** If the first cost is so many times the last, as where customers were left out, it is cut off. */
@@ -29,9 +30,9 @@ export function SolveTab() {
   const most = useStore((state) => state.config.max_job_seconds);
   const schema = withFittingLimit(schemas.OptionsInput, request, most);
   const shared = { schema, keys: ['options'], request, onChange: edit };
-  return html`<section class="section"><h3>How to plan</h3>
+  return html`<section class="section"><h3>${t('solve.how')}</h3>
       <${Fields} ...${shared} skip=${rest} />
-      <details class="card" open=${wrong}><summary>Advanced
+      <details class="card" open=${wrong}><summary>${t('solve.advanced')}
           <span class="right">${statedIn(request.options, rest)}</span></summary>
         <div class="inside"><${Fields} ...${shared} choices=${{ policy: policies }}
           skip=${[...PLAIN, ...OWN, ...(sampled ? [] : OF_SAMPLES)]} /></div></details>
@@ -42,10 +43,7 @@ export function SolveTab() {
 /** Return the schema of the options, which says how long is planned where nothing is stated. */
 function withFittingLimit(schema, request, most) {
   const seconds = fittingSeconds(request, most);
-  const description = `Seconds of search. Empty: ${number(seconds)}, which fits ${count(
-    request.customers.length,
-    'customer',
-  )}. 0: the first plan as it is.`;
+  const description = t('solve.limit', { seconds, count: request.customers.length });
   const limit = { ...schema.properties.time_limit, default: seconds, description };
   return { ...schema, properties: { ...schema.properties, time_limit: limit } };
 }
@@ -74,6 +72,7 @@ function Curve() {
       font: '11px system-ui',
     };
     const Chart = uPlot();
+    const seconds = t('solve.seconds');
     chart.current = new Chart(
       {
         width: element.current.clientWidth,
@@ -84,13 +83,13 @@ function Curve() {
           y: { range: (_, low, high) => roomy(low, high) },
         },
         axes: [
-          { ...axis, label: 'Seconds', labelSize: 18, labelFont: '11px system-ui', size: 28 },
+          { ...axis, label: seconds, labelSize: 18, labelFont: '11px system-ui', size: 28 },
           { ...axis, size: 56 },
         ],
         series: [
-          { label: 'Seconds', value: (_, value) => (value === null ? '' : number(value, 2)) },
+          { label: seconds, value: (_, value) => (value === null ? '' : number(value, 2)) },
           {
-            label: 'Cost',
+            label: t('solve.cost'),
             stroke: colour('accent'),
             width: 2,
             paths: Chart.paths.stepped({ align: 1 }),
@@ -114,16 +113,19 @@ function Curve() {
   useEffect(() => {
     chart.current.setData([points.map(({ seconds }) => seconds), points.map(({ cost }) => cost)]);
   }, [points, dark]);
-  return html`<section class="section"><h3>Cost while planning</h3>
+  return html`<section class="section"><h3>${t('solve.curve')}</h3>
     <p>${
-      last
-        ? `From ${money(points[0].cost)} to ${money(last.cost)} in ${number(last.seconds, 1)} s.${
-            points[0].cost > STEEP * last.cost ? ' The curve begins above what is drawn.' : ''
-          }`
-        : 'The curve appears when a plan is made.'
+      last ? fallen(points[0], last) : t('solve.noCurve')
     }</p>
-    <div class="curve" ref=${element} role="img" aria-label="Cost of the best plan by time"></div>
+    <div class="curve" ref=${element} role="img" aria-label=${t('solve.curveLabel')}></div>
   </section>`;
+}
+
+/** Return in words how far the cost fell. */
+function fallen(first, last) {
+  const [from, to] = [first, last].map(({ cost }) => money(cost));
+  const told = t('solve.fallen', { from, to, seconds: number(last.seconds, 1) });
+  return first.cost > STEEP * last.cost ? `${told} ${t('solve.cutOff')}` : told;
 }
 
 /** Return a range of costs with room above and below, also where the cost never fell. */
@@ -139,19 +141,16 @@ function Solver() {
   const iterations = useStore((state) => state.run.iterations);
   if (!entry) return null;
   const { solver } = entry.plan;
-  return html`<section class="section"><h3>This plan</h3><${Facts} facts=${[
-    ['Policy', `${solver.policy}, ${solver.decoding}`],
-    ['Began with', STARTS[solver.start]],
-    ['First cost', money(solver.decoded_cost)],
-    ['Cost', money(solver.final_cost)],
-    ['Iterations', number(Math.max(solver.search_iterations, iterations ?? 0), 0)],
-    ['Search took', duration(solver.elapsed.search)],
-    ['Repeatable', solver.deterministic ? 'yes' : 'no, the clock ended the search'],
-  ]} /></section>`;
+  const facts = {
+    policy: `${solver.policy}, ${solver.decoding}`,
+    start: t(`solve.starts.${solver.start}`),
+    first: money(solver.decoded_cost),
+    cost: money(solver.final_cost),
+    iterations: number(Math.max(solver.search_iterations, iterations ?? 0), 0),
+    took: duration(solver.elapsed.search),
+    repeatable: solver.deterministic ? t('solve.isRepeatable') : t('solve.isNot'),
+  };
+  return html`<section class="section"><h3>${t('solve.plan')}</h3><${Facts}
+    facts=${Object.entries(facts).map(([name, fact]) => [t(`solve.fact.${name}`), fact])}
+    /></section>`;
 }
-
-const STARTS = {
-  policy: "the policy's plan",
-  insertion: 'a plan by insertion',
-  given: 'a given plan',
-};
