@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { fittingSeconds, limitOf } from '../../../app/console/static/js/core/limits.js';
+import { fittingSeconds, limitOf, shortSeconds } from '../../../app/console/static/js/core/limits.js';
 
 const of = (count, options) => ({ customers: Array(count).fill({}), ...(options && { options }) });
 
@@ -17,4 +17,8 @@ test('what the user states holds, zero too', () => {
   assert.deepEqual(limitOf(of(20_000, { time_limit: 5 })), { seconds: 5, isChosen: false });
   assert.deepEqual(limitOf(of(20_000, { time_limit: 0 })), { seconds: 0, isChosen: false });
   assert.deepEqual(limitOf(of(20_000, { seed: 1 })), { seconds: 110, isChosen: true });
+});
+
+test('a short search has time for what comes before it', () => {
+  assert.deepEqual([0, 2000, 20_000].map((count) => shortSeconds(of(count))), [1, 1, 8]);
 });

@@ -2,11 +2,10 @@
 
 import { postPlan } from './api.js';
 import { shownPlan } from './actions.js';
+import { shortSeconds } from './core/limits.js';
 import { furtherFrom } from './core/replanning.js';
 import { trueCost } from './core/terms.js';
 import { store } from './store.js';
-
-const SECONDS = 1;
 
 /** Groups that are priced without being asked to, and customers up to which they are. */
 const MOST_GROUPS = 3;
@@ -30,7 +29,7 @@ export async function priceLargest(entry, groups) {
 }
 
 /**
- * Plan a second on with a group's remedy and keep what came of it: `{state, served, cost}`.
+ * Plan a moment on with a group's remedy and keep what came of it: `{state, served, cost}`.
  *
  * `served` counts who is served more, `cost` is what that costs more, penalties that nobody stated
  * left out.
@@ -38,7 +37,8 @@ export async function priceLargest(entry, groups) {
 export async function priceGroup(entry, group) {
   note(entry, group, { state: 'asking' });
   const { search_iterations: unused, ...options } = entry.request.options ?? {};
-  const request = { ...group.changed, options: { ...options, time_limit: SECONDS } };
+  const seconds = shortSeconds(entry.request);
+  const request = { ...group.changed, options: { ...options, time_limit: seconds } };
   try {
     const plan = await postPlan(furtherFrom(request, entry));
     note(entry, group, {

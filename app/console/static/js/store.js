@@ -76,7 +76,7 @@ export const store = createStore({
   language: language(), // of the texts
   starting: null, // {detail, progress} until the service is ready
   scenario: null, // comparison or sweep and its job
-  scenarioSeconds: 1,
+  scenarioSeconds: null, // of each scenario; null: as long as fits the problem
   keptFleets: {}, // fleets by name, to compare
   sweepAxes: null, // `[{path, text}]` as chosen; null: around the fleet at hand
   dispatch: null, // a plan on the road: its reply, links by id as made, its plan if known

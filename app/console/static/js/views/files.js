@@ -54,6 +54,10 @@ async function openJson(file) {
   } catch (error) {
     throw new ApiError(0, `${file.name} is not JSON`, `${error.message}.`);
   }
+  if (content?.type === 'FeatureCollection') {
+    await beginImport(file);
+    return;
+  }
   const request = content?.problem ?? content;
   const lacking = ['depots', 'customers', 'fleet'].filter(
     (name) => !Array.isArray(request?.[name]),

@@ -63,7 +63,7 @@ function Opener() {
     <button type="button" onClick=${() => input.current.click()}>Open a file</button>
     <button type="button" id="saved-plans" onClick=${openPlans}>Saved</button>
     <input type="file" hidden ref=${input} id="file-input" aria-label="File to open"
-      accept=".json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods" onChange=${(event) => {
+      accept=".json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods,.html,.htm,.kml,.geojson" onChange=${(event) => {
         openFile(event.target.files[0]);
         event.target.value = '';
       }} />

@@ -6,6 +6,7 @@ import { hours, money, number, percent } from '../core/format.js';
 import {
   axesAround, heatTable, readValues, valuesAround, variableFields, writeAt,
 } from '../core/grid.js';
+import { fittingSeconds } from '../core/limits.js';
 import { heatColour } from '../core/palette.js';
 import { fromNothing } from '../core/replanning.js';
 import { costTerms } from '../core/terms.js';
@@ -28,7 +29,7 @@ export function ScenariosTab() {
 }
 
 function SecondsEach() {
-  const seconds = useStore((state) => state.scenarioSeconds);
+  const seconds = useStore(secondsEach);
   return html`<label>${t('scenario.seconds')} <input type="text" inputmode="decimal"
     size="5"
     value=${seconds} onChange=${(event) => {
@@ -38,10 +39,15 @@ function SecondsEach() {
     }} /></label>`;
 }
 
+/** Return how long each scenario is searched: as stated, else as long as fits the problem. */
+function secondsEach({ request, scenarioSeconds, config }) {
+  return scenarioSeconds ?? fittingSeconds(request, config.max_job_seconds);
+}
+
 /** Return the problem as scenarios begin with it: they plan the whole day, from nothing. */
-function baseOf({ request, scenarioSeconds }) {
-  const base = fromNothing(request);
-  return { ...base, options: { ...base.options, time_limit: scenarioSeconds } };
+function baseOf(state) {
+  const base = fromNothing(state.request);
+  return { ...base, options: { ...base.options, time_limit: secondsEach(state) } };
 }
 
 /** Return fleets worth a comparison with a request's own. */
