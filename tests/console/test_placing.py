@@ -97,3 +97,26 @@ def test_a_click_on_the_map_says_where_the_depot_is(page: Page) -> None:
     planned(page, "2 of 2 served")
     [depot] = state(page, "state.request.depots")
     assert 8.4 < depot["location"][0] < 8.54 < 47.3 < depot["location"][1]
+
+
+def test_customers_without_a_place_are_placed_one_after_another_on_the_large_map(
+        page: Page) -> None:
+    customers = [{"id": name, "demand": [1], "location": {"address": f"{name} street"}}
+                 for name in ("Anna", "Ben")]
+    problem = {"coordinate_system": "geographic", "customers": customers,
+               "depots": [{"id": "hub", "location": [8.53, 47.37]}],
+               "fleet": [{"id": "van", "count": 1, "capacity": [5]}]}
+    page.evaluate("""async (problem) => {
+      const { openRequest } = await import(`${modules}/actions.js`);
+      openRequest(problem);
+    }""", problem)
+    doubted = page.locator("#doubted")
+    expect(doubted).to_contain_text("2 without any")
+    doubted.get_by_role("button", name="Anna").click()
+    for x in (300, 340):
+        page.locator(".map").first.click(position={"x": x, "y": 200})
+    expect(doubted).to_have_count(0)
+    assert state(page, "state.tool") is None
+    places = [state(page, f"state.request.customers.{number}.location") for number in (0, 1)]
+    assert places[0] != places[1]
+    assert all(isinstance(place, list) for place in places)

@@ -62,6 +62,27 @@ export function putAt(id, location) {
   settle(id);
 }
 
+/** Begin to place a customer by a click on the map. */
+export function beginPlacing(key) {
+  select(key);
+  store.set({ tool: 'place' });
+}
+
+/** Put the selected customer at a place; the next one that has none follows, if any. */
+export function placeSelected(location) {
+  const { selection, request } = store.get();
+  const id = selection?.startsWith('c:') ? selection.slice(2) : null;
+  const isUnplaced = unplacedKeys(request).includes(selection);
+  if (id !== null) putAt(id, location);
+  const [next] = isUnplaced ? unplacedKeys(store.get().request) : [];
+  if (next) select(next);
+  else store.set({ tool: null });
+}
+
+function unplacedKeys(request) {
+  return doubtedPlaces(request, {}).map(({ key }) => key);
+}
+
 /** Take the place of a customer for right. */
 export function settle(id) {
   store.set(({ doubts: { [`c:${id}`]: settled, ...doubts } }) => ({ doubts }));

@@ -1,7 +1,7 @@
 /** Drawing on the map: customers, depots, windows and no-fly areas. */
 
 import { edit, select } from '../actions.js';
-import { putAt } from '../addressing.js';
+import { placeSelected } from '../addressing.js';
 import {
   addCustomer,
   addDepot,
@@ -113,9 +113,7 @@ const BEGIN = {
   },
   place(view) {
     view.onGround = (point) => {
-      const { selection, request } = store.get();
-      if (isCustomer(selection)) putAt(idOf(selection), rounded(request, point));
-      store.set({ tool: null });
+      placeSelected(rounded(store.get().request, point));
     };
   },
   pin(view) {

@@ -1,10 +1,11 @@
 /** Addresses: a search for one, and customers whose place is doubtful, to be put right. */
 
-import { addAt, find, leaveOutUnplaced, putAt, putDepotAt, settle } from '../addressing.js';
+import {
+  addAt, beginPlacing, find, leaveOutUnplaced, putAt, putDepotAt, settle,
+} from '../addressing.js';
 import { select, showFailure } from '../actions.js';
 import { candidateInWords, doubtedPlaces } from '../core/places.js';
 import { html, useEffect, useState } from '../libraries.js';
-import { takeTool } from '../map/draw-bar.js';
 import { useStore } from '../store.js';
 import { t } from '../texts.js';
 
@@ -62,7 +63,7 @@ export function DoubtedPlaces({ request }) {
     </summary>
     <div class="inside"><ul>${found.map(
       ({ id, key, address, doubt }) => html`<li key=${id}><button type="button" class="link"
-        onClick=${() => select(key)}>${id}</button> ${doubt ?? t('places.none', { address })}</li>`,
+        onClick=${() => (doubt ? select(key) : beginPlacing(key))}>${id}</button> ${doubt ?? t('places.none', { address })}</li>`,
     )}</ul>
     ${unplaced > 0 && html`<div class="buttons"><button type="button"
       onClick=${leaveOutUnplaced}>${t('places.leaveOut')}</button></div>`}</div></details>`;
@@ -91,7 +92,7 @@ export function PlaceOf({ request, id }) {
     </p><div class="buttons">${places.map(
       (place) => html`<button type="button" key=${place.label}
         onClick=${() => putAt(id, place.location)}>${candidateInWords(place)}</button>`,
-    )}<button type="button" onClick=${() => takeTool('place')}>${t('places.show')}</button>
+    )}<button type="button" onClick=${() => beginPlacing(`c:${id}`)}>${t('places.show')}</button>
     ${doubt && html`<button type="button" onClick=${() => settle(id)}>${t('places.right')}
     </button>`}
     </div></div>`;

@@ -15,11 +15,11 @@ export function Questions({ importing: { reply, mapping } }) {
     <p class="help">${
       open ? t('import.questionsOpen', { count: open }) : t('import.questionsDone')
     }</p>
-    <ol>${questions.map((question) => html`<${Question} key=${question.id} question=${question}
-      reply=${reply} given=${mapping.answers?.[question.id]} />`)}</ol></section>`;
+    <ol>${questions.map((question, at) => html`<${Question} key=${question.id} at=${at}
+      question=${question} reply=${reply} given=${mapping.answers?.[question.id]} />`)}</ol></section>`;
 }
 
-function Question({ question, reply, given }) {
+function Question({ at, question, reply, given }) {
   const { id, kind, default: assumed, is_answered: isAnswered, examples } = question;
   const taken = given ?? question.answer;
   const column =
@@ -27,8 +27,8 @@ function Question({ question, reply, given }) {
   const choose = (chosen) =>
     column ? changeColumn(column, { meaning: chosen, unit: null }) : answer(id, chosen);
   const state = isAnswered ? 'answered' : taken === null ? 'wanted' : 'open';
-  return html`<li class=${state}><div role="group" aria-labelledby=${`question-${id}`}>
-    <p><span id=${`question-${id}`}>${textOf(question)}</span>
+  return html`<li class=${state}><div role="group" aria-labelledby=${`question-${at}`}>
+    <p><span id=${`question-${at}`}>${textOf(question)}</span>
       ${examples?.length > 0 && html` <small>${examples.join(' \u00b7 ')}</small>`}</p>
     <div class="answers">${question.choices.map(({ answer: choice, title }) => html`<button
       type="button" key=${choice} aria-pressed=${taken === choice}

@@ -5,6 +5,7 @@ import { vehicleColour } from '../core/palette.js';
 import { hover, select } from '../actions.js';
 import { html, useEffect, useRef, useState } from '../libraries.js';
 import { useStore } from '../store.js';
+import { t } from '../texts.js';
 
 /** The colour and number of a vehicle or trip, as on the map. */
 export function Badge({ vehicle, label }) {
@@ -68,8 +69,8 @@ export function Dialog({ title, onClose, children, name, wide = false }) {
       aria-labelledby=${`${name}-title`}
       onClose=${onClose} onCancel=${onClose}>
     <header><h2 id=${`${name}-title`}>${title}</h2>
-      <button type="button" class="quiet" aria-label="Close"
-        onClick=${onClose}>Close</button></header>
+      <button type="button" class="quiet" aria-label=${t('app.close')}
+        onClick=${onClose}>${t('app.close')}</button></header>
     ${children}
   </dialog>`;
 }
