@@ -20,6 +20,7 @@ class Kind:
     name: str
     from_zoom: int
     is_area: bool = False
+    names_from: int | None = None  # from which zoom its lines are named; None: never
 
 
 SEA = Kind("sea", LEAST_ZOOM, is_area=True)
@@ -32,12 +33,12 @@ KINDS = (
     Kind("stream", 12),
     Kind("square", 14, is_area=True),
     Kind("building", 14, is_area=True),
-    Kind("path", 14),
-    Kind("service", 13),
-    Kind("street", 12),
-    Kind("main", 9),
-    Kind("primary", 7),
-    Kind("motorway", LEAST_ZOOM),
+    Kind("path", 14, names_from=14),
+    Kind("service", 13, names_from=14),
+    Kind("street", 12, names_from=14),
+    Kind("main", 9, names_from=13),
+    Kind("primary", 7, names_from=12),
+    Kind("motorway", LEAST_ZOOM, names_from=12),
     Kind("tram", 13),
     Kind("rail", 8),
 )
@@ -87,6 +88,11 @@ def kind_of_way(tags: Mapping[str, str]) -> str | None:
         return None
     kind = _first(_WAYS, tags)
     return None if kind in UNDERGROUND and tags.get("tunnel", "no") != "no" else kind
+
+
+def name_of_way(tags: Mapping[str, str]) -> str:
+    """Return what a way is called, as signs there say it; an empty text: nothing."""
+    return tags.get("name", "") or tags.get("ref", "")
 
 
 def kind_of_area(tags: Mapping[str, str]) -> str | None:

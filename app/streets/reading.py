@@ -1,20 +1,27 @@
 """An OpenStreetMap extract -> what of it is drawn."""
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
 
-from app.streets.kinds import KEYS, KINDS, SEA, kind_of_area, kind_of_way
+from app.streets.kinds import KEYS, KINDS, SEA, kind_of_area, kind_of_way, name_of_way
 from app.streets.mercator import on_map
 from app.streets.sea import Box, Shapes, sea_of
 
 COAST = "coastline"
+
+
+class Named(NamedTuple):
+    """Lines with a name, one or more for each name."""
+
+    names: Sequence[str]
+    lines: Shapes
 
 
 class StreetsError(Exception):
@@ -27,6 +34,21 @@ class Drawing:
 
     bounds: Box
     shapes: Mapping[str, Shapes]  # by kind, in the map's own coordinates (see `mercator`)
+    named: Mapping[str, Named]  # by kind, those of them that have a name
+
+
+@dataclass(frozen=True)
+class Found:
+    """What of an extract is drawn, by kind: shapes in degrees as WKB, and what each is called."""
+
+    shapes: dict[str, list[bytes]]
+    names: dict[str, list[str]]
+
+    def add(self, kind: str, shapes: Iterable[bytes], name: str) -> None:
+        """Note shapes. In place."""
+        for shape in shapes:
+            self.shapes[kind].append(shape)
+            self.names[kind].append(name)
 
 
 def read_drawing(extract: Path) -> Drawing:
@@ -46,10 +68,25 @@ def read_drawing(extract: Path) -> Drawing:
         bounds, found = _bounds(osmium, extract), _found(osmium, extract)
     except RuntimeError as error:
         raise StreetsError(f"{extract} can't be read: {error}") from error
-    shapes = {name: shapely.from_wkb(wkb) for name, wkb in found.items()}
+    shapes = {name: shapely.from_wkb(wkb) for name, wkb in found.shapes.items()}
     shapes[SEA.name] = sea_of(shapes.pop(COAST, np.empty(0, object)), bounds)
-    return Drawing(bounds, {kind.name: shapely.transform(shapes[kind.name], on_map)
-                            for kind in KINDS if len(shapes.get(kind.name, ()))})
+    drawn = {kind.name: shapely.transform(shapes[kind.name], on_map)
+             for kind in KINDS if len(shapes.get(kind.name, ()))}
+    return Drawing(bounds, drawn, {
+        kind.name: _joined(drawn[kind.name], found.names[kind.name])
+        for kind in KINDS if kind.names_from is not None and any(found.names.get(kind.name, ()))})
+
+
+def _joined(lines: Shapes, names: Sequence[str]) -> Named:
+    """Return the lines that have a name, joined where the same goes on: ways end at junctions."""
+    ways = defaultdict(list)
+    for line, name in zip(lines, names, strict=True):
+        if name:
+            ways[name].append(line)
+    whole = shapely.line_merge([shapely.MultiLineString(parts) for parts in ways.values()])
+    parts, of = shapely.get_parts(whole, return_index=True)
+    known = list(ways)
+    return Named([known[name] for name in of], parts)
 
 
 def _bounds(osmium: Any, extract: Path) -> Box:
@@ -64,10 +101,10 @@ def _bounds(osmium: Any, extract: Path) -> Box:
     return (box.bottom_left.lon, box.bottom_left.lat, box.top_right.lon, box.top_right.lat)
 
 
-def _found(osmium: Any, extract: Path) -> dict[str, list[bytes]]:
-    """Return the shapes of each kind, and of coastlines, in degrees as WKB."""
+def _found(osmium: Any, extract: Path) -> Found:
+    """Return the shapes of each kind, and of coastlines."""
     wkb = osmium.geom.WKBFactory()
-    found: dict[str, list[bytes]] = defaultdict(list)
+    found = Found(defaultdict(list), defaultdict(list))
     drawn = osmium.osm.WAY | osmium.osm.AREA
     for thing in (osmium.FileProcessor(str(extract)).with_locations().with_areas()
                   .with_filter(osmium.filter.EntityFilter(drawn))
@@ -82,10 +119,10 @@ def _found(osmium: Any, extract: Path) -> dict[str, list[bytes]]:
         if kind is None:
             continue
         try:
-            found[kind].append(bytes.fromhex(shape_of(thing)))
+            found.add(kind, [bytes.fromhex(shape_of(thing))], name_of_way(tags))
         except osmium.InvalidLocationError:
             if not thing.is_area():
-                found[kind] += _within(thing)
+                found.add(kind, _within(thing), name_of_way(tags))
         except RuntimeError:
             continue  # It is a single point.
     return found

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from app.streets.cutting import pieces
+from app.streets.cutting import named_pieces, pieces
 from app.streets.filing import file_name, made, reading
 from app.streets.reading import read_drawing
 from app.streets.sea import Box
 
-VERSION = 1
+VERSION = 2
 """Of what a tile holds."""
 
 SUFFIX = ".streets"
@@ -72,8 +72,17 @@ def _fill(extract: Path, database: sqlite3.Connection) -> None:
     database.execute("INSERT INTO about VALUES (?)", (json.dumps(drawing.bounds),))
     parts: dict[Tile, list[str]] = defaultdict(list)
     for kind, (zoom, x, y, lines) in pieces(drawing.shapes):
-        parts[zoom, x, y].append(f'"{kind.name}":{json.dumps(lines, separators=(",", ":"))}')
+        parts[zoom, x, y].append(f'"{kind.name}":{_compact(lines)}')
+    names: dict[Tile, list[list[object]]] = defaultdict(list)
+    for kind, name, (zoom, x, y, lines) in named_pieces(drawing.named):
+        names[zoom, x, y].append([kind.name, name, *lines])
+    for tile, named in names.items():
+        parts[tile].append(f'"names":{_compact(named)}')
     database.executemany("INSERT INTO tile VALUES (?, ?, ?, ?)", _rows(parts))
+
+
+def _compact(value: object) -> str:
+    return json.dumps(value, separators=(",", ":"), ensure_ascii=False)
 
 
 def _rows(parts: dict[Tile, list[str]]) -> Iterator[tuple[int, int, int, bytes]]:

@@ -40,6 +40,38 @@ LEGS = """async () => {
 }"""
 
 
+WRITTEN = """
+window.written = new Set();
+const write = CanvasRenderingContext2D.prototype.fillText;
+CanvasRenderingContext2D.prototype.fillText = function noted(text, ...place) {
+  if (this.canvas.closest('.leaflet-container')) window.written.add(text);
+  return write.call(this, text, ...place);
+};"""
+"""Notes what is written on the map."""
+
+ACROSS = ([24.9395, 60.1725], [24.9425, 60.1725])
+"""Two places on the two sides of the station's tracks, which roads lead far around."""
+
+HIDDEN = """(lines) => {
+  const place = (element) => element.getBoundingClientRect();
+  const map = document.querySelector('.map');
+  const [[x, y], [otherX, otherY]] = [...map.querySelectorAll('.depot-mark')].map((mark) => [
+    place(mark).left, place(mark).top]);
+  const [[lon, lat], [otherLon, otherLat]] = lines.shift();
+  const merc = (degrees) => Math.asinh(Math.tan((degrees * Math.PI) / 180));
+  const scale = (otherX - x) / (otherLon - lon);
+  const points = lines.flat().map(([east, north]) => [
+    x + scale * (east - lon), y - (scale * 180 * (merc(north) - merc(lat))) / Math.PI]);
+  const box = place(map);
+  const over = [...document.querySelectorAll('.draw-bar > button, .map-tools, .map-legend, '
+    + '.leaflet-control')].map(place).filter(({ width }) => width);
+  return points.filter(([left, top]) => left < box.left || left > box.right || top < box.top
+    || top > box.bottom || over.some((one) => left > one.left && left < one.right
+      && top > one.top && top < one.bottom));
+}"""
+"""Returns which points of legs aren't seen, given the depots' places and the legs."""
+
+
 @pytest.fixture(scope="module")
 def city(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Return the address of a service with the roads and streets of Helsinki's centre."""
@@ -56,16 +88,22 @@ def city(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 def opened(open_page: Callable[..., Page], address: str, **options: Any) -> Page:
     """Return a console that shows a plan for the places."""
     page = open_page(address, allow=("willReadFrequently",), **options)
+    planned_in(page)
+    return page
+
+
+def planned_in(page: Page, others: dict[str, Any] | None = None) -> None:
+    """Plan for the places, or for others."""
     idle(page)
     request = {
         "coordinate_system": "geographic", "depots": [{"id": "hub", "location": HUB}],
         "customers": [{"id": name, "location": place, "demand": [1]}
                       for name, place in PLACES.items()],
         "fleet": [{"id": "truck", "count": 1, "capacity": [9], "costs": {"per_km": 1}}],
-        "options": {"time_limit": 0.5}}
+        "options": {"time_limit": 0.5}} | (others or {})
     open_file(page, "city.json", json.dumps(request))
-    planned(page, "4 of 4 served")
-    return page
+    count = len(request["customers"])
+    planned(page, f"{count} of {count} served")
 
 
 def on_screen(page: Page) -> Callable[[list[float]], tuple[float, float]]:
@@ -89,6 +127,56 @@ def test_map_has_streets_and_thanks_their_makers(
     water = 0xC5DCEC if scheme == "light" else 0x14324A
     page.wait_for_function(f"() => ({COLOURS})().includes({water})")
     assert len(page.evaluate(COLOURS)) > 6
+
+
+@pytest.mark.parametrize("presses", [0, 1, 2])
+def test_streets_stay_from_light_to_dark_and_back_at_any_zoom(
+        open_page: Callable[..., Page], city: str, presses: int) -> None:
+    page = opened(open_page, city)
+    page.wait_for_function(f"() => ({COLOURS})().includes({0xC5DCEC})")
+    for _ in range(presses):
+        page.get_by_role("button", name="Zoom in").first.click()
+        expect(page.locator(".leaflet-zoom-anim")).to_have_count(0)
+    page.wait_for_load_state("networkidle")
+    for water in (0x14324A, 0xC5DCEC):
+        page.keyboard.press("l")
+        page.wait_for_function(f"() => ({COLOURS})().includes({water})")
+        assert (0xC5DCEC if water == 0x14324A else 0x14324A) not in page.evaluate(COLOURS)
+
+
+def test_streets_are_named_once_one_is_near_enough_to_read_it(
+        open_page: Callable[..., Page], city: str) -> None:
+    page = open_page(city, allow=("willReadFrequently",))
+    page.add_init_script(WRITTEN)
+    page.reload()
+    planned_in(page)
+    page.wait_for_function("() => window.written.has('Unioninkatu')")
+    assert "Mannerheimintie" in page.evaluate("[...window.written]")
+    page.evaluate("window.written.clear()")
+    for _ in range(6):
+        page.get_by_role("button", name="Zoom out").first.click()
+        expect(page.locator(".leaflet-zoom-anim")).to_have_count(0)
+    page.evaluate("window.written.clear()")
+    page.keyboard.press("l")
+    page.wait_for_load_state("networkidle")
+    assert page.evaluate("[...window.written]") == []
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
+def test_all_of_a_plan_on_roads_is_seen(
+        open_page: Callable[..., Page], city: str, width: int, height: int) -> None:
+    page = open_page(city, allow=("willReadFrequently",),
+                     viewport={"width": width, "height": height})
+    here, there = ACROSS
+    planned_in(page, {
+        "depots": [{"id": "hub", "location": here}, {"id": "yard", "location": there}],
+        "customers": [{"id": "over the tracks", "location": there, "demand": [1]}]})
+    legs = page.evaluate(LEGS)
+    east = [place[0] for leg in legs for place in leg]
+    assert max(east) - min(east) > 3 * (there[0] - here[0])
+    expect(page.locator(".map-legend")).to_be_attached()
+    page.wait_for_function(f"(lines) => !({HIDDEN})(structuredClone(lines)).length",
+                           arg=[[here, there], *legs])
 
 
 def test_streets_weigh_little(open_page: Callable[..., Page], city: str) -> None:

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 import shapely
 
-from app.streets.cutting import EXTENT, MARGIN, Piece, pieces
+from app.streets.cutting import EXTENT, MARGIN, Piece, named_pieces, pieces
 from app.streets.kinds import KINDS, MOST_ZOOM
+from app.streets.reading import Named
 
 TILE = 1 / (1 << MOST_ZOOM)
 
@@ -71,3 +72,15 @@ def test_tiles_together_hold_all_of_random_lines() -> None:
         for key, piece in tiles("street", *lines).items()
         if key[0] == MOST_ZOOM for line in shapes_of(piece))
     assert length == pytest.approx(sum(line.length for line in lines), rel=1e-3)
+
+
+def test_names_are_in_every_tile_that_their_line_crosses() -> None:
+    line = shapely.LineString([(1000.5 * TILE, 2000.5 * TILE), (1002.5 * TILE, 2000.5 * TILE)])
+    short = shapely.LineString([(1000.5 * TILE, 2000.6 * TILE), (1000.52 * TILE, 2000.6 * TILE)])
+    named = Named(["Long Street", "Nook"], np.array([line, short]))
+    found = [(kind.name, name, piece.zoom, piece.x)
+             for kind, name, piece in named_pieces({"main": named})]
+    assert [each for each in found if each[2] == MOST_ZOOM] == [
+        ("main", "Long Street", MOST_ZOOM, x) for x in (1000, 1001, 1002)]
+    assert {zoom for _, _, zoom, _ in found} == {13, 14}
+    assert list(named_pieces({"rail": named})) == []

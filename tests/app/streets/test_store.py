@@ -5,6 +5,7 @@ import json
 import re
 from pathlib import Path
 from tempfile import mkstemp
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,9 +15,9 @@ from app.streets.filing import folder_beside
 from app.streets.mercator import on_map
 from app.streets.reading import StreetsError, read_drawing
 from app.streets.store import Streets, build_streets
-from tests.app.streets.conftest import HELSINKI
+from tests.app.streets.conftest import HELSINKI, WAYS, osm_xml
 
-Content = dict[str, list[list[int]]]
+Content = dict[str, list[list[Any]]]
 
 
 def tile_at(streets: Streets, lon: float, lat: float, zoom: int) -> Content:
@@ -46,6 +47,20 @@ def test_tile_shows_street_house_and_park(island: Path, tmp_path: Path) -> None:
     assert set(content) == {"sea", "green", "building", "street"}
     assert len(content["green"]) == 2
     assert tile_at(streets, 1, 1, 14) == {}
+
+
+def test_ways_of_one_name_are_joined_to_one_line(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tags = {"highway": "residential", "name": "Main Street"}
+    monkeypatch.setitem(WAYS, 21, ((1, 3), tags))
+    monkeypatch.setitem(WAYS, 28, ((3, 2), tags))
+    extract = tmp_path / "named.osm"
+    extract.write_text(osm_xml())
+    drawing = read_drawing(extract)
+    assert len(drawing.shapes["street"]) == 2
+    assert list(drawing.named["street"].names) == ["Main Street"]
+    content = tile_at(build_streets(extract, [tmp_path / "made"]), 0.002, 0.002, 14)
+    assert [each[:2] for each in content["names"]] == [["street", "Main Street"]]
 
 
 def test_tiles_of_the_same_extract_are_made_once(
@@ -97,4 +112,6 @@ def test_helsinki_has_what_a_city_has(tmp_path: Path) -> None:
     content = tile_at(streets, 24.945, 60.17, 14)
     assert {"sea", "green", "water", "building", "street", "primary", "rail"} <= set(content)
     assert len(content["building"]) > 200
+    names = {name for _, name, *_ in content["names"]}
+    assert {"Aleksanterinkatu", "Mannerheimintie", "Keskuskatu"} <= names
     assert streets.file.stat().st_size < 500_000

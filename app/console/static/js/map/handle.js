@@ -14,8 +14,10 @@ import { stopDrag } from './plan-drag.js';
 
 const L = leaflet();
 const ROOM = 66; // pixels that it needs beside a customer
-const ARROWS =
-  'M8 1v14M1 8h14M5.5 3.5 8 1l2.5 2.5M5.5 12.5 8 15l2.5-2.5M3.5 5.5 1 8l2.5 2.5M12.5 5.5 15 8l-2.5 2.5';
+const ARROWS = [
+  'M8 1v14M1 8h14', 'M5.5 3.5 8 1l2.5 2.5', 'M5.5 12.5 8 15l2.5-2.5', 'M3.5 5.5 1 8l2.5 2.5',
+  'M12.5 5.5 15 8l-2.5 2.5',
+].join('');
 
 /** Show the handle wherever somebody may be moved; returns a function that ends it. */
 export function attachHandle(view) {

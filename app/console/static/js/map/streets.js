@@ -25,14 +25,17 @@ export const StreetsLayer = L.GridLayer.extend({
     L.setOptions(this, { ...options, bounds });
     this.name = name;
     this.dark = false;
-    this.shapes = new Map();
+    this.shapes = new Map(); // what tiles show, and their names, by their place
+    this.names = new Map();
+    this.tiles = new Map(); // `{repaint, zoom, place}` by the canvas of a tile that is there
+    this.on('tileunload', ({ tile }) => this.tiles.delete(tile));
   },
 
-  /** Draw in light or dark. */
+  /** Draw in light or dark; tiles stay, since asking anew for them shows nothing meanwhile. */
   setDark(dark) {
     if (dark === this.dark) return;
     this.dark = dark;
-    this.redraw();
+    this.tiles.forEach(({ repaint }) => repaint());
   },
 
   createTile({ x, y, z }, done) {
@@ -42,25 +45,53 @@ export const StreetsLayer = L.GridLayer.extend({
     canvas.height = canvas.width;
     const deeper = Math.max(z - USUAL_ZOOM - LAST_ZOOM, 0);
     const [column, row] = [x >> deeper, y >> deeper];
-    this._shapes(z - USUAL_ZOOM - deeper, column, row).then(
-      (shapes) => {
-        const context = canvas.getContext('2d');
-        const [left, top] = [x - (column << deeper), y - (row << deeper)];
-        const scale = (canvas.width * 2 ** deeper) / STEPS;
-        context.setTransform(scale, 0, 0, scale, -left * canvas.width, -top * canvas.width);
-        paint(context, shapes, { zoom: z, pixel: sharpness / scale, dark: this.dark });
+    const [left, top] = [x - (column << deeper), y - (row << deeper)];
+    const scale = (canvas.width * 2 ** deeper) / STEPS;
+    const place = `${z - USUAL_ZOOM - deeper}/${column}/${row}`;
+    let shapes = {};
+    const repaint = () => {
+      const context = canvas.getContext('2d');
+      context.resetTransform();
+      context.clearRect(0, 0, canvas.width, canvas.height);
+      context.setTransform(scale, 0, 0, scale, -left * canvas.width, -top * canvas.width);
+      paint(context, shapes, { zoom: z, pixel: sharpness / scale, dark: this.dark });
+    };
+    this.tiles.set(canvas, { repaint, zoom: z, place });
+    this._shapes(place).then(
+      (found) => {
+        shapes = found;
+        repaint();
         done(null, canvas);
+        this.fire('named');
       },
       (error) => done(error, canvas),
     );
     return canvas;
   },
 
+  /** Return the names of what is on the map: `{zoom, column, row, names}` of each tile. */
+  named() {
+    const places = new Set();
+    for (const { zoom, place } of this.tiles.values()) {
+      if (zoom === this._tileZoom) places.add(place);
+    }
+    return [...places].flatMap((place) => {
+      const [zoom, column, row] = place.split('/').map(Number);
+      const names = this.names.get(place) ?? [];
+      return names.length ? [{ zoom, column, row, names }] : [];
+    });
+  },
+
   /** Return what a tile of the extract shows, which is fetched once. */
-  _shapes(zoom, x, y) {
-    const place = `${zoom}/${x}/${y}`;
+  _shapes(place) {
     if (!this.shapes.has(place)) {
-      this.shapes.set(place, getTile(`${this.name}/${place}`).then(shapesOf));
+      const fetched = getTile(`${this.name}/${place}`).then(({ names = [], ...content }) => {
+        this.names.set(place, names);
+        return shapesOf(content);
+      });
+      // Who comes by again asks again.
+      fetched.catch(() => this.shapes.delete(place));
+      this.shapes.set(place, fetched);
     }
     return this.shapes.get(place);
   },

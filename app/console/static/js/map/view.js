@@ -1,7 +1,6 @@
 /** One map: a problem, a plan on it, and where everything is at an instant. */
 
 import { contains, keysWithin, partsOf } from '../core/plan.js';
-import { boundsOf } from '../core/geometry.js';
 import { vehicleColour } from '../core/palette.js';
 import { placeOf } from '../core/places.js';
 import { standsOf } from '../core/stands.js';
@@ -20,7 +19,10 @@ import {
   stopNumbers,
   tripLabels,
 } from './layers.js';
+import { fitWhole, isSeen } from './fitting.js';
+import { pointsOn } from './kept-clear.js';
 import { ScaleBar } from './scale.js';
+import { StreetNames } from './street-names.js';
 import { StreetsLayer } from './streets.js';
 
 const L = leaflet();
@@ -51,7 +53,7 @@ export class MapView {
     });
     L.control.zoom({ position: 'topright' }).addTo(this.map);
     this.map.setView([0, 0], 2);
-    this.grounds = geographic ? groundsOf(config) : [];
+    this.grounds = geographic ? groundsOf(config, () => pointsOn(this)) : [];
     if (this.grounds.length) L.control.attribution({ prefix: false }).addTo(this.map);
     this.grounds.forEach((ground) => ground.addTo(this.map));
     element.classList.toggle('with-streets', this.grounds.length > 0);
@@ -67,7 +69,14 @@ export class MapView {
     this.trucks = new Map();
     this.tooltip = L.tooltip({ direction: 'top', offset: [0, -6], opacity: 1 });
     this.#listen(onHover, onSelect);
-    this.resizes = new ResizeObserver(() => this.map.invalidateSize({ animate: false }));
+    this.isMoved = true; // from where everything is seen
+    this.map.on('movestart', () => {
+      this.isMoved ||= !this.isFitting;
+    });
+    this.resizes = new ResizeObserver(() => {
+      if (this.isMoved) this.map.invalidateSize({ animate: false });
+      else this.fit();
+    });
     this.resizes.observe(element);
   }
 
@@ -115,6 +124,7 @@ export class MapView {
 
   /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
   draw(request, index, parts, dark, doubts = {}) {
+    const isNew = index !== this.index;
     Object.assign(this, { request, index, dark });
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
@@ -130,6 +140,7 @@ export class MapView {
     if (index) tripLabels(index, dark).forEach((mark) => this.labels.addLayer(mark));
     this.marked = '';
     this.map.fire('drawn');
+    if (isNew && !this.isMoved && !isSeen(this.map, this.#extentOf(request))) this.fit();
   }
 
   #add(entry) {
@@ -149,24 +160,22 @@ export class MapView {
     return leg;
   }
 
-  /** Show everything of a problem. */
+  /** Show everything of a problem, and of its plan once that is drawn. */
   fit(request = this.request) {
-    const places = [
-      ...request.depots,
-      ...standsOf(request),
-      ...request.customers,
-    ].map(placeOf).filter(Boolean);
-    const bounds = boundsOf([...places, ...(request.airspace?.no_fly ?? []).flat()]);
-    if (!bounds) return;
-    const [west, south, east, north] = bounds;
+    this.isFitting = true;
     this.map.invalidateSize({ animate: false });
-    this.map.fitBounds(
-      [
-        [south, west],
-        [north, east],
-      ],
-      { padding: [36, 36], animate: false },
-    );
+    fitWhole(this.map, this.#extentOf(request));
+    this.isFitting = false;
+    this.isMoved = false;
+  }
+
+  /** Return the places and ways of a problem and, if it is drawn, its plan. */
+  #extentOf(request) {
+    const places = [...request.depots, ...standsOf(request), ...request.customers]
+      .map(placeOf)
+      .filter(Boolean);
+    const ways = request === this.request ? this.entries.flatMap(waysOf) : [];
+    return [...places.map((place) => [place]), ...(request.airspace?.no_fly ?? []), ...ways];
   }
 
   /** Mark what is selected and what the pointer is on; the rest steps back, unless it is much. */
@@ -289,6 +298,13 @@ export class MapView {
   }
 }
 
+/** Return the lines of a way as lists of places. */
+function waysOf({ layer }) {
+  const lines = layer.getLatLngs?.() ?? [];
+  const parts = Array.isArray(lines[0]) ? lines : [lines];
+  return parts.map((line) => line.map(({ lng, lat }) => [lng, lat]));
+}
+
 function restyle({ key, layer, base }, { isFocus, isDim, isBold }) {
   const style = { ...base };
   if (isDim) Object.assign(style, { opacity: base.opacity * DIM, fillOpacity: DIM });
@@ -301,13 +317,16 @@ function restyle({ key, layer, base }, { isFocus, isDim, isBold }) {
 }
 
 /** Return the layers under the plan: tiles of a server, or streets of the service's extracts. */
-function groundsOf(config) {
+function groundsOf(config, keptClear) {
   if (config.tile_url) {
     const attribution = asText(config.tile_attribution);
     return [L.tileLayer(config.tile_url, { attribution, maxZoom: 20 })];
   }
   const attribution = asText(config.streets_attribution);
-  return config.streets.map((extract) => new StreetsLayer(extract, { attribution }));
+  return config.streets.flatMap((extract) => {
+    const streets = new StreetsLayer(extract, { attribution });
+    return [streets, new StreetNames(streets, keptClear)];
+  });
 }
 
 function asText(text) {

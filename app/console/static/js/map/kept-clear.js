@@ -1,0 +1,38 @@
+/** Where the plan is on the map: what names of streets keep clear of. */
+
+const STEP = 8; // pixels from point to point of a line
+const AROUND = [-12, 0, 12]; // pixels around a label
+
+/** Return points of the map where a view draws lines, marks and labels. */
+export function pointsOn({ map, entries, labels }) {
+  const points = [];
+  for (const { layer, base } of entries) {
+    if (layer.getLatLng) points.push(pointAt(map, layer));
+    else if (base.opacity) addLine(layer, points);
+  }
+  labels.eachLayer((label) => {
+    const [x, y] = pointAt(map, label);
+    points.push(...AROUND.map((aside) => [x + aside, y]));
+  });
+  return points;
+}
+
+function pointAt(map, layer) {
+  const { x, y } = map.latLngToLayerPoint(layer.getLatLng());
+  return [x, y];
+}
+
+/** Add points along what of a line is near the part of the map that is seen. In place. */
+function addLine(layer, points) {
+  // Clipped already as the line is drawn; nothing else tells its points in pixels.
+  for (const part of layer._parts ?? []) {
+    for (let index = 1; index < part.length; index += 1) {
+      const [from, to] = [part[index - 1], part[index]];
+      const steps = Math.ceil(from.distanceTo(to) / STEP);
+      for (let step = 0; step < steps; step += 1) {
+        const share = step / steps;
+        points.push([from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share]);
+      }
+    }
+  }
+}
