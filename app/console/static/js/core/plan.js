@@ -9,6 +9,7 @@
 import { decodeLine } from './polyline.js';
 import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
+import { labelOfVehicle } from './vehicle-labels.js';
 import { windowAt } from './windows.js';
 
 /** How exactly lines state places, which they round. */
@@ -67,7 +68,7 @@ function indexRoute(index, route, position, number) {
     key: `v:${position}`,
     index: position,
     number,
-    label: String(number + 1),
+    label: labelOfVehicle(index.request.fleet, route.vehicle, route.type),
     name: route.vehicle,
     type,
     route,
