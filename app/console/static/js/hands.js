@@ -6,6 +6,7 @@ import { addCustomer } from './core/changes.js';
 import { numbersIn } from './core/entries.js';
 import { judgedPlan, withCustomerAt, withRoute } from './core/moving.js';
 import { unlike } from './core/naming.js';
+import { penaltyOf, trueCost } from './core/terms.js';
 import { stop } from './planning.js';
 import { store } from './store.js';
 
@@ -81,8 +82,9 @@ function applied(state, entry, { request, added, words, verdict, plan }) {
     hand: {
       from: hand?.from ?? entry.number,
       fromName: hand?.fromName ?? entry.name,
-      before: hand?.before ?? entry.plan.cost.total,
-      change: plan.cost.total - entry.plan.cost.total,
+      before: hand?.before ?? trueCost(entry),
+      change: trueCost({ request, plan }) - trueCost(entry),
+      penalty: penaltyOf({ request, plan }) - penaltyOf(entry),
       violations: verdict.violations,
       words,
     },

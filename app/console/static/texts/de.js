@@ -204,6 +204,7 @@ export default {
       start: 'Begann mit',
       first: 'Erste Kosten',
       cost: 'Kosten',
+      penalty: 'Strafe',
       iterations: 'Durchgänge',
       took: 'Dauer der Suche',
       repeatable: 'Wiederholbar',
@@ -248,6 +249,14 @@ export default {
   },
   header: {
     language: 'Sprache',
+    cost: 'Kosten {{sum}}',
+    penalty: '+ {{sum}} Strafe',
+    penaltyHelp:
+      'Kein Teil der Kosten: Niemand zahlt sie. Sie lässt den Planer einplanen, wen er kann; ' +
+      'was Auslassen wirklich kostet, steht unter Flotte.',
+    planAgain: 'Geändert: neu planen.',
+    planOn: 'Geändert: weiterplanen.',
+    examples: 'Beispiele',
   },
   format: {
     to: 'bis',
@@ -392,6 +401,7 @@ export default {
     mayBe: '{{order}} darf {{windows}} bedient werden',
   },
   hand: {
+    penalty: 'Strafe {{sum}}',
     leftOut: '{{id}} nicht eingeplant',
     to: '{{id}} zu {{vehicle}}',
     after: '{{id}} zu {{vehicle}}, nach {{after}}',
@@ -740,7 +750,11 @@ export default {
     copy: 'Kopieren',
     copied: 'Kopiert.',
   },
+  curve: {
+    penaltyWithin: 'Strafen für nicht Eingeplante sind enthalten.',
+  },
   scenario: {
+    penaltyWithin: 'Wo jemand ausgelassen ist, ist die Strafe dafür enthalten.',
     seconds: 'Suchzeit je Szenario in Sekunden',
     asItIs: 'wie sie ist',
     withoutDrones: 'ohne Drohnen',

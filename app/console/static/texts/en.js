@@ -191,6 +191,7 @@ export default {
       start: 'Began with',
       first: 'First cost',
       cost: 'Cost',
+      penalty: 'Penalty',
       iterations: 'Iterations',
       took: 'Search took',
       repeatable: 'Repeatable',
@@ -235,6 +236,14 @@ export default {
   },
   header: {
     language: 'Language',
+    cost: 'Cost {{sum}}',
+    penalty: '+ {{sum}} penalty',
+    penaltyHelp:
+      'Not part of the cost: nobody pays it. It makes the planner serve whom it can; what ' +
+      'leaving out truly costs is stated under Fleet.',
+    planAgain: 'Changed: plan again.',
+    planOn: 'Changed: plan on.',
+    examples: 'Examples',
   },
   format: {
     to: 'to',
@@ -378,6 +387,7 @@ export default {
     mayBe: '{{order}} may be served {{windows}}',
   },
   hand: {
+    penalty: 'penalty {{sum}}',
     leftOut: '{{id}} left out',
     to: '{{id}} to {{vehicle}}',
     after: '{{id}} to {{vehicle}}, after {{after}}',
@@ -723,7 +733,11 @@ export default {
     copy: 'Copy',
     copied: 'Copied.',
   },
+  curve: {
+    penaltyWithin: 'Penalties for who is left out are within.',
+  },
   scenario: {
+    penaltyWithin: 'Where somebody is left out, the penalty for that is within.',
     seconds: 'Seconds of search for each scenario',
     asItIs: 'as it is',
     withoutDrones: 'without drones',

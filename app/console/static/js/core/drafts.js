@@ -3,6 +3,8 @@
  * together, and parts: requests and plans, which never change once made, so each is written once.
  */
 
+import { trueCost } from './terms.js';
+
 /** Most undos that are kept. */
 const MOST_PAST = 20;
 
@@ -99,9 +101,13 @@ export function pack(state, identify) {
     },
     isTrivial: !state.home && !isUnsaved(state),
     customers: state.request?.customers?.length ?? 0,
-    cost: state.plans.find(({ number }) => number === state.shown)?.plan.cost.total ?? null,
+    cost: costOf(state.plans.find(({ number }) => number === state.shown)),
   };
   return { head: { ...head, bases }, parts };
+}
+
+function costOf(entry) {
+  return entry ? trueCost(entry) : null;
 }
 
 /**

@@ -5,9 +5,11 @@ import { clock, count, money } from './format.js';
 import { tripDash, vehicleColour } from './palette.js';
 import { spanOf } from './plan.js';
 import { standsOf } from './stands.js';
+import { penaltyOf, trueCost } from './terms.js';
 import { rowWindows, tickStep, timelineRows } from './timeline.js';
 import { escaped } from './exports.js';
 import { placeOf } from './places.js';
+import { t } from '../texts.js';
 
 const WIDTH = 1200;
 const MAP_HEIGHT = 760;
@@ -29,9 +31,13 @@ export function pictureOf(index, legsOf) {
   return { width: WIDTH, height: MAP_HEIGHT + MARGIN + (rows.length + 2) * ROW + 10, shapes };
 }
 
-function titleShapes({ plan: { cost, summary } }) {
+function titleShapes({ request, plan }) {
+  const { summary } = plan;
+  const penalty = penaltyOf({ request, plan });
+  const apart = penalty ? ` (${t('header.penalty', { sum: money(penalty) })})` : '';
   const text =
-    `Cost ${money(cost.total)}, ${summary.served} of ${summary.customers} served, ` +
+    `Cost ${money(trueCost({ request, plan }))}${apart}, ` +
+    `${summary.served} of ${summary.customers} served, ` +
     `${count(summary.vehicles, 'vehicle')}, ${count(summary.trips, 'trip')}, ` +
     `${count(summary.sorties, 'flight')}`;
   return [{ kind: 'text', at: [MARGIN, 26], text, size: 15, colour: INK }];

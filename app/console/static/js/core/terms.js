@@ -19,16 +19,29 @@ function nameOf(term) {
   return t(`term.${term}`, { defaultValue: labelOf(term) });
 }
 
+/** Tell whether a problem states what leaving anybody out costs. */
+export function statesPenalty({ unassigned_cost: price }) {
+  return price !== null && price !== undefined;
+}
+
 /** Return what of a plan's cost is a penalty for customers left out that nobody stated. */
 export function penaltyOf({ request, plan }) {
-  if (request.unassigned_cost !== null && request.unassigned_cost !== undefined) return 0;
+  if (!plan.cost.unassigned || statesPenalty(request)) return 0;
   const prices = new Map(request.customers.map(({ id, unassigned_cost: price }) => [id, price]));
   const stated = plan.unassigned.reduce((sum, { id }) => sum + (prices.get(id) ?? 0), 0);
-  const penalty = (plan.cost.unassigned ?? 0) - stated;
+  const penalty = plan.cost.unassigned - stated;
   return penalty < LEAST ? 0 : penalty;
 }
 
 /** Return what a plan costs, without penalties that nobody stated. */
 export function trueCost(entry) {
   return entry.plan.cost.total - penaltyOf(entry);
+}
+
+/** Return a plan's cost by term, as `CostReply`, without penalties that nobody stated. */
+export function trueTerms(entry) {
+  const { cost } = entry.plan;
+  const penalty = penaltyOf(entry);
+  const unassigned = penalty ? Math.max(cost.unassigned - penalty, 0) : cost.unassigned;
+  return { ...cost, unassigned, total: trueCost(entry) };
 }

@@ -1,6 +1,7 @@
 /** Plans kept by name in this browser, with the same functions as those on the service. */
 
 import { ApiError } from '../api.js';
+import { trueCost } from '../core/terms.js';
 import { newId, readAll, transact, whenRead } from './database.js';
 import { t } from '../texts.js';
 
@@ -23,7 +24,7 @@ export async function read(id) {
 /** Keep a plan in place of a version of it; null: there is none yet; `*`: whichever. */
 export function write(id, { name, note, request, plan }, version) {
   const summary = { id, name, note, customers: request.customers.length,
-    cost: plan?.cost.total ?? null };
+    cost: plan ? trueCost({ request, plan }) : null };
   return change(id, version, summary, (records) =>
     records.put({ request, plan }, ['content', id]));
 }

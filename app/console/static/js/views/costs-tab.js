@@ -3,7 +3,7 @@
 import { besidePlan, shownPlan } from '../actions.js';
 import { duration, km, money, number, percent } from '../core/format.js';
 import { legsInWords } from '../core/legs.js';
-import { costTerms } from '../core/terms.js';
+import { costTerms, penaltyOf, trueTerms } from '../core/terms.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { DronesWorth } from './drones-worth.js';
@@ -16,19 +16,23 @@ export function CostsTab() {
   const former = useStore(besidePlan);
   if (!entry) return html`<p class="empty">${t('timeline.nothing')}</p>`;
   const { plan } = entry;
+  const cost = trueTerms(entry);
+  const penalty = penaltyOf(entry);
   return html`<section class="section"><h3>${t('costs.byTerm')}</h3>
       <table><thead><tr><th scope="col">${t('costs.term')}</th>
         <th scope="col" class="number">${t('costs.cost')}</th>
         <th scope="col">${t('costs.share')}</th></tr></thead>
-      <tbody>${costTerms(plan.cost).map(
+      <tbody>${costTerms(cost).map(
         ([term, name]) => html`<tr key=${term}><th scope="row">${name}</th>
-        <td class="number">${money(plan.cost[term])}</td>
-        <td><${ShareBar} share=${shareOf(plan.cost, term)} text=${percent(shareOf(plan.cost, term))}
+        <td class="number">${money(cost[term])}</td>
+        <td><${ShareBar} share=${shareOf(cost, term)} text=${percent(shareOf(cost, term))}
           label=${name} /></td></tr>`,
       )}
         <tr><th scope="row"><strong>${t('costs.total')}</strong></th>
-          <td class="number"><strong>${money(plan.cost.total)}</strong></td><td></td></tr></tbody>
-            </table>
+          <td class="number"><strong>${money(cost.total)}</strong></td><td></td></tr>
+        ${penalty > 0 && html`<tr id="penalty"><th scope="row">${t('whatIf.penalty')}</th>
+          <td class="number">${money(penalty)}</td><td></td></tr>`}</tbody></table>
+      ${penalty > 0 && html`<p class="help">${t('whatIf.penaltyHelp')}</p>`}
       ${former && html`<p class="help">${t('costs.beside', { name: former.name })}</p>`}
     </section>
     <section class="section"><h3>${t('costs.byVehicle')}</h3>

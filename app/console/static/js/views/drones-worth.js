@@ -2,6 +2,7 @@
 
 import { indexOf, shownPlan } from '../actions.js';
 import { money } from '../core/format.js';
+import { trueCost } from '../core/terms.js';
 import { countWorth, drones, savesNothing } from '../core/why.js';
 import { askDrones, toldOf } from '../explaining.js';
 import { html } from '../libraries.js';
@@ -26,7 +27,7 @@ export function DronesWorth() {
 function Told({ told, entry }) {
   const { useless, needed, untried } = countWorth(told.sorties);
   const total = told.sorties.length;
-  return html`${drones(told, entry.plan.cost.total).map(
+  return html`${drones(told, trueCost(entry)).map(
       (sentence) => html`<p key=${sentence}>${sentence}</p>`,
     )}
     <p>${useless ? t('worth.useless', { count: useless, total }) : t('worth.none')}

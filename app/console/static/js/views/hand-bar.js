@@ -3,10 +3,12 @@
 import { hover, shownPlan } from '../actions.js';
 import { count, money, signed } from '../core/format.js';
 import { placeInWords, rulesInWords } from '../core/hands-words.js';
+import { trueCost } from '../core/terms.js';
 import { redoStep, stepBack, stepForth, takeFit, undoStep } from '../hands.js';
 import { html } from '../libraries.js';
 import { improvePlan } from '../planning.js';
 import { store, useStore } from '../store.js';
+import { t } from '../texts.js';
 
 const MOST_RULES = 6;
 
@@ -25,15 +27,16 @@ export function HandBar() {
 }
 
 function Outcome({ entry }) {
-  const { words, change, before, fromName, violations } = entry.hand;
+  const { words, change, penalty, before, fromName, violations } = entry.hand;
   const rules = rulesInWords(violations, entry.plan.routes);
   const busy = useStore((state) => state.run.state !== 'idle');
   const isBack = useStore((state) => Boolean(stepBack(state)));
   const isForth = useStore((state) => Boolean(stepForth(state)));
-  const whole = entry.plan.cost.total - before;
+  const whole = trueCost(entry) - before;
   return html`<p id="hand-outcome">${words}: <strong class=${classOf(change)}>${signed(change)}
       </strong>${Math.abs(whole - change) > 0.005 && html`, in all <strong class=${classOf(whole)}
-      >${signed(whole)}</strong> beside ${fromName}`}</p>
+      >${signed(whole)}</strong> beside ${fromName}`}${Math.abs(penalty) > 0.005
+        && html`; ${t('hand.penalty', { sum: signed(penalty) })}`}</p>
     ${rules.length > 0 && html`<p class="late-text">Breaks ${count(rules.length, 'rule')}:</p>
       <ul>${rules.slice(0, MOST_RULES).map((rule) => html`<li key=${rule}>${rule}</li>`)}
       ${rules.length > MOST_RULES && html`<li>and ${rules.length - MOST_RULES} more</li>`}</ul>`}

@@ -2,11 +2,12 @@
 
 import { isWaiting, openRequest, shownPlan } from '../actions.js';
 import { count, duration, money } from '../core/format.js';
+import { penaltyOf, trueCost } from '../core/terms.js';
 import { html, useRef } from '../libraries.js';
 import { plan, stop } from '../planning.js';
 import { store, useStore } from '../store.js';
-import { t } from '../texts.js';
 import { openPlans } from '../keeping/kept.js';
+import { parts, t } from '../texts.js';
 import { openFile } from './files.js';
 import { LanguageChoice } from './language-choice.js';
 import { ProblemName } from './problem-name.js';
@@ -19,19 +20,24 @@ export function Header() {
   const ready = useStore((state) => state.request !== null);
   const goesOn = useStore((state) => Boolean(state.request?.replan));
   return html`<header class="head">
-    <h1><img src=${ICON} alt="" />Tandem</h1>
+    <h1><img src=${ICON} alt="" /><span class="word">Tandem</span></h1>
     ${ready && html`<${ProblemName} /><${Opener} />`}
     <button type="button" class="primary" disabled=${!ready} onClick=${plan}
       id="plan-button">${goesOn ? 'Plan on' : 'Plan'}</button>
     <button type="button" class="stop" disabled=${!busy} onClick=${stop}>Stop</button>
     <${Result} />
-    <span class="gap"></span>
-    <button type="button" class="quiet"
-      onClick=${() => store.set({ dialog: { name: 'keys' } })}>Keys</button>
-    <button type="button" class="quiet" onClick=${switchTheme}><${ThemeName} /></button>
+    <button type="button" class="quiet" onClick=${() => store.set({ dialog: { name: 'keys' } })}
+      ><${Sign} sign="\u2328" /><span class="word">Keys</span></button>
+    <button type="button" class="quiet" onClick=${switchTheme}
+      ><${Sign} sign="\u25d0" /><span class="word"><${ThemeName} /></span></button>
     <${LanguageChoice} />
     <a href="docs">API</a>
   </header>`;
+}
+
+/** What stands for a word where there is little room; it is read out all the same. */
+function Sign({ sign }) {
+  return html`<span class="sign" aria-hidden="true">${sign}</span>`;
 }
 
 function ThemeName() {
@@ -56,7 +62,7 @@ function Opener() {
   };
   return html`<div class="problem">
     <select aria-label="Open an example" onChange=${choose} value="">
-      <option value="" disabled hidden>Open an example</option>
+      <option value="" disabled hidden>${t('header.examples')}</option>
       ${examples.map(({ name, summary }) => html`<option key=${name}
         value=${name}>${name}: ${summary}</option>`)}
     </select>
@@ -82,7 +88,7 @@ function Result() {
   const goesOn = useStore((state) => Boolean(state.request?.replan));
   const waits = useStore(isWaiting) && run.state !== 'stopping';
   return html`<div class="result-line" aria-live="polite">
-    ${entry && html`<${Totals} plan=${entry.plan} />`}
+    ${entry && html`<${Totals} entry=${entry} />`}
     ${run.state !== 'idle' && html`<span>${
       run.waiting ?? STATES[waits ? 'decoding' : run.state]}</span>`}
     ${
@@ -105,18 +111,23 @@ function Result() {
       entry &&
       stale &&
       run.state === 'idle' &&
-      html`<span class="stale">The problem has changed since: plan ${
-        goesOn ? 'on' : 'again'}.</span>`
+      html`<span class="stale">${t(`header.${goesOn ? 'planOn' : 'planAgain'}`)}</span>`
     }
   </div>`;
 }
 
-function Totals({ plan: { cost, summary } }) {
+function Totals({ entry }) {
+  const { summary } = entry.plan;
   const out = summary.customers - summary.served;
-  return html`<span>Cost <strong id="total-cost">${money(cost.total)}</strong></span>
-    <span>${summary.served} of ${summary.customers} served</span>
+  const penalty = penaltyOf(entry);
+  return html`<span>${parts('header.cost', {
+      sum: html`<strong id="total-cost">${money(trueCost(entry))}</strong>`,
+    })}</span>
+    ${penalty > 0 && html`<span id="total-penalty" title=${t('header.penaltyHelp')}>${
+      t('header.penalty', { sum: money(penalty) })}</span>`}
+    <span class="served">${summary.served} of ${summary.customers} served</span>
     ${out > 0 && html`<span class="out">${out} unassigned</span>`}
-    <span>${count(summary.vehicles, 'vehicle')}</span>
-    <span>${count(summary.trips, 'trip')}</span>
-    <span>${count(summary.sorties, 'flight')}</span>`;
+    <span class="least">${count(summary.vehicles, 'vehicle')}</span>
+    <span class="least">${count(summary.trips, 'trip')}</span>
+    <span class="least">${count(summary.sorties, 'flight')}</span>`;
 }

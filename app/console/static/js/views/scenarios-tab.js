@@ -9,7 +9,7 @@ import {
 import { fittingSeconds } from '../core/limits.js';
 import { heatColour } from '../core/palette.js';
 import { fromNothing } from '../core/replanning.js';
-import { costTerms } from '../core/terms.js';
+import { costTerms, penaltyOf, statesPenalty, trueTerms } from '../core/terms.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { showScenarioJob, showScenarioPlan, startScenario, stopScenario } from '../scenarios.js';
 import { store, useStore } from '../store.js';
@@ -168,8 +168,15 @@ function Running({ scenario }) {
     ${scenario.error && html`<p class="error">${scenario.error}</p>`}</section>`;
 }
 
+/** Return what came of a fleet with its costs without the penalty, which stands apart. */
+function withTrueCost({ base, fleets }, [fleet, found]) {
+  if (!found.cost || !found.plan) return [fleet, { ...found, penalty: 0 }];
+  const entry = { request: { ...base, fleet: fleets[fleet] }, plan: found.plan };
+  return [fleet, { ...found, cost: trueTerms(entry), penalty: penaltyOf(entry) }];
+}
+
 function CompareResult({ scenario: { body, result } }) {
-  const entries = Object.entries(result.fleets);
+  const entries = Object.entries(result.fleets).map((entry) => withTrueCost(body, entry));
   const least = Math.min(...entries.flatMap(([, { cost }]) => (cost ? [cost.total] : [])));
   const line = (name, read) => html`<tr key=${name}><th scope="row">${name}</th>
     ${entries.map(([fleet, found]) => html`<td key=${fleet}
@@ -193,6 +200,8 @@ function CompareResult({ scenario: { body, result } }) {
       ${costTerms(...entries.flatMap(([, { cost }]) => (cost ? [cost] : []))).map(([term, name]) =>
         line(name, ({ cost }) => money(cost[term] ?? 0)),
       )}
+      ${entries.some(([, { penalty }]) => penalty > 0)
+        && line(t('whatIf.penalty'), ({ penalty }) => money(penalty))}
       ${line(t('scenario.loadMean'), ({ load_rate: rate }) => percent(rate?.mean))}
       ${line(t('scenario.loadLeast'), ({ load_rate: rate }) => percent(rate?.min))}
       ${line(t('scenario.workMean'), ({ working_rate: rate }) => percent(rate?.mean))}
@@ -245,7 +254,8 @@ function SweepResult({ scenario: { body, result } }) {
         body=${body} axes=${result.axes} />`,
       )}</tr>`,
     )}</tbody></table>
-    <p class="help">${t('scenario.legend')}</p></section>`;
+    <p class="help">${t('scenario.legend')}${result.cells.some((cell) => cell?.unassigned > 0)
+      && !statesPenalty(body.base) && ` ${t('scenario.penaltyWithin')}`}</p></section>`;
 }
 
 function HeatCell({ cell, table, body, axes }) {

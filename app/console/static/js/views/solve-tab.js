@@ -4,10 +4,11 @@ import { edit, shownPlan } from '../actions.js';
 import { duration, money, number } from '../core/format.js';
 import { fittingSeconds } from '../core/limits.js';
 import { labelOf } from '../core/schema.js';
+import { penaltyOf, trueCost } from '../core/terms.js';
 import { html, uPlot, useEffect, useRef } from '../libraries.js';
 import { useStore } from '../store.js';
-import { Fields } from './form.js';
 import { t } from '../texts.js';
+import { Fields } from './form.js';
 import { Facts } from './parts.js';
 
 /** If the first cost is so many times the last, as where customers were left out, it is cut off. */
@@ -62,6 +63,10 @@ function Curve() {
   const element = useRef(null);
   const chart = useRef(null);
   const last = points[points.length - 1];
+  const hasPenalty = useStore((state) => {
+    const entry = shownPlan(state);
+    return Boolean(entry) && penaltyOf(entry) > 0;
+  });
   useEffect(() => {
     const style = getComputedStyle(document.documentElement);
     const colour = (name) => style.getPropertyValue(`--${name}`).trim();
@@ -116,7 +121,7 @@ function Curve() {
   return html`<section class="section"><h3>${t('solve.curve')}</h3>
     <p>${
       last ? fallen(points[0], last) : t('solve.noCurve')
-    }</p>
+    }${hasPenalty && ` ${t('curve.penaltyWithin')}`}</p>
     <div class="curve" ref=${element} role="img" aria-label=${t('solve.curveLabel')}></div>
   </section>`;
 }
@@ -141,11 +146,13 @@ function Solver() {
   const iterations = useStore((state) => state.run.iterations);
   if (!entry) return null;
   const { solver } = entry.plan;
+  const penalty = penaltyOf(entry);
   const facts = {
     policy: `${solver.policy}, ${solver.decoding}`,
     start: t(`solve.starts.${solver.start}`),
     first: money(solver.decoded_cost),
-    cost: money(solver.final_cost),
+    cost: money(trueCost(entry)),
+    ...(penalty && { penalty: money(penalty) }),
     iterations: number(Math.max(solver.search_iterations, iterations ?? 0), 0),
     took: duration(solver.elapsed.search),
     repeatable: solver.deterministic ? t('solve.isRepeatable') : t('solve.isNot'),

@@ -1,0 +1,134 @@
+"""What a plan costs is the same everywhere, penalties stand apart, badges are vehicles' numbers."""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.console.steps import idle, open_example, open_file, open_tab, planned, state
+from tests.console.test_everyone import findings
+from tests.console.test_hands import PROBLEM, reply_of, told
+
+LEFT_OUT: dict[str, Any] = PROBLEM | {
+    "customers": [*PROBLEM["customers"], {"id": "G", "location": [5, 5], "demand": [99]}]}
+
+
+def number(text: str | None) -> float:
+    """Return the first amount in a text."""
+    assert text is not None
+    return float(next(part for part in text.replace("+", " ").split() if part[0].isdigit()))
+
+
+def costs_in(page: Page) -> list[float]:
+    """Return what the open plan costs: in the header, Costs, What if, Search and its draft."""
+    found = [number(page.locator("#total-cost").text_content())]
+    open_tab(page, "costs")
+    total = page.get_by_role("row", name="Total").get_by_role("cell").first
+    found.append(number(total.text_content()))
+    open_tab(page, "changes")
+    row = page.locator("tr", has=page.locator("input[name=shown]:checked"))
+    found.append(number(row.locator("td.number").first.text_content()))
+    open_tab(page, "solve")
+    fact = page.locator(".facts div").filter(has=page.get_by_text("Cost", exact=True))
+    found.append(number(fact.locator("dd").text_content()))
+    return found
+
+
+def test_cost_is_the_same_everywhere_and_the_penalty_apart(page: Page) -> None:
+    idle(page)
+    open_file(page, "left-out.json", json.dumps(LEFT_OUT))
+    planned(page, "6 of 7 served")
+    cost = state(page, "state.plans.0.plan.cost")
+    assert cost["unassigned"] > 0
+    costs = costs_in(page)
+    assert costs == [pytest.approx(cost["total"] - cost["unassigned"], abs=0.01)] * 4
+    expect(page.locator("#total-penalty")).to_contain_text("penalty")
+    assert number(page.locator("#total-penalty").text_content()) == pytest.approx(
+        cost["unassigned"], abs=0.01)
+    open_tab(page, "costs")
+    expect(page.locator("#penalty")).to_be_visible()
+    assert findings(page, ".panel") == []
+
+
+def test_what_leaving_out_costs_is_part_of_the_cost_where_it_is_stated(page: Page) -> None:
+    idle(page)
+    open_file(page, "priced.json", json.dumps(LEFT_OUT | {"unassigned_cost": 7}))
+    expect(page.locator(".result-line")).to_contain_text("of 7 served")
+    idle(page)
+    total = state(page, "state.plans.0.plan.cost.total")
+    assert costs_in(page) == [pytest.approx(total, abs=0.01)] * 4
+    expect(page.locator("#total-penalty")).to_have_count(0)
+
+
+def test_leaving_somebody_out_by_hand_tells_cost_and_penalty(page: Page, service: str) -> None:
+    idle(page)
+    reply = reply_of(service, "ABC", "DEF")
+    page.route("**/plan", lambda route: route.fulfill(json=reply), times=1)
+    open_file(page, "six.json", json.dumps(PROBLEM))
+    planned(page, "6 of 6 served")
+    open_tab(page, "routes")
+    page.get_by_role("button", name="A", exact=True).click()
+    page.get_by_role("button", name="Leave out").click()
+    told(page, "penalty +")
+    change = page.locator("#hand-outcome strong").first.text_content()
+    assert change is not None
+    assert change[0] in "\u2212-"
+
+
+def test_badges_are_the_numbers_of_the_vehicles(page: Page, service: str) -> None:
+    idle(page)
+    text = json.dumps(reply_of(service, "ABC", "DEF")).replace("truck-2", "truck-3")
+    page.route("**/plan", lambda route: route.fulfill(
+        body=text, content_type="application/json"), times=1)
+    open_file(page, "six.json", json.dumps(PROBLEM))
+    planned(page, "6 of 6 served")
+    open_tab(page, "routes")
+    assert sorted(page.locator(".trip-mark").all_inner_texts()) == ["1", "3"]
+    summaries = page.locator(".panel details summary").all_inner_texts()
+    assert [part.split()[:2] for part in summaries] == [["1", "truck-1"], ["3", "truck-3"]]
+    page.get_by_role("button", name="Play the day").click()
+    expect(page.locator(".truck-mover span").last).to_have_text("3")
+
+
+@pytest.mark.parametrize(("width", "scheme", "locale"), [
+    (1440, "light", "en"), (1024, "light", "en"), (1024, "dark", "de")])
+def test_the_header_is_one_line(open_page: Callable[..., Page], service: str, width: int,
+                                scheme: str, locale: str) -> None:
+    page = open_page(service, viewport={"width": width, "height": 768}, color_scheme=scheme,
+                     locale=locale)
+    open_file(page, "left-out-of-a-long-day-in-the-city.json", json.dumps(LEFT_OUT))
+    expect(page.locator("#total-penalty")).to_be_visible()
+    idle(page)
+    header = page.locator("header.head")
+    for change in (None, "async () => (await import(`${modules}/actions.js`)).edit("
+                         "(request) => ({ ...request, unassigned_cost: 5 }))"):
+        if change:
+            page.evaluate(change)
+            expect(page.locator(".result-line .stale")).to_be_in_viewport()
+        box = header.bounding_box()
+        assert box is not None
+        assert box["height"] < 48
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        for element in header.locator("button, select, a, #total-cost").all():
+            own = element.bounding_box()
+            assert own is not None
+            assert box["y"] <= own["y"]
+            assert own["y"] + own["height"] <= box["y"] + box["height"]
+            assert own["x"] + own["width"] <= width
+    assert findings(page, "header") == []
+    expect(page.locator("#total-cost")).to_be_in_viewport()
+
+
+@pytest.mark.parametrize("width", [768, 390])
+def test_a_narrow_header_has_all_within_its_width(
+        open_page: Callable[..., Page], service: str, width: int) -> None:
+    page = open_page(service, viewport={"width": width, "height": 844})
+    open_example(page, "city_day")
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    for part in page.locator("header.head").locator("button, select, a, .result-line span").all():
+        own = part.bounding_box()
+        assert own is not None
+        assert own["x"] + own["width"] <= width
+        expect(part).to_be_in_viewport()
