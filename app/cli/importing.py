@@ -48,11 +48,11 @@ def import_sheet(
     capacity: Annotated[str | None, typer.Option(
         help="What a vehicle holds, with blanks between for several amounts: \"800 4.5\".")] = None,
     shift: Annotated[str | None, typer.Option(help="When vehicles work: 8:00-17:00.")] = None,
-    trips: Annotated[int | None, typer.Option(help="How often a vehicle may go out.")] = None,
+    max_trips: Annotated[int | None, typer.Option(help="How often a vehicle may go out.")] = None,
     currency: Annotated[str | None, typer.Option(help="What costs are in: EUR.")] = None,
-    cost_per_hour: Annotated[float | None, typer.Option(
+    per_hour: Annotated[float | None, typer.Option(
         help="What an hour of a vehicle with its driver costs.")] = None,
-    cost_per_km: Annotated[float | None, typer.Option(help="What a kilometre costs.")] = None,
+    per_km: Annotated[float | None, typer.Option(help="What a kilometre costs.")] = None,
     speed: Annotated[float | None, typer.Option(help="Speed in km/h.")] = None,
     drones: Annotated[int, typer.Option(help="Drones on each vehicle.")] = 0,
     drone_capacity: Annotated[str | None, typer.Option(help="What a drone carries.")] = None,
@@ -68,8 +68,8 @@ def import_sheet(
     """Turn a spreadsheet of customers into a request of POST /plan, and tell what was guessed."""
     stated = {
         "depot": depot, "vehicles": vehicles, "capacity": _numbers(capacity), "shift": shift,
-        "trips": trips, "currency": currency, "cost_per_hour": cost_per_hour,
-        "cost_per_km": cost_per_km, "speed_kmh": speed, "drones": drones,
+        "max_trips": max_trips, "currency": currency, "per_hour": per_hour,
+        "per_km": per_km, "speed_kmh": speed, "drones": drones,
         "drone_capacity": _numbers(drone_capacity),
         "service_minutes": service_minutes, "day": day, "time_zone": time_zone,
         "leave_out_errors": leave_out_errors,

@@ -73,11 +73,11 @@ def fleet_of(stops: Sequence[Entry], columns: Sequence[Column],
 def _usual_work(settings: ImportSettings) -> tuple[Data, list[Doubt]]:
     """Return how often vehicles go out and what they cost, and what of it was assumed."""
     doubts = []
-    if settings.trips is None:
-        doubts.append(Doubt("TRIPS_ASSUMED", f"Vehicles may go out again, up to {TRIPS} times: "
-                            "state trips of 1 if each goes out once."))
-    hour = settings.cost_per_hour
-    kilometre = settings.cost_per_km
+    if settings.max_trips is None:
+        doubts.append(Doubt("TRIPS_ASSUMED", f"Vehicles may go out again, up to {TRIPS} "
+                            "times in all."))
+    hour = settings.per_hour
+    kilometre = settings.per_km
     usual = COST_OF_HOUR.get(settings.currency or "", USUAL_HOUR)
     money = f" {settings.currency}" if settings.currency else ""
     if hour is None:
@@ -90,7 +90,7 @@ def _usual_work(settings: ImportSettings) -> tuple[Data, list[Doubt]]:
         doubts.append(Doubt("KILOMETRES_ASSUMED", "What a kilometre costs isn't stated: "
                             f"{kilometre:g}{money} is taken."))
     costs = {"fixed": hour, "per_km": kilometre, "per_hour": hour}
-    return {"max_trips": settings.trips or TRIPS, "costs": costs}, doubts
+    return {"max_trips": settings.max_trips or TRIPS, "costs": costs}, doubts
 
 
 def _capacity(stops: Sequence[Entry], columns: Sequence[Column],

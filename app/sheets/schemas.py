@@ -68,15 +68,15 @@ class ImportSettings(Input):
         None, description="What a vehicle holds, of each amount. Null: assumed to be all there is.")
     shift: Text | None = Field(
         None, description="When vehicles work, such as `8:00-17:00`. Null: at any time.")
-    trips: Annotated[int, Field(ge=1, le=1000)] | None = Field(
+    max_trips: Annotated[int, Field(ge=1, le=1000)] | None = Field(
         None, description="How often a vehicle may go out. Null: assumed to be several times, as "
         "long as there is time.")
     currency: Currency | None = Field(
         None, description="What costs are in, such as `EUR`; it is told with the plan, and what "
         "costs are assumed goes by it.")
-    cost_per_hour: Money | None = Field(
+    per_hour: Money | None = Field(
         None, description="What an hour of a vehicle with its driver costs. Null: assumed.")
-    cost_per_km: Money | None = Field(
+    per_km: Money | None = Field(
         None, description="What a kilometre of a vehicle costs. Null: assumed.")
     speed_kmh: Speed | None = Field(None, description="Speed of the vehicles. Null: the default.")
     drones: Annotated[int, Field(ge=0, le=100)] = Field(

@@ -84,10 +84,10 @@ def test_trips_costs_and_currency_are_assumed_told_and_changed(
     hour, currency = {"Europe/Zurich": ("45", "CHF"), "America/New_York": ("30", "USD")}[zone]
     expect(shown.get_by_text(f"an hour is taken to cost {hour} {currency}")).to_be_visible()
     expect(shown.get_by_text("Vehicles may go out again")).to_be_visible()
-    for field, assumed in (("trips", "5"), ("cost_per_hour", hour), ("currency", currency)):
+    for field, assumed in (("max_trips", "5"), ("per_hour", hour), ("currency", currency)):
         expect(page.locator(f"#import-{field}")).to_have_attribute("placeholder", assumed)
-    state_field(page, "trips", "1")
-    state_field(page, "cost_per_hour", "20")
+    state_field(page, "max_trips", "1")
+    state_field(page, "per_hour", "20")
     state_field(page, "currency", "pln")
     expect(shown.get_by_text("Vehicles may go out again")).to_have_count(0)
     use(page)

@@ -88,14 +88,14 @@ def test_costs_that_nobody_states_go_by_the_currency() -> None:
     [told] = [doubt.message for doubt in read(currency="CHF").doubts
               if doubt.code == "HOURS_ASSUMED"]
     assert "45 CHF" in told
-    free = read(currency="CHF", cost_per_hour=0).request
+    free = read(currency="CHF", per_hour=0).request
     assert free is not None
     assert free["fleet"][0]["costs"] == {"fixed": 0, "per_km": 2, "per_hour": 0}
 
 
 def test_what_is_stated_is_taken_and_not_doubted() -> None:
     reply = read(depot="48.0, 11.0", vehicles=4, capacity=[9], shift="7:30-16:00", speed_kmh=30.0,
-                 drones=1, drone_capacity=[2], trips=1, cost_per_hour=20, cost_per_km=0.5)
+                 drones=1, drone_capacity=[2], max_trips=1, per_hour=20, per_km=0.5)
     assert reply.request is not None
     assert reply.request["depots"] == [{"id": "depot", "location": [11.0, 48.0]}]
     assert reply.request["fleet"] == [{

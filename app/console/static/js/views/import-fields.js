@@ -41,9 +41,9 @@ function assumed({ request }, name) {
     depot: Array.isArray(depot) ? (geographic ? [...depot].reverse() : depot).join(', ') : null,
     vehicles: String(kind.count),
     capacity: kind.capacity.join(' '),
-    trips: text(kind.max_trips),
-    cost_per_hour: text(kind.costs?.per_hour),
-    cost_per_km: text(kind.costs?.per_km),
+    max_trips: text(kind.max_trips),
+    per_hour: text(kind.costs?.per_hour),
+    per_km: text(kind.costs?.per_km),
     currency: request.currency,
   }[name];
 }
