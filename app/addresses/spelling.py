@@ -29,7 +29,9 @@ SHORTEST_STEM = 4
 """Letters that stay of a word whose end is cut short."""
 
 _NUMBER = re.compile(r"(\d{1,5})([a-z]?)")
-_STATED = re.compile(r"(\d{1,5})\s*([a-z]?)(?:\s*(?P<between>[-/\u2013])\s*(\d{1,5})\s*([a-z]?))?")
+_STATED = re.compile(r"(\d{1,5})\s*+([a-z]?)(?:\s*+(?P<between>[-/\u2013])\s*+(\d{1,5})\s*+"
+                     r"([a-z]?))?")
+_SEVERAL = re.compile("[;,]")
 
 MOST_IN_RANGE = 100
 """Longest range of house numbers that one house has."""
@@ -73,7 +75,7 @@ def split_number(number: str) -> tuple[int, str]:
 
 def house_numbers(stated: str) -> Iterator[str]:
     """Yield the single numbers of what a map states, such as `2-6`, `5 A` or `3;5`."""
-    for part in re.split("[;,]", stated.casefold()):
+    for part in _SEVERAL.split(stated.casefold()):
         found = _STATED.fullmatch(part.strip())
         if found is None:
             continue

@@ -17,6 +17,11 @@ SHORTEST_PART = 5
 """Letters from which on a word is looked for within compounds, such as `adresse` in German."""
 
 LONGEST_HEADING = 60
+LONGEST_LOOK, MOST_LOOKED_AT = 200, 12
+"""Letters and words of a heading in which its meaning is looked for."""
+
+MOST_WORDS = 6
+"""Of a phrase."""
 
 AT_STOP = 0.7
 """Score of a heading whose word is of stops or goods, but in minutes: the time that they take."""
@@ -27,6 +32,7 @@ _SIGNS = str.maketrans({"ß": "ss", "ł": "l", "ø": "o", "æ": "ae", "œ": "oe"
                         "²": "2", "№": " no ", "\u0131": "i", "#": " no ", "º": " ", "°": " "})
 _UNIT = re.compile(r"[(\[{](?P<unit>[^)\]}]{1,20})[)\]}]")
 _WORD = re.compile(r"[^\W\d_]{2,20}\.?")
+_WORDS = re.compile(r"[a-z0-9]++|[^\W\d_]++", re.ASCII)
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
 
 
@@ -46,7 +52,7 @@ def simple(text: str) -> str:
     text = _CAMEL.sub(" ", text)
     split = unicodedata.normalize("NFKD", text.lower().translate(_SIGNS))
     letters = "".join(sign for sign in split if not unicodedata.combining(sign))
-    return " ".join(re.findall(r"[a-z0-9]+|[^\W\d_]+", letters, re.ASCII))
+    return " ".join(_WORDS.findall(letters))
 
 
 def unit_named(text: str) -> str | None:
@@ -70,7 +76,7 @@ def guesses(heading: str) -> tuple[Guess, ...]:
     """Return what a heading may mean, the likeliest first."""
     stated = _UNIT.search(heading)
     unit = unit_named(stated["unit"]) if stated else None
-    words = simple(_UNIT.sub(" ", heading)).split()
+    words = simple(_UNIT.sub(" ", heading[:LONGEST_LOOK])).split()[:MOST_LOOKED_AT]
     found = dict(_scored(words, unit))
     last = UNITS.get(words[-1]) if unit is None and len(words) > 1 else None
     if last:
@@ -114,36 +120,35 @@ def _takes(meaning: str, unit: str) -> bool:
 
 def _scored(words: list[str], unit: str | None) -> Iterator[tuple[str, Guess]]:
     """Yield the best guess for each meaning that fits any of the words."""
-    best: dict[str, Guess] = {}
-    for phrase, meaning, language in _phrases():
-        score = _score(words, phrase)
-        if score > (best[meaning].score if meaning in best else 0):
-            best[meaning] = Guess(meaning, score, unit if unit and _takes(meaning, unit) else None,
-                                  language)
-    yield from best.items()
+    best: dict[str, tuple[float, int, str]] = {}
+    phrases = _phrases()
+    for phrase, score in _fitting(words):
+        for place, meaning, language in phrases.get(phrase, ()):
+            found = (score, -place, language)
+            best[meaning] = max(best.get(meaning, found), found)
+    for meaning, (score, _, language) in best.items():
+        yield meaning, Guess(meaning, score, unit if unit and _takes(meaning, unit) else None,
+                             language)
 
 
-def _score(words: list[str], phrase: tuple[str, ...]) -> float:
-    """Return how well a phrase fits a heading: 1 exactly, 0 not at all."""
-    count = len(phrase)
-    if tuple(words) == phrase:
-        return SURE
-    if count < len(words) and any(tuple(words[start:start + count]) == phrase
-                                  for start in range(len(words) - count + 1)):
-        return 0.62 + 0.3 * sum(map(len, phrase)) / sum(map(len, words))
-    if count == 1 and len(phrase[0]) >= SHORTEST_PART:
-        for word in words:
+def _fitting(words: list[str]) -> Iterator[tuple[tuple[str, ...], float]]:
+    """Yield what phrases a heading may hold, and how well each fits: 1 exactly."""
+    length = sum(map(len, words))
+    yield tuple(words), SURE
+    for start, word in enumerate(words):
+        for end in range(start + 1, min(len(words), start + MOST_WORDS) + 1):
+            if end - start < len(words):
+                phrase = tuple(words[start:end])
+                yield phrase, 0.62 + 0.3 * sum(map(len, phrase)) / length
+        for count in range(SHORTEST_PART, len(word)):
             # German puts the main word of a compound last.
-            if word.endswith(phrase[0]):
-                return 0.62 + 0.2 * len(phrase[0]) / sum(map(len, words))
-            if word.startswith(phrase[0]):
-                return 0.55 + 0.2 * len(phrase[0]) / sum(map(len, words))
-    return 0.0
+            yield (word[-count:],), 0.62 + 0.2 * count / length
+            yield (word[:count],), 0.55 + 0.2 * count / length
 
 
 @cache
-def _phrases() -> list[tuple[tuple[str, ...], str, str]]:
-    """Return all phrases, as words, with their meanings and languages."""
+def _phrases() -> dict[tuple[str, ...], list[tuple[int, str, str]]]:
+    """Return the meanings and languages of all phrases, as words, each with its place."""
     listed = [(phrase, meaning, language) for meaning, languages in WORDS.items()
               for language, phrases in languages.items() for phrase in phrases.split("|")]
     for meaning, ends in (("earliest", BEGIN), ("latest", END)):
@@ -154,4 +159,7 @@ def _phrases() -> list[tuple[tuple[str, ...], str, str]]:
                            for text in (f"{window} {word}", f"{word} {window}")]
                 listed += [(f"{word} {filler}", meaning, language)
                            for filler in ("time", "uhr", "zeit", "uhrzeit", "heure", "hora", "ora")]
-    return [(tuple(phrase.split()), meaning, language) for phrase, meaning, language in listed]
+    found: dict[tuple[str, ...], list[tuple[int, str, str]]] = {}
+    for place, (phrase, meaning, language) in enumerate(listed):
+        found.setdefault(tuple(phrase.split()), []).append((place, meaning, language))
+    return found

@@ -14,8 +14,8 @@ from app.sheets.meanings import MEANINGS, PLACES
 from app.sheets.readers import read
 
 _FINE = re.compile(r"-?\d{1,3}[.,]\d{3,}")
-_CLOCK = re.compile(r"\d{1,2}[:h]\d{2}.*")
-_TIMES = re.compile(r"\d{1,2}([:h]\d{2}|\s*([ap]m|uhr)|[:.]?\d{0,2}\s*[-\u2013]\s*\d{1,2}).*",
+_CLOCK = re.compile(r"\d{1,2}[:h]\d{2}.*+")
+_TIMES = re.compile(r"\d{1,2}([:h]\d{2}|\s*+([ap]m|uhr)|[:.]?\d{0,2}\s*+[-\u2013]\s*+\d{1,2}).*+",
                     re.IGNORECASE)
 
 SOME = 0.3

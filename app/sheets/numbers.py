@@ -8,10 +8,15 @@ from app.sheets.headings import unit_named
 from app.sheets.meanings import FAMILIES
 
 _SPACES = re.compile(r"[\s'\u2019\u00a0\u202f\u2009]+")
-_NUMBER = re.compile(r"(?P<number>[-+]?\d[\d.,]*|[-+]?[.,]\d+)(?P<unit>\D*)")
+_NUMBER = re.compile(r"(?P<number>[-+]?\d[\d.,]*+|[-+]?[.,]\d++)(?P<unit>\D*+)")
 _TWO_WAYS = re.compile(r"[-+]?[1-9]\d{0,2}[.,]\d{3}")
-_COMMA = re.compile(r"[-+]?\d*,(\d{1,2}|\d{4,})|[-+]?\d{1,3}(\.\d{3})+(,\d+)?|[-+]?0,\d+")
-_POINT = re.compile(r"[-+]?\d*\.(\d{1,2}|\d{4,})|[-+]?\d{1,3}(,\d{3})+(\.\d+)?|[-+]?0\.\d+")
+_COMMA = re.compile(r"(?<!\d)[-+]?(?:\d*+,(?:\d{1,2}|\d{4,})|\d{1,3}(?:\.\d{3})++(?:,\d++)?"
+                    r"|0,\d++)")
+_POINT = re.compile(r"(?<!\d)[-+]?(?:\d*+\.(?:\d{1,2}|\d{4,})|\d{1,3}(?:,\d{3})++(?:\.\d++)?"
+                    r"|0\.\d++)")
+_DECIMAL = re.compile(r"[-+]?\d*+\.?\d*+")
+_GROUPED = {sign: re.compile(rf"(?<![\d{sign}])[-+]?\d{{1,3}}(?:\{sign}\d{{3}})++(?:[.,]\d*+)?")
+            for sign in ".,"}
 
 
 def split_unit(text: str) -> tuple[str, str]:
@@ -63,7 +68,7 @@ def number(text: str, comma: bool) -> float:
         value = float(plain)
     except ValueError:
         raise MisreadError(f"{text!r} is no number") from None
-    if not re.fullmatch(r"[-+]?\d*\.?\d*", plain) or abs(value) > 1e15:
+    if not _DECIMAL.fullmatch(plain) or abs(value) > 1e15:
         raise MisreadError(f"{text!r} is no number")
     return value
 
@@ -117,4 +122,4 @@ def _factor(own: str, unit: str | None, raw: str) -> float:
 
 def _grouped(plain: str, sign: str) -> bool:
     """Tell whether `sign` sets thousands apart."""
-    return re.fullmatch(rf"[-+]?\d{{1,3}}(\{sign}\d{{3}})+([.,]\d*)?", plain) is not None
+    return _GROUPED[sign].fullmatch(plain) is not None

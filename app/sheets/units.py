@@ -8,7 +8,7 @@ from app.sheets.cells import MisreadError, Raw, shown
 from app.sheets.clocks import look
 from app.sheets.numbers import number, own_unit
 
-_BARE = re.compile(r"\d+(?:[.,]\d+)?")
+_BARE = re.compile(r"\d++(?:[.,]\d++)?")
 _MILITARY = re.compile(r"0\d{3}")
 _TWO_DECIMALS = re.compile(r"\d{1,2}[.,]\d{2}")
 
