@@ -5,7 +5,7 @@ from datetime import date, datetime, time, timedelta
 from typing import Any
 
 Raw = str | float | bool | datetime | date | time | timedelta | None
-"""What a cell holds. Texts have no blanks around; None: nothing."""
+"""What a cell holds. Texts have single blanks between words; None: nothing."""
 
 BEFORE_ALL_DATES = date(1900, 1, 1)
 """Up to here, spreadsheets mean the time of day alone."""
@@ -30,6 +30,21 @@ class CellError:
     cell: str | None = None
 
 
+LONGEST_READ = 500
+"""Letters of a cell that is more than words; texts alone may be longer."""
+
+
+def tidy(text: str) -> str | None:
+    """Return a text with one blank between words and no empty lines; None: nothing is left."""
+    lines = (" ".join(line.split()) for line in text.splitlines())
+    return "\n".join(line for line in lines if line) or None
+
+
+def bounded(raw: Raw) -> Raw:
+    """Return a cell as far as patterns look at it."""
+    return raw[:LONGEST_READ] if isinstance(raw, str) else raw
+
+
 class MisreadError(ValueError):
     """A cell that doesn't say what its column means."""
 
@@ -38,7 +53,7 @@ def raw_of(value: Any) -> Raw:
     """Return what a cell of a workbook holds, from JSON."""
     match value:
         case str():
-            return value.strip() or None
+            return tidy(value)
         case bool() | float() | None:
             return value
         case int():
@@ -79,6 +94,13 @@ def clock_text(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
     text = f"{minutes // 60}:{minutes % 60:02}"
     return f"{text}:{rest:02}" if rest else text
+
+
+def next_day(seconds: float) -> str:
+    """Return an instant past midnight as `+1 06:00`."""
+    days, rest = divmod(round(seconds), 86_400)
+    hours, minutes = divmod(rest // 60, 60)
+    return f"{days:+d} {hours:02}:{minutes:02}"
 
 
 def letters(column: int) -> str:

@@ -14,34 +14,51 @@ MINUTE, HOUR, DAY = 60, 3600, 86400
 LAST = 48 * HOUR
 """Latest instant: the end of the night that follows."""
 
+EVENING = 15 * HOUR
+LONGEST_NIGHT = 14 * HOUR
+"""What begins in the evening, ends before it begins and is no longer than this ends a day later."""
+
 MOST_HOURS = 4
 """Of a stop in `4:00`; more may be minutes and seconds."""
 
 SIZES = {"minutes": MINUTE, "seconds": 1, "hours": HOUR, "days": DAY}
 
 _TIME = re.compile(
-    r"(?P<hour>\d{1,2})\s*(?:[:h.]\s*(?P<minute>\d{2})(?:[:.](?P<second>\d{2})(?:[.,]\d+)?)?)?\s*"
-    r"(?P<half>[ap]\.?\s?m\.?)?\s*(?P<word>uhr|uur|hrs|heures?|horas?|hs?|u|godz\.?)?")
-_BARE = re.compile(r"\d+(?:[.,]\d+)?")
+    r"(?P<hour>\d{1,2})\s*+(?:[:h.]\s*+(?P<minute>\d{2})(?:[:.](?P<second>\d{2})(?:[.,]\d++)?)?)?"
+    r"\s*+(?P<half>[ap]\.?\s?m\.?)?\s*+(?P<word>uhr|uur|hrs|heures?|horas?|hs?|u|godz\.?)?")
+_BARE = re.compile(r"\d++(?:[.,]\d++)?")
+_BARE_HOUR, _BARE_HHMM = re.compile(r"\d{1,2}"), re.compile(r"\d{3,4}")
+_BARE_POINT, _BARE_MINUTES = re.compile(r"\d{1,2}[.,]\d{2}"), re.compile(r"\d{1,2}[.,][0-5]\d")
 _DATE = re.compile(r"(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}([./-])\d{1,2}\2\d{2,4})"
-                   r"[T,\s]*(?P<rest>.*)")
+                   r"[T,\s]*+(?P<rest>.*+)")
+_DATE_SIGNS = re.compile(r"[./-]")
 _ZONE = re.compile(r"(?<=\d)(Z|[+-]\d{2}:?\d{2})$", re.IGNORECASE)
-_DASH = re.compile(r"\s+[-\u2013\u2014]\s+")
-_BETWEEN = re.compile(r"\s*(?:[-\u2010-\u2015~]+|\.{2,}|\b(?:to|until|till|bis|a(?!\.)|à|al|alle"
-                      r"|tot|do|ate|até|às)\b)\s*", re.IGNORECASE)
-_APART = re.compile(r"\s*(?:[;|/+&\n]|,(?!\d)|,\s|\b(?:und|and|et|oder|or|y|e|en|i|sowie)\b)\s*",
-                    re.IGNORECASE)
+_NEXT_DAY = re.compile(r"\+1\s++(?P<before>\d[^+(]{0,20})|(?P<behind>\d[^+(]{0,20}?)\s?\(?\+1\)?")
+_DASH = re.compile(r"(?<!\s)\s++[-\u2013\u2014]\s++")
+_BETWEEN = re.compile(r"(?:(?<!\s)\s++)?(?:[-\u2010-\u2015~]++|\.{2,}+|\b(?:to|until|till|bis"
+                      r"|a(?!\.)|à|al|alle|tot|do|ate|até|às)\b)\s*+", re.IGNORECASE)
+_APART = re.compile(r"(?:(?<!\s)\s++)?(?:[;|/+&\n]|,(?!\d)|\b(?:und|and|et|oder|or|y|e|en|i"
+                    r"|sowie)\b)\s*+", re.IGNORECASE)
 _SINCE = re.compile(r"(?:ab|de|du|da|das|from|after|von|since|not before|nach|des|dès|à partir de"
-                    r"|desde|dalle|dopo|vanaf|od|>=?)\s+(.*)|(.*?)\s*(?:\+|onwards)", re.IGNORECASE)
+                    r"|desde|dalle|dopo|vanaf|od|>=?)\s++(.*+)", re.IGNORECASE)
 _TILL = re.compile(r"(?:bis|until|till|before|by|vor|jusqu'?[àa]|avant|hasta|antes de|entro"
-                   r"|fino alle|tot|do|spätestens|<=?)\s+(.*)", re.IGNORECASE)
-_FRAMED = re.compile(r"(?:between|zwischen|entre|tra|tussen|fra)\s+(.+?)\s+(?:and|und|et|y|e|en)"
-                     r"\s+(.+)", re.IGNORECASE)
+                   r"|fino alle|tot|do|spätestens|<=?)\s++(.*+)", re.IGNORECASE)
+_HALF = re.compile(r"[ap]\.?\s?m\.?\s*+$")
+_ENDS_HALF = re.compile(r"m\.?\s*+$")
+_COLONS = re.compile(r"(\d{1,2}):(\d{2})(?::(\d{2}))?")
+_HOURS = re.compile(r"(?<!\d)(\d++)\s*+h[a-z]*+\.?\s*+(\d{1,2})\s*+(?:m[a-z]*+\.?)?")
+_ISO = re.compile(r"pt(?:(\d++)h)?(?:(\d++)m)?(?:(\d++)s)?")
+_ENDS_MINUTES = re.compile(r"['\u2032m]$")
 ALWAYS = frozenset((
     "all day", "any", "anytime", "any time", "open", "flexible", "24 h", "24h", "24 7", "ganztagig",
     "egal", "jederzeit", "flexibel", "toute la journee", "todo el dia", "tutto il giorno",
     "hele dag", "caly dzien", "dia todo"))
 """Windows in words, in simple letters, that leave any time of day."""
+
+BEFORE_TIMES = ("ore ", "um ", "at ")
+FRAMES = frozenset(("between", "zwischen", "entre", "tra", "tussen", "fra"))
+FRAMED = frozenset(("and", "und", "et", "y", "e", "en"))
+ONWARDS = ("+", "onwards")
 
 Window = tuple[float | None, float | None]
 
@@ -79,15 +96,26 @@ def clock(raw: Raw, unit: str, style: Style) -> float:
     raise MisreadError(f"{shown(raw)!r} is no time of day: write one such as 8:30")
 
 
+def past_midnight(earliest: float | None, latest: float | None) -> float | None:
+    """Return the end of a window; one from an evening to the small hours ends a day later."""
+    if earliest is None or latest is None or latest >= earliest or earliest < EVENING:
+        return latest
+    return latest + DAY if latest + DAY - earliest <= LONGEST_NIGHT else latest
+
+
 def _text_clock(text: str, unit: str, style: Style) -> float:
+    if found := _NEXT_DAY.fullmatch(text):
+        return DAY + _text_clock(found["before"] or found["behind"], unit, style)
     dated = _DATE.fullmatch(text)
     if dated and dated["rest"]:
         rest = _ZONE.sub("", dated["rest"])
         return _of_day(read_date(dated["date"], style), style) + _text_clock(rest, unit, style)
-    plain = re.sub(r"^(?:ore|um|at)\s+", "", text.lower().strip())
+    plain = text.lower().strip()
+    if plain.startswith(BEFORE_TIMES):
+        plain = plain.split(maxsplit=1)[1]
     if _BARE.fullmatch(plain):
         meant = look(plain) if unit == "clock" else unit
-        if meant == "h.mm" and re.fullmatch(r"\d{1,2}[.,]\d{2}", plain):
+        if meant == "h.mm" and _BARE_POINT.fullmatch(plain):
             return _clock_parts(plain.replace(",", "."), text)
         return _bare(number(plain, "," in plain), plain, unit)
     return _clock_parts(plain, text)
@@ -126,11 +154,11 @@ def _bare(value: float, text: str, unit: str) -> float:
 
 def look(text: str) -> str | None:
     """Return the unit that a bare number itself looks like: `8` hours, `0830`, or `8.30`."""
-    if re.fullmatch(r"\d{1,2}", text) and int(text) <= 24:
+    if _BARE_HOUR.fullmatch(text) and int(text) <= 24:
         return "hours"
-    if re.fullmatch(r"\d{3,4}", text) and int(text) <= 2400 and int(text) % 100 < 60:
+    if _BARE_HHMM.fullmatch(text) and int(text) <= 2400 and int(text) % 100 < 60:
         return "hhmm"
-    if re.fullmatch(r"\d{1,2}[.,][0-5]\d", text):
+    if _BARE_MINUTES.fullmatch(text):
         return "h.mm"
     return None
 
@@ -175,7 +203,7 @@ def read_date(raw: Raw, style: Style) -> date:
     if isinstance(raw, date):
         return raw
     if isinstance(raw, str) and (found := _DATE.fullmatch(raw)):
-        parts = [int(part) for part in re.split(r"[./-]", found["date"])]
+        parts = [int(part) for part in _DATE_SIGNS.split(found["date"])]
         if parts[0] < 1000:
             first, second, year = parts
             is_day_first = style.day_first or "." in found["date"]
@@ -192,7 +220,7 @@ def date_parts(raw: Raw) -> tuple[int, int] | None:
     """Return the first two numbers of a date with slashes, whose order is open."""
     if not isinstance(raw, str) or (found := _DATE.fullmatch(raw)) is None or "/" not in raw:
         return None
-    first, second, *_ = map(int, re.split(r"[./-]", found["date"]))
+    first, second, *_ = map(int, _DATE_SIGNS.split(found["date"]))
     return (first, second) if first < 1000 else None
 
 
@@ -205,20 +233,40 @@ def windows(raw: Raw, unit: str, style: Style) -> list[Window]:
         return [(clock(raw, unit, style), None)]
     if simple(raw) in ALWAYS:
         return [(None, None)]
-    text = _FRAMED.sub(r"\1-\2", raw)
-    return [_window(part, unit, style) for part in _parts(text)]
+    return [_window(part, unit, style) for part in _parts(_unframed(raw))]
+
+
+def _unframed(text: str) -> str:
+    """Return a text in which `between 8 and 10` is `8 - 10`."""
+    words, is_open = [], False
+    for word in text.split(" "):
+        if word.lower() in FRAMES:
+            is_open = True
+        elif is_open and word.lower() in FRAMED:
+            words.append("-")
+            is_open = False
+        else:
+            words.append(word)
+    return " ".join(words)
 
 
 def _parts(text: str) -> list[str]:
     """Return the windows of a text; `10-12 and 14-16` are two, `8 and 10` is one."""
     parts = [part for part in _APART.split(text) if part]
-    return parts if all(_BETWEEN.search(part) or _SINCE.fullmatch(part) or _TILL.fullmatch(part)
+    return parts if all(_BETWEEN.search(part) or _begin_of(part) or _TILL.fullmatch(part)
                         for part in parts) else [text]
 
 
-def _window(text: str, unit: str, style: Style) -> Window:
+def _begin_of(text: str) -> str | None:
+    """Return the instant in `from 8`, `8+` or `8 onwards`; None: it is none of these."""
     if found := _SINCE.fullmatch(text):
-        begin = found[1] or found[2]
+        return found[1]
+    end = next((end for end in ONWARDS if text.lower().endswith(end)), None)
+    return None if end is None else text[:-len(end)].strip()
+
+
+def _window(text: str, unit: str, style: Style) -> Window:
+    if begin := _begin_of(text):
         if len(_BETWEEN.split(begin)) == 1:
             return clock(begin, unit, style), None
         text = begin
@@ -231,8 +279,8 @@ def _window(text: str, unit: str, style: Style) -> Window:
         raise MisreadError(f"{text!r} is no window: write one such as 8:00-10:00")
     first, second = ends
     latest = clock(second, unit, style)
-    half = re.search(r"[ap]\.?\s?m\.?\s*$", second.lower())
-    if half and not re.search(r"m\.?\s*$", first.lower()):
+    half = _HALF.search(second.lower())
+    if half and not _ENDS_HALF.search(first.lower()):
         earliest = _bounded(_text_clock(f"{first}{half[0]}", unit, style), first)
         if earliest >= latest:
             earliest = clock(f"{first} am", unit, style)
@@ -271,19 +319,19 @@ def duration(raw: Raw, unit: str, style: Style) -> float:
 
 def _text_duration(text: str, unit: str, style: Style) -> float:
     plain = text.lower().strip()
-    if found := re.fullmatch(r"(\d{1,2}):(\d{2})(?::(\d{2}))?", plain):
+    if found := _COLONS.fullmatch(plain):
         first, second, third = (int(part or 0) for part in found.groups())
         if found[3] is None and first > MOST_HOURS:
             raise MisreadError(f"{text!r} may be {first} minutes or {first} hours: write "
                                f"{first} min")
         return first * HOUR + second * MINUTE + third
-    if found := re.fullmatch(r"(\d+)\s*h[a-z]*\.?\s*(\d{1,2})\s*(?:m[a-z]*\.?)?", plain):
+    if found := _HOURS.fullmatch(plain):
         return int(found[1]) * HOUR + int(found[2]) * MINUTE
-    found = re.fullmatch(r"pt(?:(\d+)h)?(?:(\d+)m)?(?:(\d+)s)?", plain)
+    found = _ISO.fullmatch(plain)
     if found and any(found.groups()):
         first, second, third = (int(part or 0) for part in found.groups())
         return first * HOUR + second * MINUTE + third
-    value, own = split_unit(re.sub(r"['\u2032m]$", "min", plain))
+    value, own = split_unit(_ENDS_MINUTES.sub("min", plain))
     stated = UNITS.get(own.strip(".")) if own else unit
     if stated not in SIZES:
         raise MisreadError(f"{text!r} is no length of time: write one such as 10 min")

@@ -5,13 +5,14 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from app.sheets.cells import Doubt, MisreadError, Raw, cell_name, letters, shown
+from app.sheets.cells import Doubt, MisreadError, Raw, letters, shown
 from app.sheets.clocks import Style
 from app.sheets.headings import HEADING, guesses, simple
 from app.sheets.layout import Table
 from app.sheets.meanings import MEANINGS
 from app.sheets.numbers import own_unit
-from app.sheets.readers import read
+from app.sheets.readers import NO, ORDER_KINDS, YES, read
+from app.sheets.states import CANCELLED, DONE, STATES
 from app.sheets.schemas import ColumnMapping
 from app.sheets.units import UnitGuess, amount_unit, clock_unit, duration_unit
 
@@ -27,13 +28,15 @@ GUESSED = 0.99
 BY_CONTENT = 0.5
 """Most confidence in a meaning that no heading states."""
 
-_EMAIL = re.compile(r"[^@\s]+@[^@\s]+\.\w{2,}")
-_POINT = re.compile(r"(POINT ?)?[(\[]?\s*-?\d{1,3}\.\d{2,}\s*[,; ]\s*-?\d{1,3}\.\d{2,}\s*[)\]]?"
-                    r"|\d{1,3}(\.\d+)?\s*°[^A-Z]*[NS][\s,;/]*\d{1,3}(\.\d+)?\s*°[^A-Z]*[EW]")
+_EMAIL = re.compile(r"(?<![^@\s])[^@\s]++@[^@\s.]++(?:\.[^@\s.]++)++")
+_POINT = re.compile(r"(?:POINT ?)?[(\[]?\s?-?\d{1,3}\.\d{2,}+[\s,;]++-?\d{1,3}\.\d{2,}+\s?[)\]]?"
+                    r"|\d{1,3}(?:\.\d++)?\s?°[^A-Z]{0,20}[NS][\s,;/]*+\d{1,3}(?:\.\d++)?\s?°"
+                    r"[^A-Z]{0,20}[EW]")
 _PHONE = re.compile(r"(\+|00?)[\d ()/.-]{6,}")
-_CLOCK = re.compile(r"\d{1,2}[:h]\d{2}(:\d{2})?(\s*[ap]\.?m\.?)?", re.IGNORECASE)
-_WINDOW = re.compile(r"\d{1,2}([:.h]\d{2})?\s*([ap]m|uhr|h)?\s*(-|\u2013|to|bis)\s*\d{1,2}"
-                     r"([:.h]\d{2})?.*", re.IGNORECASE)
+_CLOCK = re.compile(r"\d{1,2}[:h]\d{2}(:\d{2})?(\s*+[ap]\.?m\.?)?", re.IGNORECASE)
+_WINDOW = re.compile(r"\d{1,2}([:.h]\d{2})?\s*+([ap]m|uhr|h)?\s*+(-|\u2013|to|bis)\s*+\d{1,2}"
+                     r"([:.h]\d{2})?.*+", re.IGNORECASE)
+_AGAIN = re.compile(r"[2-8]\b|afternoon|nachmittag|apres midi|evening|abend|\bpm\b")
 
 
 @dataclass(frozen=True)
@@ -103,8 +106,8 @@ def _align_windows(table: Table, columns: dict[int, Column]) -> None:
 def _may_repeat(column: Column) -> bool:
     """Tell whether a column may mean what another one means: of windows, those with a number."""
     repeats = MEANINGS[column.meaning].repeats
-    if MEANINGS[column.meaning].kind == "clock":
-        return repeats and re.search(r"[2-8]\b", simple(column.heading)) is not None
+    if MEANINGS[column.meaning].kind in ("clock", "windows"):
+        return repeats and _AGAIN.search(simple(column.heading)) is not None
     return repeats
 
 
@@ -214,10 +217,12 @@ def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
     kind = MEANINGS[column.meaning].kind
     if column.meaning == "name":
         return 0.7 + 0.3 * sum(any(map(str.isalpha, shown(raw))) for raw in cells) / len(cells)
+    if column.meaning in ("status", "region"):
+        return _fit_words(cells, column.meaning, column.heading)
     if kind == "text":
         return 1.0
     if kind == "kind":
-        return float(len({shown(raw).lower() for raw in cells}) <= 4)
+        return sum(read(raw, kind, None, style) in ORDER_KINDS for raw in cells) / len(cells)
     if kind == "amount" and any(own_unit(raw) for raw in cells):
         return 1.0
     said = 0
@@ -228,6 +233,20 @@ def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
         except (MisreadError, TypeError):
             continue
     return said / len(cells)
+
+
+def _fit_words(cells: Sequence[Raw], meaning: str, heading: str) -> float:
+    """Return whether cells are states of an order, or of a country: `State` may be either."""
+    told = {simple(shown(raw)) for raw in cells}
+    words = {word for text in told for word in text.split()}
+    is_status = bool(words & STATES) or (told <= YES | NO and bool(set(simple(heading).split())
+                                                                  & (CANCELLED | DONE)))
+    if meaning == "region":
+        return 0.0 if is_status else 0.9
+    if is_status:
+        return 1.0
+    return 0.0 if any(guess.meaning == "region" and guess.score > HEADING
+                      for guess in guesses(heading)) else 0.5
 
 
 def _unfit(table: Table, index: int) -> tuple[Doubt, ...]:
@@ -241,7 +260,7 @@ def _unfit(table: Table, index: int) -> tuple[Doubt, ...]:
     title = MEANINGS[likely.meaning].title.lower()
     return (Doubt("NOT_USED", f"Column {letters(index)} ({heading}) is not used: by its heading it "
                   f"is {title}, which another column is already, or its cells don't say it "
-                  f"({cell_name(row, index)} is {shown(raw)[:40]!r}).", letters(index)),)
+                  f"({table.name(row, index)} is {shown(raw)[:40]!r}).", letters(index)),)
 
 
 def _language(heading: str) -> str:

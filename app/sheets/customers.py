@@ -7,7 +7,9 @@ from itertools import zip_longest
 from typing import Any, Literal
 
 from app.schemas.fields import MAX_INFO_ENTRIES, MAX_INFO_LENGTH
-from app.sheets.cells import Doubt, clock_text
+from app.sheets.amounts import amounts_of
+from app.sheets.cells import Doubt, clock_text, next_day
+from app.sheets.clocks import DAY, past_midnight
 from app.sheets.columns import Column
 from app.sheets.geography import Ground, Pair, on_globe
 from app.sheets.rows import Row
@@ -35,7 +37,8 @@ class Entry:
 def entries_of(rows: Sequence[Row], columns: Sequence[Column], ground: Ground,
                service_minutes: float | None) -> list[Entry]:
     """Return a customer for each row that states its place; other rows are refused. In place."""
-    counts = any(column.meaning == "demand" for column in columns)
+    amounts = [column for column in columns if column.meaning == "demand"]
+    pickups = [column for column in columns if column.meaning == "pickup"]
     entries = []
     for row in rows:
         place = _location(row, ground)
@@ -45,7 +48,7 @@ def entries_of(rows: Sequence[Row], columns: Sequence[Column], ground: Ground,
         customer: Data = {
             "id": _name(row),
             "location": place,
-            "demand": [amount or 0.0 for amount in row.get("demand")] if counts else [1.0],
+            **amounts_of(row, amounts, pickups),
         }
         service = row.get("service")
         if service is None and service_minutes is not None:
@@ -120,17 +123,20 @@ def _place(row: Row, ground: Ground) -> Pair | None:
 
 def _windows(row: Row) -> Data:
     """Return the windows of a row; refuse the row if one ends before it begins. In place."""
-    stated = row.get("window")
+    told = [windows for windows in row.get("window") or () if windows is not None]
+    stated = [window for windows in told for window in windows]
     cells: tuple[str, ...] = ("window",)
-    if stated is None:
+    if not told:
         stated = list(zip_longest(row.get("earliest") or (), row.get("latest") or ()))
         cells = ("latest", "earliest")
+    stated = [(earliest, past_midnight(earliest, latest)) for earliest, latest in stated]
     for earliest, latest in stated:
         if latest is not None and (earliest or 0) > latest:
             later = latest + (12 if latest + 12 * HOUR > earliest else 24) * HOUR
+            night = f", or {next_day(later)}," if later > DAY else ""
             row.refuse("ENDS_BEFORE", f"The window ends ({clock_text(latest)}) before it begins "
-                       f"({clock_text(earliest)}): write {clock_text(later)} if that is meant.",
-                       *cells)
+                       f"({clock_text(earliest)}): write {clock_text(later)}{night} if that is "
+                       "meant.", *cells)
     ends = sorted((earliest or 0.0, latest) for earliest, latest in stated
                   if earliest is not None or latest is not None)
     merged = _merged(ends)
@@ -147,6 +153,21 @@ def _windows(row: Row) -> Data:
     if not windows:
         return {}
     return {"time_windows": windows} if len(windows) > 1 else {"time_window": windows[0]}
+
+
+def overnight(stops: Iterable[Entry]) -> list[Doubt]:
+    """Return the doubt about windows that end on the day after."""
+    late = [stop for stop in stops if _latest(stop.customer) > DAY]
+    if not late:
+        return []
+    cell = late[0].rows[0].cell("latest", "window", "earliest")
+    return [Doubt("PAST_MIDNIGHT", f"{len(late)} windows end on the day after, such as {cell} at "
+                  f"{next_day(_latest(late[0].customer))}.", cell=cell)]
+
+
+def _latest(customer: Data) -> float:
+    windows = customer.get("time_windows") or [customer.get("time_window", {})]
+    return max(window.get("latest", 0.0) for window in windows)
 
 
 def _merged(windows: Iterable[tuple[float, float | None]]) -> list[tuple[float, float | None]]:
@@ -188,7 +209,7 @@ def address_of(row: Row) -> str:
     street = " ".join([*_texts(row, "street"), *_texts(row, "house_number")])
     town = " ".join([*_texts(row, "postcode"), *_texts(row, "town")])
     return ", ".join(part for part in (*_texts(row, "address"), street, town,
-                                       *_texts(row, "country")) if part)
+                                       *_texts(row, "region"), *_texts(row, "country")) if part)
 
 
 def _texts(row: Row, meaning: str) -> list[str]:
@@ -219,8 +240,10 @@ def _joined(group: Sequence[Entry]) -> Entry:
         return group[0]
     customers = [entry.customer for entry in group]
     joined = dict(customers[0])
-    joined["demand"] = [round(sum(amounts), 9) for amounts in
-                        zip(*(customer["demand"] for customer in customers), strict=True)]
+    for what in ("demand", "pickup"):
+        stated = [customer[what] for customer in customers if what in customer]
+        if stated:
+            joined[what] = [round(sum(amounts), 9) for amounts in zip(*stated, strict=True)]
     if longest := max(customer.get("service_duration", 0) for customer in customers):
         joined["service_duration"] = longest
     told: dict[str, list[str]] = defaultdict(list)

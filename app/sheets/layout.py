@@ -1,17 +1,29 @@
 """Where in a sheet the headings stand, and which rows follow."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from app.sheets.cells import Raw, shown
+from app.sheets.cells import Raw, bounded, cell_name, shown
 from app.sheets.headings import LONGEST_HEADING, is_known, is_unit
+from app.sheets.questions import rows_named
 from app.sheets.table import Sheet
 
 SEARCHED_ROWS = 40
 """Rows among which the headings stand; above them are titles and dates."""
 
+SEARCHED_COLUMNS = 200
 MOST_HEADER_ROWS = 3
 KNOWN_SHARE = 0.5
 """Of a row's cells that are headings or units, where it goes on with the headings."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where rows of a table come from, that are not those of its own sheet."""
+
+    first: int  # row
+    sheet: str
+    letters: Mapping[int, str]  # of columns there, by columns here
 
 
 @dataclass(frozen=True)
@@ -23,6 +35,21 @@ class Table:
     headings: tuple[str, ...]
     rows: tuple[int, ...]  # those that hold anything
     num_empty: int
+    origins: tuple[Origin, ...] = ()
+
+    def name(self, row: int, column: int) -> str:
+        """Return what a spreadsheet calls a cell, such as `C17` or `Tuesday!C17`."""
+        for origin in reversed(self.origins):
+            if row >= origin.first:
+                letter = origin.letters.get(column, "A")
+                return f"{origin.sheet}!{letter}{row - origin.first + 1}"
+        return cell_name(row, column)
+
+    def rows_named(self, rows: Sequence[int]) -> str:
+        """Return rows as people name them: 3, 5-7."""
+        own = [row for row in rows if not self.origins or row < self.origins[0].first]
+        others = [self.name(row, 0) for row in rows if row not in set(own)]
+        return ", ".join([*([rows_named(own)] if own else ()), *others[:10]])
 
     def cell(self, row: int, column: int) -> Raw:
         """Return what a cell holds."""
@@ -30,8 +57,9 @@ class Table:
         return cells[column] if column < len(cells) else None
 
     def column(self, column: int) -> list[tuple[int, Raw]]:
-        """Return the rows where a column holds anything, and what."""
-        return [(row, raw) for row in self.rows if (raw := self.cell(row, column)) is not None]
+        """Return the rows where a column holds anything, and what, as far as patterns look."""
+        return [(row, bounded(raw)) for row in self.rows
+                if (raw := self.cell(row, column)) is not None]
 
 
 def table_of(sheet: Sheet, header_row: int | None = None) -> Table:
@@ -53,7 +81,7 @@ def table_of(sheet: Sheet, header_row: int | None = None) -> Table:
 
 def _best_row(sheet: Sheet) -> int:
     """Return the row with most headings; -1 if none has two, and the first is no row of words."""
-    known = {number: sum(_is_heading(raw) for raw in row)
+    known = {number: sum(_is_heading(raw) for raw in row[:SEARCHED_COLUMNS])
              for number, row in enumerate(sheet.rows[:SEARCHED_ROWS])}
     best = max(known, key=lambda number: known[number], default=-1)
     if best >= 0 and known[best] >= 2:
@@ -118,7 +146,7 @@ def _headings(sheet: Sheet, header: tuple[int, ...], width: int) -> tuple[str, .
         group = ""
         for column in range(width):
             raw = cells[column] if column < len(cells) else None
-            text = " ".join(shown(raw).split())
+            text = " ".join(shown(bounded(raw)).split())
             if text:
                 group = text
             elif row == header[-1] or not _belongs(sheet, header, row, column):

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 from app.schemas.fields import MAX_INFO_LENGTH
-from app.sheets.cells import MisreadError, Raw, clock_text, shown
+from app.sheets.cells import LONGEST_READ, MisreadError, Raw, clock_text, shown
 from app.sheets.clocks import (
     Style, clock, duration, read_date, window_text, windows,
 )
@@ -29,14 +29,29 @@ DEPOTS = frozenset((
     "depot", "lager", "zentrale", "hub", "warehouse", "base", "entrepot", "deposito",
     "almacen", "magazzino", "magazijn", "magazyn", "baza", "armazem", "dc"))
 
+SIDES = ("N", "S", "E", "W")
+PART_SIGNS = " ,;/"
+"""What may stand between two coordinates, each with its side."""
+
+DEPOT, CUSTOMER, DELIVERY, PICKUP = ORDER_KINDS = ("depot", "customer", "delivery", "pickup")
+
+KINDS = {
+    PICKUP: ("abhol", "pickup", "pick", "collect", "retour", "return", "ruckhol", "rucknahme",
+             "enlevement", "ramassage", "recogida", "recoleccion", "ritiro", "ophalen", "ophaal",
+             "odbior", "recolha", "coleta", "leergut"),
+    DELIVERY: ("liefer", "zustell", "ausliefer", "anliefer", "deliver", "drop", "livraison",
+               "entrega", "consegna", "lever", "bezorg", "dostawa", "aflever", "distribution"),
+    CUSTOMER: ("kunde", "customer", "client", "stop", "cliente", "klant", "klient"),
+}
+"""How words begin that say what is done at a stop, in simple letters."""
+
 _DEGREES = re.compile(
-    r"(?P<degrees>[-+]?\d{1,3})\s*[°d]\s*(?:(?P<minutes>\d{1,2}(?:[.,]\d+)?)\s*['\u2032m]\s*)?"
-    r"(?:(?P<seconds>\d{1,2}(?:[.,]\d+)?)\s*(?:[\"\u2033s]|'')\s*)?")
-_SIDE = re.compile(r"^\s*([NSEW])\s*|\s*([NSEW])\s*$", re.IGNORECASE)
-_POINT = re.compile(r"\s*(?P<first>[^,;]+?)\s*[;,/]\s*(?P<second>[^,;]+?)\s*")
-_POINT_COMMAS = re.compile(r"\s*(?P<first>-?\d+,\d+)\s*[;,\s/]\s*(?P<second>-?\d+,\d+)\s*")
-_POINT_SIDES = re.compile(r"\s*(?P<first>.+?[NS])[\s,;/]*(?P<second>.+[EW])\s*", re.IGNORECASE)
-_POINT_BLANK = re.compile(r"\s*(?P<first>-?\d+\.\d+)\s+(?P<second>-?\d+\.\d+)\s*")
+    r"(?P<degrees>[-+]?\d{1,3})\s*+[°d]\s*+(?:(?P<minutes>\d{1,2}(?:[.,]\d++)?)\s*+['\u2032m]\s*+)?"
+    r"(?:(?P<seconds>\d{1,2}(?:[.,]\d++)?)\s*+(?:[\"\u2033s]|'')\s*+)?")
+_PAIRS = (re.compile(r"(?<!\d)(-?\d++,\d++)[\s;,/]++(-?\d++,\d++)"),
+          re.compile(r"(?<!\d)(-?\d++\.\d++)\s++(-?\d++\.\d++)"))
+"""Two numbers with decimal commas, or with a blank between."""
+_NAMES = re.compile(r"[,;|]")
 
 
 def _text(raw: Raw, unit: str | None, style: Style) -> str:
@@ -68,7 +83,7 @@ def _duration(raw: Raw, unit: str | None, style: Style) -> float:
 
 
 def _names(raw: Raw, unit: str | None, style: Style) -> list[str]:
-    return [name for part in re.split(r"[,;|]", shown(raw)) if (name := part.strip())]
+    return [name for part in _NAMES.split(shown(raw)) if (name := part.strip())]
 
 
 def _server(raw: Raw, unit: str | None, style: Style) -> str:
@@ -89,9 +104,11 @@ def _degrees(raw: Raw, unit: str | None, style: Style) -> float:
         return raw
     if not isinstance(raw, str):
         raise MisreadError(f"{shown(raw)!r} are no degrees")
-    side = _SIDE.search(raw)
-    plain = _SIDE.sub("", raw).strip() if side else raw.strip()
-    sign = -1 if side and (side[1] or side[2]).upper() in "SW" else 1
+    plain = raw.strip()
+    side = next((sign for sign in (plain[:1].upper(), plain[-1:].upper()) if sign in SIDES), "")
+    if side:
+        plain = (plain[1:] if plain[:1].upper() == side else plain[:-1]).strip()
+    sign = -1 if side in ("S", "W") else 1
     if found := _DEGREES.fullmatch(plain):
         parts = (float((found[name] or "0").replace(",", "."))
                  for name in ("degrees", "minutes", "seconds"))
@@ -110,13 +127,37 @@ def _point(raw: Raw, unit: str | None, style: Style) -> tuple[float, float]:
     # GeoJSON and WKT put the longitude first.
     turned = shown(raw).startswith(("[", "POINT"))
     text = shown(raw).removeprefix("POINT").strip("()[] ")
-    patterns = (_POINT_COMMAS, _POINT_SIDES, _POINT, _POINT_BLANK)
-    found = next((match for pattern in patterns if (match := pattern.fullmatch(text))), None)
-    if found is None:
+    pair = _two_numbers(text)
+    if pair is None:
         raise MisreadError(f"{text!r} is no place: write latitude and longitude such as "
                            "48.137, 11.575")
-    first, second = (_degrees(found[name], None, style) for name in ("first", "second"))
+    turned = turned or pair[0][-1:].upper() in ("E", "W") or pair[0][:1].upper() in ("E", "W")
+    first, second = (_degrees(part, None, style) for part in pair)
     return (second, first) if turned else (first, second)
+
+
+def _two_numbers(text: str) -> tuple[str, str] | None:
+    """Return the texts of the two numbers of a place."""
+    if found := _PAIRS[0].fullmatch(text):
+        return found[1], found[2]
+    upper = text.upper()
+    for sides, others in (("NS", "EW"), ("EW", "NS")):
+        # The side stands behind its number, or before it: N 48.1 E 11.5.
+        if upper[:1] in sides and (place := _first_of(upper, others)) > 0:
+            return text[:place].strip(PART_SIGNS), text[place:]
+        if upper[-1:] in others and 0 < (place := _first_of(upper, sides)) < len(text) - 1:
+            return text[:place + 1], text[place + 1:].strip(PART_SIGNS)
+    for sign in ";,/":
+        parts = [part.strip() for part in text.split(sign)]
+        if len(parts) == 2 and all(parts):
+            return parts[0], parts[1]
+    found = _PAIRS[1].fullmatch(text)
+    return (found[1], found[2]) if found else None
+
+
+def _first_of(text: str, signs: str) -> int:
+    """Return where the first of some signs stands; -1: none does."""
+    return min((place for sign in signs if (place := text.find(sign)) >= 0), default=-1)
 
 
 def _date(raw: Raw, unit: str | None, style: Style) -> Any:
@@ -124,7 +165,14 @@ def _date(raw: Raw, unit: str | None, style: Style) -> Any:
 
 
 def _kind(raw: Raw, unit: str | None, style: Style) -> str:
-    return "depot" if simple(shown(raw)) in DEPOTS else "customer"
+    """Return what a row is; what no language here calls so as it is written."""
+    words = simple(shown(raw)).split()
+    if " ".join(words) in DEPOTS:
+        return DEPOT
+    for kind, known in KINDS.items():
+        if any(word.startswith(known) for word in words[:3]):
+            return kind
+    return shown(raw)
 
 
 READERS: dict[Kind, Reader] = {
@@ -144,6 +192,9 @@ def read(raw: Raw, kind: Kind, unit: str | None, style: Style) -> Any:
     """
     if raw is None or (kind != "text" and isinstance(raw, str) and raw.lower() in NOTHING):
         return None
+    if kind != "text" and isinstance(raw, str) and len(raw) > LONGEST_READ:
+        raise MisreadError(f"The cell has {len(raw)} letters, and no more than {LONGEST_READ} are "
+                           "read as anything but words")
     return READERS[kind](raw, unit, style)
 
 

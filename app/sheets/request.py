@@ -8,6 +8,7 @@ from pydantic_core import to_json
 
 from app.errors import InputError, InvalidRequestError
 from app.requests.reading import read_request
+from app.sheets.amounts import dimensions
 from app.sheets.cells import CellError, Doubt, MisreadError
 from app.sheets.columns import Column
 from app.sheets.customers import Entry, placed
@@ -16,6 +17,7 @@ from app.sheets.geography import Ground, Pair, depot_pair, on_globe
 from app.sheets.headings import without_unit
 from app.sheets.rows import Row
 from app.sheets.schemas import ImportSettings
+from app.sheets.vans import Van
 from app.warnings.finding import warnings_of
 from app.warnings.warning import RequestWarning
 
@@ -34,8 +36,8 @@ Data = dict[str, Any]
 
 
 def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
-               columns: Sequence[Column],
-               settings: ImportSettings) -> tuple[Data, list[Doubt]]:
+               columns: Sequence[Column], settings: ImportSettings,
+               vans: Sequence[Van] = ()) -> tuple[Data, list[Doubt]]:
     """Return a request and what was assumed for it.
 
     Raises
@@ -44,7 +46,7 @@ def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
         If a setting doesn't fit.
     """
     depot, doubts = _depots(stops, depots, ground, settings)
-    fleet, assumed = fleet_of(stops, columns, settings)
+    fleet, assumed = fleet_of(stops, columns, settings, vans)
     unit: Data = {}
     if not ground.is_geographic:
         in_km = any(column.meaning == "x" and column.unit == "km" for column in columns)
@@ -61,7 +63,7 @@ def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
 
 def _loads(columns: Sequence[Column]) -> Data:
     """Return what amounts are called and counted in, by the headings of their columns."""
-    amounts = [column for column in columns if column.meaning == "demand"]
+    amounts = dimensions(columns)
     if not amounts or any(not column.heading for column in amounts):
         return {}
     return {"load_dimensions": [{"name": without_unit(column.heading)[:LONGEST_NAME],

@@ -1,6 +1,6 @@
 """Rows of a table -> what they say, column by column; wrong cells are named."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from datetime import date
 from functools import lru_cache
@@ -11,7 +11,7 @@ from app.sheets.clocks import Style
 from app.sheets.columns import Column
 from app.sheets.layout import Table
 from app.sheets.meanings import MEANINGS
-from app.sheets.readers import DEPOTS, NO, YES, read
+from app.sheets.readers import DEPOT, DEPOTS, NO, YES, read
 from app.sheets.headings import simple
 
 
@@ -24,6 +24,7 @@ class Row:
     """What one row says, by meaning; a list with an entry a column where meanings repeat."""
 
     number: int  # from 0
+    first: str = ""  # name of its first cell
     values: dict[str, Any] = field(default_factory=dict)
     cells: dict[str, str] = field(default_factory=dict)  # names, by meaning
     errors: list[CellError] = field(default_factory=list)
@@ -35,7 +36,7 @@ class Row:
     def cell(self, *meanings: str) -> str:
         """Return the name of the cell for the first of these, else of the row's first cell."""
         return next((self.cells[meaning] for meaning in meanings if meaning in self.cells),
-                    cell_name(self.number, 0))
+                    self.first or cell_name(self.number, 0))
 
     def refuse(self, code: str, message: str, *meanings: str) -> None:
         """Note an error at a cell. In place."""
@@ -45,13 +46,13 @@ class Row:
     def is_depot(self) -> bool:
         """Whether it states where trips begin and end."""
         if self.get("kind") is not None:
-            return bool(self.get("kind") == "depot")
+            return bool(self.get("kind") == DEPOT)
         return simple(str(self.get("name") or "")) in DEPOTS and not any(self.get("demand") or ())
 
 
 def rows_of(table: Table, columns: Sequence[Column], style: Style) -> list[Row]:
     """Return what the rows say."""
-    rows = [Row(number) for number in table.rows]
+    rows = [Row(number, table.name(number, 0)) for number in table.rows]
     for column in columns:
         if column.meaning != "ignored":
             _read_column(table, column, style, rows)
@@ -73,7 +74,8 @@ def _read_column(table: Table, column: Column, style: Style, rows: Sequence[Row]
 
     for row in rows:
         raw = table.cell(row.number, column.index)
-        name = f"{letter}{row.number + 1}"
+        name = (table.name(row.number, column.index) if table.origins
+                else f"{letter}{row.number + 1}")
         value, wrong = reading(type(raw).__name__, raw)
         if wrong:
             row.errors.append(CellError("MISREAD", wrong, name))
@@ -97,15 +99,20 @@ def days_in(rows: Sequence[Row]) -> list[date]:
     return sorted({row.values["date"] for row in rows if row.get("date") is not None})
 
 
-def without_totals(rows: Sequence[Row]) -> Iterator[Row]:
-    """Yield the rows but a last one that sums up the others."""
+def sums_in(rows: Sequence[Row]) -> list[Row]:
+    """Return the rows that sum up others: they are called so, and have no place or the last."""
+    found = []
     for place, row in enumerate(rows):
         texts = [simple(value) for value in row.values.values() if isinstance(value, str)]
-        is_last = place == len(rows) - 1
-        if not (is_last and any(text.split()[:1] and text.split()[0] in TOTALS for text in texts)):
-            yield row
+        is_called = any(text.split()[:1] and text.split()[0] in TOTALS for text in texts)
+        if is_called and (place == len(rows) - 1 or not any(map(row.get, PLACED))):
+            found.append(row)
+    return found
 
+
+PLACED = ("latitude", "point", "x", "address", "street", "town", "postcode")
 
 TOTALS = frozenset((
+    "zwischensumme", "subtotal", "summen", "insgesamt", "ubertrag",
     "total", "totals", "sum", "summe", "gesamt", "gesamtsumme", "somme", "totale", "suma",
     "totaal", "razem"))

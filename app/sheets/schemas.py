@@ -10,6 +10,7 @@ from app.schemas.fields import Amount, Demand, Input, Money, Speed
 from app.schemas.response import WarningReply
 from app.schemas.times import Currency
 from app.sheets.meanings import MEANINGS
+from app.sheets.questions import Asked, QuestionKind
 
 Text = Annotated[str, Field(max_length=500)]
 Heading = Annotated[str, Field(max_length=2000)]
@@ -46,6 +47,9 @@ class Mapping(Input):
     same_place: Literal["together", "apart"] = Field(
         "together", description="Rows of one name and place: `together` they are one stop with the "
         "sum of their amounts; `apart` each is a stop.")
+    answers: Annotated[dict[Text, Text], Field(max_length=1000)] = Field(
+        {}, description="Answers to `questions` of a reply, by their ids. Those to questions that "
+        "this file doesn't raise do no harm.")
 
 
 class ImportSettings(Input):
@@ -67,7 +71,8 @@ class ImportSettings(Input):
     capacity: Demand | None = Field(
         None, description="What a vehicle holds, of each amount. Null: assumed to be all there is.")
     shift: Text | None = Field(
-        None, description="When vehicles work, such as `8:00-17:00`. Null: at any time.")
+        None, description="When vehicles work, such as `8:00-17:00`, or `21:00-6:00` to the "
+        "morning after. Null: at any time.")
     max_trips: Annotated[int, Field(ge=1, le=1000)] | None = Field(
         None, description="How often a vehicle may go out. Null: assumed to be several times, as "
         "long as there is time.")
@@ -144,11 +149,51 @@ class MeaningReply(_Reply):
                              "choice.")
 
 
+class ChoiceReply(_Reply):
+    """One way to answer a question."""
+
+    answer: str = Field(description="What is sent for it.")
+    title: str = Field(description="In words.")
+
+
+class QuestionReply(_Reply):
+    """Something that only who sends the file can know; until then the default is taken."""
+
+    id: str = Field(description="Name for its answer in `mapping.answers`, the same for the next "
+                    "file like it.")
+    kind: QuestionKind = Field(description="What it is about.")
+    text: str = Field(description="The question in words.")
+    values: dict[str, str | int] = Field(description="What the words are made of, by kind.")
+    column: str | None = Field(description="Letters of the column, if it is about one.")
+    cell: str | None = Field(description="Name of the first cell that it is about.")
+    sheet: str | None = Field(description="Name of the sheet, if it is about one.")
+    examples: list[str] = Field(description="Some cells that it is about.")
+    choices: list[ChoiceReply] = Field(
+        description="Answers; to `column` any meaning is one.")
+    default: str | None = Field(
+        description="What is taken without an answer. Null: it must be answered.")
+    answer: str | None = Field(description="What this reply was made with.")
+    is_answered: bool = Field(description="Whether that was stated.")
+
+    @classmethod
+    def of(cls, asked: Asked) -> "QuestionReply":
+        """Return what is told of a question."""
+        question = asked.question
+        return cls(
+            id=question.id, kind=question.kind, text=question.text, values=dict(question.values),
+            column=question.column, cell=question.cell, sheet=question.sheet,
+            examples=list(question.examples), default=question.default, answer=asked.answer,
+            is_answered=asked.is_answered,
+            choices=[ChoiceReply(answer=answer, title=title)
+                     for answer, title in question.choices.items()])
+
+
 class SheetReply(_Reply):
     """A sheet of the file."""
 
     name: str = Field(description="Name; empty for text files.")
     rows: int = Field(description="Rows.")
+    is_hidden: bool = Field(False, description="Whether the workbook hides it.")
 
 
 class FoundReply(_Reply):
@@ -185,6 +230,9 @@ class ImportReply(_Reply):
     columns: list[ColumnReply] = Field(description="Columns that hold anything.")
     day: str | None = Field(description="Day that is planned, if the file or you state one.")
     doubts: list[DoubtReply] = Field(description="What was guessed or assumed beside the columns.")
+    questions: list[QuestionReply] = Field(
+        description="What would else be dropped, or taken for granted, without a word: answer in "
+        "`mapping.answers`, and send the file again.")
     errors: list[SheetErrorReply] = Field(description="Cells that can't be used, and what lacks.")
     num_errors: int = Field(description="Errors, listed or not.")
     looked_up: LookUpReply | None = Field(

@@ -37,6 +37,10 @@ class Sheet:
     name: str
     rows: list[list[Raw]]
     merged: tuple[tuple[tuple[int, int], tuple[int, int]], ...] = ()
+    is_hidden: bool = False
+    hidden_rows: frozenset[int] = frozenset()
+    hidden_columns: frozenset[int] = frozenset()
+    has_filter: bool = False
 
 
 @dataclass(frozen=True)
@@ -88,7 +92,9 @@ def _read_workbook(content: bytes) -> list[Sheet]:
         raise NotASheetError("The workbook is damaged, or unpacks to more than can be held: save "
                              "the sheet with the customers alone.")
     return [_bounded(Sheet(sheet["name"], [list(map(raw_of, row)) for row in sheet["rows"]],
-                           tuple((tuple(first), tuple(last)) for first, last in sheet["merged"])))
+                           tuple((tuple(first), tuple(last)) for first, last in sheet["merged"]),
+                           sheet["is_hidden"], frozenset(sheet["hidden_rows"]),
+                           frozenset(sheet["hidden_columns"]), sheet["has_filter"]))
             for sheet in json.loads(done.stdout)]
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from charset_normalizer import from_bytes
 
-from app.sheets.cells import Raw
+from app.sheets.cells import Raw, tidy
 from app.sheets.headings import LONGEST_HEADING, SURE, is_known
 
 DELIMITERS = (";", "\t", ",", "|")
@@ -28,6 +28,9 @@ EQUALLY_GOOD = 0.02
 """Difference of `charset_normalizer`'s chaos that tells nothing."""
 
 LONGEST_CELL = 100_000
+MAX_CELLS = 2_000_000
+
+_SIGNS = re.compile(r"[;\t,|]")
 
 
 @dataclass(frozen=True)
@@ -56,10 +59,14 @@ def read_text(content: bytes, encoding: str | None, max_rows: int) -> TextFile:
     text = text.removeprefix("\ufeff")
     stated, text = _stated_delimiter(text)
     delimiter = stated or _delimiter_of(text)
-    rows = list(_records(text, delimiter, max_rows + 1))
-    if len(rows) > max_rows:
-        raise NoTextError(f"it has more than {max_rows} rows")
-    cells: list[list[Raw]] = [[cell.strip() or None for cell in row] for row in rows]
+    rows, cells_left = [], MAX_CELLS
+    for row in _records(text, delimiter, max_rows + 1):
+        rows.append(row)
+        cells_left -= len(row)
+        if len(rows) > max_rows or cells_left < 0:
+            raise NoTextError(f"it has more than {max_rows} rows" if len(rows) > max_rows
+                              else f"it has more than {MAX_CELLS} cells")
+    cells: list[list[Raw]] = [list(map(tidy, row)) for row in rows]
     return TextFile(cells, name, delimiter, is_guessed)
 
 
@@ -96,7 +103,7 @@ def _known_words(head: bytes, encoding: str) -> int:
     In a short file letters tell little; words that make sense tell more.
     """
     lines = head.decode(encoding, errors="replace").splitlines()[:HEADING_LINES]
-    cells = {cell.strip(' "') for line in lines for cell in re.split(r"[;\t,|]", line)}
+    cells = {cell.strip(' "') for line in lines for cell in _SIGNS.split(line)}
     return sum(len(cell) <= LONGEST_HEADING and is_known(cell, SURE) for cell in cells)
 
 

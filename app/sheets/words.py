@@ -4,6 +4,8 @@ English, German, French, Spanish, Italian, Dutch, Polish, Portuguese; `|` stands
 Simple: lower case, no accents, `ss` for the sharp s of German.
 """
 
+from app.sheets.order_words import ORDER_WORDS
+
 WINDOW = {
     "en": "time window|window|delivery window|delivery time|time slot|slot|opening hours|tw|"
           "hours|delivery hours|timeslot|time windows|windows",
@@ -135,7 +137,7 @@ WORDS: dict[str, dict[str, str]] = {
         "pt": "cidade|localidade|concelho",
     },
     "country": {
-        "en": "country|state|country code",
+        "en": "country|country code",
         "de": "land|staat|lkz",
         "fr": "pays",
         "es": "pais",
@@ -292,8 +294,8 @@ WORDS: dict[str, dict[str, str]] = {
         "de": "verbotene fahrzeuge|nicht mit",
     },
     "kind": {
-        "en": "kind|type|stop type",
-        "de": "art|typ|stopptyp",
+        "en": "kind|type|stop type|order type|job type|service type|activity",
+        "de": "art|typ|stopptyp|auftragsart|vorgang|vorgangsart|auftragstyp|tatigkeit",
         "fr": "type",
         "es": "tipo",
         "it": "tipo",
@@ -357,6 +359,7 @@ WORDS: dict[str, dict[str, str]] = {
         "pl": "priorytet",
         "pt": "prioridade",
     },
+    **ORDER_WORDS,
     "window": WINDOW,
     "earliest": BEGIN,
     "latest": END,

@@ -10,11 +10,16 @@ import resource
 import sys
 from contextlib import suppress
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 from python_calamine import (
     CalamineError, CalamineSheet, CalamineWorkbook, SheetTypeEnum, SheetVisibleEnum,
 )
+
+# Run as a file of its own, without the package around it.
+sys.path.append(str(Path(__file__).parent))
+from hidden import Hidden, hidden_in  # type: ignore[import-not-found]
 
 MEMORY_BYTES = 2**30
 CPU_SECONDS = 20
@@ -25,32 +30,36 @@ EXIT_UNREADABLE = 2
 
 
 def main() -> None:
-    """Answer with a list of `{"name", "rows", "merged"}`, or a word on what is wrong."""
+    """Answer with a list of sheets and what isn't shown of each, or a word on what is wrong."""
     # macOS may refuse to bound memory; time is bounded there all the same.
     with suppress(ValueError, OSError):
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
     resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS))
     try:
-        book = CalamineWorkbook.from_filelike(BytesIO(sys.stdin.buffer.read()))
-        sheets = _sheets(book)
+        content = sys.stdin.buffer.read()
+        unseen = hidden_in(content, MAX_CELLS)
+        sheets = _sheets(CalamineWorkbook.from_filelike(BytesIO(content)), unseen)
     except (CalamineError, OSError, ValueError) as error:
         sys.stdout.write(str(error))
         sys.exit(EXIT_UNREADABLE)
     json.dump(sheets, sys.stdout, ensure_ascii=True)
 
 
-def _sheets(book: CalamineWorkbook) -> list[dict[str, Any]]:
-    """Return the sheets that a reader of the workbook sees."""
-    shown = [entry.name for entry in book.sheets_metadata
-             if entry.typ == SheetTypeEnum.WorkSheet and entry.visible == SheetVisibleEnum.Visible]
+def _sheets(book: CalamineWorkbook, unseen: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return all sheets with cells, those first that a reader of the workbook sees."""
+    entries = [entry for entry in book.sheets_metadata if entry.typ == SheetTypeEnum.WorkSheet]
+    entries.sort(key=lambda entry: entry.visible != SheetVisibleEnum.Visible)
     sheets, cells = [], 0
-    for name in shown:
-        sheet = book.get_sheet_by_name(name)
+    for entry in entries:
+        sheet = book.get_sheet_by_name(entry.name)
+        is_hidden = entry.visible != SheetVisibleEnum.Visible
         cells += sheet.total_height * sheet.total_width
         if cells > MAX_CELLS:
             raise ValueError(f"it has more than {MAX_CELLS} cells")
-        sheets.append({"name": name, "rows": _rows(sheet),
-                       "merged": sheet.merged_cell_ranges or []})
+        hidden = unseen.get(entry.name, Hidden())
+        sheets.append({"name": entry.name, "rows": _rows(sheet), "is_hidden": is_hidden,
+                       "merged": sheet.merged_cell_ranges or [], "hidden_rows": hidden.rows,
+                       "hidden_columns": hidden.columns, "has_filter": hidden.has_filter})
     return sheets
 
 

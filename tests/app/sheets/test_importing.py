@@ -1,5 +1,6 @@
 """What is doubtful is told, what is wrong is refused with its cell named."""
 
+from time import perf_counter
 from typing import Any
 
 import pytest
@@ -314,12 +315,6 @@ def test_customers_near_a_pole_have_swapped_coordinates() -> None:
     assert "SWAPPED" in codes(reply)
 
 
-def test_a_window_over_midnight_is_refused_with_what_to_write() -> None:
-    reply = read("A,1,1,22:00,6:00", "B,2,2,8:00,4:00", head="name,x,y,from,to")
-    assert [(error.cell, error.message.split("write ")[1]) for error in reply.errors] == [
-        ("E2", "30:00 if that is meant."), ("E3", "16:00 if that is meant.")]
-
-
 def test_ticked_skills_are_named_after_their_column_and_vehicles_have_them() -> None:
     reply = read("A,1,1,x", "B,2,2,", head="name,x,y,Hebebühne")
     assert reply.request is not None
@@ -406,3 +401,12 @@ def test_what_is_stated_to_be_nothing_is_not_guessed() -> None:
     assert [column.meaning for column in reply.columns[3:]] == ["ignored", "ignored"]
     assert reply.request is not None
     assert "time_window" not in reply.request["customers"][0]
+
+
+def test_eight_million_cells_are_refused_as_they_are_read() -> None:
+    content = (",".join(f"column {number}" for number in range(80)) + "\n"
+               + ("1," * 79 + "1\n") * 99_990).encode()
+    before = perf_counter()
+    with pytest.raises(NotASheetError, match="more than 2000000 cells"):
+        import_file(content, ImportSettings())
+    assert perf_counter() - before < 5

@@ -1,0 +1,150 @@
+"""Every pattern that sees texts of others takes time in proportion to their length."""
+
+import ast
+import importlib
+import pkgutil
+import re
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from itertools import product
+from pathlib import Path
+from time import perf_counter
+from types import ModuleType
+
+import pytest
+
+import app.addresses
+import app.sheets
+from app.sheets.cells import LONGEST_READ, MisreadError
+from app.sheets.clocks import Style
+from app.sheets.importing import import_file
+from app.sheets.meanings import MEANINGS
+from app.sheets.readers import READERS
+from app.sheets.schemas import ImportSettings
+
+PACKAGES = (app.sheets, app.addresses)
+
+STARTS = ("", "8", "8:30", "8:30 am", "2026-01-01", "1.", "48.1", "a@b", "ab ", "pt1", "(",
+          "between 8", "POINT(1", "$.customers[1", "https://maps.google.com/", "geo:1", "1\u00b0")
+PIECES = (" ", "\t", "\n", "\u00a0", "1", "0", "1 ", "a", "A", "\u00e9", "8 ", "-", "- ", ".", ",",
+          ":", ";", "'", "1.", "1,", "1.1", "1,111", ".111", "a.", "a@", "am ", "N ", "1\u00b0",
+          "1\u00b0 ", "and ", "between ", "ab ", "T,", "(", "((", "()", "[1]", "/", "//", "@", "%",
+          "+", "=", "<", "a ")
+ENDS = ("", "x", "\nx", "!", "1", "\u00e9", ")")
+
+SIZE, LONGER = 3000, 12_000
+QUICK = 0.01
+"""Seconds that a text of `SIZE` letters may always take: trying all splits takes more."""
+
+MOST_PER_CELL = 0.1
+
+GROWTH = 9.0
+"""Of the time for a text four times as long; 16 where all splits are tried."""
+
+
+def modules() -> Iterator[ModuleType]:
+    for package in PACKAGES:
+        for found in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
+            yield importlib.import_module(found.name)
+
+
+def patterns_in(value: object) -> Iterator[re.Pattern[str]]:
+    if isinstance(value, re.Pattern):
+        yield value
+    elif isinstance(value, dict):
+        for held in value.values():
+            yield from patterns_in(held)
+    elif isinstance(value, list | tuple | set | frozenset):
+        for held in value:
+            yield from patterns_in(held)
+
+
+def patterns() -> dict[str, re.Pattern[str]]:
+    """Return the patterns of all modules, by where they are and what they are."""
+    return {f"{module.__name__}.{name}: {pattern.pattern[:40]}": pattern
+            for module in modules() for name, value in vars(module).items()
+            for pattern in patterns_in(value)}
+
+
+def texts(size: int) -> Iterator[str]:
+    for start, piece, end in product(STARTS, PIECES, ENDS):
+        yield start + piece * (size // len(piece)) + end
+
+
+def seconds_of(work: Callable[[], object], times: int = 1) -> float:
+    least = float("inf")
+    for _ in range(times):
+        before = perf_counter()
+        work()
+        least = min(least, perf_counter() - before)
+    return least
+
+
+def slow_texts(work: Callable[[str], object]) -> list[str]:
+    """Return starts of texts whose time grows faster than their length."""
+    slow = []
+    for text, longer in zip(texts(SIZE), texts(LONGER), strict=True):
+        if seconds_of(lambda text=text: work(text)) > QUICK:
+            short = seconds_of(lambda text=text: work(text), 3)
+            long = seconds_of(lambda longer=longer: work(longer), 3)
+            if short > QUICK and long > GROWTH * short:
+                slow.append(text[:60])
+    return slow
+
+
+def find_all(pattern: re.Pattern[str], text: str) -> None:
+    deque(pattern.finditer(text), maxlen=0)
+
+
+@pytest.mark.parametrize("name", patterns())
+def test_no_pattern_tries_all_ways_to_split_a_text(name: str) -> None:
+    pattern = patterns()[name]
+    assert slow_texts(pattern.fullmatch) == []
+    assert slow_texts(lambda text: find_all(pattern, text)) == []
+
+
+def test_all_patterns_have_names_by_which_they_are_found_here() -> None:
+    used = [f"{path.name}:{node.lineno}"
+            for package in PACKAGES for path in Path(package.__path__[0]).glob("*.py")
+            for node in ast.walk(ast.parse(path.read_text("utf-8")))
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)
+            and isinstance(node.func.value, ast.Name) and node.func.value.id == "re"
+            and node.func.attr not in ("compile", "escape")]
+    assert used == []
+    assert len(patterns()) > 30
+
+
+def test_a_pattern_that_tries_all_splits_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, few in (("STARTS", ("8",)), ("PIECES", (" ", "1")), ("ENDS", ("x",))):
+        monkeypatch.setitem(globals(), name, few)
+    assert slow_texts(re.compile(r"\d+\s*\w?\s*y").fullmatch) == ["8" + " " * 59]
+
+
+@pytest.mark.parametrize("kind", READERS)
+def test_no_cell_takes_long_to_read(kind: str) -> None:
+    for text in texts(LONGEST_READ):
+        before = perf_counter()
+        with suppress(MisreadError):
+            READERS[kind](text, None, Style())  # type: ignore[index]
+        assert perf_counter() - before < MOST_PER_CELL
+
+
+@pytest.mark.parametrize("cell", ["8" + " " * 1000 + "x", "8" + "\t " * 500 + "x",
+                                  "1." * 5000 + "x", "8 - " * 1000, "(" * 20_000,
+                                  "48.1" + "\u00a0" * 9000 + "N"])
+def test_a_small_sheet_is_read_at_once_whatever_its_cells_hold(cell: str) -> None:
+    headings = ["name", "lat", "lon"]
+    for meaning in MEANINGS:
+        mapping = {"columns": [{"heading": "nasty", "meaning": meaning}]}
+        content = (f"{','.join(headings)},nasty\n" + f'A,48.1,11.5,"{cell}"\n' * 3).encode()
+        before = perf_counter()
+        import_file(content, ImportSettings.model_validate({"mapping": mapping}))
+        assert perf_counter() - before < 1
+
+
+def test_headings_of_many_words_are_known_at_once() -> None:
+    words = [" ".join("abcdefghij"[(row + place) % 10] for place in range(30))
+             for row in range(400)]
+    content = "\n".join(",".join(f"{text} {row}" for text in words) for row in range(20)).encode()
+    assert seconds_of(lambda: import_file(content, ImportSettings())) < 5
