@@ -29,8 +29,11 @@ from model.search.compiling import (
 )
 from model.search.improve import GRACE, Improved, SearchConfig, improve
 from model.search.improve import Progress as Progress
+from model.search.reserve import more_by_plan, usual_reserve
 from model.simulation.extract import extract
 from model.solution import Solution
+from model.together.improving import Part, Terms, improve_together
+from model.together.joint import find_joint
 from model.travel.airspace import compile_ways
 
 Start = Literal["policy", "insertion", "given"]
@@ -48,15 +51,6 @@ begins with there is dearer than the policy's plan."""
 
 GIVE_UP_SHARE = 0.5
 """Share of the time limit after which the policy is given up where a search follows."""
-
-SECONDS_BEHIND, SECONDS_PER_CUSTOMER, SECONDS_WITH_DRONES, SECONDS_PER_REASON = (
-    0.0025, 2e-5, 4e-5, 2e-6)
-"""Kept back for reading a plan, checking it and writing it down: in all, for each customer, where
-drones fly so much more, and for each reason why a type of vehicle doesn't serve one."""
-
-READING_CUSTOMER, READING_ROUTE, READING_SORTIE = 1.1e-5, 1.9e-4, 2e-4
-"""The same of a plan that is known: for each customer, route and sortie. More is kept back for
-that where it is more."""
 
 WARM_LIMIT = 3600.0
 """Time limit of the plan that everything is compiled for, which no compiler should need."""
@@ -219,8 +213,8 @@ class Planner:
             last = first
         elapsed = Elapsed(decoded - began, searched - decoded, time.perf_counter() - searched)
         # By the search's sum, which rounds otherwise than the checker's.
-        begun = max(improved.first_cost, last.cost) if first is None else first.cost
-        return _result(last, how, begun, options, improved, whole, elapsed)
+        first_cost = max(improved.first_cost, last.cost) if first is None else first.cost
+        return _result(last, how, first_cost, options, improved, whole, elapsed)
 
     def _decode(self, problem: Problem, instance: Instance, options: PlanOptions,
                 give_up: float, listener: Listener, searches: bool) -> Solution | None:
@@ -319,22 +313,32 @@ def _tell(listener: Listener, first: _Judged) -> None:
 
 def _improve(problem: Problem, instance: Instance, first: _Judged | None, options: PlanOptions,
              deadline: float | None, listener: Listener) -> Improved:
+    """Search from a plan, or from none; also for groups who may be served only together."""
+    begun = None if first is None else first.solution
+    turns = options.search_iterations
+    terms = Terms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
+    joint = None if turns == 0 else find_joint(problem, terms.ended)
+    if joint is None:
+        return _search(problem, instance, begun, options, deadline, listener, True)
+
+    def search(begun: Solution | None, part: Part, should_stop: Callable[[], bool],
+               on_progress: Callable[[Progress], None]) -> Improved:
+        own = replace(options, search_iterations=None if turns is None else turns - part.made,
+                      cooled=max(part.cooled, options.cooled))
+        return _search(problem, instance, begun, own, part.deadline or deadline, Listener(
+            should_stop, lambda told: on_progress(replace(told, turns=part.made + told.turns))),
+            False)
+
+    return improve_together(problem, joint, begun, terms, search)
+
+
+def _search(problem: Problem, instance: Instance, begun: Solution | None, options: PlanOptions,
+            deadline: float | None, listener: Listener, direct: bool) -> Improved:
     config = SearchConfig(options.seed, options.threads, options.search_iterations,
-                          cooled=options.cooled)
-    each = SECONDS_PER_CUSTOMER + SECONDS_PER_REASON * len(problem.vehicle_types)
-    if any(kind.drones is not None for kind in problem.vehicle_types):
-        each += SECONDS_WITH_DRONES
-    usual = SECONDS_BEHIND + each * problem.num_customers
-
-    def reading(routes: int, sorties: int) -> float:
-        """Return how much more than usual is kept back."""
-        known = (SECONDS_BEHIND + READING_CUSTOMER * problem.num_customers
-                 + READING_ROUTE * routes + READING_SORTIE * sorties)
-        return max(0.0, known - usual)
-
-    return improve(problem, instance, _nobody(problem) if first is None else first.solution,
-                   config, None if deadline is None else deadline - usual, listener.should_stop,
-                   listener.on_progress, reading)
+                          cooled=options.cooled, direct=direct)
+    until = None if deadline is None else deadline - usual_reserve(problem)
+    return improve(problem, instance, _nobody(problem) if begun is None else begun, config, until,
+                   listener.should_stop, listener.on_progress, more_by_plan(problem))
 
 
 def complete_plan(problem: Problem, begun: Solution, seed: int,

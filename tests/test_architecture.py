@@ -40,13 +40,14 @@ MODEL = {
     "simulation": ("problem", "solution", "kernel"),
     "policy": ("problem", "kernel", "simulation"),
     "search": ("problem", "solution", "kernel"),
+    "together": ("problem", "solution", "judge", "kernel", "search"),
     "planner": ("problem", "solution", "judge", "kernel", "travel", "simulation", "policy",
-                "search"),
+                "search", "together"),
     "replanning": ("problem", "solution", "judge", "planner"),
     "dialects": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
-MOST_ARROWS = 30
+MOST_ARROWS = 36
 
 INTERPRETED = {"solution", "problem/straight", "problem/travel"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""

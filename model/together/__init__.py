@@ -1,0 +1,1 @@
+"""Customers who can be served together alone, whom a search that inserts one at a time misses."""

@@ -1,0 +1,164 @@
+"""Every order in which a truck may serve some customers, as far as no bound forbids it."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from model.judge.network import Network
+from model.judge.timing import TripDecision
+from model.problem import MM_PER_KM, MS_PER_HOUR
+
+LOOKS = 256
+"""Orders between two looks at the clock."""
+
+
+class Order(NamedTuple):
+    """A route in one order, and what it costs at least."""
+
+    bound: float
+    trips: tuple[TripDecision, ...]
+
+
+class TooManyError(Exception):
+    """There are more orders than are to be tried."""
+
+
+@dataclass
+class Orders:
+    """Tries all orders of the customers of a network.
+
+    Parameters
+    ----------
+    net
+        The places.
+    most
+        How many ways on are tried.
+    should_stop
+        Asked now and then.
+
+    Raises
+    ------
+    TooManyError
+        If there are more ways on, or it is told to stop.
+    """
+
+    net: Network
+    most: int
+    should_stop: Callable[[], bool]
+    tried: int = field(default=0, init=False)
+
+    def by_group(self) -> dict[int, list[Order]]:
+        """Return the orders of each group, as bits by the customers' numbers."""
+        found: dict[int, list[Order]] = {}
+        for group, order in self._begin():
+            found.setdefault(group, []).append(order)
+        return found
+
+    def _begin(self) -> Iterator[tuple[int, Order]]:
+        net = self.net
+        self._ride, self._far = net.ride.tolist(), net.far.tolist()
+        self._nodes: list[int] = net.nodes.tolist()
+        self._stay, self._rest = net.stay.tolist(), net.rest.tolist()
+        self._opens, self._closes = net.opens.tolist(), net.closes.tolist()
+        self._far_back = net.far_back.tolist()
+        first = net.problem.num_depots
+        self._release = [0 if node < first else net.problem.customers[node - first].release_time
+                         for node in self._nodes]
+        self._demand = [() if node < first else net.problem.customers[node - first].demand
+                        for node in self._nodes]
+        self._taken = [() if node < first else net.problem.customers[node - first].taken_in
+                       for node in self._nodes]
+        start = _Path((net.begin,), (), net.vehicle_type.earliest, 0, 0, 0, 0, 0)
+        none = (0,) * net.problem.num_dimensions
+        yield from self._onward(start, none, none)
+
+    def _onward(self, path: "_Path", given: tuple[int, ...],
+                taken: tuple[int, ...]) -> Iterator[tuple[int, Order]]:
+        """Yield the path as a route, then all that begin with it."""
+        here = path.places[-1]
+        if len(path.places) > 1:
+            yield from self._ended(path)
+        stops, capacity = self.net.vehicle_type.max_stops, self.net.vehicle_type.capacity
+        if stops is not None and len(path.places) > stops:
+            return
+        for place in range(self.net.num_depots, len(self._nodes)):
+            if path.group >> self._nodes[place] & 1:
+                continue
+            self._count()
+            longer = self._with(path, here, place)
+            if longer is None:
+                continue
+            more = tuple(map(sum, zip(given, self._demand[place], strict=True)))
+            load = tuple(map(sum, zip(taken, self._taken[place], strict=True)))
+            if all(map(_at_most, more, capacity)) and all(map(_at_most, load, capacity)):
+                yield from self._onward(longer, more, load)
+
+    def _count(self) -> None:
+        self.tried += 1
+        if self.tried > self.most or (self.tried % LOOKS == 0 and self.should_stop()):
+            raise TooManyError
+
+    def _with(self, path: "_Path", here: int, place: int) -> "_Path | None":
+        """Return a path with one more customer; None if a bound forbids it."""
+        net, ride = self.net, self._ride[here][place]
+        arrival = max(path.time + ride, self._release[place] + path.since + ride)
+        if arrival > self._closes[place]:
+            return None
+        leave = max(arrival, self._opens[place]) + self._stay[place]
+        span = path.span + ride + self._stay[place]
+        far = path.far + self._far[here][place]
+        if (leave + self._rest[place] > net.latest_end
+                or span + self._rest[place] > net.longest_work
+                or far + self._far_back[place] > net.longest_trip):
+            return None
+        return path._replace(places=(*path.places, place), time=leave, span=span, far=far,
+                             since=path.since + ride + self._stay[place],
+                             group=path.group | 1 << self._nodes[place])
+
+    def _ended(self, path: "_Path") -> Iterator[tuple[int, Order]]:
+        """Yield the route that ends here, then those that go on with another trip."""
+        net, here = self.net, path.places[-1]
+        home, far = self._ride[here][net.end], path.far + self._far[here][net.end]
+        if (path.time + home <= net.latest_end and path.span + home <= net.longest_work
+                and far <= net.longest_trip):
+            yield path.group, self._order(path, net.end, path.span + home, path.gone + far)
+        if len(path.trips) + 1 >= net.vehicle_type.max_trips:
+            return
+        none = (0,) * net.problem.num_dimensions
+        for depot in net.reloads:
+            ride, far = self._ride[here][depot], path.far + self._far[here][depot]
+            if far <= net.longest_trip:
+                away = ride + net.vehicle_type.reload_duration
+                yield from self._onward(_Path(
+                    (depot,), (*path.trips, self._trip(path, depot)), path.time + away,
+                    path.span + away, 0, path.gone + far, 0, path.group), none, none)
+
+    def _order(self, path: "_Path", end: int, span: int, gone: int) -> Order:
+        kind = self.net.vehicle_type
+        bound = (kind.fixed_cost + gone * kind.cost_per_km / MM_PER_KM
+                 + path.group.bit_count() * kind.cost_per_stop
+                 + span * kind.cost_per_hour / MS_PER_HOUR)
+        return Order(bound, (*path.trips, self._trip(path, end)))
+
+    def _trip(self, path: "_Path", end: int) -> TripDecision:
+        nodes = self._nodes
+        return TripDecision((*[nodes[place] for place in path.places], nodes[end]))
+
+
+class _Path(NamedTuple):
+    """Where a route has come to."""
+
+    places: tuple[int, ...]  # of the trip that it is on
+    trips: tuple[TripDecision, ...]  # those before
+    time: int  # when it may leave
+    span: int  # worked since it began, without waiting
+    far: int  # on this trip
+    gone: int  # on those before
+    since: int  # of the span, on this trip
+    group: int  # served, as bits by node
+
+
+def _at_most(amount: int, limit: int) -> bool:
+    return amount <= limit
+
+
