@@ -11,12 +11,12 @@ from itertools import product
 
 import numpy as np
 
+from model.judge.check import check
 from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import time_route
 from model.judge.timing import RouteDecision, TripDecision
 from model.problem import (
-    MAX_QUANTITY, UNLIMITED, BoolArray, Customer, Depot, IntArray, Overtime, Problem, Travel,
-    VehicleType,
+    MAX_QUANTITY, UNLIMITED, Customer, Depot, IntArray, Overtime, Problem, Travel, VehicleType,
 )
 from model.solution import Solution
 from model.travel.matrices import with_nowhere
@@ -39,8 +39,8 @@ def draw_group(rng: np.random.Generator, most: int = 7) -> Problem:
         depots=tuple(Depot(str(index)) for index in range(depots)),
         customers=tuple(_customer(rng, index) for index in range(number)),
         vehicle_types=tuple(_vehicles(rng, depots, number)),
-        travel=(Travel(legs, np.minimum(10 * legs, MAX_QUANTITY)),), coordinates=rng.random((depots + number, 2)),
-        unassigned_cost=LEFT_OUT)
+        travel=(Travel(legs, np.minimum(10 * legs, MAX_QUANTITY)),),
+        coordinates=rng.random((depots + number, 2)), unassigned_cost=LEFT_OUT)
     return _opened(problem) if rng.random() < 0.15 else problem
 
 
@@ -104,6 +104,38 @@ def _vehicles(rng: np.random.Generator, depots: int, number: int) -> Iterator[Ve
             skills=frozenset({"lift"} if rng.random() < 0.7 else ()))
 
 
+def draw_streets(rng: np.random.Generator, number: int, vehicles: int,
+                 spare: float = 1.0) -> Problem:
+    """Draw one-way streets of so many customers, all of whom the vehicles can just serve.
+
+    `spare` is how much longer than the longest of some routes the shift is.
+    """
+    place = rng.random((number + 1, 2))
+    place[0] = 0.5
+    apart = np.sqrt(((place[:, None] - place) ** 2).sum(axis=2))
+    drive = (apart * 600 + 5).astype(np.int64) * SECOND
+    roads = np.zeros(apart.shape, np.bool_)
+    for node in range(number + 1):
+        near = np.argsort(apart[node])[1:7]
+        roads[node, near[rng.random(6) < 0.4]] = True
+    left, longest = set(range(1, number + 1)), 0
+    for _ in range(vehicles):
+        at = time = 0
+        for _ in range(min(len(left), -(-number // vehicles))):
+            following = min(left, key=lambda node: float(apart[at, node]))
+            left.discard(following)
+            roads[at, following], time = True, time + int(drive[at, following])
+            at = following
+        roads[at, 0], longest = True, max(longest, time + int(drive[at, 0]))
+    legs = np.where(roads, drive, NO_ROAD[0])
+    np.fill_diagonal(legs, 0)
+    return Problem(
+        (Depot("depot"),), tuple(Customer(str(index), (1,)) for index in range(number)),
+        (VehicleType("van", vehicles, (number,), 0, cost_per_km=1.0,
+                     latest=int(longest * spare)),),
+        (Travel(legs, np.minimum(10 * legs, MAX_QUANTITY)),), place, LEFT_OUT)
+
+
 @dataclass(frozen=True)
 class Best:
     """What the best of all plans serves and costs."""
@@ -114,28 +146,19 @@ class Best:
 
 def best_plan(problem: Problem) -> Best:
     """Return what the best plan by trucks does, found by trying all."""
-    number, first = problem.num_customers, problem.num_depots
-    full = 2 ** number
-    reached: list[tuple[float, int]] = [(0.0, 0)] * full
-    for mask in range(full):
-        nodes = [node for node in range(number) if not mask >> node & 1]
-        left = sum(problem.cost_of_leaving_out(problem.customers[node]) for node in nodes)
-        reached[mask] = (left, len(nodes)) if mask == 0 else (np.inf, number)
-    cost = {0: 0.0}
+    number, cost = problem.num_customers, {0: 0.0}
     for kind, vehicles in enumerate(problem.vehicle_types):
         routes = _cheapest_routes(problem, kind)
         for _ in range(min(vehicles.count, number)):
             better = dict(cost)
-            for (mask, before), (group, price) in product(cost.items(), routes.items()):
-                if not mask & group and before + price < better.get(mask | group, np.inf):
-                    better[mask | group] = before + price
+            for (served, before), (group, price) in product(cost.items(), routes.items()):
+                if not served & group and before + price < better.get(served | group, np.inf):
+                    better[served | group] = before + price
             cost = better
-    totals = [(price + sum(problem.cost_of_leaving_out(problem.customers[node])
-                           for node in range(number) if not mask >> node & 1), mask)
-              for mask, price in cost.items()]
-    least, mask = min(totals)
-    del first
-    return Best(mask.bit_count(), least)
+    least, served = min((price + sum([
+        problem.cost_of_leaving_out(customer) for index, customer in enumerate(problem.customers)
+        if not group >> index & 1]), group) for group, price in cost.items())
+    return Best(served.bit_count(), least)
 
 
 def _cheapest_routes(problem: Problem, kind: int) -> dict[int, float]:
@@ -183,16 +206,15 @@ def _orders(problem: Problem, kind: int) -> Iterator[tuple[TripDecision, ...]]:
     yield from onward((), (vehicles.begins_at,), vehicles.earliest, nodes)
 
 
-def cost_of(problem: Problem, plan: Solution) -> Best:
-    """Return what a plan serves and costs."""
-    from model.judge.check import check
+def what_comes(problem: Problem, plan: Solution) -> Best:
+    """Return what a plan serves and costs.
+
+    Raises
+    ------
+    ValueError
+        If it breaks a rule.
+    """
     evaluation = check(problem, plan)
     if evaluation.violations:
         raise ValueError(f"plan: {evaluation.violations} is not allowed")
     return Best(problem.num_customers - len(plan.unassigned), evaluation.cost.total)
-
-
-def no_roads(problem: Problem) -> BoolArray:
-    """Mark the legs that are as long as those where there is no road."""
-    marked: BoolArray = problem.travel[0].arrays()[0] >= min(NO_ROAD)
-    return marked

@@ -14,7 +14,7 @@ from model.problem import Problem
 from model.search.compiling import is_compiled, parts_for
 from model.search.improve import SearchConfig, improve
 from model.search.regions.part import Part, part_of
-from model.search.regions.region import Region, Vehicle, vehicle_of
+from model.search.regions.region import Region, Vehicle, customers_of, vehicle_of
 from model.solution import Solution
 from model.together.filling import Filling
 from model.together.joint import Joint
@@ -124,16 +124,16 @@ class Pulling:
 
     def _mended(self, part: Part, joint: Joint, found: Solution) -> Solution:
         """Return the routes that keep all limits, and what can be kept of the others."""
-        problem, kept, broken = part.problem, [], []
-        for route in found.routes:
-            judged = judge_route(problem, route, "")
-            (broken if judged.violations else kept).append((route, judged.nodes))
-        served = {node for _, nodes in kept for node in nodes}
+        problem = part.problem
+        judged = [(route, judge_route(problem, route, "")) for route in found.routes]
+        kept = tuple([route for route, verdict in judged if not verdict.violations])
+        served = {node for route in kept for node in customers_of(route)}
         left_out = [node for node in range(problem.num_depots, problem.num_nodes)
                     if node not in served]
-        filling = Filling(problem, Solution(tuple([route for route, _ in kept]), tuple(left_out)),
-                          joint, self._should_stop, self._rng)
-        for route, nodes in broken:
-            filling.put(vehicle_of(route), nodes)
+        filling = Filling(problem, Solution(kept, tuple(left_out)), joint, self._should_stop,
+                          self._rng)
+        for route, verdict in judged:
+            if verdict.violations:
+                filling.put(vehicle_of(route), verdict.nodes)
         filling.fill(0)
         return filling.plan
