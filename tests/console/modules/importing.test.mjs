@@ -1,11 +1,18 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {
+  addressesIn,
+  byAddress,
+  forNextFile,
+  placing,
   pastedSheet,
   readFields,
   remember,
   signatureOf,
+  unplacedIn,
+  withAnswer,
   withColumn,
+  withoutUnplaced,
 } from '../../../app/console/static/js/core/importing.js';
 
 test('fields become settings, and what cannot be read is named', () => {
@@ -44,4 +51,36 @@ test('what is pasted is a sheet if it has lines of cells', () => {
   assert.equal(pastedSheet('a\tb\n1\t2\n'), 'a\tb\n1\t2\n');
   assert.equal(pastedSheet('just a word'), null);
   assert.equal(pastedSheet('two\nlines'), null);
+});
+
+test('answers add up, and those about rows of one file are not kept for another', () => {
+  const mapping = withAnswer(withAnswer({ decimals: ',' }, 'day', '2026-11-26'), 'sheet:Di', 'also');
+  assert.deepEqual(mapping.answers, { day: '2026-11-26', 'sheet:Di': 'also' });
+  const questions = [
+    { id: 'day', kind: 'day' },
+    { id: 'sheet:Di', kind: 'sheet' },
+  ];
+  assert.deepEqual(forNextFile(mapping, questions), {
+    decimals: ',',
+    answers: { 'sheet:Di': 'also' },
+  });
+  assert.deepEqual(forNextFile({ decimals: ',' }), { decimals: ',' });
+});
+
+test('customers of one address are placed at once, and may be left out', () => {
+  const at = (id, location) => ({ id, location });
+  const request = {
+    customers: [at('A', { address: 'Ring 1' }), at('B', [1, 2]), at('C', { address: 'Ring 1' })],
+  };
+  assert.deepEqual(addressesIn(request), [{ address: 'Ring 1', ids: ['A', 'C'] }]);
+  assert.deepEqual(addressesIn(null), []);
+  assert.deepEqual(unplacedIn(request, { 'Ring 1': [3, 4] }), []);
+  assert.deepEqual(byAddress({ 'Ring 1': [3, 4] }).get('Ring 1').places[0].location, [3, 4]);
+  assert.deepEqual(withoutUnplaced(request).customers, [at('B', [1, 2])]);
+});
+
+test('a place is written as maps show it, or as x and y of a plane', () => {
+  assert.equal(placing({ coordinate_system: 'geographic' }, [11.5, 48.1234567]), '48.123457, 11.5');
+  assert.equal(placing(null, [11.5, 48]), '48, 11.5');
+  assert.equal(placing({ coordinate_system: 'planar' }, [3, 4]), '3, 4');
 });

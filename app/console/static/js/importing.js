@@ -6,8 +6,8 @@ import { withoutEnding } from './core/format.js';
 import { currencyOf } from './core/currencies.js';
 import { doubtsOfImport, withFound } from './core/places.js';
 import {
-  byAddress, placing, readFields, remember, rememberPlaces, signatureOf, unplacedIn, withAnswer,
-  withColumn, withoutUnplaced,
+  byAddress, forNextFile, placing, readFields, remember, rememberPlaces, signatureOf, unplacedIn,
+  withAnswer, withColumn, withoutUnplaced,
 } from './core/importing.js';
 import { plan } from './planning.js';
 import { store } from './store.js';
@@ -96,7 +96,7 @@ export function leaveImport() {
 /** Plan what was imported, in place of what was open. */
 export async function useImport() {
   const { reply, texts, name, places, leavesUnplaced } = store.get().importing;
-  const entry = { mapping: reply.mapping, texts };
+  const entry = { mapping: forNextFile(reply.mapping, reply.questions), texts };
   try {
     const known = remember(kept(KEPT) ?? [], signatureOf(reply), entry);
     localStorage.setItem(KEPT, JSON.stringify(known));

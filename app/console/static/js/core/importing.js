@@ -5,6 +5,9 @@ import { parseNumber } from './format.js';
 const MOST_REMEMBERED = 30;
 const MOST_PLACES = 3000;
 
+/** Kinds of questions whose answers mean nothing for another file. */
+const OF_ONE_FILE = ['day', 'hidden_rows', 'total_rows', 'same_rows'];
+
 /** Fields beside the columns, as the settings name them: an example, and what holds if empty. */
 export const FIELDS = [
   { name: 'depot', example: '48.137, 11.575', read: text },
@@ -115,6 +118,13 @@ export function placing(request, [x, y]) {
 /** Return the places by address that are worth keeping for other files, the newest. */
 export function rememberPlaces(places) {
   return Object.fromEntries(Object.entries(places).slice(-MOST_PLACES));
+}
+
+/** Return a mapping for the next file like it, without answers that are about this file's rows. */
+export function forNextFile(mapping, questions = []) {
+  const own = questions.filter(({ kind }) => OF_ONE_FILE.includes(kind)).map(({ id }) => id);
+  const answers = Object.entries(mapping.answers ?? {}).filter(([id]) => !own.includes(id));
+  return { ...mapping, ...(mapping.answers && { answers: Object.fromEntries(answers) }) };
 }
 
 /** Return what tells files alike: their headings in order. */
