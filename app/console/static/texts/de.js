@@ -257,8 +257,10 @@ export default {
     penaltyHelp:
       'Kein Teil der Kosten: Niemand zahlt sie. Sie lässt den Planer einplanen, wen er kann; ' +
       'was Auslassen wirklich kostet, steht unter Flotte.',
-    planAgain: 'Geändert: neu planen.',
-    planOn: 'Geändert: weiterplanen.',
+    changedSince: 'Das Problem hat sich seitdem geändert:',
+    changed: 'Geändert:',
+    planAgain: 'neu planen.',
+    planOn: 'weiterplanen.',
     examples: 'Beispiele',
   },
   format: {

@@ -244,8 +244,10 @@ export default {
     penaltyHelp:
       'Not part of the cost: nobody pays it. It makes the planner serve whom it can; what ' +
       'leaving out truly costs is stated under Fleet.',
-    planAgain: 'Changed: plan again.',
-    planOn: 'Changed: plan on.',
+    changedSince: 'The problem has changed since:',
+    changed: 'Changed:',
+    planAgain: 'plan again.',
+    planOn: 'plan on.',
     examples: 'Examples',
   },
   format: {

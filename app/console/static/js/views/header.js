@@ -69,7 +69,8 @@ function Opener() {
     <button type="button" onClick=${() => input.current.click()}>Open a file</button>
     <button type="button" id="saved-plans" onClick=${openPlans}>Saved</button>
     <input type="file" hidden ref=${input} id="file-input" aria-label="File to open"
-      accept=".json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods,.html,.htm,.kml,.geojson" onChange=${(event) => {
+      accept=".json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods,.html,.htm,.kml,.geojson"
+      onChange=${(event) => {
         openFile(event.target.files[0]);
         event.target.value = '';
       }} />
@@ -111,7 +112,9 @@ function Result() {
       entry &&
       stale &&
       run.state === 'idle' &&
-      html`<span class="stale">${t(`header.${goesOn ? 'planOn' : 'planAgain'}`)}</span>`
+      html`<span class="stale"><span class="long">${t('header.changedSince')}</span><span
+        class="short">${t('header.changed')}</span>
+        ${' '}${t(`header.${goesOn ? 'planOn' : 'planAgain'}`)}</span>`
     }
   </div>`;
 }
