@@ -8,7 +8,7 @@ import numpy as np
 from model.kernel.alarm import silent
 from model.kernel.drone_types import all_kinds, any_aboard
 from model.kernel.instance import FAR, NO_PROFILE, Instance, pack
-from model.kernel.leg import are_the_same_back
+from model.kernel.leg import LEG_DURATION, ComputedLegs, are_the_same_back
 from model.kernel.plain import as_plain, is_plain
 from model.kernel.records import Record, Records
 from model.problem import (
@@ -32,6 +32,13 @@ LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
 """How often a better place is overlooked: the last by the number of customers squared and that on a
 sortie, within the first two. Small problems have so few places that little else would differ from
 turn to turn, so that none are kept there where more than distance counts."""
+
+
+LEGS_LOOKED_AT = 10**7
+"""Ways of two legs that are looked at to see whether some are shorter than the direct leg."""
+
+ROUNDED = 2
+"""ms by which the direct leg may be longer since legs are rounded."""
 
 
 @dataclass(frozen=True)
@@ -180,11 +187,46 @@ def only_loads_limit(world: World) -> bool:
 def can_be_linked(world: World) -> bool:
     """Tell whether the search may go by linked stops.
 
-    Vehicles then make one trip each by the same legs, distance alone costs, and no rarer rule is
-    stated.
+    Vehicles then make one trip each by the same legs, distance alone costs, no rarer rule is
+    stated, and whoever is left out makes nobody late.
     """
     travel = world.type["travel"][:world.num_types]
-    return is_plain(world.type[0]) and not world.general and bool((travel == travel[0]).all())
+    return (is_plain(world.type[0]) and not world.general and bool((travel == travel[0]).all())
+            and not (are_timed(world) and skipping_delays(world)))
+
+
+def skipping_delays(world: World) -> bool:
+    """Tell whether vehicles may come later to a place if they skip a customer on the way.
+
+    Where streets are one-way or legs are stated anyhow, the direct leg may be the longer one. Of
+    many customers those nearest to where a leg begins are looked at.
+    """
+    duration = _durations(world)
+    if duration is None:
+        return False
+    first, number = world.num_depots, world.num_nodes
+    service = world.place["service_duration"][0, :, 0]
+    looked_at = LEGS_LOOKED_AT // number**2
+    if looked_at >= number - first:
+        return any(bool(((duration[:, k, None] + (service[k] + ROUNDED)) + duration[k]
+                         < duration).any()) for k in range(first, number))
+    origins = np.arange(first, number)
+    for rank in range(min(max(1, looked_at), world.near.shape[1])):
+        k = world.near[first:, rank]
+        way = duration[origins, k] + service[k] + ROUNDED
+        if bool(((way[:, None] + duration[k] < duration[first:]) & (k >= 0)[:, None]).any()):
+            return True
+    return False
+
+
+def _durations(world: World) -> IntArray | None:
+    """Return (origin, to) how long legs take; None if they are straight, so that none is longer
+    than a way through others."""
+    legs, m = world.leg, int(world.type["travel"][0])
+    if isinstance(legs, ComputedLegs):
+        table = int(legs.law["table"][m])
+        return None if table < 0 else legs.table[0, table, :, :, LEG_DURATION]
+    return legs[m, :, :, LEG_DURATION].astype(np.int64)
 
 
 def are_timed(world: World) -> bool:

@@ -10,6 +10,7 @@ from model.kernel.instance import pack
 from model.problem import UNLIMITED, Depot, Points, Problem, StraightLegs, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
+from model.search.improve import SearchConfig, improve
 from model.search.linked.anneal import anneal_linked
 from model.search.linked.layout import Linked, make_linked
 from model.search.linked.tying import measure_near, tie, write_back
@@ -81,11 +82,22 @@ def with_several_types(size: int) -> Problem:
 
 
 def with_one_way_streets(size: int) -> Problem:
-    """Return one whose legs take otherwise long back."""
+    """Return one whose legs take longer uphill, so that none is longer than a way through others.
+    """
     problem = with_windows(size)
-    longer = np.random.default_rng(3).uniform(1.0, 1.3, (problem.num_nodes, problem.num_nodes))
-    travel = tuple(Travel(*(np.rint(legs * longer).astype(np.int64) for legs in each.arrays()))
-                   for each in problem.travel)
+    height = np.random.default_rng(3).integers(0, 10**5, problem.num_nodes)
+    climb = np.maximum(0, height - height[:, None])
+    travel = tuple(Travel(*(legs + climb for legs in each.arrays())) for each in problem.travel)
+    return replace(problem, travel=travel)
+
+
+def with_legs_stated_anyhow(size: int) -> Problem:
+    """Return one where many a direct leg is longer than the way through a customer."""
+    problem = with_windows(size)
+    drawn = np.random.default_rng(3)
+    shape = (problem.num_nodes, problem.num_nodes)
+    longer = np.where(drawn.random(shape) < 0.5, 20, 1)
+    travel = tuple(Travel(*(legs * longer for legs in each.arrays())) for each in problem.travel)
     return replace(problem, travel=travel)
 
 
@@ -225,3 +237,24 @@ def test_strings_grow_on_long_routes_alone(stops: int, longer: bool) -> None:
         write_back(world, searcher, linked)
         plans.append(read_plan(world, searcher))
     assert (plans[0] != plans[1]) == longer
+
+
+@pytest.mark.parametrize("size", [40, 400])
+def test_routes_that_are_late_without_a_customer_are_not_linked(size: int) -> None:
+    def may_be_linked(problem: Problem) -> bool:
+        return can_be_linked(make_world(problem, pack([problem], legs=False)))
+
+    problem = with_legs_stated_anyhow(size)
+    assert not may_be_linked(problem)
+    assert may_be_linked(replace(problem, customers=tuple(
+        replace(each, earliest=0, latest=UNLIMITED) for each in problem.customers),
+        vehicle_types=tuple(replace(kind, latest=UNLIMITED) for kind in problem.vehicle_types)))
+    assert may_be_linked(with_one_way_streets(size))
+
+
+def test_plans_are_sound_whatever_legs_are_stated() -> None:
+    problem = with_legs_stated_anyhow(30)
+    found = improve(problem, pack([problem]), Solution((), tuple(range(1, 31))),
+                    SearchConfig(seed=1, turns=20_000))
+    assert check(problem, found.solution).violations == ()
+    assert len(found.solution.unassigned) < 30
