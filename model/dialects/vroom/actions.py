@@ -39,7 +39,7 @@ class Actions:
         is_shared = counts[places.jobs[list(nodes.jobs)] + 1] > 1
         is_open = np.array([job.time_windows is None for job in jobs], np.bool_)
         has_setup = np.any([setup > 0 for setup in self._setup.values()], axis=0)
-        self.is_compromise = bool((is_shared & ~is_open & has_setup).any())
+        self.is_compromise = is_timed and bool((is_shared & ~is_open & has_setup).any())
         self._once = is_shared & (is_open | relaxed)
         # Without windows nothing hangs on times.
         self._counts = int(is_timed)

@@ -6,13 +6,14 @@ from math import isqrt
 import numpy as np
 
 from model.dialects.vroom.actions import Actions
+from model.dialects.vroom.binding import windows_bind
 from model.dialects.vroom.drives import Drive, Drives
 from model.dialects.vroom.errors import RefusedError, TooLargeError
-from model.dialects.vroom.kinds import find_kinds, find_loads
+from model.dialects.vroom.kinds import Kind, find_kinds, find_loads
 from model.dialects.vroom.models import Model
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes
 from model.dialects.vroom.places import NOWHERE, Places
-from model.dialects.vroom.request import Request, Window
+from model.dialects.vroom.request import Job, Request, Window
 from model.dialects.vroom.timing import TIME_SCALE
 from model.dialects.vroom.work import (
     UNHURRIED, LegLimit, Pause, Preparing, attempt_seconds, model_seconds,
@@ -45,10 +46,10 @@ class Converter:
         self._max_legs = max_legs
         self._places = places
         self.kinds = find_kinds(request, places)
-        self._is_timed = request.is_timed
+        self._is_timed = windows_bind(request, places, self.kinds)
         self._origin = self._find_origin()
-        self._shifts = {kind.stated.time_window for kind in self.kinds}
-        self._windows = [self._reachable(job.time_windows or ()) for job in request.jobs]
+        self._shifts = {self._shift(kind) for kind in self.kinds}
+        self._windows = [self._reachable(self._stated(job)) for job in request.jobs]
         self._loads = find_loads(request, self.kinds)
 
     def model(self, jobs: Sequence[int], preparing: Preparing = UNHURRIED) -> Model:
@@ -138,13 +139,20 @@ class Converter:
         return any(max(seconds * kind.rates.time // TIME_SCALE, metres) > LONGEST
                    for kind in self.kinds for seconds, metres in [longest[kind.stated.profile]])
 
+    def _shift(self, kind: Kind) -> Window | None:
+        """Return when vehicles of a kind work, None if that makes no difference."""
+        return kind.stated.time_window if self._is_timed else None
+
+    def _stated(self, job: Job) -> Sequence[Window]:
+        """Return the windows of a job that make a difference, in any order."""
+        return (job.time_windows or ()) if self._is_timed else ()
+
     def _find_origin(self) -> int:
         """Return the instant in seconds that the planner's time begins with."""
-        windows = [kind.stated.time_window for kind in self.kinds]
+        windows = [self._shift(kind) for kind in self.kinds]
         begins = [window[0] for window in windows if window is not None]
         if len(begins) < len(windows):
-            begins += [window[0] for job in self._request.jobs
-                       for window in job.time_windows or ()]
+            begins += [window[0] for job in self._request.jobs for window in self._stated(job)]
             return max(0, min(begins, default=0) - EARLIER)
         return min(begins)
 
@@ -162,7 +170,7 @@ class Converter:
     def _vehicle_type(self, number: int, start: int, end: int, drive: Drive,
                       service_durations: Mapping[str, int]) -> VehicleType:
         kind = self.kinds[number]
-        window, most = kind.stated.time_window, kind.stated.max_tasks
+        window, most = self._shift(kind), kind.stated.max_tasks
         return VehicleType(
             id=str(kind.stated.id), count=len(kind.vehicles),
             capacity=tuple(self._loads.capacity[number].tolist()), travel=drive.travel, depot=start,
@@ -189,7 +197,7 @@ class Converter:
 
     def _startable(self, jobs: Sequence[int]) -> BoolArray:
         """Return (kind, node) that nobody serves a job in whose windows nobody works."""
-        startable = [self._request.jobs[job].time_windows is None or bool(self._windows[job])
+        startable = [not self._stated(self._request.jobs[job]) or bool(self._windows[job])
                      for job in jobs]
         return np.tile(np.array(startable, np.bool_), (len(self.kinds), 1))
 

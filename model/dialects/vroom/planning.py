@@ -6,13 +6,14 @@ The planner knows not all of VROOM's rules, so that some plans are judged before
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
 
 from model.dialects.vroom.checking import drive, route_faults
 from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.errors import RefusedError
+from model.dialects.vroom.exact import best_routes, is_few
 from model.dialects.vroom.models import Model, Routes
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.prices import leave_out_by_priority
@@ -89,6 +90,9 @@ class Planning:
         servable = model.servable()
         if not servable:
             return self._judged({})
+        if model.is_loose and is_few(len(servable), len(self.kinds)):
+            return self._judged(best_routes(self._request, self._places, self.kinds, servable,
+                                            self._vehicles(servable)))
         price = self._price(model)
         if len(servable) < len(model.nodes.jobs) and self._left(deadline) > SPARE * price:
             model = self._converter.model(servable)
@@ -105,6 +109,11 @@ class Planning:
                 return found
             model = self._converter.model(sorted(found.served))
         return self._improve(model, self._left(deadline), found.routes)
+
+    def _vehicles(self, jobs: Sequence[int]) -> list[int]:
+        """Return the kinds of all vehicles, none more often than there are jobs."""
+        return [number for number, kind in enumerate(self.kinds)
+                for _ in kind.vehicles[:len(jobs)]]
 
     def _left(self, deadline: float) -> float:
         """Return the seconds left, none once nobody waits for more."""

@@ -7,6 +7,7 @@ to hundredths once, and all else is exact.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import accumulate, pairwise
 
 from model.dialects.vroom.places import NOWHERE, Legs, Places
@@ -87,6 +88,25 @@ class TimedRoute:
 
 
 @dataclass(frozen=True)
+class Visit:
+    """The earliest that a vehicle can be done with some jobs, and what it has used up by then."""
+
+    site: int  # where it stands, perhaps NOWHERE
+    end: int
+    travel: int
+    distance: int
+    cost: int
+    load: tuple[int, ...]  # taken in less brought so far, of each amount
+    highest: tuple[int, ...]  # the most of that so far, not below 0
+    brought: tuple[int, ...]
+
+    @property
+    def used(self) -> tuple[int, ...]:
+        """What may keep it from more, or costs: the less, the better."""
+        return (self.end, self.travel, self.distance, self.cost, *self.highest)
+
+
+@dataclass(frozen=True)
 class Driver:
     """Times the routes of one vehicle."""
 
@@ -99,8 +119,10 @@ class Driver:
 
         It ends as early as possible, begins as late as that allows, and waits as late as possible.
         """
-        times = self._leg_times(jobs)
-        actions = self._actions(jobs)
+        pairs = self._pairs(jobs)
+        legs = [self._leg(*pair) for pair in pairs]
+        times = [travel for travel, _, _ in legs]
+        actions = [self._action(*pair, job) for pair, job in zip(pairs, jobs, strict=False)]
         windows = [_windows(self.request.jobs[job]) for job in jobs]
         begin, end = _scaled(self._stated.time_window)
         earliest_end = _earliest_end(begin, times, actions, windows)
@@ -114,13 +136,47 @@ class Driver:
             start = _start(arrival, slots)
             halts.append(Halt(job, arrival, start, setup, service))
             time = start + setup + service
-        travel, rates = self._leg_cost(jobs), self.rates
+        travel, rates = sum([cost for _, _, cost in legs]), self.rates
         cost = rates.fixed_cost + travel + rates.task_cost * sum(map(sum, actions))
         return TimedRoute(self.vehicle, departure, tuple(halts), time + times[-1],
-                          tuple(accumulate(times)), tuple(accumulate(self._leg_distances(jobs))),
-                          travel, cost)
+                          tuple(accumulate(times)),
+                          tuple(accumulate([metres for _, metres, _ in legs])), travel, cost)
 
-    @property
+    def begin(self) -> Visit:
+        """Return how the vehicle begins."""
+        nothing = (0,) * len(self._stated.capacity)
+        begin, _ = _scaled(self._stated.time_window)
+        return Visit(int(self.places.starts[self.vehicle]), begin, 0, 0, 0, nothing, nothing,
+                     nothing)
+
+    def visit(self, before: Visit, job: int) -> Visit | None:
+        """Return how the vehicle goes on to a job; None if that breaks a rule, whatever follows."""
+        stated, site = self.request.jobs[job], int(self.places.jobs[job])
+        travel, distance, cost = self._leg(before.site, site)
+        setup, service = self._action(before.site, site, job)
+        start = _start(before.end + travel, _windows(stated))
+        nothing = (0,) * len(before.load)
+        change = _added(stated.pickup or nothing, stated.delivery or nothing, -1)
+        load = _added(before.load, change)
+        visit = Visit(
+            site, start + setup + service, before.travel + travel, before.distance + distance,
+            before.cost + cost + self.rates.task_cost * (setup + service), load,
+            tuple(map(max, before.highest, load)),
+            _added(before.brought, stated.delivery or nothing))
+        return visit if stated.skills <= self._stated.skills and self._is_allowed(visit) else None
+
+    def _is_allowed(self, visit: Visit) -> bool:
+        """Tell whether a vehicle that comes from a visit can keep its limits."""
+        stated = self._stated
+        _, latest = _scaled(stated.time_window)
+        fits = all(most <= capacity for most, capacity in zip(
+            _added(visit.highest, visit.brought), stated.capacity, strict=True))
+        return (fits and visit.end <= latest
+                and (stated.max_distance is None or visit.distance <= stated.max_distance)
+                and (stated.max_travel_time is None
+                     or visit.travel <= stated.max_travel_time * TIME_SCALE))
+
+    @cached_property
     def rates(self) -> Rates:
         """What the vehicle makes of its matrices."""
         return Rates.of(self._stated, self._legs.costs is not None)
@@ -140,27 +196,21 @@ class Driver:
                  int(self.places.ends[self.vehicle])]
         return list(pairwise(sites))
 
-    def _leg_times(self, jobs: Sequence[int]) -> list[int]:
-        rate, durations = self.rates.time, self._legs.durations
-        return [0 if NOWHERE in leg else rate * durations.item(*leg) for leg in self._pairs(jobs)]
-
-    def _leg_distances(self, jobs: Sequence[int]) -> list[int]:
-        distances = self._legs.distances
-        return [0 if NOWHERE in leg else distances.item(*leg) for leg in self._pairs(jobs)]
-
-    def _leg_cost(self, jobs: Sequence[int]) -> int:
+    def _leg(self, origin: int, to: int) -> tuple[int, int, int]:
+        """Return duration, distance and cost of a leg between sites."""
+        if NOWHERE in (origin, to):
+            return 0, 0, 0
         rates, legs = self.rates, self._legs
-        base = legs.durations if legs.costs is None else legs.costs
-        return sum(rates.time_cost * base.item(*leg)
-                   + rates.distance_cost * legs.distances.item(*leg)
-                   for leg in self._pairs(jobs) if NOWHERE not in leg)
+        seconds, metres = legs.durations.item(origin, to), legs.distances.item(origin, to)
+        base = seconds if legs.costs is None else legs.costs.item(origin, to)
+        return (rates.time * seconds, metres,
+                rates.time_cost * base + rates.distance_cost * metres)
 
-    def _actions(self, jobs: Sequence[int]) -> list[tuple[int, int]]:
-        """Return setup and service of each job."""
-        kind = self._stated.type
-        return [(0 if origin == site else TIME_SCALE * setup_of(self.request.jobs[job], kind),
-                 TIME_SCALE * service_of(self.request.jobs[job], kind))
-                for job, (origin, site) in zip(jobs, self._pairs(jobs), strict=False)]
+    def _action(self, origin: int, site: int, job: int) -> tuple[int, int]:
+        """Return setup and service of a job at a site."""
+        stated, kind = self.request.jobs[job], self._stated.type
+        return (0 if origin == site else TIME_SCALE * setup_of(stated, kind),
+                TIME_SCALE * service_of(stated, kind))
 
 
 def setup_of(job: Job, kind: str) -> int:
@@ -181,6 +231,11 @@ def _windows(job: Job) -> list[tuple[int, int]]:
     if job.time_windows is None:
         return [(0, ENDLESS)]
     return [_scaled(window) for window in sorted(job.time_windows)]
+
+
+def _added(amounts: Sequence[int], more: Sequence[int], times: int = 1) -> tuple[int, ...]:
+    """Return amounts and others, taken so many times, together."""
+    return tuple(amount + times * each for amount, each in zip(amounts, more, strict=True))
 
 
 def _start(arrival: int, windows: list[tuple[int, int]]) -> int:

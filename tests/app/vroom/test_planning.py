@@ -16,10 +16,12 @@ from app.load.bodies import ReceivedBody
 from app.settings import DEFAULT_POLICY, Settings
 from app.vroom.answering import answer
 from app.vroom.errors import VroomError
+from model.dialects.vroom.timing import COST_SCALE
 from model.planner import Planner, load_planner
 from tests.app.vroom.judge import judge
 from tests.app.vroom.reference import solve
 from tests.app.vroom.sampling import sample_request
+from tests.model.dialects.vroom.drawn import best_value, drawn_request
 
 Data = dict[str, Any]
 Solve = Callable[..., Data]
@@ -103,6 +105,17 @@ def test_limits_are_kept_to_the_unit(ours: Solve, street: Data, limit: Data, ext
     reply = ours(street)
     judge(street, reply)
     assert sorted(served(reply)) == [1, 2, 3]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_few_jobs_with_windows_and_a_limit_are_planned_at_least_cost(ours: Solve,
+                                                                     seed: int) -> None:
+    request = drawn_request(random.Random(seed), 4, binds=seed % 2 == 1)
+    reply = ours(request)
+    judge(request, reply)
+    _, served, minus_cost = best_value(request)
+    assert len(request["jobs"]) - reply["summary"]["unassigned"] == served
+    assert reply["summary"]["cost"] == pytest.approx(-minus_cost / COST_SCALE, abs=1)
 
 
 def test_one_window_of_several_is_kept(ours: Solve, street: Data) -> None:

@@ -1,0 +1,121 @@
+"""The best routes for a few jobs, by VROOM's own rules.
+
+Where the planner has no words for a rule, few jobs are planned without it: what a vehicle can do
+with each set of jobs is found by dynamic programming, and so is who gets which set.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from model.dialects.vroom.checking import route_faults
+from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.models import Routes
+from model.dialects.vroom.places import Places
+from model.dialects.vroom.request import Request
+from model.dialects.vroom.timing import Driver, Visit
+
+Value = tuple[int, int, int]
+"""Priorities served, jobs served, and minus the cost."""
+
+NOTHING: Value = (0, 0, 0)
+
+MOST_SETS = 4000
+"""Sets of jobs, each with a last one and a kind of vehicle, that are looked at: some 0.1 s."""
+
+
+def is_few(num_jobs: int, num_kinds: int) -> bool:
+    """Tell whether so many jobs, for so many kinds of vehicles, are few enough."""
+    return num_kinds * num_jobs * 2**num_jobs <= MOST_SETS
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """A way to visit some jobs, and where the vehicle stands then."""
+
+    jobs: tuple[int, ...]
+    visit: Visit
+
+    def is_beaten_by(self, other: "Beginning") -> bool:
+        """Tell whether another through the same jobs is no worse in anything that counts."""
+        return all(mine >= others for mine, others in zip(
+            self.visit.used, other.visit.used, strict=True))
+
+
+def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: Sequence[int],
+                vehicles: Sequence[int]) -> Routes:
+    """Return the best routes for jobs.
+
+    Parameters
+    ----------
+    jobs
+        Indices into the request's jobs, few of them.
+    vehicles
+        The kind of each vehicle that may be used, an index into `kinds`.
+    """
+    tours = {kind: _tours(request, Driver(request, places, kinds[kind].vehicles[0]), jobs)
+             for kind in set(vehicles)}
+    everyone = 2**len(jobs) - 1
+    # By the set of jobs that is left to those behind: what those before make of the others.
+    best: dict[int, tuple[Value, tuple[tuple[int, tuple[int, ...]], ...]]] = {
+        everyone: (NOTHING, ())}
+    for kind in vehicles:
+        following = dict(best)
+        for left, (value, routes) in best.items():
+            for taken, (worth, route) in tours[kind].items():
+                if taken & ~left:
+                    continue
+                total = (value[0] + worth[0], value[1] + worth[1], value[2] + worth[2])
+                known = following.get(left & ~taken)
+                if known is None or total > known[0]:
+                    following[left & ~taken] = (total, (*routes, (kind, route)))
+        best = following
+    _, chosen = max(best.values(), key=lambda each: each[0])
+    routes_of: dict[int, list[tuple[int, ...]]] = {}
+    for kind, route in chosen:
+        routes_of.setdefault(kind, []).append(route)
+    return routes_of
+
+
+def _tours(request: Request, driver: Driver,
+           jobs: Sequence[int]) -> Mapping[int, tuple[Value, tuple[int, ...]]]:
+    """Return the best route of a vehicle through each set of jobs that it can serve.
+
+    Sets are numbers whose bits stand for `jobs`.
+    """
+    best: dict[int, tuple[Value, tuple[int, ...]]] = {}
+    begun = {(0, -1): [Beginning((), driver.begin())]}
+    while begun:
+        longer: dict[tuple[int, int], list[Beginning]] = {}
+        for (taken, _), beginnings in begun.items():
+            for number, job in enumerate(jobs):
+                if not taken >> number & 1:
+                    known = longer.setdefault((taken | 1 << number, number), [])
+                    for beginning in beginnings:
+                        _go_on(driver, beginning, job, known)
+        for (taken, _), beginnings in longer.items():
+            for beginning in beginnings:
+                value = _value(request, driver, beginning.jobs)
+                if value is not None and (taken not in best or value > best[taken][0]):
+                    best[taken] = (value, beginning.jobs)
+        begun = longer
+    return best
+
+
+def _go_on(driver: Driver, beginning: Beginning, job: int, known: list[Beginning]) -> None:
+    """Add a beginning that goes on to a job, unless it can't or another is as good. In place."""
+    visit = driver.visit(beginning.visit, job)
+    if visit is None:
+        return
+    longer = Beginning((*beginning.jobs, job), visit)
+    if not any(longer.is_beaten_by(other) for other in known):
+        known[:] = [other for other in known if not other.is_beaten_by(longer)]
+        known.append(longer)
+
+
+def _value(request: Request, driver: Driver, jobs: tuple[int, ...]) -> Value | None:
+    """Return what a route is worth, None if it breaks a rule."""
+    if any(route_faults(request, driver.places, driver.vehicle, jobs)):
+        return None
+    route = driver.drive(jobs)
+    return None if route is None else (
+        sum([request.jobs[job].priority for job in jobs]), len(jobs), -route.cost)
