@@ -1,7 +1,7 @@
 """The best routes for a few jobs, by VROOM's own rules.
 
-Where the planner has no words for a rule, few jobs are planned without it: what a vehicle can do
-with each set of jobs is found by dynamic programming, and so is who gets which set.
+What a vehicle can do with each set of jobs is found by dynamic programming, and so is who gets
+which set. The planner has no words for some of the rules, and is not needed for so few.
 """
 
 from collections.abc import Mapping, Sequence

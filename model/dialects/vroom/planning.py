@@ -90,7 +90,7 @@ class Planning:
         servable = model.servable()
         if not servable:
             return self._judged({})
-        if model.is_loose and is_few(len(servable), len(self.kinds)):
+        if is_few(len(servable), len(self.kinds)):
             return self._judged(best_routes(self._request, self._places, self.kinds, servable,
                                             self._vehicles(servable)))
         price = self._price(model)

@@ -150,7 +150,7 @@ def test_amounts_are_brought_or_taken(street: Data) -> None:
 
 def test_setup_and_service_are_as_long_as_the_type_of_vehicle_says(street: Data) -> None:
     for vehicle, name in zip(street["vehicles"], "ab", strict=True):
-        vehicle |= {"type": name, "time_window": [0, 10_000]}
+        vehicle |= {"type": name, "time_window": [0, 1000]}
     street["jobs"][1]["location_index"] = 1
     for job in street["jobs"]:
         job |= {"setup": 40, "service": 5, "setup_per_type": {"b": 60}}
@@ -225,7 +225,7 @@ def test_too_many_unlike_vehicles_are_too_large(street: Data) -> None:
     nodes = len(Case(street).model.problem.coordinates)
     (one,) = Case(street, max_legs=nodes**2).model.problem.travel
     assert one.duration[:].size == nodes**2
-    street["jobs"][0]["time_windows"] = [[0, 10_000]]
+    street["jobs"][0]["time_windows"] = [[0, 1000]]
     street["vehicles"][1]["speed_factor"] = 2.0
     assert len(Case(street, max_legs=2 * nodes**2).model.problem.travel) == 2
     with pytest.raises(TooLargeError, match="unlike each other"):

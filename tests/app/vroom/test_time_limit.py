@@ -40,7 +40,7 @@ def crowd(jobs: int, speeds: int = 1, **options: Any) -> Data:
     return {
         "vehicles": [{"id": number, "start": hub, "end": hub, "capacity": [9],
                       "speed_factor": 1 + number / 100} for number in range(speeds)],
-        "jobs": [{"id": number, "delivery": [1], "time_windows": [[0, 40_000]],
+        "jobs": [{"id": number, "delivery": [1], "time_windows": [[0, 15_000]],
                   "priority": rng.randrange(100),
                   "location": [rng.uniform(10, 10.4), rng.uniform(54, 54.4)]}
                  for number in range(jobs)],
