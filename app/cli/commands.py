@@ -18,6 +18,7 @@ from app.cli.roads import roads_cli, roads_of
 from app.cli.serving import run_server
 from app.cli.settings_page import settings_page
 from app.conversion.travels import COMPUTED_FROM
+from app.database.files import FolderError, check_folder
 from app.errors import RequestError
 from app.files.importers import FileFormat, convert_file
 from app.load.memory import collect_seldom
@@ -75,6 +76,12 @@ def serve(
     try:
         check_exposure(settings, host)
     except ExposedError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
+    try:
+        if settings.database_url is None or settings.role != "api":
+            check_folder(settings)
+    except FolderError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(EXIT_BAD_INPUT) from error
     with roads_of(settings):

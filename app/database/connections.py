@@ -16,6 +16,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, InterfaceError, Operationa
 from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 from sqlalchemy.pool import ConnectionPoolEntry
 
+from app.database.files import DatabaseFile
 from app.settings import Settings
 
 FILE_NAME = "tandem.db"
@@ -65,9 +66,11 @@ def make_engine(settings: Settings) -> Engine:
         settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
     if url.get_backend_name() == "sqlite":
         _keep_to_owner(Path(url.database or ""), is_ours=settings.database_url is None)
-        engine = create_engine(url)
+        file = DatabaseFile(Path(url.database or ""))
+        engine = create_engine(url, creator=file.connect)
         folder = Path(url.database or "").parent
         event.listen(engine, "connect", partial(_set_up_sqlite, folder))
+        file.watch(engine)
         return engine
     return create_engine(url, pool_pre_ping=True,
                          connect_args={"connect_timeout": CONNECT_SECONDS})

@@ -11,6 +11,7 @@ from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.connections import is_misfit, is_outage
+from app.database.files import GONE, Identity, file_of, why_unreachable
 from app.database.migrations.running import SchemaError
 from app.jobs.errors import JobsUnavailableError
 from app.jobs.events import Watcher
@@ -48,6 +49,7 @@ class JobDesk:
         self._service = service
         self._is_prepared = False
         self._misfit: str | None = None
+        self._file: Identity = None
         self._has_tried = threading.Event()
         self._threads = CapacityLimiter(THREADS)
         self._drawing = CapacityLimiter(1)
@@ -64,6 +66,7 @@ class JobDesk:
             logger.warning("the database can't be prepared: %s", type(error).__name__)
         else:
             self._note_misfit(None)
+            self._file = file_of(self._queues.engine)
             self._is_prepared = True
         self._has_tried.set()
         return self._is_prepared
@@ -78,8 +81,14 @@ class JobDesk:
 
     async def misfit(self) -> str | None:
         """Return why the tables can't be used, if they were found not to fit, and still don't."""
-        if self._misfit is not None and self._is_prepared:
+        if not self._is_prepared:
+            return self._misfit
+        file = file_of(self._queues.engine)
+        if file is None:
+            return GONE
+        if self._misfit is not None or file != self._file:
             await to_thread.run_sync(self._look_at_tables, limiter=self._threads)
+            self._file = file
         return self._misfit
 
     async def ask(self, question: Callable[[JobService], Result]) -> Result:
@@ -109,7 +118,7 @@ class JobDesk:
             if not is_outage(error):
                 raise
             logger.warning("the database can't be reached: %s", type(error).__name__)
-            raise JobsUnavailableError("The database can't be reached: try again soon.") from error
+            raise JobsUnavailableError(why_unreachable(self._queues.engine)) from error
 
     async def picture(self, job_id: str, owner: str) -> bytes:
         """Draw a job's best plan so far as SVG, in a thread; raises as `ask` does."""

@@ -11,6 +11,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.connections import close_for_good, is_misfit, is_outage
 from app.database.durable import connect
+from app.database.files import why_unreachable
 from app.database.migrations.running import SchemaError
 from app.kept.errors import KeptUnavailableError
 from app.kept.rows import Room
@@ -57,7 +58,7 @@ class KeptDesk:
                 raise
             # The class alone: messages may repeat the URL, and so its password.
             logger.warning("the database can't be reached: %s", type(error).__name__)
-            raise KeptUnavailableError("The database can't be reached: try again soon.") from error
+            raise KeptUnavailableError(why_unreachable(self._store.engine)) from error
 
     def _answer(self, question: Callable[[KeptStore], Result]) -> Result:
         with self._preparing:

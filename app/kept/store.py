@@ -43,13 +43,13 @@ class KeptStore:
     """
 
     def __init__(self, engine: Engine, room: Room) -> None:
-        self._engine = engine
+        self.engine = engine
         self.room = room
 
     def prepare(self) -> None:
         """Make the tables, or bring them to this version; raises as `upgrade` does. In place."""
-        upgrade(self._engine)
-        with self._engine.begin() as connection:
+        upgrade(self.engine)
+        with self.engine.begin() as connection:
             self._forget_expired(connection)
 
     def find(self, owner: str, plan_id: str) -> KeptRow:
@@ -60,12 +60,12 @@ class KeptStore:
         UnknownPlanError
             If the owner has none of that id.
         """
-        with self._engine.connect() as connection:
+        with self.engine.connect() as connection:
             return self._existing(connection, owner, plan_id)
 
     def read(self, owner: str, plan_id: str) -> tuple[KeptRow, bytes]:
         """Return a plan and its content as JSON; raises as `find` does."""
-        with self._engine.connect() as connection:
+        with self.engine.connect() as connection:
             row = self._existing(connection, owner, plan_id)
             return row, _body(connection, owner, plan_id)
 
@@ -86,7 +86,7 @@ class KeptStore:
             query = query.where(tuple_(KEPT_PLANS.c.changed_at, KEPT_PLANS.c.id)
                                 < tuple_(*before))
         query = query.order_by(KEPT_PLANS.c.changed_at.desc(), KEPT_PLANS.c.id.desc()).limit(limit)
-        with self._engine.connect() as connection:
+        with self.engine.connect() as connection:
             return [KeptRow(**row) for row in connection.execute(query).mappings()]
 
     def write(self, owner: str, plan_id: str, content: Content,
@@ -108,7 +108,7 @@ class KeptStore:
             If as much is kept for the owner as may be.
         """
         packed = zlib.compress(content.body)
-        with alone(self._engine, Purpose.KEEPING_PLANS) as connection:
+        with alone(self.engine, Purpose.KEEPING_PLANS) as connection:
             self._forget_expired(connection)
             row = self._find(connection, owner, plan_id)
             if row is not None and _is_same(connection, row, content):
@@ -128,7 +128,7 @@ class KeptStore:
         UnknownPlanError, ChangedError, VersionNeededError
             If there is none, or not the one that the client knows.
         """
-        with alone(self._engine, Purpose.KEEPING_PLANS) as connection:
+        with alone(self.engine, Purpose.KEEPING_PLANS) as connection:
             row = self._existing(connection, owner, plan_id)
             _check(row, known)
             changes = {"name": row.name if name is None else name,
@@ -145,7 +145,7 @@ class KeptStore:
         UnknownPlanError, ChangedError
             If there is none, or not the one that the client knows.
         """
-        with alone(self._engine, Purpose.KEEPING_PLANS) as connection:
+        with alone(self.engine, Purpose.KEEPING_PLANS) as connection:
             row = self._existing(connection, owner, plan_id)
             if known.needs_one:
                 _check(row, known)
@@ -162,7 +162,7 @@ class KeptStore:
             If it has as many as may be.
         """
         token = SHARE.make()
-        with alone(self._engine, Purpose.KEEPING_PLANS) as connection:
+        with alone(self.engine, Purpose.KEEPING_PLANS) as connection:
             row = self._existing(connection, owner, plan_id)
             if row.links >= MAX_LINKS:
                 raise NoRoomError(f"The plan has {MAX_LINKS} links already: end one first.")
@@ -174,7 +174,7 @@ class KeptStore:
         """Return the links of a plan, the oldest first; raises as `find` does."""
         query = (select(PLAN_LINKS).where(_links(owner, plan_id))
                  .order_by(PLAN_LINKS.c.created_at, PLAN_LINKS.c.id))
-        with self._engine.connect() as connection:
+        with self.engine.connect() as connection:
             self._existing(connection, owner, plan_id)
             return [LinkRow(**row) for row in connection.execute(query).mappings()]
 
@@ -187,7 +187,7 @@ class KeptStore:
             If the plan has none of that id.
         """
         change = delete(PLAN_LINKS).where(_links(owner, plan_id), PLAN_LINKS.c.id == link_id)
-        with self._engine.begin() as connection:
+        with self.engine.begin() as connection:
             if connection.execute(change).rowcount != 1:
                 raise UnknownLinkError
 
@@ -200,7 +200,7 @@ class KeptStore:
             If it shows none.
         """
         query = select(PLAN_LINKS).where(PLAN_LINKS.c.id == SHARE.id_of(presented))
-        with self._engine.connect() as connection:
+        with self.engine.connect() as connection:
             found = connection.execute(query).mappings().first()
             link = None if found is None else LinkRow(**found)
             if not is_token(presented, NO_DIGEST if link is None else link.digest) or link is None:

@@ -82,6 +82,27 @@ def read_json(body: bytes) -> Any:
         raise NotJsonError(f"The body is not JSON, {error}: send one JSON object.") from error
 
 
+def read_model(body: bytes, kind: type[Section]) -> Section:
+    """Return what a body states that is no problem to be planned.
+
+    Raises
+    ------
+    NotJsonError
+        If it isn't JSON.
+    InvalidRequestError
+        With every error, if it states something else than `kind`.
+    """
+    require_readable(body, kind)
+    try:
+        return read_body(kind, body)
+    except ValidationError as error:
+        # An error holds what was sent, which of a long body would take much memory.
+        details = error.errors(include_url=False, include_input=len(body) <= MAX_SEARCHED_BYTES)
+        if details[0]["type"] == "json_invalid":
+            read_json(body)
+        raise InvalidRequestError(with_hints(schema_errors(details), kind)) from error
+
+
 def _refusal(error: ValidationError, body: bytes,
              policies: Collection[str] | None, bounds: Bounds) -> RequestError:
     """Return the refusal of a body that doesn't fit the schema, semantic errors included."""
@@ -148,7 +169,7 @@ def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails], day: Day
         replan=(None if raw.get("replan") is None
                 else _section(raw, broken, "replan", ReplanInput, day)),
         planar_rounding=raw.get("planar_rounding", "exact"),
-        day=day.day,
+        day=None if raw.get("plan_start") is None else day.day,
     )
 
 
