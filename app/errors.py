@@ -19,6 +19,9 @@ Refusal = Literal["overload", "rate_limit", "access", "starting"]
 
 _NUMBER = re.compile(r"-?\d{1,15}(?:\.\d{1,15})?")
 
+LONGEST_STEP = 80
+"""Characters of a key that a path tells."""
+
 _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _NUMBER = re.compile(r"-?\d{1,12}(\.\d{1,9})?")
 _WORD = re.compile(r"[\w -]{1,40}")
@@ -262,10 +265,10 @@ def json_path(location: Iterable[str | int]) -> str:
     for key in location:
         if isinstance(key, int):
             path += f"[{key}]"
-        elif _PLAIN_KEY.fullmatch(key):
+        elif len(key) <= LONGEST_STEP and _PLAIN_KEY.fullmatch(key):
             path += f".{key}"
         else:
-            path += "[" + repr(key[:80]) + "]"
+            path += "[" + repr(key[:LONGEST_STEP]) + "]"
     return path
 
 

@@ -5,16 +5,16 @@ from typing import Annotated
 
 from anyio import CapacityLimiter
 from fastapi import APIRouter, Depends, Request, Response
-from pydantic import ValidationError
 
 from app.access.guard import Plan
 from app.addresses.addresses import Addresses
 from app.addresses.schemas import AddressesReply, AddressesRequest, LookedUpReply
-from app.errors import InputError, InvalidRequestError, schema_error
+from app.errors import InputError, InvalidRequestError
 from app.load.abandoned import watching
 from app.load.admission import Admission
 from app.load.bodies import Body
 from app.load.readings import Readings
+from app.requests.reading import read_model
 from app.schemas.openapi import ERROR_RESPONSES, json_body
 from app.streets.routes import ATTRIBUTION
 
@@ -56,14 +56,10 @@ def answer_addresses(body: bytes, received_at: float, addresses: Addresses,
 
     Raises
     ------
-    InvalidRequestError
+    NotJsonError, InvalidRequestError
         If it is not valid, or there is no geocoder.
     """
-    try:
-        asked = AddressesRequest.model_validate_json(body)
-    except ValidationError as error:
-        raise InvalidRequestError([schema_error(details)
-                                   for details in error.errors(include_url=False)]) from error
+    asked = read_model(body, AddressesRequest)
     if not addresses.names:
         raise InvalidRequestError([InputError(
             code="NO_GEOCODER", path="$.addresses", message="Addresses are not looked up here: "

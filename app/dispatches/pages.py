@@ -14,11 +14,11 @@ from app.access.guard import Guard
 from app.dispatches.driving import read_day, tell
 from app.dispatches.errors import UnknownLinkError
 from app.dispatches.links import DRIVER_TOKENS
-from app.dispatches.reading import read_model
 from app.dispatches.schemas import DriverDay, EventsReply, EventsRequest
 from app.dispatches.store import DispatchStore
 from app.jobs.routes import Desk
 from app.load.bodies import Body
+from app.requests.reading import read_model
 from app.schemas.openapi import json_body, problems
 
 STATIC_DIR = Path(__file__).parent / "static"
@@ -81,9 +81,9 @@ async def driver_day(request: Request, token: Token, desk: Desk) -> Response:
              responses=TOLD, openapi_extra=json_body(EventsRequest))
 async def driver_events(request: Request, token: Token, desk: Desk, body: Body) -> Response:
     """Keep what a driver tells; what was told before counts once."""
-    events = read_model(body.content, EventsRequest)
     try:
-        reply = await desk.reach(lambda engine: tell(DispatchStore(engine), token, events))
+        reply = await desk.reach(lambda engine: tell(
+            DispatchStore(engine), token, read_model(body.content, EventsRequest)))
     except UnknownLinkError:
         raise _unknown(request) from None
     return Response(reply.model_dump_json(), media_type="application/json")

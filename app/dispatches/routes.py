@@ -7,7 +7,6 @@ from pydantic import BaseModel
 from sqlalchemy import Engine
 
 from app.access.guard import Jobs
-from app.dispatches.reading import read_model
 from app.dispatches.replies import dispatch_reply, summary
 from app.dispatches.schemas import (
     DispatchListReply, DispatchOptions, DispatchReply, DispatchRequest, GoingOnReply,
@@ -19,6 +18,7 @@ from app.load.bodies import Body
 from app.plans.checking import read_about_plan
 from app.requests.bounds import Bounds
 from app.requests.plan_reading import parse_plan
+from app.requests.reading import read_model
 from app.schemas.check import PlannedProblem
 from app.schemas.openapi import json_body, problems
 from app.schemas.plan import MAX_INSTANT
@@ -58,8 +58,8 @@ async def dispatch_plan(request: Request, principal: Jobs, desk: Desk, body: Bod
 async def dispatch_job(request: Request, job_id: JobId, principal: Jobs, desk: Desk,
                        body: Body) -> Response:
     """Do the same as `POST /dispatches` with a job's best plan so far."""
-    options = read_model(body.content, DispatchOptions)
-    problem, plan = await desk.ask(lambda jobs: jobs.plan(job_id, principal.key_id))
+    options, (problem, plan) = await desk.ask(lambda jobs: (
+        read_model(body.content, DispatchOptions), jobs.plan(job_id, principal.key_id)))
     wanted = DispatchRequest.model_construct(
         problem=problem, plan=parse_plan(plan), plan_start=options.plan_start,
         time_zone=options.time_zone)

@@ -1,49 +1,97 @@
 """Bodies about kept plans -> what is kept."""
 
-from typing import Any, TypeVar
+from math import inf
+from typing import Any
 
-from pydantic import BaseModel, ValidationError
-from pydantic_core import from_json, to_json
+import msgspec
+from pydantic import ValidationError
 
-from app.errors import InvalidRequestError, NotJsonError, schema_error
+from app.errors import InvalidRequestError, schema_error
 from app.kept.rows import Content
-from app.kept.schemas import KeptPlanChange, KeptPlanInput
+from app.kept.schemas import KeptPlanInput
+from app.requests.refusal import MAX_LOOSE, require_json, require_readable
 
-Model = TypeVar("Model", bound=BaseModel)
+BYTES_PER_VALUE = 16
+"""Requests and plans, which are kept unread, have no more values than one for so many bytes."""
+
+NOTHING = msgspec.Raw(b"null")
+
+_ALIKE: dict[bytes, Any] = {b"{": {}, b"[": [], b'"': "", b"t": True, b"f": False, b"n": None}
+"""Values by how they begin; all others are numbers."""
+
+Fields = dict[str, msgspec.Raw]
 
 
 def read_content(body: bytes) -> Content:
     """Return the plan that a body has.
 
-    Request and plan are kept as they are, what this version doesn't know of them included.
+    Request and plan are kept as they are, what this version doesn't know of them included, and
+    never made into objects, which would take many times their length.
 
     Raises
     ------
     NotJsonError, InvalidRequestError
         If it has none.
     """
-    data = _json(body)
-    parts = _checked(KeptPlanInput, data)
-    plan = data.get("plan")
-    return Content(parts.name, parts.note, to_json({"request": data["request"], "plan": plan}),
-                   len(parts.request.customers),
+    require_readable(body, KeptPlanInput, MAX_LOOSE + len(body) // BYTES_PER_VALUE)
+    require_json(body)
+    parts = _checked(body)
+    stated = _fields(msgspec.Raw(body))
+    content = b"".join((b'{"request":', stated["request"], b',"plan":',
+                        stated.get("plan", NOTHING), b"}"))
+    return Content(parts.name, parts.note, msgspec.json.format(content, indent=-1),
+                   len(_entries(_fields(stated["request"])["customers"])),
                    None if parts.plan is None else parts.plan.cost.total)
 
 
-def read_change(body: bytes) -> KeptPlanChange:
-    """Return what a body has changed; raises as `read_content` does."""
-    return _checked(KeptPlanChange, _json(body))
-
-
-def _json(body: bytes) -> Any:
+def _checked(body: bytes) -> KeptPlanInput:
+    """Return what is read of a body, its long lists empty; raises as `read_content` does."""
+    outline = _outline(msgspec.Raw(body), {
+        "name": _text, "note": _text,
+        "request": lambda request: _outline(request, {}),
+        "plan": lambda plan: _outline(plan, {
+            "cost": lambda cost: _outline(cost, {"total": _number})}),
+    })
     try:
-        return from_json(body, allow_inf_nan=False)
-    except ValueError as error:
-        raise NotJsonError(f"The body can't be read as JSON: {error}.") from None
-
-
-def _checked(model: type[Model], data: Any) -> Model:
-    try:
-        return model.model_validate(data)
+        return KeptPlanInput.model_validate(outline)
     except ValidationError as error:
         raise InvalidRequestError([schema_error(details) for details in error.errors()]) from None
+
+
+def _outline(value: msgspec.Raw, read: dict[str, Any]) -> Any:
+    """Return an object of which some fields are read, and others are but of the same type."""
+    if _begin(value) != b"{":
+        return _alike(value)
+    return {name: read.get(name, _alike)(inner) for name, inner in _fields(value).items()}
+
+
+def _begin(value: msgspec.Raw) -> bytes:
+    return bytes(memoryview(value)[:1])
+
+
+def _alike(value: msgspec.Raw) -> Any:
+    """Return something of the same type."""
+    return _ALIKE.get(_begin(value), 0)
+
+
+def _text(value: msgspec.Raw) -> Any:
+    """Return a text; of all else something of the same type."""
+    return msgspec.json.decode(value) if _begin(value) == b'"' else _alike(value)
+
+
+def _number(value: msgspec.Raw) -> Any:
+    """Return a number; of all else something of the same type."""
+    if _begin(value) in _ALIKE:
+        return _alike(value)
+    try:
+        return msgspec.json.decode(value, type=float)
+    except msgspec.ValidationError:  # beyond all floats
+        return inf
+
+
+def _fields(value: msgspec.Raw) -> Fields:
+    return msgspec.json.decode(value, type=Fields)
+
+
+def _entries(value: msgspec.Raw) -> list[msgspec.Raw]:
+    return msgspec.json.decode(value, type=list[msgspec.Raw])

@@ -10,14 +10,16 @@ from app.access.guard import Guard, Plan
 from app.kept import replies
 from app.kept.desk import KeptDesk
 from app.kept.errors import UnknownLinkError
-from app.kept.reading import read_change, read_content
+from app.kept.reading import read_content
 from app.kept.rows import KeptRow, Precondition
 from app.kept.schemas import (
     KeptPlanChange, KeptPlanInput, KeptPlanListReply, KeptPlanReply, KeptPlanSummary,
     LinkListReply, NewLinkReply, SharedPlanReply,
 )
+from app.kept.store import KeptStore
 from app.load.bodies import Body
 from app.requests.paging import cursor_of, read_cursor
+from app.requests.reading import read_model
 from app.schemas.openapi import json_body, problems
 
 router = APIRouter(tags=["kept plans"])
@@ -89,10 +91,8 @@ async def keep_plan(plan_id: PlanId, principal: Plan, desk: Desk, body: Body,
     """Keep a problem and its plan by a name, new or in place of a version that is known."""
     known = _precondition(if_match, if_none_match)
 
-    def keep(store: Any) -> tuple[KeptRow, bool]:
-        result: tuple[KeptRow, bool] = store.write(
-            principal.key_id, plan_id, read_content(body.content), known)
-        return result
+    def keep(store: KeptStore) -> tuple[KeptRow, bool]:
+        return store.write(principal.key_id, plan_id, read_content(body.content), known)
 
     (row, is_new), room = await desk.ask(lambda store: (keep(store), store.room))
     location = {"Location": f"/plans/{row.id}"} if is_new else {}
@@ -113,10 +113,13 @@ async def read_kept_plan(plan_id: PlanId, principal: Plan, desk: Desk) -> Respon
 async def rename_kept_plan(plan_id: PlanId, principal: Plan, desk: Desk, body: Body,
                            if_match: IfMatch = None) -> Response:
     """Give a plan another name or note."""
-    change = read_change(body.content)
     known = _precondition(if_match, None)
-    row, room = await desk.ask(lambda store: (store.rename(
-        principal.key_id, plan_id, change.name, change.note, known), store.room))
+
+    def rename(store: KeptStore) -> KeptRow:
+        change = read_model(body.content, KeptPlanChange)
+        return store.rename(principal.key_id, plan_id, change.name, change.note, known)
+
+    row, room = await desk.ask(lambda store: (rename(store), store.room))
     return _json(replies.summary(row, room), headers=_tag(row))
 
 

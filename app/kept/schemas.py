@@ -21,7 +21,7 @@ Note = Annotated[str, Field(max_length=MAX_NOTE, pattern=TEXT,
 class _Loose(BaseModel):
     """The least by which a part is known; the rest is kept as it is."""
 
-    model_config = ConfigDict(extra="allow", strict=True)
+    model_config = ConfigDict(extra="allow", strict=True, allow_inf_nan=False)
 
 
 class KeptRequest(_Loose):

@@ -1,14 +1,21 @@
-"""Refuses, before they are parsed, bodies that are wrong all over or hold far too much."""
+"""The door that every body in JSON comes through before anything is made of it.
 
+What is no JSON, wrong all over or holds far too much is refused here, for little time and memory.
+"""
+
+import codecs
 import re
 from collections.abc import Iterator, Sequence
 from functools import cache
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
 
-from app.errors import InputError, InvalidRequestError, json_path, schema_errors
+from app.errors import (
+    InputError, InvalidRequestError, NotJsonError, json_path, schema_errors,
+)
 from app.requests.scan import (
     COUNT, DEPTH, ERRORS, KEY_END, KEY_START, LEVELS, PARTS, SHAPE, Shapes, scan,
 )
@@ -33,29 +40,67 @@ MAX_PARTS, BYTES_PER_PART = 200_000, 25
 MAX_LOOSE = 400_000
 """Most values in what isn't read, or may be anything."""
 
+DECODED_AT_ONCE = 2**20
+"""Bytes: a whole body as text would take up to four times its length."""
 
-def require_readable(body: bytes, model: type[BaseModel]) -> None:
+
+def require_readable(body: bytes, model: type[BaseModel], most_loose: int = MAX_LOOSE) -> None:
     """Refuse a body that would take much time or memory to be refused later.
+
+    Parameters
+    ----------
+    most_loose
+        Most values in what isn't read, or may be anything.
 
     Raises
     ------
     InvalidRequestError
         If it has more errors than are looked at, or more parts than any request.
+    NotJsonError
+        If it is no JSON.
     """
     if len(body) < LEAST_BYTES:
         return
+    errors = _require_sparse(body, model, most_loose)
+    require_json(body)
+    if errors and len(body) > MAX_SEARCHED_BYTES:
+        _refuse_without_rows(body, model)
+
+
+def require_json(body: bytes) -> None:
+    """Refuse what is no JSON, to its end, without making anything of it.
+
+    Raises
+    ------
+    NotJsonError
+        If it is none.
+    """
+    try:
+        if not body.isascii():
+            decoder = codecs.getincrementaldecoder("utf-8")()
+            for begin in range(0, len(body), DECODED_AT_ONCE):
+                decoder.decode(body[begin:begin + DECODED_AT_ONCE])
+            decoder.decode(b"", final=True)
+        msgspec.json.decode(body, type=msgspec.Raw)
+    except RecursionError:
+        raise NotJsonError("The body has values in values in values, more than any request: send "
+                           "one JSON object.") from None
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise NotJsonError(f"The body is not JSON, {error}: send one JSON object.") from None
+
+
+def _require_sparse(body: bytes, model: type[BaseModel], most_loose: int) -> int:
+    """Return how many errors were counted; raises as `require_readable` does if too many."""
     shapes = shapes_of(model)
-    most = np.array([MAX_COUNTED_ERRORS, MAX_PARTS + len(body) // BYTES_PER_PART, MAX_LOOSE])
+    most = np.array([MAX_COUNTED_ERRORS, MAX_PARTS + len(body) // BYTES_PER_PART, most_loose])
     levels, found = np.zeros((DEPTH, 6), np.int64), np.zeros(4, np.int64)
     if scan(np.frombuffer(body, np.uint8), shapes, most, levels, found):
-        if found[ERRORS] and len(body) > MAX_SEARCHED_BYTES:
-            _refuse_without_rows(body, model)
-        return
+        return int(found[ERRORS])
     steps = list(_steps(body, levels[:found[LEVELS]]))
     if found[ERRORS] > most[ERRORS]:
         raise InvalidRequestError([_wrong_all_over(steps, shapes, levels[:found[LEVELS]])])
     kind, bound = (("objects and arrays", most[PARTS]) if found[PARTS] > most[PARTS]
-                   else ("values in what is not read", MAX_LOOSE))
+                   else ("values in what is not read", most_loose))
     raise InvalidRequestError([InputError(
         code="TOO_MANY_PARTS", path=json_path(steps),
         message=f"By here there are more than {bound} {kind}, more than any request needs, and "
@@ -78,7 +123,7 @@ def _refuse_without_rows(body: bytes, model: type[BaseModel]) -> None:
 @cache
 def compile_scan() -> None:
     """Compile what looks at bodies, or load it if that was done before."""
-    require_readable(b" " * LEAST_BYTES, InputError)
+    require_readable(b"{}" + b" " * LEAST_BYTES, InputError)
 
 
 def _wrong_all_over(steps: Sequence[str | int], shapes: Shapes,

@@ -13,6 +13,7 @@ from app.errors import InvalidRequestError, RequestError, schema_error
 from app.load.bodies import Body
 from app.load.readings import Reading
 from app.plans.routes import Service
+from app.requests.refusal import require_readable
 from app.schemas.hints import with_hints
 from app.schemas.openapi import ERROR_RESPONSES
 from app.sheets.addresses import Finder
@@ -43,6 +44,9 @@ BODY: dict[str, Any] = {"requestBody": {"required": True, "content": {
 """What the endpoint takes; it reads its body itself, to bound it."""
 
 MAX_SETTINGS = 2**20
+
+MOST_PARTS = 8
+"""Parts of a form; two are read."""
 
 LOOKING_UP = 5.0
 """Seconds in which addresses are looked up before a reply says how many are known so far."""
@@ -86,11 +90,12 @@ def read_settings(text: str | bytes | None) -> ImportSettings:
 
     Raises
     ------
-    InvalidRequestError
+    NotJsonError, InvalidRequestError
         If they are none.
     """
     if not text:
         return ImportSettings()
+    require_readable(text if isinstance(text, bytes) else text.encode(), ImportSettings)
     try:
         return ImportSettings.model_validate_json(text)
     except ValidationError as error:
@@ -104,18 +109,24 @@ def _parts(content: bytes, content_type: str) -> tuple[bytes, bytes | None]:
     if not kind.lower().startswith(MULTIPART):
         return content, None
     parts: dict[bytes | None, bytes] = {}
+    seen: list[bytes | None] = []
 
     def keep_file(file: Any) -> None:
+        seen.append(file.field_name)
+        _require_few(seen)
         file.file_object.seek(0)
         parts[file.field_name] = file.file_object.read()
         file.close()
 
     def keep_field(field: Any) -> None:
+        seen.append(field.field_name)
+        _require_few(seen)
         parts[field.field_name] = field.value or b""
 
     try:
         parser = create_form_parser({"Content-Type": kind}, keep_field, keep_file,
-                                    config={"MAX_MEMORY_FILE_SIZE": len(content) + 1})
+                                    config={"MAX_MEMORY_FILE_SIZE": len(content) + 1,
+                                            "MAX_FIELD_SIZE": MAX_SETTINGS})
         stream = BytesIO(content)
         while chunk := stream.read(2**20):
             parser.write(chunk)
@@ -126,3 +137,8 @@ def _parts(content: bytes, content_type: str) -> tuple[bytes, bytes | None]:
     if b"file" not in parts:
         raise UnreadableFormError("The form has no part named file: name the spreadsheet's so.")
     return parts[b"file"], parts.get(b"settings")
+
+
+def _require_few(names: list[bytes | None]) -> None:
+    if len(names) > MOST_PARTS:
+        raise FormParserError(f"it has more than {MOST_PARTS} parts")
