@@ -37,7 +37,7 @@ export default {
     questionsDone: 'Alle sind beantwortet.',
     assumed: 'gilt',
     other: 'Etwas anderes',
-    otherMeaning: 'Andere Bedeutung von {{name}}',
+    otherMeaning: 'Etwas anderes in {{name}}',
     question: {
       column: 'Spalte {{column}} ({{heading}}) wird nicht verwendet. Was steht darin?',
       sheet_one: 'Es gibt ein weiteres Blatt, {{sheet}}, mit {{count}} Zeile. Was ist damit?',

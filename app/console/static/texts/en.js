@@ -25,7 +25,7 @@ export default {
     questionsDone: 'All are answered.',
     assumed: 'taken',
     other: 'Something else',
-    otherMeaning: 'Another meaning of {{name}}',
+    otherMeaning: 'Something else in {{name}}',
     question: {
       column: 'Column {{column}} ({{heading}}) is not used. What is it?',
       sheet_one: 'There is another sheet, {{sheet}}, with {{count}} row. What about it?',
