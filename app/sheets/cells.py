@@ -30,7 +30,7 @@ class CellError:
     cell: str | None = None
 
 
-LONGEST_READ = 500
+LONGEST_READ = 1000
 """Letters of a cell that is more than words; texts alone may be longer."""
 
 

@@ -18,6 +18,9 @@ EVENING = 15 * HOUR
 LONGEST_NIGHT = 14 * HOUR
 """What begins in the evening, ends before it begins and is no longer than this ends a day later."""
 
+SERIALS = 36_526, 73_051
+"""Days since 1900 by which spreadsheets hold dates of this century."""
+
 MOST_HOURS = 4
 """Of a stop in `4:00`; more may be minutes and seconds."""
 
@@ -32,6 +35,7 @@ _BARE_POINT, _BARE_MINUTES = re.compile(r"\d{1,2}[.,]\d{2}"), re.compile(r"\d{1,
 _DATE = re.compile(r"(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}([./-])\d{1,2}\2\d{2,4})"
                    r"[T,\s]*+(?P<rest>.*+)")
 _DATE_SIGNS = re.compile(r"[./-]")
+_SERIAL = re.compile(r"[3-7]\d{4}(?:[.,]\d{1,12})?")
 _ZONE = re.compile(r"(?<=\d)(Z|[+-]\d{2}:?\d{2})$", re.IGNORECASE)
 _NEXT_DAY = re.compile(r"\+1\s++(?P<before>\d[^+(]{0,20})|(?P<behind>\d[^+(]{0,20}?)\s?\(?\+1\)?")
 _DASH = re.compile(r"(?<!\s)\s++[-\u2013\u2014]\s++")
@@ -55,12 +59,22 @@ ALWAYS = frozenset((
     "hele dag", "caly dzien", "dia todo"))
 """Windows in words, in simple letters, that leave any time of day."""
 
+Window = tuple[float | None, float | None]
+
+NOON = 12 * HOUR
+HALVES: dict[str, Window] = {
+    **dict.fromkeys(("am", "a m", "morning", "mornings", "vormittag", "vormittags", "morgens",
+                     "matin", "le matin", "manana", "mattina", "mattino", "ochtend", "voormiddag",
+                     "rano", "manha", "forenoon", "vorm", "vm"), (None, NOON)),
+    **dict.fromkeys(("pm", "p m", "afternoon", "afternoons", "nachmittag", "nachmittags",
+                     "apres midi", "l apres midi", "tarde", "pomeriggio", "middag", "namiddag",
+                     "popoludniu", "po poludniu", "nachm", "nm"), (NOON, None))}
+"""Windows in words, in simple letters, that are half of the day."""
+
 BEFORE_TIMES = ("ore ", "um ", "at ")
 FRAMES = frozenset(("between", "zwischen", "entre", "tra", "tussen", "fra"))
 FRAMED = frozenset(("and", "und", "et", "y", "e", "en"))
 ONWARDS = ("+", "onwards")
-
-Window = tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
@@ -89,8 +103,12 @@ def clock(raw: Raw, unit: str, style: Style) -> float:
             return _bounded(raw.total_seconds(), raw)
         case bool():
             raise MisreadError(f"{shown(raw)} is no time of day")
+        case float() if (instant := _serial(raw)) and unit in ("clock", "days"):
+            return clock(instant, unit, style)
         case float():
             return _bounded(_bare(raw, f"{raw:.10g}", unit), raw)
+        case str() if (instant := _serial(raw)) and unit in ("clock", "days"):
+            return clock(instant, unit, style)
         case str():
             return _bounded(_text_clock(raw, unit, style), raw)
     raise MisreadError(f"{shown(raw)!r} is no time of day: write one such as 8:30")
@@ -202,6 +220,8 @@ def read_date(raw: Raw, style: Style) -> date:
         return raw.date()
     if isinstance(raw, date):
         return raw
+    if (serial := _serial(raw)) is not None:
+        return serial.date()
     if isinstance(raw, str) and (found := _DATE.fullmatch(raw)):
         parts = [int(part) for part in _DATE_SIGNS.split(found["date"])]
         if parts[0] < 1000:
@@ -214,6 +234,16 @@ def read_date(raw: Raw, style: Style) -> date:
         except ValueError:
             pass
     raise MisreadError(f"{shown(raw)!r} is no date: write one such as 2026-11-23")
+
+
+def _serial(raw: Raw) -> datetime | None:
+    """Return the instant of a number by which spreadsheets hold dates; None: it is none."""
+    if isinstance(raw, str):
+        raw = float(raw.replace(",", ".")) if _SERIAL.fullmatch(raw) else None
+    if not isinstance(raw, float) or not SERIALS[0] <= raw < SERIALS[1]:
+        return None
+    # What they compute is a little off now and then.
+    return datetime(1899, 12, 30) + timedelta(seconds=round(raw * DAY))
 
 
 def date_parts(raw: Raw) -> tuple[int, int] | None:
@@ -254,7 +284,7 @@ def _parts(text: str) -> list[str]:
     """Return the windows of a text; `10-12 and 14-16` are two, `8 and 10` is one."""
     parts = [part for part in _APART.split(text) if part]
     return parts if all(_BETWEEN.search(part) or _begin_of(part) or _TILL.fullmatch(part)
-                        for part in parts) else [text]
+                        or simple(part) in HALVES for part in parts) else [text]
 
 
 def _begin_of(text: str) -> str | None:
@@ -266,6 +296,8 @@ def _begin_of(text: str) -> str | None:
 
 
 def _window(text: str, unit: str, style: Style) -> Window:
+    if (half := HALVES.get(simple(text))) is not None:
+        return half
     if begin := _begin_of(text):
         if len(_BETWEEN.split(begin)) == 1:
             return clock(begin, unit, style), None

@@ -2,13 +2,14 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from app.sheets.cells import Doubt, MisreadError, Raw, letters, shown
 from app.sheets.clocks import Style
 from app.sheets.headings import HEADING, guesses, simple
 from app.sheets.layout import Table
+from app.sheets.links import is_link, place_of
 from app.sheets.meanings import MEANINGS
 from app.sheets.numbers import own_unit
 from app.sheets.readers import NO, ORDER_KINDS, YES, read
@@ -174,14 +175,21 @@ def _by_content(table: Table, index: int, cells: Sequence[Raw]) -> Iterable[Colu
     if not texts or len(texts) < 0.7 * len(cells):
         return
     heading = table.headings[index]
-    for meaning, pattern, sure in (("point", _POINT, 1.0), ("email", _EMAIL, BY_CONTENT),
-                                   ("window", _WINDOW, BY_CONTENT), ("phone", _PHONE, BY_CONTENT)):
-        share = sum(pattern.fullmatch(text) is not None for text in texts) / len(cells)
+    looks: tuple[tuple[str, Callable[[str], object], float], ...] = (
+        ("point", _POINT.fullmatch, 1.0), ("point", _is_map, 1.0),
+        ("email", _EMAIL.fullmatch, BY_CONTENT), ("window", _WINDOW.fullmatch, BY_CONTENT),
+        ("phone", _PHONE.fullmatch, BY_CONTENT))
+    for meaning, fits, sure in looks:
+        share = sum(bool(fits(text)) for text in texts) / len(cells)
         if share > 0.7:
             doubt = Doubt("MEANING_BY_CONTENT", f"Column {letters(index)} is taken for "
                           f"{MEANINGS[meaning].title.lower()} by its cells alone.", letters(index))
             yield _with_unit(table, Column(index, heading, meaning, None,
                                            min(sure * share, 0.995), (doubt,)))
+
+
+def _is_map(text: str) -> bool:
+    return is_link(text) and place_of(text) is not None
 
 
 def _with_unit(table: Table, column: Column) -> Column:

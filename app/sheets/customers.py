@@ -11,6 +11,7 @@ from app.sheets.amounts import amounts_of
 from app.sheets.cells import Doubt, clock_text, next_day
 from app.sheets.clocks import DAY, past_midnight
 from app.sheets.columns import Column
+from app.sheets.damage import is_damaged
 from app.sheets.geography import Ground, Pair, on_globe
 from app.sheets.rows import Row
 
@@ -69,7 +70,8 @@ def together(entries: Sequence[Entry],
     for number, entry in enumerate(entries):
         customer = entry.customer
         alike = [repr(customer.get(field)) for field in SAME]
-        apart = number if same_place == "apart" else -1
+        # Numbers whose last digits are lost are alike without being one.
+        apart = number if same_place == "apart" or is_damaged(customer["id"]) else -1
         groups[customer["id"].casefold(), repr(customer["location"]), apart, *alike].append(entry)
     stops = [_joined(group) for group in groups.values()]
     doubts = []
@@ -200,7 +202,7 @@ def _name(row: Row) -> str:
     named = " ".join([*_texts(row, "first_name"), *_texts(row, "name")])
     for name in (named, *_texts(row, "order")):
         if name:
-            return name[:LONGEST_NAME]
+            return " ".join(name.split())[:LONGEST_NAME]
     return address_of(row)[:LONGEST_NAME] or f"row {row.number + 1}"
 
 

@@ -26,6 +26,9 @@ MOST_WORDS = 6
 AT_STOP = 0.7
 """Score of a heading whose word is of stops or goods, but in minutes: the time that they take."""
 
+STOP_UNITS = ("minutes", "seconds")
+"""What a heading that is no more than a unit of time tells how long a stop takes in."""
+
 OF_STOPS = frozenset({"name", "demand", "address", "order"})
 
 _SIGNS = str.maketrans({"ß": "ss", "ł": "l", "ø": "o", "æ": "ae", "œ": "oe", "đ": "d", "³": "3",
@@ -88,6 +91,8 @@ def guesses(heading: str) -> tuple[Guess, ...]:
     if stated and unit is None and "demand" in found and _WORD.fullmatch(stated["unit"]):
         found["demand"] = replace(found["demand"], unit=stated["unit"])
     # A heading may say no more than the unit of an amount.
+    if not found and (unit or UNITS.get(words[0] if len(words) == 1 else "")) in STOP_UNITS:
+        found["service"] = Guess("service", 0.9, unit or UNITS[words[0]])
     alone = unit or UNITS.get(words[0]) if len(words) == 1 else unit if not words else None
     if alone and _takes("demand", alone):
         found.setdefault("demand", Guess("demand", 0.9, alone))

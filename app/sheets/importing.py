@@ -11,6 +11,7 @@ from app.sheets.cells import CellError, Doubt, MisreadError, letters
 from app.sheets.choosing import chosen
 from app.sheets.columns import columns_of, language_of, with_begin
 from app.sheets.customers import Entry, address_of, entries_of, overnight, placed, together
+from app.sheets.damage import damaged
 from app.sheets.days import on_day
 from app.sheets.dropping import with_kinds, without_cancelled, without_hidden, without_sums
 from app.sheets.fleet import Incomplete
@@ -19,6 +20,7 @@ from app.sheets.looks import with_looks
 from app.sheets.meanings import MEANINGS
 from app.sheets.questions import Asking, Question
 from app.sheets.readers import read
+from app.sheets.rejoining import rejoined
 from app.sheets.replies import reply_of
 from app.sheets.request import look_over, request_of, stated_depot
 from app.sheets.rows import Row, days_in, rows_of, sums_in
@@ -45,7 +47,8 @@ def import_file(content: bytes, settings: ImportSettings, finder: Finder = NO_FI
     work, vans = _columns(file, settings)
     if vans is not None:
         _read_vans(work, vans)
-    _understand(work, settings, finder, road_profiles)
+    if not work.errors:
+        _understand(work, settings, finder, road_profiles)
     work.errors += work.asking.errors
     if work.asking.errors:
         work.request = None
@@ -60,13 +63,14 @@ def _columns(file: SheetFile, settings: ImportSettings) -> tuple[Import, Sheet |
     table, vans = chosen(file, mapping, asking, states_fleet)
     if not table.rows:
         raise NotASheetError("The sheet has no rows of customers below its headings.")
+    table, rejoining, cut = rejoined(table, file.delimiter)
     table = without_hidden(table, asking)
     style, doubts = style_of(table, file, settings)
     stated = stated_columns(table, mapping, asking)
     columns, more = with_begin(columns_of(table, style, stated))
     columns = with_looks(table, columns)
     ask_columns(table, columns, style, asking)
-    work = Import(table, style, columns, asking, doubts=doubts + more)
+    work = Import(table, style, columns, asking, doubts=rejoining + doubts + more, errors=cut)
     if file.is_guessed:
         work.doubts.append(encoding_doubt(file, table))
     if not table.header_rows:
@@ -106,7 +110,7 @@ def _understand(work: Import, settings: ImportSettings, finder: Finder,
     work.errors += [error for row in customers for error in row.errors]
     _note_amounts(work, customers)
     work.stops, doubts = together(entries, settings.mapping.same_place)
-    work.doubts += doubts + overnight(work.stops)
+    work.doubts += doubts + overnight(work.stops) + damaged(work.table, work.columns)
     if ground.is_geographic:
         work.doubts += far_off(placed(work.stops))
     if not work.stops:

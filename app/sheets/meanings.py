@@ -96,8 +96,9 @@ UNIT_WORDS = {
     "ft3": "ft3 cuft cf",
     "m": "m meter metre meters metres metri metros",
     "km": "km kilometer kilometre kilometers kilometres",
-    "parcels": "pcs pc stk stuck parcels colis pakete units pieces szt",
-    "pallets": "pal pallets paletten palettes",
+    "parcels": "pcs pc stk stuck parcel parcels colis paket pakete unit units piece pieces szt pkg "
+               "pkgs package packages colli kolli bultos",
+    "pallets": "pal plt plts pallet pallets palette paletten palettes bancali palety",
 }
 """What units are called, in simple letters."""
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 
 from app.sheets.cells import MisreadError, Raw, shown
-from app.sheets.headings import unit_named
+from app.sheets.headings import simple, unit_named
 from app.sheets.meanings import FAMILIES
 
 _SPACES = re.compile(r"[\s'\u2019\u00a0\u202f\u2009]+")
@@ -14,6 +14,7 @@ _COMMA = re.compile(r"(?<!\d)[-+]?(?:\d*+,(?:\d{1,2}|\d{4,})|\d{1,3}(?:\.\d{3})+
                     r"|0,\d++)")
 _POINT = re.compile(r"(?<!\d)[-+]?(?:\d*+\.(?:\d{1,2}|\d{4,})|\d{1,3}(?:,\d{3})++(?:\.\d++)?"
                     r"|0\.\d++)")
+_UNIT_WORD = re.compile(r"[^\W\d_]{3,20}\.?")
 _DECIMAL = re.compile(r"[-+]?\d*+\.?\d*+")
 _GROUPED = {sign: re.compile(rf"(?<![\d{sign}])[-+]?\d{{1,3}}(?:\{sign}\d{{3}})++(?:[.,]\d*+)?")
             for sign in ".,"}
@@ -97,19 +98,22 @@ def amount_of(raw: Raw, comma: bool, unit: str | None) -> float:
 
 
 def own_unit(raw: Raw) -> str | None:
-    """Return the unit that a cell itself states."""
+    """Return the unit that a cell itself states, perhaps a word that is none elsewhere."""
     if not isinstance(raw, str):
         return None
     try:
-        return unit_named(split_unit(raw)[1])
+        stated = split_unit(raw)[1]
     except MisreadError:
         return None
+    return unit_named(stated) or (stated if _UNIT_WORD.fullmatch(stated) else None)
 
 
 def _factor(own: str, unit: str | None, raw: str) -> float:
     if not own:
         return 1.0
     stated = unit_named(own)
+    if stated is None and unit is not None and simple(own) == simple(unit):
+        return 1.0
     if stated is None:
         raise MisreadError(f"{raw!r} has a unit that is not known")
     if stated == unit or unit is None:

@@ -13,7 +13,7 @@ ORDER_WORDS: dict[str, dict[str, str]] = {
     },
     "status": {
         "en": "status|order status|state|order state|cancelled|canceled",
-        "de": "status|auftragsstatus|zustand|storno|storniert|bearbeitungsstand|stand",
+        "de": "status|auftragsstatus|zustand|storno|storniert|bearbeitungsstand",
         "fr": "statut|etat|annule",
         "es": "estado|situacion|anulado",
         "it": "stato|annullato",

@@ -10,6 +10,7 @@ from app.sheets.clocks import (
     Style, clock, duration, read_date, window_text, windows,
 )
 from app.sheets.headings import simple
+from app.sheets.links import is_link, place_of
 from app.sheets.meanings import Kind
 from app.sheets.numbers import amount_of, number, number_of
 
@@ -127,7 +128,10 @@ def _point(raw: Raw, unit: str | None, style: Style) -> tuple[float, float]:
     # GeoJSON and WKT put the longitude first.
     turned = shown(raw).startswith(("[", "POINT"))
     text = shown(raw).removeprefix("POINT").strip("()[] ")
-    pair = _two_numbers(text)
+    pair = place_of(text) if is_link(text) else _two_numbers(text)
+    if pair is None and is_link(text):
+        raise MisreadError(f"{text[:80]!r} has no coordinates: open it and copy the longer address "
+                           "of the map, or write latitude and longitude")
     if pair is None:
         raise MisreadError(f"{text!r} is no place: write latitude and longitude such as "
                            "48.137, 11.575")

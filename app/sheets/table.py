@@ -16,10 +16,9 @@ MAX_COLUMNS = 1000
 
 WORKBOOK_SECONDS = 40
 
-WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
-"""How files of Excel from 2007 on and of LibreOffice begin, and those of older Excel."""
-
-OTHERS = {b"%PDF": "a PDF", b"{": "JSON", b"<": "a page of HTML or XML"}
+OTHERS = {b"%PDF": "a PDF"}
+MARKED = {b"{": "JSON", b"[": "JSON", b"<": "a page of HTML or XML"}
+"""How files begin that may hold rows all the same: points of GeoJSON and KML, tables of HTML."""
 
 
 class NotASheetError(RequestError):
@@ -63,11 +62,15 @@ def read_sheets(content: bytes, encoding: str | None = None) -> SheetFile:
     """
     if not content.strip():
         raise NotASheetError("The file is empty.")
-    if content.startswith(WORKBOOKS):
+    if content.startswith(workbook.BOOKS):
         return SheetFile(tuple(_read_workbook(content)))
-    for start, name in OTHERS.items():
-        if content.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(start):
-            raise NotASheetError(f"The file is {name}: save it as CSV or as a workbook (.xlsx).")
+    head = content[:1000].lstrip(b"\xef\xbb\xbf \r\n\t")
+    for start, name in (OTHERS | MARKED).items():
+        if head.startswith(start):
+            wrong = f"The file is {name}: save it as CSV or as a workbook (.xlsx)."
+            if start in MARKED:
+                return SheetFile(tuple(_read_workbook(content, wrong)))
+            raise NotASheetError(wrong)
     try:
         file = read_text(content, encoding, MAX_ROWS)
     except NoTextError as error:
@@ -77,7 +80,8 @@ def read_sheets(content: bytes, encoding: str | None = None) -> SheetFile:
     return SheetFile((sheet,), file.encoding, file.delimiter, file.is_guessed)
 
 
-def _read_workbook(content: bytes) -> list[Sheet]:
+def _read_workbook(content: bytes, wrong: str | None = None) -> list[Sheet]:
+    """Return the sheets of a workbook, or of a text with marks; `wrong`: what to say of others."""
     try:
         done = subprocess.run([sys.executable, "-I", Path(workbook.__file__)], input=content,
                               capture_output=True, timeout=WORKBOOK_SECONDS, check=False)
@@ -86,6 +90,8 @@ def _read_workbook(content: bytes) -> list[Sheet]:
                              "customers alone.") from error
     if done.returncode == workbook.EXIT_UNREADABLE:
         reason = done.stdout.decode(errors="replace")[:200]
+        if wrong is not None:
+            raise NotASheetError(wrong)
         raise NotASheetError(f"The workbook can't be read ({reason}): open it, take off any "
                              "password, and save it as .xlsx or CSV.")
     if done.returncode:

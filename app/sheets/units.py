@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from app.sheets.cells import MisreadError, Raw, shown
-from app.sheets.clocks import look
+from app.sheets.clocks import SERIALS, look
 from app.sheets.numbers import number, own_unit
 
 _BARE = re.compile(r"\d++(?:[.,]\d++)?")
@@ -38,6 +38,8 @@ def clock_unit(cells: Sequence[Raw], stated: str | None) -> UnitGuess:
     if not bare:
         return UnitGuess("clock")
     values = [_value(raw) for raw in bare]
+    if all(SERIALS[0] <= value < SERIALS[1] for value in values):
+        return UnitGuess("days", "numbers such as these are dates with times")
     looks = {look(shown(raw)) for raw, value in zip(bare, values, strict=True) if value}
     if len(looks) > 1 and None not in looks and "hhmm" in looks:
         return UnitGuess("clock", "its numbers are written in several ways, each is read by its "

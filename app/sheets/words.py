@@ -168,8 +168,11 @@ WORDS: dict[str, dict[str, str]] = {
     },
     "point": {
         "en": "coordinates|wkt|geometry|geom|point|coords|gps|lat lon|lat lng|latlng|lat long|"
-              "latitude longitude|geo|gps coordinates|position|geolocation|lat lon coordinates",
-        "de": "koordinaten|gps koordinaten|geokoordinaten|koord",
+              "latitude longitude|geo|gps coordinates|position|geolocation|lat lon coordinates|"
+              "map|maps|google maps|map link|maps link|google maps link|location link|link|url|"
+              "geo uri|pin",
+        "de": "koordinaten|gps koordinaten|geokoordinaten|koord|karte|kartenlink|google link|"
+              "standort link",
         "fr": "coordonnees|coordonnees gps",
         "es": "coordenadas",
         "it": "coordinate",
@@ -188,10 +191,12 @@ WORDS: dict[str, dict[str, str]] = {
     "demand": {
         "en": "demand|quantity|qty|amount|weight|load|volume|parcels|packages|boxes|pallets|"
               "pieces|units|cases|items|total weight|gross weight|crates|size|pcs|demand 1|"
-              "demand 2|demand 3|cartons",
+              "demand 2|demand 3|cartons|pkgs|pkg|pkg count|no of packages|number of packages|"
+              "ctns|plts|"
+              "pallet count|parcel count|kgs|deliver|to deliver",
         "de": "menge|gewicht|anzahl|bedarf|ladung|volumen|pakete|paletten|stuck|stk|kisten|"
               "kartons|colli|kolli|bruttogewicht|gesamtgewicht|gew|vol|pal|anz|ladungsgewicht|"
-              "packstucke|stellplatze",
+              "packstucke|stellplatze|pak|kist|kart|ve|gebinde|liefermenge|sendungen",
         "fr": "quantite|poids|volume|colis|palettes|nombre de colis|nb colis|charge|qte|"
               "poids brut|nombre|cartons|nb palettes|poids total",
         "es": "cantidad|peso|volumen|bultos|paquetes|cajas|palets|carga|cant|demanda|unidades",
@@ -203,15 +208,18 @@ WORDS: dict[str, dict[str, str]] = {
     "service": {
         "en": "service|service time|service duration|duration|stop time|unloading time|"
               "unload time|handling time|dwell|dwell time|time at stop|stop duration|"
-              "visit duration|unloading|unload|time on site|serv time|drop time|work time",
+              "visit duration|unloading|unload|time on site|serv time|drop time|work time|handling|"
+              "time needed",
         "de": "dauer|servicezeit|entladezeit|standzeit|haltezeit|abladezeit|aufenthalt|"
               "entladedauer|servicedauer|stoppzeit|entladung|bedienzeit|verweildauer|"
-              "aufenthaltsdauer|ladezeit",
-        "fr": "duree|temps de service|temps sur place|duree d arret|temps de dechargement|"
+              "aufenthaltsdauer|ladezeit|abladen|entladen|ausladen|zeitbedarf|einsatzdauer",
+        "fr": "duree|dechargement|temps|temps de service|"
+              "temps sur place|duree d arret|temps de dechargement|"
               "duree de service|temps d arret|duree arret",
-        "es": "duracion|tiempo de servicio|tiempo de descarga|servicio|tiempo de parada",
-        "it": "durata|tempo di servizio|tempo di scarico|servizio|sosta|tempo sosta|tempo scarico",
-        "nl": "duur|lostijd|servicetijd|stoptijd|lostijden|verblijftijd",
+        "es": "duracion|descarga|tiempo de servicio|tiempo de descarga|servicio|tiempo de parada",
+        "it": "durata|scarico|"
+              "tempo di servizio|tempo di scarico|servizio|sosta|tempo sosta|tempo scarico",
+        "nl": "duur|lossen|lostijd|servicetijd|stoptijd|lostijden|verblijftijd",
         "pl": "czas obslugi|czas trwania|czas rozladunku|obsluga|czas postoju",
         "pt": "duracao|tempo de servico|tempo de descarga|servico",
     },

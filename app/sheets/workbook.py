@@ -12,7 +12,9 @@ from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile, ZipFile
 
+from lxml.etree import LxmlError
 from python_calamine import (
     CalamineError, CalamineSheet, CalamineWorkbook, SheetTypeEnum, SheetVisibleEnum,
 )
@@ -20,6 +22,7 @@ from python_calamine import (
 # Run as a file of its own, without the package around it.
 sys.path.append(str(Path(__file__).parent))
 from hidden import Hidden, hidden_in  # type: ignore[import-not-found]
+from markup import sheets_of  # type: ignore[import-not-found]
 
 MEMORY_BYTES = 2**30
 CPU_SECONDS = 20
@@ -27,6 +30,9 @@ CPU_SECONDS = 20
 MAX_CELLS = 2_000_000
 
 EXIT_UNREADABLE = 2
+
+BOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
+"""How files of Excel from 2007 on and of LibreOffice begin, and those of older Excel."""
 
 
 def main() -> None:
@@ -37,12 +43,21 @@ def main() -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS))
     try:
         content = sys.stdin.buffer.read()
-        unseen = hidden_in(content, MAX_CELLS)
-        sheets = _sheets(CalamineWorkbook.from_filelike(BytesIO(content)), unseen)
-    except (CalamineError, OSError, ValueError) as error:
+        if content.startswith(BOOKS) and not _is_kmz(content):
+            unseen = hidden_in(content, MAX_CELLS)
+            sheets = _sheets(CalamineWorkbook.from_filelike(BytesIO(content)), unseen)
+        else:
+            sheets = sheets_of(content, MAX_CELLS)
+    except (CalamineError, LxmlError, OSError, ValueError, RecursionError) as error:
         sys.stdout.write(str(error))
         sys.exit(EXIT_UNREADABLE)
     json.dump(sheets, sys.stdout, ensure_ascii=True)
+
+
+def _is_kmz(content: bytes) -> bool:
+    with suppress(BadZipFile), ZipFile(BytesIO(content)) as archive:
+        return any(name.lower().endswith(".kml") for name in archive.namelist()[:1000])
+    return False
 
 
 def _sheets(book: CalamineWorkbook, unseen: dict[str, Any]) -> list[dict[str, Any]]:

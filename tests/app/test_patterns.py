@@ -22,6 +22,7 @@ from app.sheets.importing import import_file
 from app.sheets.meanings import MEANINGS
 from app.sheets.readers import READERS
 from app.sheets.schemas import ImportSettings
+from app.sheets.table import NotASheetError
 
 PACKAGES = (app.sheets, app.addresses)
 
@@ -148,3 +149,12 @@ def test_headings_of_many_words_are_known_at_once() -> None:
              for row in range(400)]
     content = "\n".join(",".join(f"{text} {row}" for text in words) for row in range(20)).encode()
     assert seconds_of(lambda: import_file(content, ImportSettings())) < 5
+
+
+def test_eight_million_cells_are_refused_as_they_are_read() -> None:
+    content = (",".join(f"column {number}" for number in range(80)) + "\n"
+               + ("1," * 79 + "1\n") * 99_990).encode()
+    before = perf_counter()
+    with pytest.raises(NotASheetError, match="more than 2000000 cells"):
+        import_file(content, ImportSettings())
+    assert perf_counter() - before < 5
