@@ -109,7 +109,8 @@ def _vehicle_faults(request: VroomRequest, vehicle: VroomVehicleInput) -> Faults
     places = (vehicle.start, vehicle.start_index, vehicle.end, vehicle.end_index)
     if all(place is None for place in places):
         yield f"No start or end specified for vehicle {vehicle.id}."
-    yield from _size_faults(request, len(vehicle.capacity or ()))
+    yield from _size_faults(request, f"capacity of vehicle {vehicle.id}",
+                            len(vehicle.capacity or ()))
     if not LEAST_SPEED_FACTOR <= vehicle.speed_factor <= MAX_SPEED_FACTOR:
         yield f"Invalid speed factor: {vehicle.speed_factor:g}"
     if vehicle.time_window is not None and vehicle.time_window[0] > vehicle.time_window[1]:
@@ -122,10 +123,16 @@ def _vehicle_faults(request: VroomRequest, vehicle: VroomVehicleInput) -> Faults
             yield "Custom costs are incompatible with using a per_km value."
 
 
-def _size_faults(request: VroomRequest, size: int) -> Faults:
-    wanted = len(request.vehicles[0].capacity or ())
-    if size != wanted:
-        yield f"Inconsistent delivery length: {size} instead of {wanted}."
+def _size_faults(request: VroomRequest, name: str, size: int) -> Faults:
+    first = request.vehicles[0]
+    wanted = len(first.capacity or ())
+    if size == wanted:
+        return
+    holds = f"{wanted} by the capacity of vehicle {first.id}"
+    if first.capacity is None:
+        holds = f"none, since vehicle {first.id} has no capacity: state one, or leave amounts out"
+    yield (f"Inconsistent delivery length: {size} instead of {wanted}. "
+           f"The {name} states {size}, there are {holds}.")
 
 
 def _job_faults(request: VroomRequest) -> Faults:
@@ -134,7 +141,8 @@ def _job_faults(request: VroomRequest) -> Faults:
             yield f"Invalid location for job {job.id}."
         for side in ("delivery", "pickup"):
             if amount_of(job, side) or getattr(job, side) is not None:
-                yield from _size_faults(request, len(amount_of(job, side)))
+                yield from _size_faults(request, f"{side} of job {job.id}",
+                                        len(amount_of(job, side)))
         if job.amount is not None and (job.delivery is not None or job.pickup is not None):
             yield f"amount of job {job.id} is the old name of delivery: leave it out."
         if job.time_windows is not None:

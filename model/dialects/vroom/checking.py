@@ -5,7 +5,7 @@ from itertools import accumulate
 
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.request import Job, Request
-from model.dialects.vroom.timing import TIME_SCALE, Driver, TimedRoute
+from model.dialects.vroom.timing import NO_WAY, TIME_SCALE, Driver, TimedRoute
 from model.planner import PlanCheckError
 
 
@@ -29,7 +29,12 @@ def route_faults(request: Request, places: Places, vehicle: int,
         yield f"Route over capacity for vehicle {stated.id}."
     if stated.max_tasks is not None and len(jobs) > stated.max_tasks:
         yield f"Too many tasks for vehicle {stated.id}."
-    route = Driver(request, places, vehicle).drive(jobs)
+    driver = Driver(request, places, vehicle)
+    missing = driver.missing_leg(jobs)
+    if missing is not None:
+        yield (f"No way for vehicle {stated.id} {missing}: matrices state {NO_WAY} s or more.")
+        return
+    route = driver.drive(jobs)
     if route is None:
         yield f"Infeasible route for vehicle {stated.id}."
         return

@@ -1,6 +1,7 @@
 """VROOM's jobs and vehicles -> the planner's `Problem`, and its plans back to routes of jobs."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from math import isqrt
 
 import numpy as np
@@ -14,7 +15,7 @@ from model.dialects.vroom.models import Model
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes
 from model.dialects.vroom.places import NOWHERE, Places
 from model.dialects.vroom.request import Job, Request, Window
-from model.dialects.vroom.timing import TIME_SCALE
+from model.dialects.vroom.timing import NO_WAY, TIME_SCALE
 from model.dialects.vroom.work import (
     UNHURRIED, LegLimit, Pause, Preparing, attempt_seconds, model_seconds,
 )
@@ -83,7 +84,7 @@ class Converter:
         if relaxes:
             looser = self._drives(nodes, relaxed=True, pause=preparing.pause)
             relaxed = (self._problem(nodes, looser),)
-        return Model(problem, nodes, relaxed, has_longest=self._has_longest())
+        return Model(problem, nodes, relaxed, has_longest=self._has_longest)
 
     def _drives(self, nodes: Nodes, relaxed: bool, pause: Pause) -> Drives:
         return Drives(self._request, self._places, self.kinds, nodes, self._is_timed, relaxed,
@@ -132,11 +133,13 @@ class Converter:
                 for job, seconds, is_own in zip(jobs, service.tolist(), differs.tolist(),
                                                 strict=True) if is_own}
 
+    @cached_property
     def _has_longest(self) -> bool:
-        """Tell whether some legs are longer than the planner can count."""
+        """Tell whether some legs are longer than the planner can count, or aren't there."""
         longest = {profile: (int(legs.durations.max()), int(legs.distances.max()))
                    for profile, legs in self._places.legs.items()}
-        return any(max(seconds * kind.rates.time // TIME_SCALE, metres) > LONGEST
+        return any(seconds >= NO_WAY
+                   or max(seconds * kind.rates.time // TIME_SCALE, metres) > LONGEST
                    for kind in self.kinds for seconds, metres in [longest[kind.stated.profile]])
 
     def _shift(self, kind: Kind) -> Window | None:
@@ -178,10 +181,15 @@ class Converter:
             fixed_cost=float(kind.stated.costs.fixed), cost_per_km=drive.cost_per_km,
             cost_per_hour=drive.cost_per_hour,
             earliest=0 if window is None else self._instant(window[0]),
-            latest=UNLIMITED if window is None else self._last_instant(window[1]),
+            latest=self._latest(window),
             max_working_duration=drive.max_working, max_trip_distance=drive.max_distance,
             max_stops=None if most is None else min(most, len(self._request.jobs)),
             skills=frozenset(map(str, kind.stated.skills)), service_durations=service_durations)
+
+    def _latest(self, window: Window | None) -> int:
+        """Return when a vehicle's work has to end: before the end of any leg that isn't there."""
+        latest = UNLIMITED if window is None else self._last_instant(window[1])
+        return min(latest, MAX_QUANTITY - 1) if self._has_longest else latest
 
     def _customer(self, job: int, site: int, service: int, setup: int) -> Customer:
         """Return a job as the planner sees it; `service` and `setup` in seconds."""

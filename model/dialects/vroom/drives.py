@@ -18,7 +18,7 @@ from model.dialects.vroom.kinds import Kind
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes, at_most_longest
 from model.dialects.vroom.places import Legs, Places
 from model.dialects.vroom.request import Request
-from model.dialects.vroom.timing import COST_SCALE, TIME_SCALE
+from model.dialects.vroom.timing import COST_SCALE, NO_WAY, TIME_SCALE
 from model.dialects.vroom.work import UNHURRIED, Pause
 from model.problem import MAX_QUANTITY, IntArray, Travel
 
@@ -207,15 +207,20 @@ class Drives:
         return self._index[key]
 
     def _durations(self, kind: Kind, clock: str) -> IntArray:
-        """Return milliseconds of legs; without windows, thousandths of what the clock measures."""
+        """Return milliseconds of legs; without windows, thousandths of what the clock measures.
+
+        No vehicle works as long as a leg that isn't there takes.
+        """
         legs = self._places.legs[kind.stated.profile]
+        seconds = self._nodes.spread(legs.durations)
         if not self._is_timed:
-            measured = legs.durations if clock == "durations" else legs.distances
-            return self._nodes.spread(measured) * PARTS
-        travel = self._nodes.spread(legs.durations) * (kind.rates.time * PARTS // TIME_SCALE)
-        if self.actions.delays(kind):
-            travel += self.actions.beside_travel(kind) * PARTS
-        return np.minimum(travel, MAX_QUANTITY)
+            travel = PARTS * (seconds if clock == "durations"
+                              else self._nodes.spread(legs.distances))
+        else:
+            travel = seconds * (kind.rates.time * PARTS // TIME_SCALE)
+            if self.actions.delays(kind):
+                travel += self.actions.beside_travel(kind) * PARTS
+        return np.where(seconds >= NO_WAY, MAX_QUANTITY, np.minimum(travel, MAX_QUANTITY))
 
     def _measure(self, kind: Kind, basis: str) -> IntArray:
         legs, rates = self._places.legs[kind.stated.profile], kind.rates

@@ -25,6 +25,9 @@ DISTANCE_COST_SCALE = COST_SCALE // 1000
 ENDLESS = 2**62
 """Stands for no end of a time window."""
 
+NO_WAY = 10**9
+"""Seconds of a leg that isn't there: no other takes 31 years."""
+
 MISSED = 2**63
 """Start at a job whose last window is over: later than any end."""
 
@@ -115,11 +118,14 @@ class Driver:
     vehicle: int
 
     def drive(self, jobs: Sequence[int]) -> TimedRoute | None:
-        """Return the route through `jobs`, at least one; None if it misses a time window.
+        """Return the route through `jobs`, at least one; None if it misses a time window or there
+        is no way.
 
         It ends as early as possible, begins as late as that allows, and waits as late as possible.
         """
         pairs = self._pairs(jobs)
+        if self.missing_leg(jobs) is not None:
+            return None
         legs = [self._leg(*pair) for pair in pairs]
         times = [travel for travel, _, _ in legs]
         actions = [self._action(*pair, job) for pair, job in zip(pairs, jobs, strict=False)]
@@ -142,6 +148,12 @@ class Driver:
                           tuple(accumulate(times)),
                           tuple(accumulate([metres for _, metres, _ in legs])), travel, cost)
 
+    def missing_leg(self, jobs: Sequence[int]) -> str | None:
+        """Tell in words to where on a route through `jobs` there is no way; None if there is."""
+        named = [*(f"to job {self.request.jobs[job].id}" for job in jobs), "to its end"]
+        return next((name for name, pair in zip(named, self._pairs(jobs), strict=True)
+                     if self._leg(*pair)[0] >= self._endless), None)
+
     def begin(self) -> Visit:
         """Return how the vehicle begins."""
         nothing = (0,) * len(self._stated.capacity)
@@ -163,7 +175,8 @@ class Driver:
             before.cost + cost + self.rates.task_cost * (setup + service), load,
             tuple(map(max, before.highest, load)),
             _added(before.brought, stated.delivery or nothing))
-        return visit if stated.skills <= self._stated.skills and self._is_allowed(visit) else None
+        can = travel < self._endless and stated.skills <= self._stated.skills
+        return visit if can and self._is_allowed(visit) else None
 
     def _is_allowed(self, visit: Visit) -> bool:
         """Tell whether a vehicle that comes from a visit can keep its limits."""
@@ -180,6 +193,11 @@ class Driver:
     def rates(self) -> Rates:
         """What the vehicle makes of its matrices."""
         return Rates.of(self._stated, self._legs.costs is not None)
+
+    @cached_property
+    def _endless(self) -> int:
+        """From how long on a leg isn't there."""
+        return NO_WAY * self.rates.time
 
     @property
     def _stated(self) -> Vehicle:

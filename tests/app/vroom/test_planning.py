@@ -149,6 +149,28 @@ def test_legs_beyond_any_horizon_are_not_driven_within_a_shift(ours: Solve, stre
     judge(street, ours(street))
 
 
+@pytest.mark.parametrize("length", [2**31 - 1, 10**9])
+@pytest.mark.parametrize("extra", [{}, {"time_window": [0, 2**32 - 1]}, {"speed_factor": 2.0}])
+@pytest.mark.parametrize("most_sets", [0, 4000])
+def test_nobody_is_served_to_whom_there_is_no_way(
+        monkeypatch: pytest.MonkeyPatch, ours: Solve, street: Data, length: int, extra: Data,
+        most_sets: int) -> None:
+    monkeypatch.setattr("model.dialects.vroom.exact.MOST_SETS", most_sets)
+    street["vehicles"][0] |= extra
+    for row in street["matrices"]["car"]["durations"]:
+        row[4] = length
+    reply = ours(street)
+    assert sorted(served(reply)) == [1, 2, 3]
+    assert [job["id"] for job in reply["unassigned"]] == [4]
+
+
+def test_given_steps_where_there_is_no_way_are_refused_by_name(ours: Solve, street: Data) -> None:
+    street["matrices"]["car"]["durations"][1][4] = 2**31 - 1
+    street["vehicles"][0]["steps"] = [{"type": "job", "id": 1}, {"type": "job", "id": 4}]
+    with pytest.raises(VroomError, match="No way for vehicle 1 to job 4"):
+        ours(street)
+
+
 def test_nobody_is_served_where_priorities_differ_and_nothing_fits(
         ours: Solve, street: Data) -> None:
     street["vehicles"][0]["max_distance"] = 10

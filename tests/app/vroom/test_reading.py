@@ -154,7 +154,16 @@ def test_several_faults_are_told_at_once(request_data: Data) -> None:
     message = str(refusal(request_data))
     assert "shipments" in message
     assert "breaks of vehicle 2" in message
-    assert "Inconsistent delivery length: 0 instead of 1." in message
+    assert "Inconsistent delivery length: 0 instead of 1. The delivery of job" in message
+
+
+def test_amounts_without_a_capacity_name_job_and_vehicle(request_data: Data) -> None:
+    del request_data["vehicles"][0]["capacity"]
+    request_data["jobs"][0]["delivery"] = [1]
+    job, vehicle = request_data["jobs"][0]["id"], request_data["vehicles"][0]["id"]
+    message = str(refusal(request_data))
+    assert (f"The delivery of job {job} states 1, there are none, since vehicle {vehicle} has no "
+            "capacity: state one, or leave amounts out.") in message
 
 
 def test_no_more_than_five_faults_are_told(request_data: Data) -> None:
