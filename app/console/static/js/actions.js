@@ -4,8 +4,10 @@ import { numbersIn } from './core/entries.js';
 import { getIn, parsePath } from './core/paths.js';
 import { indexPlan } from './core/plan.js';
 import { goOnFrom, settledParts } from './core/replanning.js';
+import { titleOf } from './core/said.js';
 import { inSeconds } from './core/times.js';
 import { store } from './store.js';
+import { t } from './texts.js';
 
 const MOST_UNDOS = 100;
 
@@ -140,7 +142,7 @@ export function replanFrom(now) {
 export function showFailure(error) {
   if (error.name === 'AbortError') return;
   const errors = (error.errors ?? []).map((entry) => ({ ...entry, keys: parsePath(entry.path) }));
-  const title = error.title ?? 'Something went wrong in the console';
+  const title = error.title ? titleOf(error) : t('failed.console');
   store.set({ failure: { title, detail: error.message }, errors });
 }
 
