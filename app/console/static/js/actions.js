@@ -72,7 +72,10 @@ export function redo() {
  * @param isSafe whether it can be had again where it came from
  * @param others what else of the state comes with it, such as its plans
  */
-export function openRequest(stated, { name = 'Untitled', isSafe = false, ...others } = {}) {
+export function openRequest(
+  stated,
+  { name = t('header.untitled'), isSafe = false, ...others } = {},
+) {
   const request = inSeconds(store.get().schemas, stated);
   store.set((state) => ({
     request,
