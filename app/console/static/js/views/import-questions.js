@@ -16,7 +16,8 @@ export function Questions({ importing: { reply, mapping } }) {
       open ? t('import.questionsOpen', { count: open }) : t('import.questionsDone')
     }</p>
     <ol>${questions.map((question, at) => html`<${Question} key=${question.id} at=${at}
-      question=${question} reply=${reply} given=${mapping.answers?.[question.id]} />`)}</ol></section>`;
+      question=${question} reply=${reply}
+      given=${mapping.answers?.[question.id]} />`)}</ol></section>`;
 }
 
 function Question({ at, question, reply, given }) {
