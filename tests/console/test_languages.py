@@ -151,7 +151,7 @@ def test_error_is_told_in_words_and_its_path_is_behind_a_click(
     idle(page)
     open_file(page, "falsch.json", json.dumps(request))
     alert = page.get_by_role("alert")
-    expect(alert).to_contain_text("Fahrzeugtyp truck › Geschwindigkeit")
+    expect(alert).to_contain_text("Fahrzeugtyp truck \u203a Geschwindigkeit")
     expect(alert).to_contain_text("Dieser Wert ist zu klein oder zu groß.")
     expect(alert.locator("code")).to_be_hidden()
     alert.locator("summary").click()

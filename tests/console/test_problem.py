@@ -188,7 +188,7 @@ def test_errors_of_the_service_are_shown_at_their_fields(
     expect(page.locator("#field-fleet-0-speed_kmh-error")).to_contain_text("at least 1")
     expect(page.locator("#tab-fleet .count")).to_be_visible()
     open_tab(page, "costs")
-    page.get_by_role("alert").get_by_role("button", name="Vehicle type truck › Speed km/h").click()
+    page.get_by_role("alert").get_by_role("button", name="Vehicle type truck \u203a Speed km/h").click()
     expect(speed).to_be_focused()
     speed.fill("40")
     speed.press("Enter")
