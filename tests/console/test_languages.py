@@ -152,7 +152,7 @@ def test_error_is_told_in_words_and_its_path_is_behind_a_click(
     open_file(page, "falsch.json", json.dumps(request))
     alert = page.get_by_role("alert")
     expect(alert).to_contain_text("Fahrzeugtyp truck \u203a Geschwindigkeit")
-    expect(alert).to_contain_text("Dieser Wert ist zu klein oder zu groß.")
+    expect(alert).to_contain_text("Die Zahl muss mindestens 1 sein.")
     expect(alert.locator("code")).to_be_hidden()
     alert.locator("summary").click()
     expect(alert.locator("code")).to_have_text("$.fleet[0].speed_kmh")

@@ -63,6 +63,12 @@ test('what is told in words stays, what names fields and settings is told otherw
   }
 });
 
+test('what the API describes of a field is left to its form', () => {
+  const message = 'The number must be at least 0: raise it. demand: Amount in `capacity`.';
+  assert.equal(saidOf({ code: 'OUT_OF_RANGE', path: '$.customers[1].demand[0]', message }),
+    'The number must be at least 0: raise it.');
+});
+
 test('settings stand in no sentence', () => {
   assert.equal(plainOf('There are 9 customers, 5 at most (TANDEM_MAX_CUSTOMERS): remove some.'),
     'There are 9 customers, 5 at most: remove some.');

@@ -1891,4 +1891,8 @@ export default {
     dragPlace: 'Dorthin ziehen, wo {{id}} ist',
     dragStop: '{{id}} auf einen anderen Weg ziehen',
   },
+  bound: {
+    least: 'Die Zahl muss mindestens {{number}} sein.',
+    most: 'Die Zahl darf höchstens {{number}} sein.',
+  },
 };

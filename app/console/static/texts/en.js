@@ -1835,4 +1835,8 @@ export default {
     dragPlace: 'Drag to where {{id}} is',
     dragStop: 'Drag {{id}} onto another way',
   },
+  bound: {
+    least: 'The number must be at least {{number}}.',
+    most: 'The number must be at most {{number}}.',
+  },
 };

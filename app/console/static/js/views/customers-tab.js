@@ -74,12 +74,11 @@ function brokenCells(errors) {
   const cells = new Map();
   for (const {
     keys: [section, position, field],
-    code,
-    message,
+    ...error
   } of errors) {
     if (section === 'customers' && typeof position === 'number') {
       if (!cells.has(position)) cells.set(position, new Map());
-      cells.get(position).set(field ?? 'id', saidOf({ code, message }));
+      cells.get(position).set(field ?? 'id', saidOf(error));
     }
   }
   return cells;

@@ -6,7 +6,7 @@ import { t } from '../texts.js';
 
 /** An error or a warning in words; its path and the service's words are behind a click. */
 export function Said({ code, path, message }) {
-  return html`<span>${saidOf({ code, message })}</span>
+  return html`<span>${saidOf({ code, path, message })}</span>
     <${InApi} path=${path} message=${message} />`;
 }
 
