@@ -1,7 +1,7 @@
 /** What a file leaves open, each answered by a click; what is taken without one is marked. */
 
 import { knownOr } from '../core/importing.js';
-import { answer, changeColumn } from '../importing.js';
+import { answer } from '../importing.js';
 import { html } from '../libraries.js';
 import { t } from '../texts.js';
 
@@ -24,9 +24,8 @@ function Question({ at, question, reply, given }) {
   const { id, kind, default: assumed, is_answered: isAnswered, examples } = question;
   const taken = given ?? question.answer;
   const column =
-    kind === 'column' && reply.columns.find((entry) => entry.column === question.column);
-  const choose = (chosen) =>
-    column ? changeColumn(column, { meaning: chosen, unit: null }) : answer(id, chosen);
+    kind === 'column' ? reply.columns.find((entry) => entry.column === question.column) : null;
+  const choose = (chosen) => answer(id, chosen, column);
   const state = isAnswered ? 'answered' : taken === null ? 'wanted' : 'open';
   return html`<li class=${state}><div role="group" aria-labelledby=${`question-${at}`}>
     <p><span id=${`question-${at}`}>${textOf(question)}</span>
