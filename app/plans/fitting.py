@@ -23,7 +23,7 @@ from app.roads.roads import NO_ROADS, Roads
 from app.schemas.fit import FitReply, FitRequest
 from model.judge.bench import Bench, Trial
 from model.judge.check import Evaluation
-from model.judge.fitting import find_fits, new_violations
+from model.judge.fitting import find_fits, new_violations, spot_of, vehicle_of
 from model.judge.places import find_place
 from model.solution import Solution
 
@@ -53,7 +53,8 @@ def answer_fit(body: ReceivedBody, bounds: Bounds,
     until = max(body.received_at + TRYING_SHARE * limit, now + LEAST_TRYING * limit)
     node = _node_of(task, request)
     bench = Bench(problem, _with_customer(solution, node), node, task.setting, judged)
-    fits = find_fits(bench, request.count, until)
+    fits = find_fits(bench, request.count, until,
+                     vehicle_of if request.one_per_vehicle else spot_of)
     reply: Data = {
         "customer": task.problem.customer_at(node).id,
         "cost": cost_reply(evaluation.cost),

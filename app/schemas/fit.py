@@ -26,6 +26,8 @@ class FitRequest(CheckRequest):
         "Null: `customer` is stated.")
     count: Annotated[int, Field(ge=1, le=MAX_PLACES)] = Field(
         3, description="How many places are asked for.")
+    one_per_vehicle: bool = Field(
+        False, description="Whether only the best place of each vehicle is told.")
     options: ExplainOptions = Field(ExplainOptions(), description="How much is tried.")
 
     @property

@@ -5,7 +5,7 @@ of each vehicle's likeliest, by truck and by drone.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from model.judge.alternatives import best_of, try_places
@@ -18,6 +18,16 @@ SPARE = 8
 """So many more places than asked for are judged with the whole plan if these break rules there."""
 
 
+def spot_of(place: Place) -> tuple[object, ...]:
+    """Return what places have in common that differ only in where a drone is recovered."""
+    return place.vehicle, place.trip, place.by, place.stop, place.sortie, place.own_trip
+
+
+def vehicle_of(place: Place) -> tuple[object, ...]:
+    """Return what the places of one vehicle have in common."""
+    return (place.vehicle,)
+
+
 @dataclass(frozen=True)
 class Fits:
     """What was found by trying."""
@@ -27,14 +37,15 @@ class Fits:
     is_complete: bool  # no clock cut it short
 
 
-def find_fits(bench: Bench, count: int, until: float = math.inf) -> Fits:
+def find_fits(bench: Bench, count: int, until: float = math.inf,
+              spot: Callable[[Place], tuple[object, ...]] = spot_of) -> Fits:
     """Return the best places found by an instant, `count` at most.
 
-    `until` is on `time.perf_counter`.
+    `until` is on `time.perf_counter`; of places that are one `spot`, the best counts.
     """
     by_group, is_complete = try_places(bench, until)
     drafts = [draft for some in by_group.values() for draft in some]
-    places = _best(bench, sorted(drafts, key=lambda draft: draft.rank), count)
+    places = _best(bench, sorted(drafts, key=lambda draft: draft.rank), count, spot)
     chosen = {trial.place.vehicle for trial in places if trial.place is not None}
     vehicles: dict[Vehicle, list[Draft]] = {}
     for draft in drafts:
@@ -51,10 +62,9 @@ def new_violations(bench: Bench, trial: Trial) -> list[Violation]:
             if (each.code, each.message) not in before]
 
 
-def _best(bench: Bench, drafts: Iterable[Draft], count: int) -> Sequence[Trial]:
+def _best(bench: Bench, drafts: Iterable[Draft], count: int,
+          spot_of: Callable[[Place], tuple[object, ...]]) -> Sequence[Trial]:
     """Return the plans with the first of some drafts, the best first; others if none is allowed.
-
-    Of those that differ only in where a drone is recovered, the best is one place.
     """
     seen: set[tuple[object, ...]] = set()
     allowed: list[Trial] = []
@@ -62,13 +72,9 @@ def _best(bench: Bench, drafts: Iterable[Draft], count: int) -> Sequence[Trial]:
     for draft in drafts:
         if len(allowed) >= count or len(broken) >= count + SPARE:
             break
-        spot = _spot(draft.place)
+        spot = spot_of(draft.place)
         if spot not in seen:
             seen.add(spot)
             trial = bench.finish(draft)
             (broken if new_violations(bench, trial) else allowed).append(trial)
     return sorted(allowed or broken, key=lambda trial: trial.rank)[:count]
-
-
-def _spot(place: Place) -> tuple[object, ...]:
-    return place.vehicle, place.trip, place.by, place.stop, place.sortie, place.own_trip

@@ -105,6 +105,20 @@ def test_the_documented_example_says_who_can_and_why_others_cannot(client: httpx
     assert {reason["code"] for reason in other["reasons"]} == {"CAPACITY"}
 
 
+def test_each_vehicle_is_told_once_if_that_is_asked_for(client: httpx.Client,
+                                                        asked: Request) -> None:
+    asked["problem"]["fleet"][0] |= {"count": 4, "max_trips": 2}
+    told = fitted(client, asked | {"one_per_vehicle": True})
+    vehicles = [place["vehicle"] for place in told["places"]]
+    # Of those that stay at home, one; truck-1, which is full, on a trip of its own.
+    assert sorted(vehicles) == ["truck-1", "truck-2", "truck-3"]
+    costs = [place["cost"]["total"] for place in told["places"]]
+    assert costs == sorted(costs)
+    assert all(place["feasible"] for place in told["places"])
+    own = {place["vehicle"]: place["position"]["own_trip"] for place in told["places"]}
+    assert own["truck-1"]
+
+
 def test_customers_of_the_plan_are_put_elsewhere_or_on_drones(client: httpx.Client) -> None:
     example = documented("explain")
     body = {"problem": example["problem"], "plan": example["plan"], "customer": "C", "count": 20}
