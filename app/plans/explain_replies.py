@@ -10,6 +10,7 @@ from model.judge.bench import Bench, Trial
 from model.judge.binding import Binding
 from model.judge.clock import window_of
 from model.judge.explain import Reason
+from model.judge.idle_drones import Idle
 from model.judge.places import Found, find_place
 from model.judge.rules import Violation
 from model.judge.worth import Worth
@@ -154,6 +155,17 @@ def _worth(problem: Problem, solution: Solution, each: Worth) -> Data:
         "customers": [problem.customer_at(visit.node).id for visit in sortie.visits],
         "saves": None if each.saves is None else money(each.saves),
         "tried": each.is_tried,
+    }
+
+
+def idle_reply(problem: Problem, solution: Solution, each: Idle) -> Data:
+    """Return why a vehicle's drones fly nothing."""
+    return {
+        "vehicle": vehicle_name(problem, solution.routes[each.route]),
+        "code": each.code,
+        "message": each.message,
+        "customer": None if each.node is None else problem.customer_at(each.node).id,
+        "cost": None if each.cost is None else money(each.cost),
     }
 
 

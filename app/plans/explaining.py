@@ -10,7 +10,9 @@ from app.conversion.preparing import Preparing
 from app.errors import InputError, InvalidRequestError
 from app.load.bodies import ReceivedBody
 from app.plans.checking import PLAN, PROBLEM, read_about_plan
-from app.plans.explain_replies import customer_reply, drones_reply, nobody_reply
+from app.plans.explain_replies import (
+    customer_reply, drones_reply, idle_reply, nobody_reply,
+)
 from app.plans.replies import Data
 from app.plans.task import Task, task_of, violation_reply, warning_replies
 from app.requests.bounds import Bounds
@@ -21,6 +23,7 @@ from app.schemas.request import PlanRequest
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench, Setting
 from model.judge.binding import find_binding
+from model.judge.idle_drones import idle_drones
 from model.judge.retiming import read_route, time_route
 from model.judge.worth import sorties_worth
 from model.planner import Listener, Planner, PlanOptions, PlanResult
@@ -49,6 +52,7 @@ class Question:
 
     customer: str | None
     drones: bool
+    idle_drones: bool
     began: float
     until: float
 
@@ -71,7 +75,8 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[Proble
     task = task_of(request.problem, preparing_within(bounds, should_stop),
                    roads=roads.with_all_legs())
     solution = read_plan(request.plan, task.problem, (PLAN,))
-    question = _question(request.customer, request.drones, request.options, body.received_at)
+    question = _question(request.customer, request.drones, request.options, body.received_at,
+                         request.idle_drones)
     return to_json(_Explainer(task, solution, planner, should_stop).answer(question))
 
 
@@ -121,10 +126,11 @@ def preparing_within(bounds: Bounds, should_stop: Callable[[], bool]) -> Prepari
 
 
 def _question(customer: str | None, drones: bool, options: ExplainOptions,
-              received_at: float) -> Question:
+              received_at: float, idle_drones: bool = False) -> Question:
     """Return what is asked, now that all that it is asked of is read."""
     now, limit = time.perf_counter(), options.time_limit
-    return Question(customer, drones, now, max(received_at + limit, now + LEAST_TRYING * limit))
+    return Question(customer, drones, idle_drones, now,
+                    max(received_at + limit, now + LEAST_TRYING * limit))
 
 
 class _Explainer:
@@ -164,6 +170,12 @@ class _Explainer:
         if question.drones:
             drones, in_time = self._of_drones(question)
             complete = complete and in_time
+        reply["idle_drones"] = None
+        if question.idle_drones:
+            reply["idle_drones"] = [
+                idle_reply(self._problem, self._solution, each)
+                for each in idle_drones(self._problem, self._solution, self._setting,
+                                        question.until, self._judged)]
         self._task.telling.tell(ExplainReply, reply)
         warnings = warning_replies(warning.within(PROBLEM) for warning in self._task.warnings)
         return reply | {"drones": drones, "complete": complete, "warnings": warnings}

@@ -30,6 +30,8 @@ class ExplainRequest(PlannedProblem):
         "Null: of nobody.")
     drones: bool = Field(
         False, description="Whether to tell what drones save: each sortie, and all in sum.")
+    idle_drones: bool = Field(
+        False, description="Whether to tell why drones fly nothing, of each vehicle in use.")
     options: ExplainOptions = Field(ExplainOptions(), description="How much is tried.")
 
 
@@ -146,6 +148,23 @@ class DronesReply(_Reply):
     trucks_alone: SearchedReply | None = Field(description="The search without any.")
 
 
+class IdleDronesReply(_Reply):
+    """Why a vehicle's drones fly nothing."""
+
+    vehicle: str = Field(description="Name of the vehicle.")
+    code: str = Field(
+        description="Stable name of the reason. `COSTS_MORE`: flights are possible, and none of "
+        "those tried would save. `SAVES`: one would, and the search didn't find it. `KIND`, "
+        "`CAPACITY`, `RANGE`: nobody may be served by its drones, no order is light enough, nobody "
+        "is within reach. `SORTIES`, `LOST`, `UNAVAILABLE`: they don't take off. `UNTRIED`: there "
+        "was no time. Else the rule that most flights would break, as `POST /check` names it.")
+    message: WordsReply = Field(description="The reason in words.")
+    customer: str | None = Field(description="Id of the customer of whom it speaks. Null: nobody.")
+    cost: float | None = Field(
+        description="What the best legal flight would make the plan cost more; less where "
+        f"negative. {OTHERS_STAY} Null: there is none.")
+
+
 class ExplainReply(_Reply):
     """Why a customer is served where he is, and what else it would cost."""
 
@@ -159,6 +178,8 @@ class ExplainReply(_Reply):
     reasons: list[ReasonReply] = Field(
         description="If he is left out: why, by vehicle type, as `POST /plan` tells it.")
     drones: DronesReply | None = Field(description="What drones save. Null: it was not asked.")
+    idle_drones: list[IdleDronesReply] | None = Field(
+        None, description="Why drones fly nothing, by vehicle in use. Null: it was not asked.")
     complete: bool = Field(
         description="Whether there was time to try all that is tried with time enough.")
     warnings: list[WarningReply] = Field([], description=WARNINGS_TEXT)

@@ -160,3 +160,20 @@ def test_it_is_documented_with_an_example(client: httpx.Client) -> None:
     content = operation["requestBody"]["content"]["application/json"]
     (example,) = content["examples"].values()
     assert explained(client, example["value"])["complete"]
+
+
+def test_drones_that_fly_nothing_say_why(client: httpx.Client, asked: Request) -> None:
+    asked |= {"customer": None, "drones": False, "idle_drones": True}
+    (idle,) = explained(client, asked)["idle_drones"]
+    # C is the only light order: 2 km from B, where it is flown to, and 40 ** 0.5 km from the hub.
+    assert (idle["vehicle"], idle["code"], idle["customer"]) == ("truck-2", "COSTS_MORE", "C")
+    assert idle["cost"] == pytest.approx(2 * (40 ** 0.5 - 2) * 0.25)
+    asked["problem"]["customers"][2]["served_by"] = "drone"
+    asked["problem"]["fleet"][0]["drones"]["endurance"] = 350
+    (idle,) = explained(client, asked)["idle_drones"]
+    assert (idle["code"], idle["customer"], idle["cost"]) == ("RANGE", None, None)
+
+
+def test_why_drones_fly_nothing_is_told_only_if_asked(client: httpx.Client,
+                                                      asked: Request) -> None:
+    assert explained(client, asked | {"drones": False})["idle_drones"] is None
