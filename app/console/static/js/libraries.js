@@ -13,16 +13,20 @@ export {
 const VENDOR = new URL('../vendor/', import.meta.url);
 const loading = new Map();
 
-function loadScript(path) {
+/** Add a script or style sheet to the page, once. */
+function load(path) {
   if (!loading.has(path)) {
+    const isStyle = path.endsWith('.css');
     loading.set(
       path,
       new Promise((resolve, reject) => {
-        const script = document.createElement('script');
-        script.src = new URL(path, VENDOR);
-        script.onload = resolve;
-        script.onerror = () => reject(new Error(`${path} could not be loaded.`));
-        document.head.append(script);
+        const element = document.createElement(isStyle ? 'link' : 'script');
+        if (isStyle) element.rel = 'stylesheet';
+        element[isStyle ? 'href' : 'src'] = new URL(path, VENDOR);
+        element.onload = resolve;
+        element.onerror = () => reject(new Error(`${path} could not be loaded.`));
+        // Ahead of the console's own style sheets, which may say otherwise.
+        document.head.prepend(element);
       }),
     );
   }
@@ -34,13 +38,17 @@ export function leaflet() {
   return window.L;
 }
 
-/** Return uPlot, which index.html loads. */
-export function uPlot() {
+/** Return uPlot, the curves. */
+export async function uPlot() {
+  await Promise.all(
+    ['uplot-1.6.32/uPlot.min.css', 'uplot-1.6.32/uPlot.iife.min.js'].map(load),
+  );
   return window.uPlot;
 }
 
 /** Add drawing to Leaflet; maps made before take part after `L.PM.reInitLayer`. */
 export async function drawing() {
-  await loadScript('leaflet-geoman-2.20.2/leaflet-geoman.min.js');
+  const folder = 'leaflet-geoman-2.20.2';
+  await Promise.all([`${folder}/leaflet-geoman.css`, `${folder}/leaflet-geoman.min.js`].map(load));
   return window.L.PM;
 }

@@ -1,11 +1,11 @@
 /** How to plan, and how the cost fell. */
 
-import { edit, shownPlan } from '../actions.js';
+import { edit, showFailure, shownPlan } from '../actions.js';
 import { duration, money, number } from '../core/format.js';
 import { fittingSeconds } from '../core/limits.js';
 import { labelOf } from '../core/schema.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
-import { html, uPlot, useEffect, useRef } from '../libraries.js';
+import { html, uPlot, useEffect, useRef, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { t } from '../texts.js';
 import { Fields } from './form.js';
@@ -61,69 +61,78 @@ function Curve() {
   const points = useStore((state) => state.run.points);
   const dark = useStore((state) => state.dark);
   const element = useRef(null);
-  const chart = useRef(null);
+  const [chart, setChart] = useState(null);
   const last = points[points.length - 1];
   const hasPenalty = useStore((state) => {
     const entry = shownPlan(state);
     return Boolean(entry) && penaltyOf(entry) > 0;
   });
   useEffect(() => {
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name) => style.getPropertyValue(`--${name}`).trim();
-    const axis = {
-      stroke: colour('faint'),
-      grid: { stroke: colour('line'), width: 1 },
-      ticks: { stroke: colour('line'), width: 1 },
-      font: '11px system-ui',
-    };
-    const Chart = uPlot();
-    const seconds = t('solve.seconds');
-    chart.current = new Chart(
-      {
-        width: element.current.clientWidth,
-        height: 190,
-        cursor: { drag: { setScale: false } },
-        scales: {
-          x: { time: false },
-          y: { range: (_, low, high) => roomy(low, high) },
-        },
-        axes: [
-          { ...axis, label: seconds, labelSize: 18, labelFont: '11px system-ui', size: 28 },
-          { ...axis, size: 56 },
-        ],
-        series: [
-          { label: seconds, value: (_, value) => (value === null ? '' : number(value, 2)) },
-          {
-            label: t('solve.cost'),
-            stroke: colour('accent'),
-            width: 2,
-            paths: Chart.paths.stepped({ align: 1 }),
-            points: { show: true, size: 5, fill: colour('panel') },
-            value: (_, value) => (value === null ? '' : money(value)),
-          },
-        ],
-      },
-      [[], []],
-      element.current,
-    );
-    const resizes = new ResizeObserver(() =>
-      chart.current.setSize({ width: element.current.clientWidth, height: 190 }),
-    );
-    resizes.observe(element.current);
+    let end = () => {};
+    let isLeft = false;
+    uPlot().then((Chart) => {
+      if (!isLeft) end = draw(Chart, element.current, setChart);
+    }, showFailure);
     return () => {
-      resizes.disconnect();
-      chart.current.destroy();
+      isLeft = true;
+      setChart(null);
+      end();
     };
   }, [dark]);
   useEffect(() => {
-    chart.current.setData([points.map(({ seconds }) => seconds), points.map(({ cost }) => cost)]);
-  }, [points, dark]);
+    chart?.setData([points.map(({ seconds }) => seconds), points.map(({ cost }) => cost)]);
+  }, [points, chart]);
   return html`<section class="section"><h3>${t('solve.curve')}</h3>
     <p>${
       last ? fallen(points[0], last) : t('solve.noCurve')
     }${hasPenalty && ` ${t('curve.penaltyWithin')}`}</p>
     <div class="curve" ref=${element} role="img" aria-label=${t('solve.curveLabel')}></div>
   </section>`;
+}
+
+/** Draw an empty curve, which follows the size of its element; return what takes it away. */
+function draw(Chart, element, onChart) {
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+  const axis = {
+    stroke: colour('faint'),
+    grid: { stroke: colour('line'), width: 1 },
+    ticks: { stroke: colour('line'), width: 1 },
+    font: '11px system-ui',
+  };
+  const seconds = t('solve.seconds');
+  const sizeOf = () => ({ width: element.clientWidth, height: 190 });
+  const options = {
+    ...sizeOf(),
+    cursor: { drag: { setScale: false } },
+    scales: {
+      x: { time: false },
+      y: { range: (_, low, high) => roomy(low, high) },
+    },
+    axes: [
+      { ...axis, label: seconds, labelSize: 18, labelFont: '11px system-ui', size: 28 },
+      { ...axis, size: 56 },
+    ],
+    series: [
+      { label: seconds, value: (_, value) => (value === null ? '' : number(value, 2)) },
+      {
+        label: t('solve.cost'),
+        stroke: colour('accent'),
+        width: 2,
+        paths: Chart.paths.stepped({ align: 1 }),
+        points: { show: true, size: 5, fill: colour('panel') },
+        value: (_, value) => (value === null ? '' : money(value)),
+      },
+    ],
+  };
+  const chart = new Chart(options, [[], []], element);
+  const resizes = new ResizeObserver(() => chart.setSize(sizeOf()));
+  resizes.observe(element);
+  onChart(chart);
+  return () => {
+    resizes.disconnect();
+    chart.destroy();
+  };
 }
 
 /** Return in words how far the cost fell. */
