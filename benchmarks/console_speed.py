@@ -82,8 +82,8 @@ def browser() -> Iterator[Browser]:
 
 
 def first_plan(page: Page, address: str) -> float:
-    """Open the console; return when its first plan is drawn, in ms."""
-    page.goto(address, wait_until="commit")
+    """Open the console with `table1`; return when its first plan is drawn, in ms."""
+    page.goto(f"{address}/#example=table1", wait_until="commit")
     shown: float = page.evaluate(NEXT_COST, "")
     return shown
 

@@ -19,6 +19,7 @@ EXAMPLES_DIR = Path(__file__).parent / "examples"
 
 EXAMPLES = {
     "smallest": "Two customers, one truck, all else by default",
+    "berlin": "Forty places in Berlin, two vans with a drone each, a no-fly area",
     "drones": "Trucks with a drone each, time windows and a shift",
     "table1": "The paper's hundred customers, four trucks with a drone each",
     "hetero_day": "A heterogeneous fleet on several trips within working hours",

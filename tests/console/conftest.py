@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Request, expect
 
 from tests.console.serving import chromium, new_context, serving
+from tests.console.steps import with_table1
 
 WAIT_MS = 30_000
 """For what a page does."""
@@ -68,7 +69,7 @@ def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
     """Yield a function that opens a page; what its console or network complain of is an error.
 
     Keywords are those of a browser's context, such as `color_scheme`; `allow` are texts of errors
-    that the test provokes.
+    that the test provokes. A console begins with `table1`, whose places are known to the tests.
     """
     complaints: list[Complaints] = []
     contexts: list[BrowserContext] = []
@@ -77,7 +78,7 @@ def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
         contexts.append(new_context(browser, **options))
         page = contexts[-1].new_page()
         complaints.append(Complaints(page, address, allow))
-        page.goto(address)
+        page.goto(with_table1(address))
         return page
 
     yield opener
@@ -116,13 +117,13 @@ def visitor(browser: Browser) -> Iterator[BrowserContext]:
 
 @pytest.fixture
 def page(visitor: BrowserContext, service: str) -> Iterator[Page]:
-    """Return the console with its first example planned, to whoever has never been there."""
+    """Return the console with `table1` planned, to whoever has never been there."""
     for former in visitor.pages[1:]:
         former.close()
     page = visitor.new_page()
     forget(visitor, page, service)
     complaints = Complaints(page, service)
-    page.goto(service)
+    page.goto(with_table1(service))
     expect(page.locator("#total-cost")).to_be_visible()
     yield page
     for one in visitor.pages[1:]:

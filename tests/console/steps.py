@@ -10,9 +10,14 @@ EXAMPLES = ROOT / "app" / "schemas" / "examples"
 STATIC = ROOT / "app" / "console" / "static"
 
 
+def with_table1(address: str) -> str:
+    """Return the address that has a console begin with the example `table1`."""
+    return address if "#" in address else f"{address}/#example=table1"
+
+
 def stop_button(page: Page) -> Locator:
     """Return the button that stops planning."""
-    return page.locator("header.head button.stop")
+    return page.locator("header.head").get_by_role("button", name="Stop")
 
 
 def idle(page: Page) -> None:

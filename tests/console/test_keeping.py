@@ -9,7 +9,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Error, Locator, Page, expect
 
 from tests.conftest import soon
-from tests.console.steps import idle, let_search, open_example, open_tab, state
+from tests.console.steps import idle, let_search, open_example, open_tab, state, with_table1
 
 SMALL = "smallest"
 
@@ -33,7 +33,7 @@ def first_customer(page: Page) -> Any:
 def another(page: Page, address: str) -> Page:
     """Open another tab beside a page."""
     tab = page.context.new_page()
-    tab.goto(address)
+    tab.goto(with_table1(address))
     expect(tab.locator("#total-cost")).to_be_visible()
     return tab
 

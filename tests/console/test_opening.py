@@ -5,12 +5,46 @@ import re
 from collections.abc import Callable
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 
-from tests.console.steps import EXAMPLES, STATIC, idle, open_example
+from tests.console.serving import new_context
+from tests.console.steps import EXAMPLES, STATIC, idle, open_example, state
+from tests.console.test_everyone import findings
 
 MAX_PAGE_BYTES = 1_000_000
 MAX_FIRST_PLAN_SECONDS = 1.0
+
+
+def test_first_view_is_a_city_and_says_what_its_drones_do(
+        browser: Browser, service: str) -> None:
+    for width in (1440, 1024, 390):
+        context = new_context(browser, viewport={"width": width, "height": 844})
+        page = context.new_page()
+        page.goto(service)
+        expect(page.get_by_text("40 of 40 served")).to_be_visible()
+        line = page.locator(".drones-line")
+        # Of the plan that is shown, not of any.
+        told = (r"\d drones? serves? {} of 40 customers"
+                r"( and saves? \d+ %|; vans alone cost no more)\.")
+        expect(line.get_by_role("button")).to_have_count(0)
+        sorties = [len(sortie["customers"]) for route in state(page, "state.plans.0.plan.routes")
+                   for trip in route["trips"] for sortie in trip["sorties"]]
+        expect(line.get_by_role("status")).to_have_text(re.compile(told.format(sum(sorties))))
+        assert sum(sorties) > 0
+        assert state(page, "state.request.coordinate_system") == "geographic"
+        expect(page.get_by_label("Warnings")).to_have_count(0)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        assert findings(page) == []
+        context.close()
+
+
+def test_address_names_an_example(browser: Browser, service: str) -> None:
+    for name, served in (("smallest", "2 of 2 served"), ("constructor", "40 of 40 served")):
+        context = new_context(browser)
+        page = context.new_page()
+        page.goto(f"{service}/#example={name}")
+        expect(page.get_by_text(served)).to_be_visible()
+        context.close()
 
 
 def test_console_opens_with_an_example_planned(console: Page) -> None:
@@ -65,6 +99,16 @@ def test_every_example_opens(console: Page, service: str) -> None:
         customers = json.loads((EXAMPLES / f"{name}.json").read_text("utf-8"))["customers"]
         open_example(console, name)
         expect(console.locator(".result-line")).to_contain_text(f"of {len(customers)} served")
+
+
+def test_what_drones_save_is_asked_by_a_click_elsewhere(console: Page) -> None:
+    open_example(console, "drones")
+    line = console.locator(".drones-line")
+    expect(line).to_contain_text("of 4 customers.")
+    line.get_by_role("button", name="What do they save?").click()
+    expect(line.get_by_role("button")).to_have_count(0)
+    open_example(console, "smallest")
+    expect(line).to_have_count(0)
 
 
 def test_tiles_are_drawn_if_an_address_is_set(open_page: Callable[..., Page],

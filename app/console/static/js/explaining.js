@@ -11,23 +11,38 @@ const DRONES_SECONDS = 3;
 export const askWhy = (entry, customer) =>
   ask(entry, customer, { customer, options: { time_limit: CUSTOMER_SECONDS } });
 
-/** Ask what the drones of an entry of `plans` save. */
-export const askDrones = (entry) =>
-  ask(entry, null, { drones: true, options: { time_limit: DRONES_SECONDS } });
+/**
+ * Ask what the drones of an entry of `plans` save.
+ *
+ * @param isQuiet that nobody asked: a failure is told to nobody
+ */
+export const askDrones = (entry, isQuiet = false) =>
+  ask(entry, null, { drones: true, options: { time_limit: DRONES_SECONDS } }, isQuiet);
 
-/** Return what was told of a customer, or of drones for null: `{state, told}`, or undefined. */
+/** Stands for the question why drones fly nothing. */
+export const IDLE = Symbol('idle drones');
+
+/** Ask why drones fly nothing in an entry of `plans`. */
+export const askIdle = (entry, isQuiet = false) =>
+  ask(entry, IDLE, { idle_drones: true, options: { time_limit: CUSTOMER_SECONDS } }, isQuiet);
+
+/**
+ * Return what was told of a customer, or of drones for null: `{state, told}`, or undefined.
+ *
+ * `state` is `asking`, `told` or `failed`.
+ */
 export function toldOf(why, entry, customer) {
   return entry && why.plan === entry.plan ? why.answers.get(customer) : undefined;
 }
 
-async function ask(entry, name, question) {
+async function ask(entry, name, question, isQuiet = false) {
   note(entry, name, { state: 'asking' });
   try {
     const told = await postExplain({ problem: entry.request, plan: entry.plan, ...question });
     note(entry, name, { state: 'told', told });
   } catch (error) {
-    note(entry, name, undefined);
-    showFailure(error);
+    note(entry, name, isQuiet ? { state: 'failed' } : undefined);
+    if (!isQuiet) showFailure(error);
   }
 }
 

@@ -13,7 +13,8 @@ import { listenToDrops, listenToPastes } from './views/files.js';
 import { listenToKeys } from './views/shortcuts.js';
 import { recallDismissed } from './views/warnings-bar.js';
 
-const FIRST_EXAMPLE = 'table1';
+const FIRST_EXAMPLE = 'berlin';
+const IN_ADDRESS = '#example=';
 const READY_CHECK_MS = 1000;
 
 function follow() {
@@ -53,28 +54,40 @@ async function begin() {
         name,
         summary,
         request: value,
+        isFirst: name === FIRST_EXAMPLE,
       })),
     });
-    await open(restored, examples[FIRST_EXAMPLE].value);
+    await open(restored, examples);
   } catch (error) {
     showFailure(error);
   }
 }
 
-/** Open what the address names, else what was worked on before, else an example. */
-async function open(restored, example) {
+/** Open what a link shares, else what was worked on before, else an example. */
+async function open(restored, examples) {
   const token = tokenInAddress();
   if (token) {
     await viewShared(token);
     await untilReady();
     return;
   }
-  if (restored) adopt(restored);
-  else openRequest(example, { name: FIRST_EXAMPLE, isSafe: true });
+  if (restored) {
+    adopt(restored);
+  } else {
+    const name = exampleIn(examples);
+    openRequest(examples[name].value, { name, isSafe: true });
+  }
   await untilReady();
   await followKept();
   if (restored) await goOn(restored);
   else await plan();
+}
+
+/** Return the name of the example in the address, such as `#example=table1`, or of the first. */
+function exampleIn(examples) {
+  const { hash } = location;
+  const name = hash.startsWith(IN_ADDRESS) ? hash.slice(IN_ADDRESS.length) : '';
+  return Object.hasOwn(examples, name) ? name : FIRST_EXAMPLE;
 }
 
 async function untilReady() {

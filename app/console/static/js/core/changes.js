@@ -2,6 +2,7 @@
 
 import { isInside } from './detour.js';
 import { removeIn, setIn } from './paths.js';
+import { assumedDrones } from './presets.js';
 import { windowsOf, withWindows } from './windows.js';
 
 const DECIMALS = { planar: 3, geographic: 6 };
@@ -82,10 +83,14 @@ export function customersWithin(request, [west, south, east, north]) {
 }
 
 /** Remove a customer, pinned or not. */
-export function removeCustomer(request, id) {
-  const customers = request.customers.filter((customer) => customer.id !== id);
-  if (!request.replan?.pinned?.includes(id)) return { ...request, customers };
-  const pinned = request.replan.pinned.filter((other) => other !== id);
+export const removeCustomer = (request, id) => removeCustomers(request, [id]);
+
+/** Remove customers, pinned or not. */
+export function removeCustomers(request, ids) {
+  const gone = new Set(ids);
+  const customers = request.customers.filter(({ id }) => !gone.has(id));
+  const pinned = request.replan?.pinned?.filter((id) => !gone.has(id));
+  if (pinned?.length === request.replan?.pinned?.length) return { ...request, customers };
   return { ...request, customers, replan: { ...request.replan, pinned } };
 }
 
@@ -119,6 +124,16 @@ export function addVehicles(request, typeIndex, change) {
   const { count } = request.fleet[typeIndex];
   if (count + change < 1) return removeIn(request, ['fleet', typeIndex]);
   return setIn(request, ['fleet', typeIndex, 'count'], count + change);
+}
+
+/** Give the vehicles of a type a drone more; a first one is as assumed, see `assumedDrones`. */
+export function addDrone(request, typeIndex) {
+  const { drones } = request.fleet[typeIndex];
+  const keys = ['fleet', typeIndex, 'drones'];
+  const first = Array.isArray(drones) ? drones[0] : drones;
+  if (!first) return setIn(request, keys, assumedDrones(request));
+  const place = Array.isArray(drones) ? [...keys, 0] : keys;
+  return setIn(request, [...place, 'count'], first.count + 1);
 }
 
 /** Take the drones of all types away. */

@@ -5,9 +5,9 @@ import { requestDifferences } from './differences.js';
 import { droneCount } from './drones.js';
 import { clock } from './format.js';
 import { fromNothing } from './replanning.js';
-import { labelOf, withinSentence } from './schema.js';
+import { labelOf } from './schema.js';
 import { windowsInWords, windowsOf } from './windows.js';
-import { t } from '../texts.js';
+import { language, t } from '../texts.js';
 
 const MOST_PARTS = 2;
 const LONGEST = 60;
@@ -95,8 +95,9 @@ function fleetParts(changes, before, now) {
 function dronesPart(changes, now) {
   if (!changes.length) return [];
   if (!now.fleet.some((type) => droneCount(type))) return [t('name.dronesOff')];
-  if (changes.length > 1 || now.fleet.length === 1) return [t('name.other.drones')];
-  const [{ path, after }] = changes;
+  const [{ path, before, after }] = changes;
+  const isOther = now.fleet.length === 1 && before;
+  if (changes.length > 1 || isOther) return [t('name.other.drones')];
   const [, id] = /\[(.*)\]/.exec(path);
   return [after ? t('name.dronesOnOf', { id }) : t('name.dronesOffOf', { id })];
 }
@@ -165,6 +166,12 @@ function fieldParts(changes) {
   return [...byField].map(([field, group]) =>
     group.length === 1
       ? fieldChange(group[0])
-      : t('name.fieldOf', { count: group.length, field: withinSentence(labelOf(field)) }),
+      : t('name.fieldOf', { count: group.length, field: wordsOf(field) }),
   );
+}
+
+/** Return a field's name as it stands within a sentence: nouns keep their capital. */
+function wordsOf(field) {
+  const label = labelOf(field);
+  return language() === 'en' ? label.toLowerCase() : label;
 }

@@ -1,7 +1,9 @@
 /** What if: change one thing, plan, and see the plan beside the former. */
 
 import { besidePlan, edit, editedTo, renamePlan, select, shownPlan } from '../actions.js';
-import { addVehicles, changeWindows, giveWindows, withoutDrones } from '../core/changes.js';
+import {
+  addDrone, addVehicles, changeWindows, giveWindows, withoutDrones,
+} from '../core/changes.js';
 import {
   movedCustomers, planDifference, planMeasures, renamedTours, requestDifferences,
 } from '../core/differences.js';
@@ -54,7 +56,11 @@ function Changes() {
       <button type="button" aria-label=${t('whatIf.moreOf', { id: type.id })}
         onClick=${() => changeAndPlan(addVehicles(request, position, 1))}>
         ${t('whatIf.more')}</button>
-      <span>${t('whatIf.now', { id: type.id, count: type.count })}</span></div>`,
+      <button type="button" aria-label=${t('whatIf.addDroneOf', { id: type.id })}
+        onClick=${() => changeAndPlan(addDrone(request, position))}>
+        ${t('whatIf.addDrone')}</button>
+      <span>${t('whatIf.now', { id: type.id, count: type.count })}${
+        droneCount(type) > 0 && t('whatIf.withDrones', { count: droneCount(type) })}</span></div>`,
     )}
     <div class="buttons">
       <button type="button" disabled=${!hasDrones}

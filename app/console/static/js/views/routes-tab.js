@@ -10,6 +10,7 @@ import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { useSavesNothing } from './drones-worth.js';
 import { setLocked } from '../hands.js';
+import { IdleDrones } from './idle-drones.js';
 import { dropOn, Grip } from './list-drag.js';
 import { Badge, Facts, linked, SelectButton, ShareBar } from './parts.js';
 import { StopMoves } from './stop-moves.js';
@@ -100,7 +101,8 @@ function Vehicle({ index, vehicle }) {
       ].join(', ')}</span></summary>
     ${
       open &&
-      html`<div class="inside"><${LockAll} vehicle=${vehicle} />${vehicle.trips.map(
+      html`<div class="inside"><${IdleDrones} vehicle=${vehicle.name} />
+        <${LockAll} vehicle=${vehicle} />${vehicle.trips.map(
         (trip) => html`<${Trip} key=${trip.key}
       index=${index} trip=${trip} />`,
       )}</div>`

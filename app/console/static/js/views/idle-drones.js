@@ -1,0 +1,34 @@
+/** Why the drones of a vehicle fly nothing. */
+
+import { shownPlan } from '../actions.js';
+import { idleCarriers, idleInWords } from '../core/idle-drones.js';
+import { askIdle, IDLE, toldOf } from '../explaining.js';
+import { html, useEffect } from '../libraries.js';
+import { useStore } from '../store.js';
+import { t } from '../texts.js';
+
+/** Plans of so many customers are asked about without a click. */
+const MOST_CUSTOMERS = 300;
+
+/** Why the drones of `vehicle` fly nothing; of all vehicles of the plan without one. */
+export function IdleDrones({ vehicle = null }) {
+  const entry = useStore(shownPlan);
+  const answer = toldOf(useStore((state) => state.why), entry, IDLE);
+  const idle = useStore(({ run, judging }) => run.state === 'idle' && judging === null);
+  const names = entry
+    ? idleCarriers(entry).filter((name) => vehicle === null || name === vehicle)
+    : [];
+  const isSmall = (entry?.request.customers.length ?? 0) <= MOST_CUSTOMERS;
+  const isToBeAsked = names.length > 0 && isSmall && idle && !answer && !entry.hand;
+  useEffect(() => {
+    if (isToBeAsked) askIdle(entry, true);
+  }, [isToBeAsked, entry]);
+  if (!names.length) return null;
+  const isOpen = (!answer || answer.state === 'failed') && !isToBeAsked;
+  const told = new Map(answer?.told?.idle_drones.map((each) => [each.vehicle, each]));
+  return html`<ul class="idle-drones">${names.map((name) => html`<li key=${name}>${
+    t('idleDrones.idle', { vehicle: name })}${told.has(name) && html` ${
+    idleInWords(told.get(name))}`}</li>`)}</ul>
+    ${isOpen && html`<button type="button" class="link" disabled=${!idle}
+      onClick=${() => askIdle(entry)}>${t('idleDrones.ask')}</button>`}`;
+}
