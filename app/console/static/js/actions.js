@@ -1,13 +1,12 @@
 /** What the user can do to the problem and to what is shown. */
 
 import { numbersIn } from './core/entries.js';
+import { NOTHING_TYPED } from './core/orders.js';
 import { getIn, parsePath } from './core/paths.js';
 import { indexPlan } from './core/plan.js';
-import { goOnFrom, settledParts } from './core/replanning.js';
-import { titleOf } from './core/said.js';
+import { settledParts } from './core/replanning.js';
 import { inSeconds } from './core/times.js';
 import { store } from './store.js';
-import { t } from './texts.js';
 
 const MOST_UNDOS = 100;
 
@@ -72,10 +71,7 @@ export function redo() {
  * @param isSafe whether it can be had again where it came from
  * @param others what else of the state comes with it, such as its plans
  */
-export function openRequest(
-  stated,
-  { name = t('header.untitled'), isSafe = false, ...others } = {},
-) {
+export function openRequest(stated, { name = 'Untitled', isSafe = false, ...others } = {}) {
   const request = inSeconds(store.get().schemas, stated);
   store.set((state) => ({
     request,
@@ -103,6 +99,7 @@ export function openRequest(
     locks: [],
     doubts: {},
     fit: null,
+    order: NOTHING_TYPED,
     sweepAxes: null,
     run: { state: 'idle', points: [], message: '' },
     ...others,
@@ -124,28 +121,11 @@ export function openTab(tab) {
   store.set({ tab });
 }
 
-/** Begin to go on from the plan that is looked at, at the minute that the clock shows. */
-export function replanFromClock() {
-  const { time } = store.get();
-  const minute = Math.round(time / 60) * 60;
-  store.set({ time: minute });
-  replanFrom(minute);
-}
-
-/** Begin to go on from the plan that is looked at, at an instant in seconds. */
-export function replanFrom(now) {
-  const entry = shownPlan(store.get());
-  if (!entry) return;
-  store.set({ playing: false });
-  edit((request) => goOnFrom(request, entry.plan, Math.round(now)));
-  openTab('replan');
-}
-
 /** Show why a request failed, each error where it belongs. */
 export function showFailure(error) {
   if (error.name === 'AbortError') return;
   const errors = (error.errors ?? []).map((entry) => ({ ...entry, keys: parsePath(entry.path) }));
-  const title = error.title ? titleOf(error) : t('failed.console');
+  const title = error.title ?? 'Something went wrong in the console';
   store.set({ failure: { title, detail: error.message }, errors });
 }
 

@@ -1,8 +1,9 @@
 /** Plans on the road: sent to drivers, followed, and planned on from. */
 
 import * as api from './api.js';
-import { edit, openTab, showFailure, shownPlan } from './actions.js';
+import { openTab, showFailure, shownPlan } from './actions.js';
 import { dispatchOf, goOnAsTold, openDispatches, withMade } from './core/dispatches.js';
+import { goOnWith } from './ordering.js';
 import { store } from './store.js';
 
 const KEPT = 'tandem-dispatch';
@@ -79,7 +80,8 @@ export function leaveDispatch() {
 export function goOnFromDrivers() {
   return attempt(async () => {
     const told = await api.getGoingOn(store.get().dispatch.reply.id);
-    edit((request) => goOnAsTold(request, told));
+    const former = shownPlan(store.get())?.request;
+    goOnWith((request) => goOnAsTold(request, told), former);
     openTab('replan');
   });
 }

@@ -5,11 +5,11 @@ import { showFailure, shownPlan } from './actions.js';
 import { addCustomer } from './core/changes.js';
 import { numbersIn } from './core/entries.js';
 import { judgedPlan, withCustomerAt, withRoute } from './core/moving.js';
+import { takesAnotherTrip, withAnotherTrip } from './core/orders.js';
 import { unlike } from './core/naming.js';
 import { penaltyOf, trueCost } from './core/terms.js';
 import { stop } from './planning.js';
 import { store } from './store.js';
-import { t } from './texts.js';
 
 const MOST_STEPS = 100;
 const PLACES = 3;
@@ -35,9 +35,10 @@ export const takeFit = (fit, place) =>
   change((entry) => {
     const { id } = fit.customer;
     const isNew = entry.request.customers.every((customer) => customer.id !== id);
-    const request = isNew
-      ? { ...entry.request, customers: [...entry.request.customers, fit.customer] }
-      : entry.request;
+    const base = isFurther(fit, place)
+      ? withAnotherTrip(fit.base, entry.plan, place)
+      : fit.base;
+    const request = isNew ? { ...base, customers: [...base.customers, fit.customer] } : base;
     return {
       request,
       added: isNew ? fit.customer : null,
@@ -76,7 +77,7 @@ function applied(state, entry, { request, added, words, verdict, plan }) {
   const after = {
     ...entry,
     number: hand ? entry.number : state.plans[state.plans.length - 1].number + 1,
-    name: hand ? entry.name : unlike(t('hand.byHand', { name: entry.name }), state.plans),
+    name: hand ? entry.name : unlike(`${entry.name}, by hand`, state.plans),
     request,
     plan,
     numbers: numbersWith(entry, plan),
@@ -122,7 +123,8 @@ function numbersWith(entry, plan) {
 function requestWith(edited, planned, request, added) {
   if (!added || edited === planned) return request;
   if (edited.customers.some(({ id }) => id === added.id)) return edited;
-  return { ...edited, customers: [...edited.customers, added] };
+  const fleet = edited.fleet === planned.fleet ? request.fleet : edited.fleet;
+  return { ...edited, fleet, customers: [...edited.customers, added] };
 }
 
 /** Return the state with one side of a step. */
@@ -177,19 +179,31 @@ export function redoStep() {
   }));
 }
 
-/** Ask for the best places of a customer, `{id}`, or of one whom the problem doesn't have yet. */
-export async function askFit(customer) {
+/** Tell whether a place that was found takes a trip more than the problem allows. */
+export function isFurther(fit, place) {
+  return takesAnotherTrip(fit.base, fit.entry.plan, place);
+}
+
+/**
+ * Ask for the best places of a customer, `{id}`, or of one whom the problem doesn't have yet.
+ *
+ * @param order `{base, asked}` if it is an order that comes in: see `askedFor`; then the best place
+ * of each vehicle is told
+ */
+export async function askFit(customer, order = null) {
   const entry = shownPlan(store.get());
   if (!entry) return;
   const known = entry.request.customers.some(({ id }) => id === customer.id);
-  const fit = { customer, entry, told: null };
+  const { base, asked } = order ?? { base: entry.request, asked: entry.request };
+  const fit = { customer, entry, base, isOrder: order !== null, told: null };
   store.set({ fit });
   try {
     const told = await api.postFit({
-      problem: { ...entry.request, options: { ...entry.request.options, geometry: true } },
+      problem: { ...asked, options: { ...asked.options, geometry: true } },
       plan: entry.plan,
       ...(known ? { customer: customer.id } : { new_customer: customer }),
       count: PLACES,
+      one_per_vehicle: fit.isOrder,
       options: { time_limit: FIT_SECONDS },
     });
     store.set((state) => (state.fit === fit ? { fit: { ...fit, told } } : {}));

@@ -54,14 +54,14 @@ export function type(name, text) {
 
 /** Say what a column means. */
 export function changeColumn(column, patch) {
-  const { mapping, reply } = store.get().importing;
-  return change({ mapping: withColumn(mapping, column, patch, reply.questions) });
+  const { mapping } = store.get().importing;
+  return change({ mapping: withColumn(mapping, column, patch) });
 }
 
-/** Answer a question about the file, perhaps about a column of it. */
-export function answer(id, given, column) {
+/** Answer a question about the file. */
+export function answer(id, given) {
   const { mapping } = store.get().importing;
-  return change({ mapping: withAnswer(mapping, id, given, column) });
+  return change({ mapping: withAnswer(mapping, id, given) });
 }
 
 /** Say what a place on the map is for: `depot`, an address, or nothing. */

@@ -2,6 +2,7 @@
 
 import { tellBy } from './core/format.js';
 import { useEffect, useState } from './libraries.js';
+import { NOTHING_TYPED } from './core/orders.js';
 import { language } from './texts.js';
 
 /** Return a store that holds one object. */
@@ -49,7 +50,8 @@ export const store = createStore({
   undone: [], // those that were taken back, the newest last
   judging: null, // what was done by hand and is being judged, in words
   locks: [], // customers who stay with their vehicles where a plan is improved
-  fit: null, // {customer, entry, told}: the best places of a customer
+  fit: null, // {customer, entry, base, isOrder, told}: the best places of a customer, see hands.js
+  order: NOTHING_TYPED, // what is typed of an order that comes in
   why: { plan: null, answers: new Map() }, // what was asked about a plan, by customer
   prices: { plan: null, found: new Map() }, // of remedies in a plan, by their group
   run: { state: 'idle', points: [], message: '' },

@@ -11,13 +11,7 @@ export function variableFields(schemas, fleet) {
   return [
     ...fieldsOf(schemas, schemas.VehicleTypeInput, 'fleet[*]', '', dimensions),
     ...(hasDrones
-      ? fieldsOf(
-        schemas,
-        schemas.DronesInput,
-        'fleet[*].drones',
-        `${labelOf('drones')}: `,
-        dimensions,
-      )
+      ? fieldsOf(schemas, schemas.DronesInput, 'fleet[*].drones', 'Drones: ', dimensions)
       : []),
   ];
 }

@@ -1,7 +1,6 @@
 /** Changes by hand, and best places, in words. */
 
-import { clock } from './format.js';
-import { saidOf } from './said.js';
+import { clock, timesInWords } from './format.js';
 import { t } from '../texts.js';
 
 /** Return what a change does, such as `B to truck-2, after C`. */
@@ -31,10 +30,10 @@ export function placeInWords({ vehicle, by, position, service_start: start }) {
 
 /** Return broken rules in words, each once; `routes` name the vehicles that break them. */
 export function rulesInWords(rules, routes = []) {
-  return [...new Set(rules.map(({ code, message, path }) => {
+  return [...new Set(rules.map(({ message, path }) => {
     const [, index] = /\.routes\[(\d+)\]/.exec(path ?? '') ?? [];
     const vehicle = routes[index]?.vehicle;
-    const text = saidOf({ code, message });
+    const text = timesInWords(message);
     return vehicle ? `${vehicle}: ${sentence(text, false)}` : sentence(text);
   }))];
 }

@@ -1,7 +1,7 @@
 /** The clock of the day: play, stop, and go to any instant. */
 
 import { clock } from '../core/format.js';
-import { replanFromClock } from '../actions.js';
+import { replanFromClock } from '../ordering.js';
 import { spanOf } from '../core/plan.js';
 import { html, useEffect } from '../libraries.js';
 import { store, useStore } from '../store.js';

@@ -1,26 +1,28 @@
 /** Customers and depots: a long table, and a form for the one that is selected. */
 
 import { edit, hover, indexOf, openTab, select, shownPlan } from '../actions.js';
-import { amounts, clock } from '../core/format.js';
+import { amounts, clock, count } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
-import { freeName, removeCustomer } from '../core/changes.js';
+import { freeName } from '../core/changes.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
-import { saidOf } from '../core/said.js';
 import { windowsInWords, windowsOf } from '../core/windows.js';
 import { html, useMemo, useState } from '../libraries.js';
+import { cancelOrders } from '../ordering.js';
 import { store, useStore } from '../store.js';
 import { AddressSearch, DoubtedPlaces, PlaceOf } from './address-search.js';
 import { DayFields } from './day-fields.js';
 import { Field, Fields } from './form.js';
 import { LongTable } from './long-table.js';
+import { NewOrder } from './new-order.js';
 import { Name } from './parts.js';
+import { pasteNames, Pick, PickAll, PickedBar, soughtBy } from './picked-customers.js';
 import { WhyHere } from './why-here.js';
-import { t } from '../texts.js';
 
 /** The tab. */
 export function CustomersTab() {
   const request = useStore((state) => state.request);
-  return html`<${CustomerTable} request=${request} /><${AddressSearch} request=${request} />
+  return html`<${NewOrder} /><${CustomerTable} request=${request} />
+    <${AddressSearch} request=${request} />
     <${DoubtedPlaces} request=${request} /><${SelectedCustomer} request=${request} />
     <${Places} request=${request} /><${DayFields} request=${request} />`;
 }
@@ -31,32 +33,33 @@ function CustomerTable({ request }) {
   const hovered = useStore((state) => state.hover);
   const errors = useStore((state) => state.errors);
   const [filter, setFilter] = useState('');
-  const wanted = filter.trim().toLowerCase();
-  const rows = useMemo(
-    () =>
-      request.customers
-        .map((customer, position) => ({ customer, position }))
-        .filter(({ customer }) => !wanted || customer.id.toLowerCase().includes(wanted)),
-    [request.customers, wanted],
-  );
+  const [picked, setPicked] = useState(new Set());
+  const rows = useMemo(() => {
+    const isSought = soughtBy(filter);
+    return request.customers
+      .map((customer, position) => ({ customer, position }))
+      .filter(({ customer }) => isSought(customer));
+  }, [request.customers, filter]);
   const broken = useMemo(() => brokenCells(errors), [errors]);
   const doubts = useStore((state) => state.doubts);
   const doubted = useMemo(
     () => new Set(doubtedPlaces(request, doubts).map(({ id }) => id)),
     [request.customers, doubts],
   );
-  const head = html`<tr><th scope="col">${t('field.name')}</th>
-    <th scope="col" class="number">${t('about.demand')}</th>
-    <th scope="col">${t('about.window')}</th><th scope="col" class="roomy">${t('about.for')}</th>
-    <th scope="col">${t('about.arrival')}</th></tr>`;
+  const head = html`<tr><th scope="col"><${PickAll} rows=${rows} picked=${picked}
+      setPicked=${setPicked} /> Name</th>
+    <th scope="col" class="number">Demand</th>
+    <th scope="col">Window</th><th scope="col"
+      class="roomy">For</th><th scope="col">Arrival</th></tr>`;
   return html`<section class="section">
-    <div class="buttons"><h3>${t('customers.count', { count: request.customers.length })}</h3>
-      <input type="text" value=${filter} placeholder=${t('customers.find')}
-        aria-label=${t('customers.findLabel')}
+    <div class="buttons"><h3>${count(request.customers.length, 'customer')}</h3>
+      <input type="text" value=${filter} placeholder="Find a name"
+        aria-label="Find a customer by name"
+        onPaste=${(event) => pasteNames(event, setFilter)}
         onInput=${(event) => setFilter(event.target.value)} />
-      <button type="button" onClick=${() => addCustomer(request)}>
-        ${t('customers.add')}</button></div>
-    <${LongTable} label=${t('tab.customers')} height=${330} head=${head} rows=${rows}
+      <button type="button" onClick=${() => addCustomer(request)}>Add</button></div>
+    <${PickedBar} request=${request} picked=${picked} setPicked=${setPicked} />
+    <${LongTable} label="Customers" height=${330} head=${head} rows=${rows}
       revealed=${rows.findIndex(({ customer }) => selection === `c:${customer.id}`)}
       renderRow=${({
         customer,
@@ -64,8 +67,10 @@ function CustomerTable({ request }) {
       }, place) => html`<${CustomerRow} key=${position} place=${place} customer=${customer}
         halt=${index?.halts.get(`c:${customer.id}`)} index=${index} errors=${broken.get(position)}
         doubted=${doubted.has(customer.id)} selected=${selection === `c:${customer.id}`}
-          marked=${hovered === `c:${customer.id}`} />`} />
-    ${!request.customers.length && html`<p class="help">${t('customers.none')}</p>`}
+          marked=${hovered === `c:${customer.id}`} pick=${html`<${Pick} id=${customer.id}
+            picked=${picked} setPicked=${setPicked} />`} />`} />
+    ${!request.customers.length && html`<p class="help">None yet: open a file, paste from a sheet,
+      draw them on the map or add them one by one.</p>`}
   </section>`;
 }
 
@@ -74,35 +79,36 @@ function brokenCells(errors) {
   const cells = new Map();
   for (const {
     keys: [section, position, field],
-    ...error
+    message,
   } of errors) {
     if (section === 'customers' && typeof position === 'number') {
       if (!cells.has(position)) cells.set(position, new Map());
-      cells.get(position).set(field ?? 'id', saidOf(error));
+      cells.get(position).set(field ?? 'id', message);
     }
   }
   return cells;
 }
 
-function CustomerRow({ customer, place, halt, index, selected, marked, errors, doubted }) {
+function CustomerRow({ customer, place, halt, index, selected, marked, errors, doubted, pick }) {
   const key = `c:${customer.id}`;
   const cell = (field) =>
     errors?.has(field) ? { class: 'invalid', title: errors.get(field) } : {};
-  const arrival = halt ? clock(halt.arrival) : index ? t('customers.notServed') : '';
+  const arrival = halt ? clock(halt.arrival) : index ? 'not served' : '';
   return html`<tr ...${place} data-selected=${selected} data-marked=${marked}
       onMouseEnter=${() => hover(key)}
       onMouseLeave=${() => hover(null)}>
-    <th scope="row" ...${cell('id')}><button type="button" class="link" aria-pressed=${selected}
+    <th scope="row" ...${cell('id')}>${pick}
+      <button type="button" class="link" aria-pressed=${selected}
       title=${customer.id}
       onClick=${() => select(selected ? null : key)}><${Name}>${customer.id}</${Name}>
-      </button>${doubted && html` <span class="late-text" role="img" 
-      aria-label=${t('customers.doubtful')} title=${t('customers.doubtful')}>?</span>`}</th>
+      </button>${doubted && html` <span class="late-text" role="img" aria-label="doubtful place"
+      title="Its place is doubtful">?</span>`}</th>
     <td ...${cell('demand')} class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
       ${amounts(customer.demand ?? [])}</td>
     <td ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
       ${windowsInWords(windowsOf(customer))}</td>
     <td ...${cell('served_by')} class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
-      ${t(`servedBy.${customer.served_by ?? 'either'}`)}</td>
+      ${customer.served_by ?? 'either'}</td>
     <td class=${halt?.lateness > 0 || (index && !halt) ? 'late-text' : ''}>${arrival}</td></tr>`;
 }
 
@@ -126,25 +132,21 @@ function SelectedCustomer({ request }) {
   const selected = request.customers.findIndex((customer) => customer.id === id);
   const position = selected >= 0 ? selected : (atError?.keys[1] ?? -1);
   if (position < 0 || position >= request.customers.length) {
-    return html`<p class="help">${t('customers.select')}</p>`;
+    return html`<p class="help">Select a customer, here or on the map, to change it.</p>`;
   }
   const change = (changed) => {
     edit(changed);
     const name = changed.customers[position]?.id;
     if (name && name !== id) select(`c:${name}`);
   };
-  return html`<details class="card" open><summary>${t('where.customer', {
-    id: request.customers[position].id,
-  })}
+  return html`<details class="card" open><summary>Customer ${request.customers[position].id}
       <span class="right"></span></summary>
     <div class="inside"><${PlaceOf} request=${request} id=${request.customers[position].id} />
       <${WhyHere} id=${request.customers[position].id} />
       <${Fields} schema=${schemas.CustomerInput} keys=${['customers', position]} request=${request}
         onChange=${change} skip=${request.matrices ? [] : ['location_index']} />
-      <div class="buttons"><button type="button" onClick=${() => {
-        edit(removeCustomer(request, request.customers[position].id));
-        select(null);
-      }}>${t('customers.remove')}</button></div>
+      <div class="buttons"><button type="button" onClick=${() =>
+        cancelOrders([request.customers[position].id])}>Remove this customer</button></div>
     </div></details>`;
 }
 
@@ -158,10 +160,8 @@ function Places({ request }) {
         location: [...(placeOf(request.depots[0]) ?? [0, 0])],
       }),
     );
-  return html`<details class="card"><summary>${t('customers.places')}
-      <span class="right">${t('customers.depots', {
-        count: request.depots.length,
-      })}</span></summary>
+  return html`<details class="card"><summary>Coordinates and depots
+      <span class="right">${count(request.depots.length, 'depot')}</span></summary>
     <div class="inside">
       <${Field} name="coordinate_system" schema=${properties.coordinate_system}
         keys=${['coordinate_system']} request=${request} onChange=${edit} />
@@ -175,20 +175,18 @@ function Places({ request }) {
       }
       ${request.depots.map(
         (_, position) => html`<fieldset class="group" key=${position}>
-        <legend>${t('where.depot', { id: String(position + 1) })}</legend>
+        <legend>Depot ${position + 1}</legend>
         <${Fields} schema=${schemas.DepotInput} keys=${['depots', position]} request=${request}
           onChange=${edit} skip=${request.matrices ? [] : ['location_index']} />
         ${
           request.depots.length > 1 &&
           html`<div class="buttons"><button type="button" onClick=${() =>
-            edit(removeIn(request, ['depots', position]))}>
-            ${t('customers.removeDepot')}</button></div>`
+            edit(removeIn(request, ['depots', position]))}>Remove this depot</button></div>`
         }
       </fieldset>`,
       )}
-      <div class="buttons"><button type="button" onClick=${addDepot}>
-        ${t('customers.addDepot')}</button>
-        <button type="button" onClick=${clear}>${t('customers.empty')}</button></div>
+      <div class="buttons"><button type="button" onClick=${addDepot}>Add a depot</button>
+        <button type="button" onClick=${clear}>Begin with an empty map</button></div>
     </div></details>`;
 }
 

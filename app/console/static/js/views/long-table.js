@@ -68,9 +68,15 @@ function rowOf(target) {
   return row === undefined ? null : Number(row);
 }
 
-/** Arrows go up and down, to the same place in the next row. */
+/** Arrows go up and down, to the same place in the next row, and left and right to its box. */
 function goToNeighbour(event) {
   const row = event.target.closest('tr[data-row]');
+  const aside = { ArrowLeft: 'input[type=checkbox]', ArrowRight: 'th button' }[event.key];
+  if (aside && row?.querySelector('input[type=checkbox]')) {
+    event.preventDefault();
+    row.querySelector(aside).focus();
+    return;
+  }
   const next = { ArrowDown: 'nextElementSibling', ArrowUp: 'previousElementSibling' }[event.key];
   const target = next && row?.[next]?.querySelector('button');
   if (!target) return;
