@@ -319,23 +319,22 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
     terms = Terms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
     joint = None if turns == 0 else find_joint(problem, terms.ended)
     if joint is None:
-        return _search(problem, instance, begun, options, deadline, listener, True)
+        return _search(problem, instance, begun, options, deadline, listener)
 
     def search(begun: Solution | None, part: Part, should_stop: Callable[[], bool],
                on_progress: Callable[[Progress], None]) -> Improved:
         own = replace(options, search_iterations=None if turns is None else turns - part.made,
                       cooled=max(part.cooled, options.cooled))
         return _search(problem, instance, begun, own, part.deadline or deadline, Listener(
-            should_stop, lambda told: on_progress(replace(told, turns=part.made + told.turns))),
-            False)
+            should_stop, lambda told: on_progress(replace(told, turns=part.made + told.turns))))
 
     return improve_together(problem, joint, begun, terms, search)
 
 
 def _search(problem: Problem, instance: Instance, begun: Solution | None, options: PlanOptions,
-            deadline: float | None, listener: Listener, direct: bool) -> Improved:
+            deadline: float | None, listener: Listener) -> Improved:
     config = SearchConfig(options.seed, options.threads, options.search_iterations,
-                          cooled=options.cooled, direct=direct)
+                          cooled=options.cooled)
     until = None if deadline is None else deadline - usual_reserve(problem)
     return improve(problem, instance, _nobody(problem) if begun is None else begun, config, until,
                    listener.should_stop, listener.on_progress, more_by_plan(problem))

@@ -94,7 +94,6 @@ class SearchConfig:
     cold: float | None = None  # last
     cooled: float = 0.0  # share of the cooling that earlier searches for this plan went through
     moves: Moves = ALL_MOVES
-    direct: bool = True  # no leg is far longer than a way by another place, as far as is known
 
 
 @dataclass(frozen=True)
@@ -253,7 +252,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     heat = Heat.of(world, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
     workers = [Worker(world, whole, limits, heat, cooled=config.cooled, linked=linked)
-               for linked in _linked(world, whole, config)]
+               for linked in _linked(world, whole, config.threads)]
 
     node = numbering.node.tolist()
 
@@ -272,15 +271,11 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
                     sum(worker.turns for worker in workers), not task.alarm.has_rung)
 
 
-def _linked(world: World, whole: Searcher, config: SearchConfig) -> list[Linked | None]:
-    """Return room for linked routes for each thread; None where routes can't be linked.
-
-    Among these whoever is taken out must let the others be as soon as before.
-    """
-    threads, timed = config.threads, are_timed(world)
-    if not can_be_linked(world) or (timed and not config.direct):
+def _linked(world: World, whole: Searcher, threads: int) -> list[Linked | None]:
+    """Return room for linked routes for each thread; None where routes can't be linked."""
+    if not can_be_linked(world):
         return [None] * threads
-    first, *others = (make_linked(world, whole, timed) for _ in range(threads))
+    first, *others = (make_linked(world, whole, are_timed(world)) for _ in range(threads))
     measure_near(world, first)
     return [first, *(other._replace(near=first.near) for other in others)]
 

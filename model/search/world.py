@@ -37,6 +37,9 @@ turn to turn, so that none are kept there where more than distance counts."""
 LEGS_LOOKED_AT = 10**7
 """Ways of two legs that are looked at to see whether some are shorter than the direct leg."""
 
+DEPOTS_LOOKED_AT = 4
+"""Depots on the way from and to which all customers are looked at, of however many."""
+
 ROUNDED = 2
 """ms by which the direct leg may be longer since legs are rounded."""
 
@@ -199,7 +202,8 @@ def skipping_delays(world: World) -> bool:
     """Tell whether vehicles may come later to a place if they skip a customer on the way.
 
     Where streets are one-way or legs are stated anyhow, the direct leg may be the longer one. Of
-    many customers those nearest to where a leg begins are looked at.
+    many customers all are looked at on the way from depots and back, elsewhere those nearest to
+    where a leg begins.
     """
     duration = _durations(world)
     if duration is None:
@@ -208,8 +212,15 @@ def skipping_delays(world: World) -> bool:
     service = world.place["service_duration"][0, :, 0]
     looked_at = LEGS_LOOKED_AT // number**2
     if looked_at >= number - first:
-        return any(bool(((duration[:, k, None] + (service[k] + ROUNDED)) + duration[k]
-                         < duration).any()) for k in range(first, number))
+        return any(bool((_by_way_of(duration, service, k) < duration).any())
+                   for k in range(first, number))
+    among = duration[first:, first:]
+    stay = service[first:] + ROUNDED
+    for depot in range(min(first, DEPOTS_LOOKED_AT)):
+        out, home = duration[depot, first:], duration[first:, depot]
+        if bool((((out + stay)[:, None] + among).min(axis=0) < out).any()
+                or ((among + (stay + home)).min(axis=1) < home).any()):
+            return True
     origins = np.arange(first, number)
     for rank in range(min(max(1, looked_at), world.near.shape[1])):
         k = world.near[first:, rank]
@@ -217,6 +228,12 @@ def skipping_delays(world: World) -> bool:
         if bool(((way[:, None] + duration[k] < duration[first:]) & (k >= 0)[:, None]).any()):
             return True
     return False
+
+
+def _by_way_of(duration: IntArray, service: IntArray, k: int) -> IntArray:
+    """Return (origin, to) how long ways by a customer take at least, whom they serve."""
+    ways: IntArray = duration[:, k, None] + (service[k] + ROUNDED) + duration[k]
+    return ways
 
 
 def _durations(world: World) -> IntArray | None:
