@@ -176,12 +176,13 @@ def _capacity(stops: Sequence[Entry], columns: Sequence[Column],
     names = [column.name for column in dimensions(columns)]
     capacity = settings.capacity or [max(total, 1.0) for total in totals]
     if settings.drones and settings.drone_capacity is None:
-        raise Incomplete("DRONE_CAPACITY", "There are drones, and it isn't stated what one "
-                         "carries: state drone_capacity.")
-    for what, amounts in (("capacity", capacity), ("drone_capacity", settings.drone_capacity)):
+        raise Incomplete("DRONE_CAPACITY", "There are drones: state what one of them carries.")
+    for what, amounts in (("a vehicle holds", capacity),
+                          ("a drone carries", settings.drone_capacity)):
         if amounts is not None and len(amounts) != len(totals):
             told = f" ({', '.join(names)})" if names else ""
-            raise Incomplete("CAPACITY", f"{what} has {len(amounts)} numbers, and there are "
+            numbers = "1 number tells" if len(amounts) == 1 else f"{len(amounts)} numbers tell"
+            raise Incomplete("CAPACITY", f"{numbers} what {what}, and there are "
                              f"{len(totals)} amounts to deliver{told}: state one for each.")
     return list(capacity)
 
