@@ -1,6 +1,6 @@
 """`tandem import`: a spreadsheet of customers becomes a request."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from collections.abc import Mapping as Stated
 from contextlib import closing
 from pathlib import Path
@@ -62,6 +62,9 @@ def import_sheet(
     time_zone: Annotated[str | None, typer.Option(
         help="Time zone: Europe/Berlin. Times are then those of the day's clocks.")] = None,
     sheet: Annotated[str | None, typer.Option(help="Name of the workbook's sheet.")] = None,
+    answer: Annotated[list[str] | None, typer.Option(
+        help="Answer to a question that was told, such as \"sheet:Tuesday=also\"; "
+             "repeat it for several.")] = None,
     leave_out_errors: Annotated[bool, typer.Option(
         help="Leave out rows with errors.")] = False,
 ) -> None:
@@ -74,7 +77,7 @@ def import_sheet(
         "service_minutes": service_minutes, "day": day, "time_zone": time_zone,
         "leave_out_errors": leave_out_errors,
     }
-    settings = _settings(stated, _mapping(mapping, sheet))
+    settings = _settings(stated, _with_answers(_mapping(mapping, sheet), answer or ()))
     try:
         with closing(_geocoders()) as addresses:
             finder = Finder(addresses, LOOKING_UP, _show_progress)
@@ -134,6 +137,16 @@ def _mapping(file: Path | None, sheet: str | None) -> Mapping:
     return mapping if sheet is None else mapping.model_copy(update={"sheet": sheet})
 
 
+def _with_answers(mapping: Mapping, answers: Sequence[str]) -> Mapping:
+    given = {}
+    for text in answers:
+        name, sign, answer = text.rpartition("=")
+        if not sign:
+            raise typer.BadParameter(f"{text!r} has no = between a question and its answer")
+        given[name] = answer
+    return mapping.model_copy(update={"answers": mapping.answers | given})
+
+
 def _numbers(text: str | None) -> list[float] | None:
     if text is None:
         return None
@@ -149,6 +162,10 @@ def _tell(reply: ImportReply) -> None:
         typer.echo(_line(column), err=True)
     for doubt in [*(doubt for column in reply.columns for doubt in column.doubts), *reply.doubts]:
         typer.echo(f"? {doubt.message}", err=True)
+    for question in reply.questions:
+        choices = ", ".join(choice.answer for choice in question.choices)
+        taken = question.answer or "an answer is needed"
+        typer.echo(f"?? {question.text} {question.id}={taken} ({choices})", err=True)
     for warning in reply.warnings:
         typer.echo(f"warning {warning.code} {warning.path}: {warning.message}", err=True)
     for error in reply.errors:

@@ -296,8 +296,8 @@ def _begin_of(text: str) -> str | None:
 
 
 def _window(text: str, unit: str, style: Style) -> Window:
-    if (half := HALVES.get(simple(text))) is not None:
-        return half
+    if (of_day := HALVES.get(simple(text))) is not None:
+        return of_day
     if begin := _begin_of(text):
         if len(_BETWEEN.split(begin)) == 1:
             return clock(begin, unit, style), None

@@ -48,8 +48,8 @@ def without_sums(table: Table, rows: Sequence[Row], sums: Sequence[Row],
     numbers = [row.number for row in sums]
     named = table.rows_named(numbers)
     answer = asking.ask(Question(
-        "total_rows", "total_rows", f"{_rows(len(sums), named)} to sum up others: is "
-        f"{'it a customer' if len(sums) == 1 else 'each a customer'}?",
+        "total_rows", "total_rows", f"{'Row' if len(sums) == 1 else 'Rows'} {named} sum up others "
+        "by their words: are they customers all the same?",
         KEEP_OR_NOT, LEAVE_OUT, {"count": len(sums), "rows": named},
         cell=table.name(numbers[0], 0),
         examples=tuple(_shown_row(table, row) for row in numbers[:3])))
@@ -135,6 +135,28 @@ def with_kinds(table: Table, rows: Sequence[Row], columns: Sequence[Column],
             row.values["kind"] = answer
         left_out += alike if answer == LEAVE_OUT else []
     return [row for row in rows if row not in left_out]
+
+
+def without_doubles(table: Table, rows: Sequence[Row], asking: Asking) -> list[Row]:
+    """Return the rows, each once if those alike, order number and all, are one. In place."""
+    first: dict[tuple[Raw, ...], int] = {}
+    doubles = []
+    for row in rows:
+        if row.get("order"):
+            cells = tuple(map(shown, table.sheet.rows[row.number]))
+            if first.setdefault(cells, row.number) != row.number:
+                doubles.append(row.number)
+    if not doubles:
+        return list(rows)
+    named = table.rows_named(doubles)
+    answer = asking.ask(Question(
+        "same_rows", "same_rows", f"{_rows(len(doubles), named)} like another in all cells, order "
+        "number and all: is each an order of its own?",
+        {"together": "Each counts", "once": "They count once"}, "together",
+        {"count": len(doubles), "rows": named}, cell=table.name(doubles[0], 0),
+        examples=tuple(_shown_row(table, row) for row in doubles[:3])))
+    left_out = set(doubles if answer == "once" else ())
+    return [row for row in rows if row.number not in left_out]
 
 
 def _rows(count: int, named: str) -> str:

@@ -13,7 +13,9 @@ from app.sheets.columns import columns_of, language_of, with_begin
 from app.sheets.customers import Entry, address_of, entries_of, overnight, placed, together
 from app.sheets.damage import damaged
 from app.sheets.days import on_day
-from app.sheets.dropping import with_kinds, without_cancelled, without_hidden, without_sums
+from app.sheets.dropping import (
+    with_kinds, without_cancelled, without_doubles, without_hidden, without_sums,
+)
 from app.sheets.fleet import Incomplete
 from app.sheets.geography import Ground, far_off, ground_of
 from app.sheets.looks import with_looks
@@ -95,6 +97,7 @@ def _understand(work: Import, settings: ImportSettings, finder: Finder,
     sums = sums_in(rows)
     rows = _of_day(work, rows, sums, settings)
     rows = without_cancelled(work.table, rows, work.columns, work.asking)
+    rows = without_doubles(work.table, rows, work.asking)
     rows = with_kinds(work.table, rows, work.columns, work.asking)
     try:
         settings, doubts = with_depot(settings, finder)

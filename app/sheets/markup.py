@@ -89,7 +89,7 @@ def _tables(content: bytes) -> Iterator[tuple[str, Rows, list[int]]]:
 def _rows_of(table: Any) -> tuple[Rows, list[int]]:
     rows: Rows = []
     hidden: list[int] = []
-    spanned: dict[int, tuple[int, str]] = {}  # by column: rows that are left, and the text
+    spanned: dict[int, int] = {}  # rows that a cell above still reaches down, by column
     for line in table.iter("tr"):
         if "display:none" in (line.get("style") or "").replace(" ", "").lower():
             hidden.append(len(rows))
@@ -97,22 +97,22 @@ def _rows_of(table: Any) -> tuple[Rows, list[int]]:
         for cell in line:
             if cell.tag not in ("td", "th"):
                 continue
-            while spanned.get(len(row), (0, ""))[0]:
-                row.append(_taken(spanned, len(row)))
+            _skip_spanned(row, spanned)
             text = (cell.text_content() or "").replace("\xa0", " ").strip()
             for place in range(_span(cell, "colspan")):
                 if (down := _span(cell, "rowspan")) > 1:
-                    spanned[len(row)] = (down - 1, "")
+                    spanned[len(row)] = down - 1
                 row.append(text if place == 0 else None)
-        while spanned.get(len(row), (0, ""))[0]:
-            row.append(_taken(spanned, len(row)))
+        _skip_spanned(row, spanned)
         rows.append(row)
     return rows, hidden
 
 
-def _taken(spanned: dict[int, tuple[int, str]], column: int) -> None:
-    left, text = spanned[column]
-    spanned[column] = (left - 1, text)
+def _skip_spanned(row: list[Any], spanned: dict[int, int]) -> None:
+    """Leave out the columns that cells above reach into. In place."""
+    while spanned.get(len(row), 0):
+        spanned[len(row)] -= 1
+        row.append(None)
 
 
 def _span(cell: Any, name: str) -> int:

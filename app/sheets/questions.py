@@ -6,8 +6,8 @@ from typing import Literal
 
 from app.sheets.cells import CellError
 
-QuestionKind = Literal["column", "sheet", "hidden_rows", "hidden_columns", "status", "order_kind",
-                       "total_rows", "day", "same_rows", "shapes"]
+QuestionKind = Literal["column", "sheet", "hidden_rows", "status", "order_kind", "total_rows",
+                       "day", "same_rows"]
 
 LONGEST_ID = 500
 

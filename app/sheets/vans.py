@@ -2,8 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
-from app.sheets.cells import Doubt, MisreadError, Raw, letters, shown
+from app.sheets.cells import Doubt, MisreadError, Raw, letters
 from app.sheets.clocks import Style
 from app.sheets.headings import simple, unit_named, without_unit
 from app.sheets.layout import Table, table_of
@@ -24,7 +25,7 @@ WORDS = {
                 "charge utile|capacidad|capacita|portata|capaciteit|laadvermogen|ladownosc|"
                 "max gewicht|max weight|stellplatze|ladevolumen|volume|volumen",
     "earliest": "von|ab|from|start|begin|beginn|dienstbeginn|schichtbeginn|shift start|start time|"
-                "debut|de|desde|inicio|dalle|van|od|arbeitsbeginn",
+                "debut|de|desde|inicio|dalle|vanaf|od|arbeitsbeginn",
     "latest": "bis|to|until|end|ende|dienstende|schichtende|shift end|end time|fin|a|hasta|alle|"
               "tot|do|arbeitsende|feierabend",
     "window": "schicht|shift|arbeitszeit|dienst|working hours|hours|dienstzeit|horaire|turno|"
@@ -142,15 +143,14 @@ def _van(table: Table, row: int, meant: dict[int, str], style: Style) -> Van | N
     return van if van.name or van.capacities else None
 
 
-def _value(table: Table, row: int, column: int, meaning: str, style: Style) -> "object":
+def _value(table: Table, row: int, column: int, meaning: str, style: Style) -> Any:
     cells: Sequence[Raw] = [raw for _, raw in table.column(column)]
     unit = clock_unit(cells, None).unit if meaning in ("earliest", "latest") else None
     raw = table.cell(row, column)
     try:
         return read(raw, KINDS[meaning], unit, style)
     except MisreadError as error:
-        raise MisreadError(f"{table.sheet.name}!{table.name(row, column)}: {error}, such as "
-                           f"{shown(raw)[:40]!r}") from error
+        raise MisreadError(f"{table.sheet.name}!{table.name(row, column)}: {error}") from error
 
 
 def _unit_of(heading: str, raw: Raw) -> str | None:

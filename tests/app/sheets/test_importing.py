@@ -264,16 +264,6 @@ def test_columns_of_one_heading_are_told_apart_by_their_letters() -> None:
     assert again.request == reply.request
 
 
-def test_customers_have_several_windows_in_columns_of_their_own() -> None:
-    reply = read("A,1,1,8:00,10:00,14:00,16:00", "B,2,2,9:00,12:00,,",
-                 head="name,x,y,open 1,close 1,open 2,close 2")
-    assert reply.request is not None
-    first, second = reply.request["customers"]
-    assert first["time_windows"] == [{"earliest": 28800, "latest": 36000},
-                                     {"earliest": 50400, "latest": 57600}]
-    assert second["time_window"] == {"earliest": 32400, "latest": 43200}
-
-
 def test_names_in_two_columns_are_one() -> None:
     reply = read("Ann,Lee,1,1", "Bob,Ray,2,2", head="First name,Last name,x,y")
     assert reply.request is not None

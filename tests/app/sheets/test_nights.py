@@ -1,4 +1,4 @@
-"""Windows and shifts that end on the day after."""
+"""Several windows, and such as end on the day after, as shifts may."""
 
 import pytest
 
@@ -36,3 +36,13 @@ def test_a_shift_that_can_be_no_night_is_refused_in_clock_times() -> None:
     assert error.code == "SHIFT_ENDS_BEFORE_START"
     assert "32:00" in error.message
     assert "+1 08:00" in error.message
+
+
+def test_customers_have_several_windows_in_columns_of_their_own() -> None:
+    reply = read("A,1,1,8:00,10:00,14:00,16:00", "B,2,2,9:00,12:00,,",
+                 head="name,x,y,open 1,close 1,open 2,close 2")
+    assert reply.request is not None
+    first, second = reply.request["customers"]
+    assert first["time_windows"] == [{"earliest": 28800, "latest": 36000},
+                                     {"earliest": 50400, "latest": 57600}]
+    assert second["time_window"] == {"earliest": 32400, "latest": 43200}

@@ -210,6 +210,42 @@ def test_a_kind_of_order_that_is_not_known_is_asked_about() -> None:
     assert answered.request["customers"][1]["pickup"] == [7]
 
 
+def test_an_order_that_stands_twice_is_asked_about() -> None:
+    content = "\n".join([f"{HEAD};Auftrag", "Anna;48,10;11,50;5;4711", "Anna;48,10;11,50;5;4711",
+                         "Ben;48,20;11,60;7;4712"]).encode()
+    reply = imported(content)
+    assert asked(reply, "same_rows").default == "together"
+
+    def amounts(reply: ImportReply) -> list[list[float]]:
+        assert reply.request is not None
+        return [customer["demand"] for customer in reply.request["customers"]]
+
+    assert amounts(reply) == [[10], [7]]
+    assert amounts(imported(content, {"same_rows": "once"})) == [[5], [7]]
+
+
+def test_amounts_to_pick_up_stand_in_columns_of_their_own() -> None:
+    reply = read("Leergut", ["2", "0", ""])
+    assert reply.request is not None
+    assert [customer.get("pickup") for customer in reply.request["customers"]] == [[2], None, None]
+    assert reply.request["fleet"][0]["capacity"] == [15]
+
+
+def test_the_fleet_of_an_english_file_is_read() -> None:
+    def fill(book: xlsxwriter.Workbook) -> None:
+        monday(book)
+        sheet_of(book, "Fleet", [
+            ["Van", "Driver", "Max payload (kg)", "Shift start", "Shift end", "Home base"],
+            ["V1", "Bob", 500, "6:00", "14:00", "north"], ["V2", "Ann", 600, "7:00", "", ""]])
+
+    reply = imported(workbook(fill))
+    assert reply.request is not None
+    first, second = reply.request["fleet"]
+    assert (first["id"], first["capacity"], second["shift"]) == ("V1", [500], {"earliest": 25200})
+    [unused] = [doubt for doubt in reply.doubts if doubt.code == "FLEET_UNUSED"]
+    assert "Home base" in unused.message
+
+
 def test_of_several_days_one_is_asked_for() -> None:
     reply = read("Datum", ["23.11.2026", "24.11.2026", "23.11.2026"])
     question = asked(reply, "day")
