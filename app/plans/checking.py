@@ -9,8 +9,9 @@ from pydantic_core import ErrorDetails, to_json
 
 from app.conversion.preparing import Preparing
 from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_errors
+from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data, cost_reply, summary_reply
-from app.plans.task import task_of, telling, violation_reply, warning_replies
+from app.plans.task import task_of, telling, warning_replies
 from app.plans.timing import timed_plan
 from app.requests.bounds import Bounds, bound_errors
 from app.requests.draft import Draft

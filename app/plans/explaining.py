@@ -13,8 +13,9 @@ from app.plans.checking import PLAN, PROBLEM, read_about_plan
 from app.plans.explain_replies import (
     customer_reply, drones_reply, idle_reply, nobody_reply,
 )
+from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data
-from app.plans.task import Task, task_of, violation_reply, warning_replies
+from app.plans.task import Task, task_of, warning_replies
 from app.requests.bounds import Bounds
 from app.requests.plan_reading import parse_plan, read_plan
 from app.roads.roads import NO_ROADS, Roads

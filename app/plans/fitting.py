@@ -15,8 +15,9 @@ from app.plans.explain_replies import (
 from app.plans.explaining import (
     LEAST_TRYING, preparing_within, require_known, require_within,
 )
+from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data, cost_reply
-from app.plans.task import Task, task_of, violation_reply, warning_replies
+from app.plans.task import Task, task_of, warning_replies
 from app.plans.timing import timed_plan
 from app.requests.bounds import Bounds
 from app.roads.roads import NO_ROADS, Roads

@@ -21,7 +21,8 @@ from app.errors import InputError, InvalidRequestError
 from app.plans.carried import Info, carry, info_of
 from app.plans.far_plans import FarPlans
 from app.plans.geometry import Geometry
-from app.plans.replies import Data, plan_reply, route_reply, vehicle_name
+from app.plans.replan_replies import on_the_wire, replan_reply
+from app.plans.replies import Data, plan_reply, route_reply
 from app.plans.telling import IN_SECONDS, Telling
 from app.requests.plan_reading import plan_to_solution, read_earlier_plan
 from app.roads.roads import NO_ROADS, Roads
@@ -38,7 +39,6 @@ from model.judge.past import Vehicle
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
-from model.replanning.kept import Kept
 from model.replanning.replan import Replanning, SettledPartError, Terms
 from model.replanning.workers import TooManyTypesError
 from model.solution import Solution
@@ -142,7 +142,7 @@ class Task:
             reply["addresses"] = self.places.replies()
         self._complete(reply, LEAST_GEOMETRY + MOST_GEOMETRY * options.time_limit)
         if self.replanning is not None:
-            reply["replan"] = _replan_reply(self.problem, self.replanning)
+            reply["replan"] = replan_reply(self.problem, self.replanning, result.solution)
         self.telling.tell(PlanReply, reply)
         return {**self.telling.stated, **reply}
 
@@ -219,13 +219,6 @@ def warning_replies(warnings: Iterable[RequestWarning]) -> list[Data]:
     return [warning._asdict() for warning in warnings]
 
 
-def violation_reply(violation: Violation, problem_path: str, plan_path: str) -> Data:
-    """Return a broken rule and where, the problem and the plan being at these paths."""
-    root = problem_path if violation.path.startswith("customers[") else plan_path
-    return {"code": violation.code, "path": f"{root}.{on_the_wire(violation.path)}",
-            "message": violation.message}
-
-
 def telling(violations: Sequence[Violation]) -> list[Violation]:
     """Return broken rules without those that follow from others.
 
@@ -233,29 +226,6 @@ def telling(violations: Sequence[Violation]) -> list[Violation]:
     """
     frozen = any(item.code == "FROZEN" for item in violations)
     return [item for item in violations if not (frozen and item.code == "TIME_MISMATCH")]
-
-
-def on_the_wire(path: str) -> str:
-    """Return the checker's path with the names of fields as requests and replies have them."""
-    return path.replace(".visits[", ".customers[")
-
-
-def _replan_reply(problem: Problem, replanning: Replanning) -> Data:
-    """Return what a reply says of the plan that was given."""
-    return {
-        "settled": [{"vehicle": vehicle_name(problem, kept.route),
-                     "trip": len(kept.route.trips) - 1,
-                     "stop": _last_settled(problem, kept)}
-                    for kept in replanning.kept],
-        "excused": [violation_reply(violation, "$", "$") for violation in replanning.excused],
-    }
-
-
-def _last_settled(problem: Problem, kept: Kept) -> int:
-    """Return the last stop of a vehicle's trip that stays, of those that a reply shows."""
-    stops = kept.route.trips[-1].stops
-    last = len(stops) - 1
-    return last if kept.way_on is None and not problem.is_nowhere(stops[last].node) else last - 1
 
 
 def _terms(replan: ReplanInput, problem: Problem) -> Terms:

@@ -11,7 +11,7 @@ from app.conversion.places import stands_of
 from app.conversion.units import thousandths
 from app.errors import ErrorCode, InputError, json_path
 from app.schemas.customer import CustomerInput
-from app.schemas.plan import MAX_INSTANT, RouteInput, TripInput
+from app.schemas.plan import MAX_INSTANT, RouteInput, StopInput, TripInput
 from app.schemas.request import DepotInput, ReplanInput
 from app.schemas.vehicle import VehicleTypeInput
 
@@ -147,9 +147,9 @@ class _Checker:
             is_last = number == len(route.trips) - 1
             is_open = (is_last and kind is not None and kind.end == "open"
                        and (len(trip.stops) < 2 or trip.stops[-1].kind == "customer"))
-            shape = list(self._shape_errors(here, trip, route.vehicle, is_open))
-            yield from shape
             begun = _begun(trip, kind, self._now)
+            shape = list(self._shape_errors(here, trip, route.vehicle, is_open, bool(begun)))
+            yield from shape
             if shape or not begun:
                 free += 1
                 continue
@@ -161,12 +161,15 @@ class _Checker:
                 yield from _place_errors(here, trip, kind, None if begin is None else [begin],
                                          self._names.ends(kind, is_last))
                 yield from self._begun_errors(here, trip, kind, begun)
-            yield from _order_errors(here, trip, begun, last_end)
+            is_done = (begun.left == len(trip.stops)
+                       or route.vehicle in self._replan.unavailable)
+            yield from _order_errors(here, trip, begun, last_end, is_done)
             last_end = thousandths(trip.stops[-1].departure)
             # What follows a trip that is not over has not begun.
             free += begun.left < len(trip.stops)
 
-    def _shape_errors(self, path: Path, trip: TripInput, vehicle: str, is_open: bool) -> Errors:
+    def _shape_errors(self, path: Path, trip: TripInput, vehicle: str, is_open: bool,
+                      has_begun: bool) -> Errors:
         kinds = [stop.kind for stop in trip.stops]
         inner = kinds[1:] if is_open else kinds[1:-1]
         if (len(kinds) < 2 - is_open or kinds[0] not in ("depot", "start")
@@ -175,7 +178,9 @@ class _Checker:
             yield _error("TRIP_SHAPE", (*path, "stops"),
                          "A trip begins and ends at a depot, or where its vehicle does, with "
                          "customers between: state it so.")
-        if not inner and not trip.sorties:
+        # Whoever drove to a launch that there is no more ends its trip there.
+        has_moved = has_begun and _place(trip.stops[0]) != _place(trip.stops[-1])
+        if not inner and not trip.sorties and not has_moved:
             yield _error("TRIP_SHAPE", path, "The trip serves nobody: leave it out.")
         for index, stop in enumerate(trip.stops):
             if (stop.kind == "depot" and self._names.depots is not None
@@ -288,6 +293,10 @@ def _place_errors(path: Path, trip: TripInput, kind: VehicleTypeInput,
                          f"{places[0][1]!r}: correct one of the two.")
 
 
+def _place(stop: StopInput) -> PlaceName:
+    return stop.kind, stop.id
+
+
 def _planned(routes: Sequence[RouteInput]) -> Iterator[tuple[Path, str]]:
     """Yield where each customer is in a plan."""
     for index, route in enumerate(routes):
@@ -312,7 +321,8 @@ def _committed(trip: TripInput, begun: _Begun) -> Iterator[tuple[Path, str]]:
             yield ("sorties", flight, "customers", place), visit.id
 
 
-def _order_errors(path: Path, trip: TripInput, begun: _Begun, last_end: int) -> Errors:
+def _order_errors(path: Path, trip: TripInput, begun: _Begun, last_end: int,
+                  is_done: bool) -> Errors:
     """What of a trip that has begun can't have happened in the order of its times."""
     time = last_end
     for place, stop in enumerate(trip.stops[:begun.left + 1]):
@@ -326,14 +336,16 @@ def _order_errors(path: Path, trip: TripInput, begun: _Begun, last_end: int) -> 
                 return
             time = thousandths(instant)
     for flight in begun.launched:
-        yield from _flight_errors((*path, "sorties", flight), trip, flight, begun)
+        yield from _flight_errors((*path, "sorties", flight), trip, flight, begun, is_done)
 
 
-def _flight_errors(path: Path, trip: TripInput, flight: int, begun: _Begun) -> Errors:
+def _flight_errors(path: Path, trip: TripInput, flight: int, begun: _Begun,
+                   is_done: bool) -> Errors:
     sortie = trip.sorties[flight]
     place = trip.stops[sortie.launch_stop]
     take_off = thousandths(sortie.launch_time)
-    has_left = sortie.launch_stop < begun.left
+    # Of a truck that broke down the place is no stop where it stood and served nobody.
+    has_left = sortie.launch_stop < begun.left and not is_done
     if (sortie.launch_stop > begun.left
             or take_off - begun.launch_durations[flight] < thousandths(place.arrival)
             or (has_left and take_off > thousandths(place.departure))):

@@ -3,9 +3,10 @@
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.plan import PlanInput
+from app.schemas.replanned import ViolationReply
 from app.schemas.request import PlanRequest
 from app.schemas.response import (
-    WARNINGS_TEXT, CostReply, RouteReply, SummaryReply, ViolationReply, WarningReply,
+    WARNINGS_TEXT, CostReply, RouteReply, SummaryReply, WarningReply,
 )
 from app.schemas.untimed import UntimedPlanInput
 

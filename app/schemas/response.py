@@ -8,6 +8,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.schemas.replanned import ReplanReply
 from app.schemas.times import InstantReply, WordsReply
 
 LINE = ("as an encoded polyline of six decimals, latitude (of planar places y) first. Null: not "
@@ -249,38 +250,6 @@ class EnergyModelReply(_Reply):
     down_seconds: float = Field(description="Duration of the descent of each leg.")
     power: list[PowerPointReply] = Field(
         description="Powers by weight aboard; between two weights they are straight lines."
-    )
-
-
-class ViolationReply(_Reply):
-    """A broken rule."""
-
-    code: str = Field(description="Stable name of the rule.")
-    path: str = Field(description="Where it is broken, such as `$.plan.routes[0].trips[1]`.")
-    message: WordsReply = Field(description="How it is broken.")
-
-
-class SettledReply(_Reply):
-    """How far a vehicle's work is settled."""
-
-    vehicle: str = Field(description="Name of the vehicle.")
-    trip: int = Field(description="Index in `trips` of the last one that has begun.")
-    stop: int = Field(
-        description="Index in its `stops` of the last one that can't be changed: the truck has "
-        "been there, is on its way there, or meets a drone there that is in the air."
-    )
-
-
-class ReplanReply(_Reply):
-    """What became of the plan that was given."""
-
-    settled: list[SettledReply] = Field(
-        description="Vehicles that have departed before `freeze_before`. They come first in "
-        "`routes`, in this order."
-    )
-    excused: list[ViolationReply] = Field(
-        description="Rules that are broken already by what has happened, such as a window that was "
-        "closed after service had begun there. Nothing can mend them."
     )
 
 

@@ -179,8 +179,10 @@ def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> Known
     if len(stops) > 1 and last.departure is None and not (is_home or is_serving):
         stops = stops[:-1]
     nodes = [stop.node for stop in stops] + ([] if is_home else [vehicle_type.ends_at])
-    landed = [_landed(problem, vehicle_type, sortie, nodes, len(stops), now)
-              for sortie in known.sorties]
+    # Where it stood and served nobody is no stop: what was launched there counts from that before.
+    flown = [sortie._replace(launch_stop=min(sortie.launch_stop, len(stops) - 1))
+             for sortie in known.sorties]
+    landed = [_landed(problem, vehicle_type, sortie, nodes, len(stops), now) for sortie in flown]
     return KnownTrip(stops, tuple(sortie for sortie in landed if sortie is not None),
                      known.aboard, "nothing" if is_home else "home")
 
@@ -198,10 +200,11 @@ def _landed(problem: Problem, kind: VehicleType, sortie: KnownSortie, nodes: lis
     if kind.drones is None or not visits:
         return None
     flight = problem.travel[kind.drone_type(sortie.drone).travel].duration
-    landings = [index for index in range(sortie.launch_stop, len(nodes))
+    ends = len(nodes) if sortie.recovery_start is None else known_stops
+    landings = [index for index in range(sortie.launch_stop, ends)
                 if flight.item(visits[-1].node, nodes[index]) < UNREACHABLE]
-    if not landings:
+    if not landings or flight.item(nodes[sortie.launch_stop], visits[0].node) == UNREACHABLE:
         return None
     landing = landings[-1]
-    return sortie._replace(visits=visits, recovery_node=nodes[landing], recovery_start=None,
+    return sortie._replace(visits=visits, recovery_node=nodes[landing],
                            recovery_stop=landing if landing < known_stops else None)

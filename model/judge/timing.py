@@ -325,14 +325,16 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
             arrival = fact.arrival
         else:
             leg = duration.item(stops[-1].node, node)
-            arrival = max(now, leg_end(stops[-1].departure, leg, vehicle_type.speed_profile))
+            arrival = leg_end(stops[-1].departure, leg, vehicle_type.speed_profile)
+            # Where a route ends with its last service, that may be over, and nobody drives on.
+            arrival = arrival if problem.is_nowhere(node) else max(now, arrival)
         setup = problem.setup_between(stops[-1].node, node) if stops else 0
         ready = arrival + setup
         start, departure = _resume_service(problem, vehicle_type, node, ready, fact, now)
         if drones is not None and decision.sorties:
             departure = max(departure, _operate(problem, vehicle_type, decision, index, ready,
                                                 flights, known, now))
-        departure = max(departure, now)
+        departure = departure if problem.is_nowhere(node) else max(departure, now)
         if fact is not None and fact.departure is not None:
             departure = fact.departure
         stops.append(Stop(node, arrival, start, departure, setup))

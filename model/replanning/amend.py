@@ -7,7 +7,7 @@ from operator import gt
 
 from model.judge.check import judge_route
 from model.judge.ends import with_ends
-from model.judge.past import EVERYTHING_OPEN, Past
+from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
 from model.judge.rules import Violation
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
 from model.problem import Problem
@@ -17,6 +17,9 @@ SINGLE_ROUNDS = 8
 """How often one customer is taken out of a route at a time; then twice as many each time."""
 
 Timing = Callable[[RouteDecision], Route]
+
+Broken = tuple[str, str, tuple[int, ...]]
+"""A broken rule whatever else is in the route: code, message, and of which trip and of whom."""
 
 _PLACE = re.compile(r"(?:\.trips\[(\d+)\](?:\.(stops|sorties)\[(\d+)\](?:\.visits\[(\d+)\])?)?)?")
 
@@ -50,7 +53,8 @@ def customers_of(decision: TripDecision) -> list[int]:
 
 
 def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],
-             timings: Sequence[Timing], past: Past = EVERYTHING_OPEN) -> RouteDecision | None:
+             timings: Sequence[Timing], past: Past = EVERYTHING_OPEN,
+             excused: Collection[Broken] = ()) -> RouteDecision | None:
     """Return a route without the customers for whom it breaks rules; None if nobody is left.
 
     Parameters
@@ -58,23 +62,26 @@ def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],
     problem
         Says what the rules are.
     decision
-        The route; trips that serve nobody are left out.
+        The route; trips that serve nobody are left out, unless they have begun.
     fixed
         Customers who stay, whatever they break.
     timings
         Ways to time a route, the one that is to be preferred first.
     past
         What has happened.
+    excused
+        What is broken whoever is taken out, so that nobody is for that.
     """
-    step = 1
+    step, known = 1, len(past.trips.get(Vehicle(decision.vehicle_type, decision.vehicle), ()))
     for round_number in range(len(_customers_of_route(decision)) + 1):
-        trips = tuple(trip for trip in decision.trips if customers_of(trip))
+        trips = tuple(trip for number, trip in enumerate(decision.trips)
+                      if number < known or customers_of(trip))
         if len(trips) < len(decision.trips):
             trips = with_ends(problem.vehicle_types[decision.vehicle_type], trips)
         decision = replace(decision, trips=trips)
         if not trips:
             return None
-        _, violations = _best_timed(problem, decision, timings, past)
+        _, violations = _best_timed(problem, decision, timings, past, excused)
         blamed = _blamed(problem, decision, violations, frozenset(fixed))
         if not blamed:
             break
@@ -94,13 +101,39 @@ def repaired_route(problem: Problem, decision: RouteDecision, fixed: Collection[
     return None if mended is None else _best_timed(problem, mended, timings, EVERYTHING_OPEN)[0]
 
 
-def _best_timed(problem: Problem, decision: RouteDecision, timings: Sequence[Timing],
-                past: Past) -> tuple[Route, list[Violation]]:
-    """Return a route by the first of the timings that break fewest rules, and which it breaks."""
+def broken_by(problem: Problem, decision: RouteDecision, time: Timing,
+              past: Past) -> frozenset[Broken]:
+    """Return the rules that a route breaks."""
+    return frozenset(_broken(decision, violation) for violation
+                     in judge_route(problem, time(decision), "", past).violations)
+
+
+def _broken(decision: RouteDecision, violation: Violation) -> Broken:
+    """Return a broken rule by whom it concerns, as places shift with those who are taken out."""
+    place = _PLACE.fullmatch(violation.path)
+    if place is None or place[1] is None:
+        return violation.code, violation.message, ()
+    trip, number = decision.trips[int(place[1])], int(place[3] or 0)
+    whom: tuple[int, ...] = (int(place[1]),)
+    if place[2] == "stops":
+        whom += (trip.nodes[number],)
+    elif place[2] == "sorties":
+        flight = trip.sorties[number]
+        whom += (*flight.nodes, *([] if place[4] is None else [int(place[4])]))
+    return violation.code, violation.message, whom
+
+
+def _best_timed(problem: Problem, decision: RouteDecision, timings: Sequence[Timing], past: Past,
+                excused: Collection[Broken] = ()) -> tuple[Route, list[Violation]]:
+    """Return a route by the first of the timings that break fewest rules, and which it breaks.
+
+    What is excused doesn't count.
+    """
     best: tuple[Route, list[Violation]] | None = None
     for time in timings:
         route = time(decision)
-        violations = judge_route(problem, route, "", past).violations
+        violations = [violation for violation in judge_route(problem, route, "", past).violations
+                      if _broken(decision, violation) not in excused]
         if best is None or len(violations) < len(best[1]):
             best = route, violations
         if not violations:

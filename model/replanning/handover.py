@@ -81,7 +81,7 @@ def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
 def _scheduled(left: Remainder, decisions: Iterable[RouteDecision]) -> Solution:
     """Return a plan of what is left without the customers for whom rules are broken."""
     routes = [_mended(left, decision) for decision in decisions]
-    return _complete(left.problem, tuple(route for route in routes if route is not None))
+    return complete(left.problem, tuple(route for route in routes if route is not None))
 
 
 def _mended(left: Remainder, decision: RouteDecision) -> Route | None:
@@ -110,7 +110,7 @@ def _timed_at_once(problem: Problem, decision: RouteDecision) -> Route:
     return _timed(problem, replace(decision, trips=trips))
 
 
-def _complete(problem: Problem, routes: tuple[Route, ...]) -> Solution:
+def complete(problem: Problem, routes: tuple[Route, ...]) -> Solution:
     """Return a plan whose other customers are left out."""
     served = {node for route in routes for trip in route.trips for node in _served(trip)}
     nodes = range(problem.num_depots, problem.num_nodes)
@@ -124,7 +124,7 @@ def _served(trip: Trip) -> list[int]:
 
 def settled(problem: Problem, kept: Mapping[Vehicle, Kept]) -> Solution:
     """Return the plan in which vehicles do what they do in any case, and go home."""
-    return _complete(problem, tuple(route.route for route in kept.values()))
+    return complete(problem, tuple(route.route for route in kept.values()))
 
 
 def take_back(problem: Problem, past: Past, before: Solution, kept: Mapping[Vehicle, Kept],
@@ -152,7 +152,7 @@ def take_back(problem: Problem, past: Past, before: Solution, kept: Mapping[Vehi
             trips[worker.vehicle] = (*trips.get(worker.vehicle, ()), *mine)
     known = [Route(*vehicle, done) for vehicle, done in trips.items()]
     taken = {*trips, *(worker.vehicle for worker in left.workers.values()), *past.unavailable}
-    return _complete(problem, (*known, *_numbered(before, taken, others)))
+    return complete(problem, (*known, *_numbered(before, taken, others)))
 
 
 def _is_under_way(left: Remainder, route: Route) -> bool:

@@ -7,7 +7,7 @@ from model.judge.energy import charges_at
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
 from model.problem import MAX_QUANTITY, UNREACHABLE, Problem, VehicleType
-from model.replanning.amend import customers_of, repaired, without
+from model.replanning.amend import broken_by, customers_of, repaired, without
 from model.solution import Route, Solution, Sortie, Stop, Trip
 
 
@@ -99,13 +99,19 @@ def _settled(kind: VehicleType, trip: Trip, known: KnownTrip, grounded: Collecti
     stops = list(trip.stops[:meeting + 1])
     if meeting < len(trip.stops) - 1:
         stops.append(trip.stops[-1])
-    launched = {_identity(sortie) for sortie in known.sorties}
-    begun = [sortie for sortie in trip.sorties if _identity(sortie) in launched]
-    planned = [sortie for sortie in trip.sorties if _identity(sortie) not in launched
-               and bound <= sortie.launch_stop and sortie.recovery_stop <= meeting
+    begun, others = by_launch(trip, known)
+    planned = [sortie for sortie in others
+               if bound <= sortie.launch_stop and sortie.recovery_stop <= meeting
                and (sortie.launch_stop < meeting or meeting == len(trip.stops) - 1)
                and sortie.drone < kind.num_drones and sortie.drone not in grounded]
     return Trip(tuple(stops), (*begun, *planned))
+
+
+def by_launch(trip: Trip, known: KnownTrip) -> tuple[list[Sortie], list[Sortie]]:
+    """Return the sorties of a trip that have been launched, and the others."""
+    launched = {_identity(sortie) for sortie in known.sorties}
+    return ([sortie for sortie in trip.sorties if _identity(sortie) in launched],
+            [sortie for sortie in trip.sorties if _identity(sortie) not in launched])
 
 
 def _identity(sortie: Sortie | KnownSortie) -> tuple[int, int, int]:
@@ -127,11 +133,15 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
     fixed = set(_fixed_nodes(known[-1]))
     last = without(decision.trips[-1], {-1})
     decision = replace(decision, trips=(*decision.trips[:-1], last))
-    if set(customers_of(last)) - fixed:
+    free = set(customers_of(last)) - fixed
+    if free:
+        def time(tried: RouteDecision) -> Route:
+            return retimed(problem, tried, known, past.now)
+
         everyone = fixed.union(*(customers_of(trip) for trip in decision.trips[:-1]))
-        decision = repaired(problem, decision, everyone,
-                            [lambda tried: retimed(problem, tried, known, past.now)],
-                            past) or decision
+        alone = replace(decision, trips=(*decision.trips[:-1], without(last, free)))
+        decision = repaired(problem, decision, everyone, [time], past,
+                            broken_by(problem, alone, time, past)) or decision
     route = retimed(problem, decision, known, past.now)
     kept = Kept(vehicle, decision, route)
     if meeting == len(planned.stops) - 1:

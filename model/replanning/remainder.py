@@ -111,12 +111,13 @@ def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[i
            nodes: Sequence[int]) -> BoolArray:
     """Return (type, customer) who may serve whom of those who are left.
 
-    A vehicle on a trip serves those whose parcels are aboard and nobody else does; whoever is
-    pinned is served by one vehicle alone, and all others by any that begins at the depot.
+    Those whose parcels are aboard are served by that vehicle alone, on the trip that it is on if it
+    can; whoever is pinned by one vehicle, and all others by any that begins at the depot.
     """
     under_way = {owner.vehicle: kind for kind, owner in owners.items() if owner.is_under_way}
     later = {owner.vehicle: kind for kind, owner in owners.items() if not owner.is_under_way}
-    only = {node: later.get(vehicle, NOBODY) for node, vehicle in past.pinned.items()}
+    bound = {**past.pinned, **past.carriers()}
+    only = {node: later.get(vehicle, NOBODY) for node, vehicle in bound.items()}
     only |= {node: under_way[owner.vehicle] for owner in owners.values() for node in owner.aboard}
     sole = np.array([only.get(node, ANYBODY) for node in nodes], np.int64)
     numbers = np.arange(len(kinds))[:, None]

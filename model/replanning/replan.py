@@ -16,14 +16,15 @@ from model.planner import (
     complete_plan,
 )
 from model.problem import Problem
+from model.replanning.driven_on import carried_through, driven_on
 from model.replanning.handover import hand_over, settled, take_back
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.order import in_order, orders_of
 from model.replanning.remainder import Remainder, what_is_left
-from model.replanning.workers import find_workers, vehicle_name
+from model.replanning.workers import Worker, find_workers, vehicle_name
 from model.solution import Route, Solution
 
-UNREADABLE = frozenset({"EMPTY_TRIP", "UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
+UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
                         "SORTIE_STOPS", "UNREACHABLE"})
 """Broken rules with which nothing that has happened can be read."""
 
@@ -85,16 +86,24 @@ class Replanning:
         self._kept = kept_routes(problem, terms.plan, past)
         self._settled = settled(problem, self._kept)
         broken = check(problem, self._settled, past).violations
-        self.excused = tuple(item for item in broken if item.code not in PAST_RULES)
-        """Rules that are broken already, which no plan can mend."""
         unreadable = [item for item in broken if item.code in UNREADABLE]
         if unreadable:
             raise SettledPartError(_as_given(terms.plan, self._settled, unreadable))
-        past = replace(past, returned=_returned(problem, self._kept, terms))
-        workers, returned = find_workers(problem, past, self._kept)
-        self.past = replace(past, returned=returned)
+        self.stranded = _stranded(problem, self._kept, terms)
+        """Whose parcels vehicles have aboard that are unavailable, and which."""
+        back = past.now if terms.parcels_back is None else terms.parcels_back
+        self.past = replace(past, returned=dict.fromkeys(self.stranded, back))
+        workers = find_workers(problem, self.past, self._kept)
+        self._through = _through(problem, terms.plan, self.past, self._kept, workers)
+        if self._through:
+            self._kept |= self._through
+            self._settled = settled(problem, self._kept)
+            broken = check(problem, self._settled, past).violations
+            workers = find_workers(problem, self.past, self._kept)
         self._left = what_is_left(problem, self.past, self._kept, workers)
         self._judge = Memory(problem, self.past)
+        self.excused = tuple(item for item in broken if item.code not in PAST_RULES)
+        """Rules that are broken already, which no plan can mend."""
 
     @property
     def kept(self) -> tuple[Kept, ...]:
@@ -116,22 +125,20 @@ class Replanning:
         whole plan, its costs those of the whole.
         """
         began = time.perf_counter()
-        if self._left is None:
-            return self._nothing_left(options)
         plan = self._plan if start is None else start
-        kept = self._kept if start is None else kept_routes(self.problem, start, self.past)
+        kept = self._kept if start is None else self._kept_of(start)
+        if self._left is None:
+            return self._nothing_left(plan, kept, options)
         bridge = _Bridge(self.problem, self.past, plan, kept, self._left)
-        first, solution, before = self._beginning(
+        first, begun, evaluation = self._beginning(
             bridge, hand_over(self.problem, plan, kept, self._left), options,
             listener.should_stop)
+        solution, before = self._cheapest(
+            (begun, evaluation), driven_on(self.problem, plan, kept, self.past))
         result = planner.plan(self._in_order(self._left, first), options, received_at,
-                              _relayed(listener, before.cost.total, bridge), first)
-        found = solution if result.solution is first else bridge.whole(result.solution)
-        evaluation = self.check(found)
-        if evaluation.is_feasible and evaluation.cost.total <= before.cost.total:
-            solution = found
-        else:
-            evaluation = before
+                              _relayed(listener, evaluation.cost.total, bridge), first)
+        found = begun if result.solution is first else bridge.whole(result.solution)
+        solution, evaluation = self._cheapest((solution, before), found)
         elapsed = replace(result.elapsed, decode=time.perf_counter() - began
                           - result.elapsed.search - result.elapsed.check)
         return replace(result, solution=solution, evaluation=evaluation, start="given",
@@ -180,12 +187,27 @@ class Replanning:
                                            for violation in evaluation.violations))
         return evaluation
 
-    def _nothing_left(self, options: PlanOptions) -> PlanResult:
+    def _cheapest(self, known: tuple[Solution, Evaluation],
+                  other: Solution) -> tuple[Solution, Evaluation]:
+        """Return the other of two plans, judged, if it is legal and no dearer than the known."""
+        evaluation = self.check(other)
+        if evaluation.is_feasible and evaluation.cost.total <= known[1].cost.total:
+            return other, evaluation
+        return known
+
+    def _nothing_left(self, plan: Solution, kept: Mapping[Vehicle, Kept],
+                      options: PlanOptions) -> PlanResult:
         began = time.perf_counter()
-        evaluation = self._legal(self._settled)
+        solution, evaluation = self._cheapest(
+            (self._settled, self._legal(self._settled)),
+            driven_on(self.problem, plan, kept, self.past))
         cost = evaluation.cost.total
-        return PlanResult(self._settled, evaluation, "given", cost, cost, 0, options.threads, True,
+        return PlanResult(solution, evaluation, "given", cost, cost, 0, options.threads, True,
                           Elapsed(0.0, 0.0, time.perf_counter() - began))
+
+    def _kept_of(self, plan: Solution) -> dict[Vehicle, Kept]:
+        """Return what vehicles do in any case, of a plan that went on from the one given."""
+        return {**kept_routes(self.problem, plan, self.past), **self._through}
 
     def _reason(self, solution: Solution, kind: int, node: int, until: float) -> Reason:
         """Return why vehicles of a type don't serve a customer who is free to be served by any."""
@@ -245,15 +267,31 @@ def _released(problem: Problem, past: Past) -> Problem:
     return replace(problem, customers=tuple(customers))
 
 
-def _returned(problem: Problem, kept: Mapping[Vehicle, Kept], terms: Terms) -> dict[int, int]:
-    """Return when the parcels of vehicles that are unavailable are at the depot again."""
+def _stranded(problem: Problem, kept: Mapping[Vehicle, Kept],
+              terms: Terms) -> dict[int, Vehicle]:
+    """Return whose parcels are aboard vehicles that are unavailable, and which."""
     if terms.now is None:
         return {}
-    back = terms.now if terms.parcels_back is None else terms.parcels_back
     loaded = parcels_aboard(problem, terms.plan, terms.now, terms.unavailable)
     served = {vehicle: route.served for vehicle, route in kept.items() if vehicle in loaded}
-    return {node: back for vehicle, nodes in loaded.items()
-            for node in nodes - served.get(vehicle, set())}
+    return {node: vehicle for vehicle, nodes in loaded.items()
+            for node in sorted(nodes - served.get(vehicle, set()))}
+
+
+def _through(problem: Problem, plan: Solution, past: Past, kept: Mapping[Vehicle, Kept],
+             workers: Collection[Worker]) -> dict[Vehicle, Kept]:
+    """Return vehicles that drive their trips as planned, as no worker can go on with them."""
+    going_on = {worker.vehicle for worker in workers if worker.is_under_way}
+    found = {}
+    for route in plan.routes:
+        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        trip, own = past.under_way(vehicle), kept.get(vehicle)
+        if trip is None or own is None or vehicle in going_on or not trip.aboard - own.served:
+            continue
+        through = carried_through(problem, route, own, past)
+        if through.served > own.served:
+            found[vehicle] = through
+    return found
 
 
 def _begin(left: Remainder, begun: Solution, options: PlanOptions,

@@ -48,15 +48,11 @@ def vehicle_name(problem: Problem, vehicle: Vehicle) -> str:
     return problem.vehicle_types[vehicle.type].vehicle_name(vehicle.number)
 
 
-def find_workers(problem: Problem, past: Past,
-                 kept: Mapping[Vehicle, Kept]) -> tuple[list[Worker], dict[int, int]]:
-    """Return who becomes a type of its own, and which parcels come back to the depot when.
-
-    The latter are those aboard vehicles that can't deliver them.
-    """
-    workers, returned = [], dict(past.returned)
-    for vehicle, route in kept.items():
-        home_by = _home_by(problem.vehicle_types[vehicle.type], route)
+def find_workers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[Worker]:
+    """Return who becomes a type of its own."""
+    workers = []
+    for route in kept.values():
+        home_by = _home_by(problem.vehicle_types[route.vehicle.type], route)
         way_on = route.way_on
         if way_on is not None and _can_go_on(problem, route, way_on.aboard, home_by):
             home = min(way_on.planned_end, home_by)
@@ -65,15 +61,13 @@ def find_workers(problem: Problem, past: Past,
                                          home_by if later is None else home))
         else:
             later = _later(problem, past, route, route.end, home_by)
-            for node in past.trips[vehicle][-1].aboard - route.served:
-                returned.setdefault(node, min(route.end, MAX_QUANTITY))
         if later is not None:
             workers.append(later)
     workers += _others(problem, past, kept)
     if len(workers) > MAX_OWN_TYPES:
         raise TooManyTypesError(f"{len(workers)} routes are under way, have customers pinned to "
                                 f"them or grounded drones, and at most {MAX_OWN_TYPES} are allowed")
-    return [_with_drones_left(worker, past) for worker in workers], returned
+    return [_with_drones_left(worker, past) for worker in workers]
 
 
 def _others(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[Worker]:

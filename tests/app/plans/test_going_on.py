@@ -1,0 +1,131 @@
+"""Vehicles that break down, and drones that are lost, over HTTP."""
+
+from typing import Any
+
+import httpx
+import pytest
+
+from app.schemas.response import PlanReply
+from tests.app.plans.asking import judged
+
+Request = dict[str, Any]
+
+
+@pytest.fixture
+def street() -> Request:
+    """Return three customers along a street, a kilometre and a minute apart, and two vans."""
+    return {
+        "planar_unit": 1000,
+        "depots": [{"id": "hub", "location": [0, 0]}],
+        "customers": [{"id": name, "location": [place, 0], "demand": [1], "service_duration": 60}
+                      for place, name in enumerate("abc", 1)],
+        "fleet": [{"id": "van", "count": 2, "capacity": [10], "speed_kmh": 60}],
+        "options": {"time_limit": 60, "search_iterations": 40},
+    }
+
+
+def plan_of(*stops: tuple[str, str, float, float], **trip: Any) -> Request:
+    """Return a plan of one trip of the first van, by kind, id, arrival and departure."""
+    told = [{"kind": kind, "id": name, "arrival": arrival, "service_start": arrival,
+             "departure": departure} for kind, name, arrival, departure in stops]
+    return {"routes": [{"vehicle": "van-1", "type": "van", "trips": [{"stops": told, **trip}]}]}
+
+
+TOUR = plan_of(("depot", "hub", 0, 0), ("customer", "a", 60, 120), ("customer", "b", 180, 240),
+               ("customer", "c", 300, 360), ("depot", "hub", 540, 540))
+
+
+def replanned(client: httpx.Client, request: Request, plan: Request, now: float,
+              **terms: Any) -> Request:
+    """Return the plan that goes on, which the service has to find feasible at the same cost."""
+    body = request | {"replan": {"plan": plan, "freeze_before": now, **terms}}
+    reply = client.post("/plan", json=body)
+    assert reply.status_code == 200, reply.text
+    found: Request = reply.json()
+    PlanReply.model_validate(found)
+    verdict = judged(client, body, found)
+    assert (verdict["violations"], verdict["cost"]) == ([], pytest.approx(found["cost"]))
+    return found
+
+
+def times(plan: Request, vehicle: str) -> list[tuple[str, float, float]]:
+    """Return the stops of a vehicle's only trip: id, arrival and departure."""
+    (trips,) = [route["trips"] for route in plan["routes"] if route["vehicle"] == vehicle]
+    (trip,) = trips
+    return [(stop["id"], stop["arrival"], stop["departure"]) for stop in trip["stops"]]
+
+
+def test_reply_tells_from_where_parcels_of_a_broken_vehicle_come(searching: httpx.Client,
+                                                                 street: Request) -> None:
+    plan = replanned(searching, street, TOUR, 150, unavailable=["van-1"], parcels_back=500)
+    assert plan["replan"]["parcels"] == [
+        {"id": name, "vehicle": "van-1", "back": 500, "depot": "hub", "by": "van-2"}
+        for name in "bc"]
+    street["fleet"][0]["count"] = 1
+    alone = replanned(searching, street, TOUR, 150, unavailable=["van-1"])
+    assert alone["replan"]["parcels"] == [
+        {"id": name, "vehicle": "van-1", "back": 150, "depot": None, "by": None} for name in "bc"]
+
+
+def test_reply_tells_of_parcels_of_a_trip_that_vanishes(searching: httpx.Client,
+                                                        street: Request) -> None:
+    plan = replanned(searching, street, TOUR, 30, unavailable=["van-1"], parcels_back=500)
+    assert [parcel["id"] for parcel in plan["replan"]["parcels"]] == ["a", "b", "c"]
+    assert plan["summary"]["served"] == 3
+
+
+def test_nothing_is_told_of_parcels_if_no_vehicle_is_broken(searching: httpx.Client,
+                                                            street: Request) -> None:
+    assert "parcels" not in replanned(searching, street, TOUR, 150)["replan"]
+
+
+def test_broken_vehicle_on_an_open_route_has_worked_until_its_last_service(
+        searching: httpx.Client, street: Request) -> None:
+    street["fleet"][0] |= {"end": "open", "costs": {"per_hour": 60}}
+    tour = plan_of(("depot", "hub", 0, 0), ("customer", "a", 60, 120),
+                   ("customer", "b", 1000, 1060))
+    plan = replanned(searching, street, tour, 700, unavailable=["van-1"])
+    assert times(plan, "van-1") == [("hub", 0, 0), ("a", 60, 120)]
+    (route,) = [route for route in plan["routes"] if route["vehicle"] == "van-1"]
+    assert (route["working_duration"], route["cost"]) == (120, 2 + 1)
+
+
+def to_the_launch(street: Request) -> Request:
+    """Return the plan of a van that drives from its start to the depot, and launches there."""
+    street["fleet"] = [{
+        "id": "van", "count": 1, "capacity": [10], "speed_kmh": 60, "start_location": [0, 5],
+        "drones": {"count": 1, "capacity": [2], "speed_kmh": 60}}]
+    street["customers"] = [{"id": name, "location": [place, 0], "demand": [1]}
+                           for place, name in enumerate("ab", 1)]
+    visits = [{"id": name, "arrival": arrival, "service_start": arrival, "departure": arrival}
+              for name, arrival in (("a", 360), ("b", 540))]
+    return plan_of(("start", "van", 0, 0), ("depot", "hub", 300, 660), sorties=[
+        {"drone": "van-1/drone-1", "launch_stop": 1, "recovery_stop": 1, "customers": [visit],
+         "launch_time": begin, "recovery_time": end}
+        for visit, begin, end in zip(visits, (300, 420), (420, 660), strict=True)])
+
+
+def test_van_on_its_way_to_a_launch_drives_on_if_its_drone_is_lost(searching: httpx.Client,
+                                                                   street: Request) -> None:
+    tour = to_the_launch(street)
+    assert judged(searching, street, tour)["violations"] == []
+    plan = replanned(searching, street, tour, 100, unavailable=["van-1/drone-1"])
+    assert times(plan, "van-1") == [("van", 0, 0), ("hub", 300, 300)]
+    assert [reason["code"] for left in plan["unassigned"] for reason in left["reasons"]] == [
+        "ABOARD", "ABOARD"]
+    # That plan can be gone on from.
+    later = replanned(searching, street, plan, 200, unavailable=["van-1/drone-1"])
+    assert times(later, "van-1") == times(plan, "van-1")
+    later = replanned(searching, street, plan, 400, unavailable=["van-1/drone-1"])
+    assert times(later, "van-1") == times(plan, "van-1")
+
+
+def test_van_on_its_way_to_a_launch_drives_on_if_orders_are_cancelled(searching: httpx.Client,
+                                                                      street: Request) -> None:
+    tour = to_the_launch(street)
+    street["customers"].pop()
+    plan = replanned(searching, street, tour, 100)
+    assert times(plan, "van-1") == [("van", 0, 0), ("hub", 300, 420)]
+    street["customers"].clear()
+    plan = replanned(searching, street, tour, 100)
+    assert times(plan, "van-1") == [("van", 0, 0), ("hub", 300, 300)]
