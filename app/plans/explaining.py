@@ -167,6 +167,7 @@ class _Explainer:
         reply, complete = nobody_reply(self._cost), True
         if question.customer is not None:
             reply, complete = self._of_customer(question, question.customer)
+            self._task.permits.name(question.customer, reply["reasons"])
         drones = None
         if question.drones:
             drones, in_time = self._of_drones(question)

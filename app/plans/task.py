@@ -21,6 +21,7 @@ from app.errors import InputError, InvalidRequestError
 from app.plans.carried import Info, carry, info_of
 from app.plans.far_plans import FarPlans
 from app.plans.geometry import Geometry
+from app.plans.permits import Permits
 from app.plans.replan_replies import on_the_wire, replan_reply
 from app.plans.replies import Data, plan_reply, route_reply
 from app.plans.telling import IN_SECONDS, Telling
@@ -66,6 +67,7 @@ class Task:
     telling: Telling = IN_SECONDS
     far: FarPlans | None = None  # where legs are estimated until a plan drives them
     places: Located | None = None
+    permits: Permits = field(default_factory=Permits)
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -136,6 +138,8 @@ class Task:
         allowed = EXPLAINING + EXPLAINING_SHARE * options.time_limit
         until = time.perf_counter() + allowed
         reply = plan_reply(self.problem, options, result, self.reasons, until)
+        for left in reply["unassigned"]:
+            self.permits.name(left["id"], left["reasons"])
         reply["legs"] = [asdict(origin) for origin in self.legs]
         reply["warnings"] = warning_replies(self.warnings)
         if self.places is not None and self.places.found:
@@ -191,17 +195,17 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     geometry = Geometry(request, ground, roads, legs) if request.options.geometry else None
     warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
     beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
-    replan = request.replan
+    replan, permits = request.replan, Permits.of(request)
     if replan is None:
         estimates = travels.estimates()
         far = None if estimates is None else FarPlans(problem, estimates)
-        return Task(problem, None, *beside, far, places)
+        return Task(problem, None, *beside, far, places, permits)
     terms = _terms(replan, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
     try:
-        return Task(problem, Replanning(problem, terms), *beside, places=places)
+        return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART", path=f"$.replan.plan.{on_the_wire(violation.path)}",

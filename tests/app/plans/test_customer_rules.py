@@ -47,6 +47,34 @@ def test_each_type_has_one_reason_though_its_vehicles_differ(client: httpx.Clien
                "remedy": "fits if truck may serve it"}]}
 
 
+@pytest.mark.parametrize(("count", "forbidden", "changed"), [
+    (1, ["truck", "truck-1"], ["truck", "truck-1"]), (2, ["truck", "truck-1"], ["truck"]),
+    (2, ["truck-1", "truck", "truck-2"], ["truck", "truck-1"]), (1, ["truck"], ["truck"]),
+    (2, ["truck-2", "truck-1"], ["truck-2"])])
+def test_remedy_names_all_that_must_be_forbidden_no_more(
+        client: httpx.Client, smallest: Request, count: int, forbidden: list[str],
+        changed: list[str]) -> None:
+    smallest["fleet"][0]["count"] = count
+    # Another customer tells the vehicles of the type apart.
+    first, second = smallest["customers"]
+    first["vehicles"] = {"allowed": ["truck-1"]}
+    second["vehicles"] = {"forbidden": forbidden}
+    left, = client.post("/plan", json=smallest).json()["unassigned"]
+    reason, = left["reasons"]
+    assert reason["remedy"] == f"fits if {' and '.join(changed)} may serve it"
+    rest = [name for name in forbidden if name not in changed]
+    second["vehicles"] = {"forbidden": rest} if rest else None
+    assert client.post("/plan", json=smallest).json()["unassigned"] == []
+
+
+def test_explained_customer_has_the_same_remedy(client: httpx.Client, smallest: Request) -> None:
+    smallest["fleet"][0]["count"] = 1
+    smallest["customers"][1]["vehicles"] = {"forbidden": ["truck-1", "truck"]}
+    plan = client.post("/plan", json=smallest).json()
+    reply = client.post("/explain", json={"problem": smallest, "plan": plan, "customer": "B"})
+    assert reply.json()["reasons"] == plan["unassigned"][0]["reasons"]
+
+
 def test_a_named_vehicle_is_replanned_by_its_name(client: httpx.Client, smallest: Request) -> None:
     smallest["fleet"][0]["count"] = 3
     first, second = smallest["customers"]
