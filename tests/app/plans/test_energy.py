@@ -74,6 +74,37 @@ def test_a_preset_comes_back_with_its_numbers(client: httpx.Client, smallest: Re
     assert full["cruise_w"] - empty["cruise_w"] == pytest.approx(467.0)
 
 
+def test_a_preset_is_told_once_though_vehicles_of_its_type_differ(client: httpx.Client,
+                                                                  smallest: Request) -> None:
+    request = flying(smallest, preset="dorling-2017")
+    request["fleet"][0]["count"] = 4
+    request["customers"][0]["vehicles"] = {"allowed": ["truck-1", "truck-3"]}
+    request["customers"][1]["vehicles"] = {"forbidden": ["truck-3"]}
+    models = planned(client, request)["energy_models"]
+    assert [model["vehicle_type"] for model in models] == ["truck"]
+
+
+@pytest.mark.parametrize("amount", [0.125, 1.0, 2.375])
+def test_energy_is_that_of_the_powers_to_a_milliwatt_and_a_half(
+        client: httpx.Client, smallest: Request, amount: float) -> None:
+    power = {"cruise_w": 33.3333333, "cruise_w_per_kg": 7.7777777, "hover_w": 20.0000004,
+             "hover_w_per_kg": 3.1415926}
+    request = flying(smallest, power=power, kg_per_unit=0.3333333, lands=False)
+    for customer in request["customers"]:
+        customer |= {"demand": [amount], "served_by": "drone", "service_duration": 12.345}
+    request["fleet"][0]["drones"]["recovery_duration"] = 0
+    sorties = planned(client, request)["routes"][0]["trips"][0]["sorties"]
+    assert sorties
+    for sortie in sorties:
+        out, = sortie["customers"]
+        there = out["arrival"] - sortie["launch_time"]
+        kg = amount * 0.3333333
+        joules = ((33.3333333 + 7.7777777 * kg) * there + 33.3333333 * there
+                  + (20.0000004 + 3.1415926 * kg) * (out["departure"] - out["arrival"])
+                  + 20.0000004 * (sortie["recovery_time"] - out["departure"] - there))
+        assert abs(sortie["energy_wh"] * 3600 - joules) <= 0.0015 * sortie["duration"]
+
+
 def test_who_is_too_far_for_the_battery_is_left_out_with_a_remedy(
         client: httpx.Client, smallest: Request) -> None:
     request = flying(smallest, power={"cruise_w": 100})
