@@ -91,6 +91,7 @@ fuzz: .venv/testing ## Send generated requests to the whole API (CASES=10000), a
 	$(BIN)/python -m benchmarks.fuzz_problems
 	$(BIN)/python -m benchmarks.fuzz_vroom
 	$(BIN)/python -m benchmarks.fuzz_remedies
+	$(BIN)/python -m benchmarks.fuzz_replans
 	$(BIN)/python -m benchmarks.leavers
 
 settings: .venv/serving ## Write docs/settings.md
