@@ -104,11 +104,16 @@ class Study:
         self.longest = max(self.longest, time.perf_counter() - began)
         self.statuses[f"{path} {reply.status_code}"] += 1
         if reply.status_code == 200:
-            content: Data = reply.json()
+            content: Data = json.loads(reply.text, parse_constant=_not_json)
             return content
         if reply.status_code != 422 or not reply.json()["errors"]:
             raise Fault(f"{path} is answered with {reply.status_code}: {reply.text[:500]}")
         return None
+
+
+def _not_json(name: str) -> None:
+    """Raise `Fault` for a number that JSON doesn't have."""
+    raise Fault(f"a reply holds {name}, which is no JSON")
 
 
 def client_of(target: Target) -> httpx.Client:

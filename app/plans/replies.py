@@ -99,7 +99,7 @@ def route_reply(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
 def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMetrics) -> Data:
     return {
         "load": _amounts(problem, metrics.load),
-        "load_rate": metrics.load_rate,
+        "load_rate": _finite(metrics.load_rate),
         "distance": whole(metrics.distance),
         "duration": whole(metrics.duration),
         "stops": [_stop(problem, stop, load)

@@ -1,11 +1,12 @@
 """The rules that a plan has to keep which begins with what has happened."""
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
 from model.judge.rules import Violation, seconds
 from model.problem import Problem
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from model.solution import Route, Solution, Sortie, Stop, Trip
 
 PAST_RULES = frozenset({"FROZEN", "PAST", "UNAVAILABLE", "ABOARD", "PINNED", "ORDER", "RETURN"})
 """Codes of the rules here."""
@@ -72,24 +73,43 @@ def _order_violations(problem: Problem, route: Route, past: Past, vehicle: Vehic
                       path: str) -> Iterator[Violation]:
     """Yield who isn't at the place in the order that it keeps, by when service starts."""
     places = {node: place for place, node in enumerate(past.orders.get(vehicle, ()))}
-    served = sorted((visit.service_start, places[visit.node], visit.node) for trip in route.trips
-                    for visit in _visits(trip) if visit.node in places)
-    for at, (start, place, node) in enumerate(served):
-        if node not in past.pinned:
+    served = sorted((each for each in _served(route) if each.node in places),
+                    key=lambda each: (each.start, each.stop or (), places[each.node]))
+    for at, one in enumerate(served):
+        if one.node not in past.pinned:
             continue
-        before = [other for other in served[:at] if other[0] < start and other[1] > place]
-        after = [other for other in served[at:] if other[0] > start and other[1] < place]
-        for _, _, other in before[:1] or after[:1]:
+        place = places[one.node]
+        before = [other for other in served[:at]
+                  if other.precedes(one) and places[other.node] > place]
+        after = [other for other in served[at:]
+                 if one.precedes(other) and places[other.node] < place]
+        for other in before[:1] or after[:1]:
             order = "after" if before else "before"
-            message = (f"{problem.customer_at(node).id} is served {order} "
-                       f"{problem.customer_at(other).id}")
+            message = (f"{problem.customer_at(one.node).id} is served {order} "
+                       f"{problem.customer_at(other.node).id}")
             yield Violation("ORDER", message, path)
 
 
-def _visits(trip: Trip) -> Iterator[Stop | Visit]:
-    yield from trip.stops[1:-1]
-    for sortie in trip.sorties:
-        yield from sortie.visits
+class _Served(NamedTuple):
+    """A customer whom a route serves."""
+
+    node: int
+    start: int
+    stop: tuple[int, int] | None  # trip, and stop of its truck; None: by a drone
+
+    def precedes(self, other: "_Served") -> bool:
+        """Tell whether this one is served before another; at an instant, by the truck's stops."""
+        if self.start != other.start or self.stop is None or other.stop is None:
+            return self.start < other.start
+        return self.stop < other.stop
+
+
+def _served(route: Route) -> Iterator[_Served]:
+    for number, trip in enumerate(route.trips):
+        for index, stop in enumerate(trip.stops[1:-1]):
+            yield _Served(stop.node, stop.service_start, (number, index))
+        for sortie in trip.sorties:
+            yield from (_Served(visit.node, visit.service_start, None) for visit in sortie.visits)
 
 
 def _new_customers(trip: Trip, begun: KnownTrip | None) -> Iterator[int]:

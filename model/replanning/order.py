@@ -42,6 +42,30 @@ def in_order(problem: Problem, plan: Solution, pinned: Collection[int],
     return replace(problem, customers=tuple(customers))
 
 
+def by_order(plan: Solution, orders: Mapping[Vehicle, Sequence[int]]) -> Solution:
+    """Return a plan whose trucks keep an order at an instant, too, which no window tells."""
+    routes = []
+    for route in plan.routes if orders else ():
+        order = orders.get(Vehicle(route.vehicle_type, route.vehicle), ())
+        places = {node: place for place, node in enumerate(order)}
+        routes.append(replace(route, trips=tuple(
+            replace(trip, stops=_ordered(trip.stops, places)) for trip in route.trips)))
+    return replace(plan, routes=tuple(routes)) if orders else plan
+
+
+def _ordered(stops: Sequence[Stop], places: Mapping[int, int]) -> tuple[Stop, ...]:
+    """Return stops of which those at one instant are in an order."""
+    found = list(stops)
+    for end in range(len(found) - 1, 0, -1):
+        for index in range(1, end):
+            one, other = found[index:index + 2]
+            is_at_once = one.arrival == one.departure == other.arrival == other.service_start
+            if is_at_once and places.get(one.node, -1) > places.get(other.node, len(places)):
+                found[index] = replace(one, node=other.node)
+                found[index + 1] = replace(other, node=one.node)
+    return tuple(found)
+
+
 def _stops(route: Route) -> list[Stop]:
     return [stop for trip in route.trips for stop in trip.stops[1:-1]]
 
@@ -57,15 +81,19 @@ class _Bound(NamedTuple):
 
 def _bounded(stops: Sequence[Stop], pinned: Collection[int]) -> Iterator[_Bound]:
     """Yield the places of stops that are bounded."""
-    edges: list[int | None] = [
-        (before.departure + stop.arrival) // 2
-        if before.node in pinned or stop.node in pinned else None
-        for before, stop in pairwise(stops)]
+    edges = [(before.departure + stop.arrival) // 2
+             if before.node in pinned or stop.node in pinned else None
+             for before, stop in pairwise(stops)]
     if not edges:
         return
+    # At one place, who needs no time would fit in at the instant itself, behind and before.
+    closings = [edge if edge is None or before.departure < stop.arrival else edge - 1
+                for edge, (before, stop) in zip(edges, pairwise(stops), strict=True)]
     sinces = list(accumulate([None, *edges], _last))
-    untils = list(accumulate([None, *reversed(edges)], _last))
+    untils = list(accumulate([None, *reversed(closings)], _last))
     for stop, since, until in zip(stops, sinces, reversed(untils), strict=True):
+        if until is not None:
+            until = max(stop.ready, until)
         if since is not None or until is not None:
             yield _Bound(stop.node, stop.arrival, since, until)
 

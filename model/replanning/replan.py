@@ -19,7 +19,7 @@ from model.problem import Problem
 from model.replanning.driven_on import carried_through, driven_on
 from model.replanning.handover import hand_over, settled, take_back
 from model.replanning.kept import Kept, kept_routes
-from model.replanning.order import in_order, orders_of
+from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.remainder import Remainder, what_is_left
 from model.replanning.workers import Worker, find_workers, vehicle_name
 from model.solution import Route, Solution
@@ -137,7 +137,8 @@ class Replanning:
             (begun, evaluation), driven_on(self.problem, plan, kept, self.past))
         result = planner.plan(self._in_order(self._left, first), options, received_at,
                               _relayed(listener, evaluation.cost.total, bridge), first)
-        found = begun if result.solution is first else bridge.whole(result.solution)
+        found = begun if result.solution is first else by_order(
+            bridge.whole(result.solution), self.past.orders)
         solution, evaluation = self._cheapest((solution, before), found)
         elapsed = replace(result.elapsed, decode=time.perf_counter() - began
                           - result.elapsed.search - result.elapsed.check)

@@ -64,6 +64,13 @@ def test_replies_that_should_not_be_are_faults(endpoint: str, change: Data, faul
         Study(answering(**{endpoint: lambda reply: reply | change})).try_problem(0)
 
 
+def test_a_number_that_json_does_not_have_is_a_fault() -> None:
+    transport = httpx.MockTransport(
+        lambda request: httpx.Response(200, text='{"load_rate": Infinity}'))
+    with pytest.raises(Fault, match="Infinity"):
+        Study(httpx.Client(transport=transport, base_url="http://service")).ask("/plan", {})
+
+
 def test_wild_requests_are_drawn_from_the_generator_alone() -> None:
     drawn = [wild_request(random.Random(seed)) for seed in range(50)]
     assert drawn == [wild_request(random.Random(seed)) for seed in range(50)]

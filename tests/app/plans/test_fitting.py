@@ -55,6 +55,35 @@ def problem_of(seed: int) -> Request:
                        "costs": {"fixed": 3, "per_km": 1, "per_hour": 20}}]}
 
 
+def charging(seed: int) -> Request:
+    """Return a problem of a drone that is charged between two flights, with an odd load."""
+    random = Random(seed)
+    customers = [{"id": str(number), "location": [random.randint(-9, 9), random.randint(-9, 9)],
+                  "demand": [round(random.uniform(0.1, 2), 2)], "service_duration": 60,
+                  "served_by": "drone" if number < 3 else "truck"} for number in range(6)]
+    energy = {"battery_wh": 15, "kg_per_unit": 0.3,
+              "power": {"cruise_w": 33.3333, "cruise_w_per_kg": 7.77}}
+    return {"planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
+            "customers": customers,
+            "fleet": [{"id": "truck", "count": 3, "capacity": [9], "speed_kmh": 60, "drones": {
+                "count": 1, "capacity": [50], "speed_kmh": 60, "energy": energy,
+                "turnaround": {"charge_w": 50, "swap_duration": 0}}}]}
+
+
+@pytest.mark.parametrize("seed", range(15))
+def test_route_beside_those_of_charged_drones_is_a_plan(client: httpx.Client, seed: int) -> None:
+    whole = charging(seed)
+    *others, new = whole["customers"]
+    problem = whole | {"customers": others}
+    plan = planned(client, problem)
+    for place in fitted(client, {"problem": problem, "plan": plan, "new_customer": new})["places"]:
+        route = place["route"]
+        routes = [one for one in plan["routes"] if one["vehicle"] != route["vehicle"]]
+        verdict = judged(client, whole, plan | {"routes": [*routes, route]})
+        assert [item["code"] for item in verdict["violations"]
+                if item["code"] == "TIME_MISMATCH"] == []
+
+
 def every_place(plan: Request, name: str) -> Iterator[Request]:
     """Yield a plan with a customer at each place of the trucks, and alone with one more."""
     stop = {"kind": "customer", "id": name}

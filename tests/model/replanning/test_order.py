@@ -1,12 +1,15 @@
 """Pinned customers keep their places in the order of their trucks, if that is asked for."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 from model.judge.check import check
 from model.judge.past import Past
-from model.planner import Planner
+from model.planner import Planner, PlanOptions
 from model.problem import Customer, Problem
-from model.replanning.order import in_order, orders_of
+from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.replan import Terms
 from model.solution import Solution
 from tests.model.street import (
@@ -91,3 +94,32 @@ def test_who_is_late_at_the_end_may_stay_late(street: Problem) -> None:
     last = in_order(late, plan, {A}).customer_at(B)
     assert (last.earliest, last.latest, last.late_cost_per_hour) == (
         5 * MINUTE, 5 * MINUTE, HOURLY)
+
+
+@pytest.mark.parametrize("minutes_at_a", [0, 5])
+def test_customers_at_one_place_keep_their_order(planner: Planner, street: Problem,
+                                                 minutes_at_a: int) -> None:
+    # B lives where A does, needs no time, and is due while A would be served: B first is free.
+    here = [0, A, A, C, D]
+    problem = replace(street, travel=tuple(kind.among(np.array(here)) for kind in street.travel),
+                      coordinates=street.coordinates[here])
+    problem = with_customer(problem, A, service_duration=minutes_at_a * MINUTE)
+    problem = with_customer(problem, B, service_duration=0)
+    plan = planned(problem, ((A, B, C),))
+    late = with_customer(problem, B, latest=3 * MINUTE, late_cost_per_hour=100.0)
+    for seed in range(5):
+        solution = replan(planner, late, Terms(plan, pinned=frozenset({A, B, C}), keeps_order=True),
+                          PlanOptions("any", time_limit=60.0, search_iterations=200, seed=seed))
+        assert [node for node in tour(solution) if node != D] == [A, B, C]
+
+
+def test_checker_sees_an_order_at_an_instant(street: Problem) -> None:
+    here = [0, A, A, C, D]
+    problem = replace(street, travel=tuple(kind.among(np.array(here)) for kind in street.travel),
+                      coordinates=street.coordinates[here])
+    for node in (A, B):
+        problem = with_customer(problem, node, service_duration=0)
+    past = Past(pinned={A: ONE}, orders=orders_of(planned(problem, ((A, B, C),))))
+    swapped = planned(problem, ((B, A, C),))
+    assert [item.code for item in check(problem, swapped, past).violations] == ["ORDER"]
+    assert check(problem, by_order(swapped, past.orders), past).violations == ()
