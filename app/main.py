@@ -26,7 +26,9 @@ from app.jobs.routes import router as jobs_router
 from app.jobs.setup import running_jobs
 from app.kept.desk import keeping_plans
 from app.kept.routes import router as kept_router
-from app.load.setup import prepare_for_load
+from app.load.courtesy import Courtesy
+from app.load.memory import giving_back
+from app.load.setup import is_asked, prepare_for_load
 from app.observe.observer import Observer
 from app.observe.routes import metrics_router
 from app.plans.routes import router as plans_router
@@ -106,9 +108,10 @@ def _running(app: FastAPI, settings: Settings, planner: Planner,
         app.state.service, app.state.addresses = service, roads.addresses
         jobs = running_jobs(settings, planner, lambda: service.readiness().is_ready,
                             observer.metrics, observer.record_plan, roads, service.await_search,
-                            [delete_expired])
+                            [delete_expired], Courtesy(lambda: app.state.turns.are_waited_for))
         app.state.gallery.start()
-        with keeping_plans(settings) as app.state.kept, jobs as app.state.jobs:
+        with (keeping_plans(settings) as app.state.kept, jobs as app.state.jobs,
+              giving_back(lambda: is_asked(app))):
             yield
         app.state.gallery.stop()
         service.stop()

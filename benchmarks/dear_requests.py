@@ -48,6 +48,7 @@ PLAN: dict[str, tuple[Any, ...]] = COMMON | {
     "release": (False, True),
     "served_by": ("either", "drone", "mixed"),
     "drones": (0, 0, 1, 2, 8, 32),
+    "drone_types": (1, 1, 2, 8),
     "sortie": (1, 2, 5, 100),
     "endurance": (None, 300, 1800, 7200),
     "launch": (0, 60),
@@ -120,7 +121,8 @@ def gene(path: str, genes: Genes, name: str) -> Any:
 class _Chosen:
     """The values that genes choose, large numbers cut to a share."""
 
-    CUT = ("customers", "corners", "steps", "types", "depots", "areas", "num_windows")
+    CUT = ("customers", "corners", "steps", "drone_types", "types", "depots", "areas",
+           "num_windows")
     LARGEST_MATRIX = 200
 
     def __init__(self, path: str, genes: Genes, share: float) -> None:
@@ -228,11 +230,14 @@ def _vehicle_type(chosen: _Chosen, number: int) -> Data:
     if chosen["distance"] is not None:
         kind["max_trip_distance"] = chosen["distance"]
     if chosen["drones"]:
-        kind["drones"] = {
+        drones = {
             "count": chosen["drones"], "capacity": [3] * dimensions,
             "speed_kmh": 60 + number * (chosen["speeds"] == "different"),
             "endurance": chosen["endurance"], "launch_duration": chosen["launch"],
             "recovery_duration": chosen["launch"], "max_customers_per_sortie": chosen["sortie"]}
+        kind["drones"] = drones if chosen["drone_types"] == 1 else [
+            drones | {"id": f"d{place}", "count": 1, "speed_kmh": 60 + number + place}
+            for place in range(chosen["drone_types"])]
     return kind
 
 

@@ -22,7 +22,7 @@ import typer
 from tqdm import tqdm
 
 from benchmarks.dear_requests import (
-    Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
+    PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
 )
 from benchmarks.fuzz_api import service
 from benchmarks.punctuality import pinned
@@ -40,6 +40,8 @@ TURNS = ("/plan", "/plan", "/plan", "/vroom")
 
 RECORD_SHARE = 0.97
 """Share of the record from which on a ratio is measured again."""
+
+POLLING = 0.1
 
 PATIENCE = 600.0
 """Seconds in which any reply has to come."""
@@ -92,17 +94,48 @@ class Search:
         return Find(self.path, genes, *self.measure(self.path, genes))
 
 
+BESIDE_SECONDS, BESIDE_PATIENCE = 60.0, 10.0
+"""Time limit of a job that runs beside, and how long one may take to begin."""
+
+BESIDE: Genes = {"customers": 5, "types": 4, "drones": 4, "drone_types": 3}
+"""What the job has that runs beside, besides the first of all."""
+
+
+class Companion:
+    """Has a job of many types run beside what is asked for."""
+
+    def __init__(self, client: httpx.Client) -> None:
+        self._client = client
+        self._request = request_of("/plan", dict.fromkeys(PLAN, 0) | BESIDE, BESIDE_SECONDS)
+        self._job: str | None = None
+
+    def keep_running(self) -> None:
+        """Submit a job if none is under way, and wait until it runs. In place."""
+        end = time.monotonic() + BESIDE_PATIENCE
+        while time.monotonic() < end:
+            state = "done" if self._job is None else self._client.get(
+                f"/jobs/{self._job}").json()["state"]
+            if state == "running":
+                return
+            if state != "queued":
+                self._job = self._client.post("/jobs", json=self._request).json()["id"]
+            time.sleep(POLLING)
+
+
 @dataclass(frozen=True)
 class Asker:
     """Asks a service for plans."""
 
     client: httpx.Client
     time_limit: float  # seconds
+    companion: "Companion | None" = None
 
     def measure(self, path: str, genes: Genes) -> tuple[float, int, int]:
         """Return the ratio of time taken to time limit, the status and the bytes sent."""
         request = self.request(path, genes)
         body = json.dumps(request, separators=(",", ":")).encode()
+        if self.companion is not None:
+            self.companion.keep_running()
         began = time.perf_counter()
         reply = self.client.post(path, content=body)
         elapsed = time.perf_counter() - began
@@ -133,6 +166,7 @@ def main(
     core: Annotated[int, typer.Option(help="Core of the service.")] = 0,
     only: Annotated[Literal["/plan", "/vroom"] | None,
                     typer.Option(help="One endpoint; else most requests go to /plan.")] = None,
+    beside: Annotated[bool, typer.Option(help="Have a job run beside.")] = False,
     folder: Annotated[Path, typer.Option(help="For the finds.")] = Path("runs/dearest"),
 ) -> None:
     """Look for requests that take much longer than their time limit."""
@@ -143,7 +177,7 @@ def main(
         client = httpx.Client(
             base_url=target.url, trust_env=False, timeout=PATIENCE,
             headers={"Authorization": f"Bearer {target.key}", "Content-Type": "application/json"})
-        asker = Asker(client, time_limit)
+        asker = Asker(client, time_limit, Companion(client) if beside else None)
         turns = TURNS if only is None else (only,)
         searches = {path: Search(path, random.Random(seed), asker.measure) for path in turns}
         table = csv.writer(file)

@@ -20,6 +20,7 @@ from app.jobs.slices import (
     MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice, Stopping,
 )
 from app.jobs.store import JobStore, now_ms
+from app.load.courtesy import NOBODY_WAITS, Courtesy
 from app.plans.replies import Data
 from model.planner import PlanCheckError, Planner
 
@@ -52,10 +53,14 @@ class PlanWork:
         Is told the reply of each job that is done.
     terms
         Which jobs are planned by regions, after their first plan.
+    courtesy
+        Whom jobs make way for.
     """
 
     def __init__(self, planner: Planner, store: JobStore, asking: Asking, returning: Returning,
-                 on_plan: Callable[[Data], None], terms: RegionTerms) -> None:
+                 on_plan: Callable[[Data], None], terms: RegionTerms,
+                 courtesy: Courtesy = NOBODY_WAITS) -> None:
+        self._courtesy = courtesy
         self._planner = planner
         self._store = store
         self._asking = asking
@@ -78,11 +83,13 @@ class PlanWork:
         if running is None:
             if self._stopping.is_set():
                 raise Stopping
+            self._courtesy.give_way(self._stopping.is_set)
             running = self._begin(job_id)
         if running is None:
             return OVER
         self._running[job_id] = running
         has_ended = running.search.wait(SLICE)
+        self._courtesy.give_way(self._stopping.is_set)
         if self._stopping.is_set():
             self._hand_back(running)
             raise Stopping

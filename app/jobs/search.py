@@ -5,6 +5,7 @@ import time
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+from app.load.courtesy import stand_back
 from app.plans.replies import Data
 from model.judge.check import Evaluation
 from model.planner import Elapsed, Listener, Planner, PlanOptions, PlanResult, Start
@@ -161,6 +162,7 @@ class Search:
         return self._reply(self._result)
 
     def _run(self, planner: Planner) -> None:
+        stand_back()
         try:
             self._result = self._task.plan(planner, self._remaining(), self._began,
                                            Listener(self._stop.is_set, self._hear), self._start())

@@ -26,6 +26,7 @@ from app.jobs.store import JobStore
 from app.jobs.studies import StudyWork
 from app.jobs.webhook import Caller, may_call_private
 from app.jobs.worker import Worker
+from app.load.courtesy import NOBODY_WAITS, Courtesy
 from app.observe.metrics import Metrics
 from app.roads.roads import NO_ROADS, Roads
 from app.settings import Settings
@@ -46,7 +47,8 @@ WARMTH_POLLING = 0.1
 def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], bool],
                  metrics: Metrics, on_plan: Callable[[Data], None],
                  roads: Roads = NO_ROADS, await_search: Awaiting = lambda *_: None,
-                 also_expire: Sequence[Callable[[Engine], None]] = ()) -> Iterator[JobDesk]:
+                 also_expire: Sequence[Callable[[Engine], None]] = (),
+                 courtesy: Courtesy = NOBODY_WAITS) -> Iterator[JobDesk]:
     """Yield where endpoints turn to; jobs are worked on until the block ends.
 
     Parameters
@@ -67,6 +69,8 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
         Waits until a problem can be searched, unless the work is to end, or refuses it.
     also_expire
         What else deletes what has expired, besides jobs.
+    courtesy
+        Whom jobs make way for.
     """
     queues = Queues(connect(settings))
     store = JobStore(queues.engine, int(settings.job_expiry_hours * HOUR_MS), queues.add_webhook,
@@ -77,7 +81,7 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
     returning = Returning(*(partial(queues.put, queue=queue)
                             for queue in (PLANS, WAITING, DIVIDED)))
     terms = RegionTerms(settings.region_from, settings.region_customers, settings.region_seconds)
-    plans = PlanWork(planner, store, asking, returning, on_plan, terms)
+    plans = PlanWork(planner, store, asking, returning, on_plan, terms, courtesy)
     limits = OpenLimits(settings.max_open_jobs, settings.max_open_jobs_per_client)
     service = JobService(store, queues, reader, limits, lambda job_id: stop_here(job_id))
 

@@ -43,6 +43,11 @@ class Turns:
     metrics: Metrics
     shares_port: bool  # with other processes, which may be less busy
 
+    @property
+    def are_waited_for(self) -> bool:
+        """Tell whether anybody waits for a plan."""
+        return self.admission.running > 0
+
     async def run(self, request: Request,
                   work: Callable[[Callable[[], bool]], Result]) -> Result:
         """Do `work` in a thread when its turn comes.

@@ -13,6 +13,13 @@ from app.load.shutdown import Shutdown, ShutdownGate
 from app.settings import Settings
 
 
+def is_asked(app: FastAPI) -> bool:
+    """Tell whether an application has requests that take much memory."""
+    state = app.state
+    return (state.turns.are_waited_for or state.bodies.buffered > 0
+            or state.readings.admission.running > 0)
+
+
 def prepare_for_load(app: FastAPI, settings: Settings) -> Shutdown:
     """Give an application its queue, its reader of bodies and its gate; return how it ends.
 

@@ -23,7 +23,7 @@ from app.vroom.schemas import VroomRequest
 from benchmarks.dear_requests import (
     KINDS, LARGEST, PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
 )
-from benchmarks.dearest import Asker, Search, main
+from benchmarks.dearest import Asker, Companion, Search, main
 
 Data = dict[str, Any]
 
@@ -128,3 +128,27 @@ def test_one_endpoint_may_be_asked_alone(monkeypatch: pytest.MonkeyPatch, tmp_pa
     with pytest.raises(typer.Exit):
         main(minutes=0.005, only=only, folder=tmp_path)
     assert set(paths) == asked
+
+
+def test_a_job_runs_beside_what_is_asked_for() -> None:
+    states, asked = iter(["queued", "running", "running", "done", "running"]), []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append((request.method, request.url.path))
+        if request.method == "GET":
+            return httpx.Response(200, json={"state": next(states)})
+        return httpx.Response(202, json={"id": "a", "routes": [], "unassigned": []})
+
+    client = asker(answer).client
+    beside = Asker(client, 0.5, Companion(client))
+    for _ in range(3):
+        beside.measure("/vroom", random_genes(random.Random(0), "/vroom"))
+    told = [path for method, path in asked if method == "POST"]
+    assert told == ["/jobs", "/vroom", "/vroom", "/jobs", "/vroom"]
+
+
+def test_the_job_beside_is_a_valid_request() -> None:
+    request = Companion(httpx.Client())._request
+    read_request(json.dumps(request).encode(), None)
+    assert len(request["fleet"]) == 100
+    assert len(request["fleet"][0]["drones"]) == 8
