@@ -13,6 +13,8 @@ from math import ceil
 
 from model.judge.check import check
 from model.judge.diagnoses import DIAGNOSES, missed_window
+from model.judge.metrics import unassigned_cost
+from model.judge.through import BY_LEGS, Passage, names_of, passage_to
 from model.judge.trial import Attempt, attempts, small_problem, try_truck
 from model.problem import MAX_MONEY, Problem
 from model.solution import Solution
@@ -57,7 +59,43 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
             return _unused(problem, solution, index, attempt)
         if time.perf_counter() >= until:
             return _unknown(index, vehicle_type.id)
+    if first.codes <= BY_LEGS:
+        passage = passage_to(problem, index, node)
+        if passage is not None and _is_better(passage, first):
+            return _by_way_of_others(problem, solution, passage, node)
     return _failed(problem, index, node, first)
+
+
+def _is_better(passage: Passage, alone: Attempt) -> bool:
+    """Tell whether a trip through others keeps the rules, or takes less time than one alone."""
+    return passage.lacks is None or (passage.timed.judged.metrics.working_duration
+                                     < alone.evaluation.routes[0].working_duration)
+
+
+def _by_way_of_others(problem: Problem, solution: Solution, passage: Passage,
+                      node: int) -> Reason:
+    """Say why a trip that serves a customer among others is not in the plan.
+
+    There is no remedy: what would help takes those others along.
+    """
+    index = passage.timed.route.vehicle_type
+    vehicle_type, others = problem.vehicle_types[index], names_of(problem, passage.others)
+    if passage.lacks is not None:
+        return Reason(index, passage.lacks.code, f"By way of {others}, the shortest, "
+                      f"{vehicle_type.id} {passage.lacks.words}.")
+    way = f"{vehicle_type.id} could serve it together with {others}"
+    cost = passage.timed.judged.cost.total
+    absent = [node, *[each for each in passage.others if each in solution.unassigned]]
+    left_out = unassigned_cost(problem, absent)
+    if cost >= left_out:
+        price = ceil(cost * 100) / 100
+        return Reason(index, "COST", f"{way} at a cost of {price:.2f}; leaving those out who are "
+                      f"costs {left_out:.2f}.")
+    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    if used >= vehicle_type.count:
+        why = "it is" if vehicle_type.count == 1 else f"all {vehicle_type.count} are"
+        return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.")
+    return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
 
 
 def unexplained(problem: Problem) -> tuple[Reason, ...]:

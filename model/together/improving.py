@@ -21,19 +21,19 @@ from model.solution import Solution
 from model.together.exact import MOST_CUSTOMERS, best_by_trucks
 from model.together.filling import Filling
 from model.together.joint import Joint
-from model.together.pulling import Pulling
+from model.together.pulling import Pulling, nobody_served
 
-EXACT_SHARE = 0.5
+EXACT_SHARE = 0.8
 """Most of the time that the best plan of few customers may take."""
 
-FIRST_SHARE, FILLED_SHARE, LAST_SHARE = 0.25, 0.6, 0.9
+FIRST_SHARE, FILLED_SHARE, LAST_SHARE = 0.15, 0.7, 0.9
 """Shares of the time after which a first search ends that leaves somebody out, strings have been
 put in, and a second search ends, after which more are put in."""
 
 FIRST_TURNS = 0.4
 """Share of the turns after which a first search ends that leaves somebody out."""
 
-STRINGS, PULLS_OF_SOME = 8, 4
+STRINGS, PULLS_OF_SOME = 8, 3
 """So many strings are tried between two searches that break limits, of which each so many-th pulls
 in everybody."""
 
@@ -138,6 +138,8 @@ class _Stages:
         self._search = search
         self._rng = np.random.default_rng(terms.seed)
         self._whole = True
+        self._has_filled = False
+        self._judging = 0.0  # seconds that comparing two plans takes
 
     def run(self, begun: Solution | None) -> Improved:
         """Return the best plan of all stages; of one where that leaves nobody out."""
@@ -146,29 +148,34 @@ class _Stages:
         first = self._search(begun, ALL, watch.should_stop, watch.on_progress)
         if not first.solution.unassigned:
             return first
-        plan = self._filled(_cheapest(self._problem, begun, first.solution), filled, first.turns)
+        searched = time.perf_counter()
+        plan = _cheapest(self._problem, begun, first.solution, first.solution)
+        self._judging = time.perf_counter() - searched
+        plan = self._filled(plan, filled, first.turns)
         rest = ALL._replace(made=first.turns, cooled=COOLED,
-                            deadline=last if plan.unassigned else None)
+                            deadline=last if plan.unassigned else self._end(0.0))
         second = self._search(plan, rest, terms.should_stop, terms.on_progress)
         turns = first.turns + second.turns
         plan = _cheapest(self._problem, plan, second.solution)
-        plan = self._filled(plan, self._end(), turns)
+        plan = self._filled(plan, self._end(usual_reserve(self._problem)), turns)
         is_whole = (first.whole or watch.has_ended) and second.whole and self._whole
         return replace(second, solution=plan, turns=turns, first_cost=first.first_cost,
                        whole=is_whole)
 
-    def _end(self) -> float | None:
+    def _end(self, reserve: float) -> float | None:
+        """Return when there is as much time left as plans take to be compared, and some more."""
         end = self._terms.deadline
-        return None if end is None else end - usual_reserve(self._problem)
+        return None if end is None else end - 2 * self._judging - reserve
 
     def _filled(self, plan: Solution, deadline: float | None, turns: int) -> Solution:
         """Return a plan with strings of those left out, as far as it costs less."""
         ended = _ended(self._terms, deadline)
         if not plan.unassigned or ended():
             return plan
-        filling = Filling(self._problem, plan, self._joint, ended, self._rng)
-        filling.fill(0)
-        better = self._pulled(_cheapest(self._problem, plan, filling.plan), deadline, ended)
+        begins = [plan] if self._has_filled else [plan, nobody_served(self._problem)]
+        self._has_filled = True
+        filled = [self._with_strings(begun, 0, ended) for begun in begins]
+        better = self._pulled(_cheapest(self._problem, plan, *filled), deadline, ended)
         self._whole = self._whole and not ended()
         if better is not plan:
             cost = check(self._problem, better).cost.total
@@ -186,8 +193,11 @@ class _Stages:
         number = 0
         while number < most and plan.unassigned and not ended():
             plan = pulling.pull(plan, number % PULLS_OF_SOME == 0)
-            filling = Filling(self._problem, plan, self._joint, ended, self._rng)
-            filling.fill(STRINGS)
-            plan = _cheapest(self._problem, plan, filling.plan)
+            plan = _cheapest(self._problem, plan, self._with_strings(plan, STRINGS, ended))
             number += 1
         return plan
+
+    def _with_strings(self, plan: Solution, rounds: int, ended: Callable[[], bool]) -> Solution:
+        filling = Filling(self._problem, plan, self._joint, ended, self._rng)
+        filling.fill(rounds)
+        return filling.plan

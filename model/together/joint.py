@@ -10,7 +10,7 @@ from model.judge.network import MOST_NODES, NEVER, may_stop, network_of
 from model.problem import UNLIMITED, BoolArray, IntArray, Problem
 from model.together.strings import Streets
 
-LOOKS, FEWEST_SOURCES = 2_000_000, 4
+LOOKS, FEWEST_SOURCES = 200_000, 4
 """So many legs are compared with ways by one other place, from so many places at least."""
 
 SHORTER = 1.1

@@ -33,6 +33,11 @@ COOLED = 0.5
 """Share of the cooling that is left out, so that much of the plan stays."""
 
 
+def nobody_served(problem: Problem) -> Solution:
+    """Return the plan that serves no customer."""
+    return Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+
+
 class Pulling:
     """Pulls customers into plans.
 
@@ -90,7 +95,7 @@ class Pulling:
             # In turn from nothing, which comes to other plans.
             self._afresh = not self._afresh
             if self._afresh:
-                begun, cooled = Solution((), tuple(range(soft.num_depots, soft.num_nodes))), 0.0
+                begun, cooled = nobody_served(soft), 0.0
         config = SearchConfig(int(self._rng.integers(2**32)), turns=turns, cooled=cooled)
         try:
             instance = pack([soft], False, pausing(self._should_stop, self._deadline))

@@ -92,6 +92,26 @@ def informed(name: str, *values: str) -> Callable[[Data], bool]:
                             for customer in request["customers"]] == list(values)
 
 
+KML = """<?xml version="1.0" encoding="UTF-8"?>
+<kml xmlns="http://www.opengis.net/kml/2.2"><Document>
+<Placemark><name>Anna</name><Point><coordinates>11.575,48.137,0</coordinates></Point></Placemark>
+<Placemark><name>Ben</name><Point><coordinates>11.565,48.147,0</coordinates></Point></Placemark>
+</Document></kml>"""
+
+GEOJSON = """{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"name": "Anna", "kg": 5},
+ "geometry": {"type": "Point", "coordinates": [11.575, 48.137]}},
+{"type": "Feature", "properties": {"name": "Ben", "kg": 3},
+ "geometry": {"type": "Point", "coordinates": [11.565, 48.147]}}]}"""
+
+HTML = """<html><body><table><tr><th>Kunde</th><th>Breite</th><th>Länge</th><th>kg</th></tr>
+<tr><td>Anna</td><td>48.137</td><td>11.575</td><td>5</td></tr>
+<tr><td>Ben</td><td>48.147</td><td>11.565</td><td>3</td></tr></table></body></html>"""
+
+COMMAS = "name,lat,lon,kg"
+"""Above rows whose decimals have commas, too."""
+
+
 def fleet_of(*counts: int) -> Callable[[Data], bool]:
     """Return what holds where the fleet has so many vehicles by type, in any order."""
     return lambda request: sorted(kind["count"] for kind in request["fleet"]) == sorted(counts)
@@ -120,6 +140,14 @@ SPREADSHEETS = (
     Spreadsheet("vans.xlsx", book(("Kunden", WITH), ("Fahrzeuge", [
         ("Fahrzeug", "Anzahl", "Kapazität kg"), ("Sprinter", 2, 900), ("Caddy", 1, 400)])), 3,
                 (("Fahrzeuge", ""),), fleet_of(2, 1)),
+    Spreadsheet("handling.csv", text(f"{CSV},handling_s", *rows("120", "300", "60")), 3,
+                holds=each("service_duration", 120, 300, 60)),
+    Spreadsheet("unloading.csv", text(f"{CSV},Abladen", *rows("10", "5", "15")), 3,
+                holds=each("service_duration", 600, 300, 900)),
+    Spreadsheet("minutes.csv", text(f"{CSV},Minuten", *rows("10", "5", "15")), 3,
+                holds=each("service_duration", 600, 300, 900)),
+    Spreadsheet("packages.csv", text("Name,Lat,Lon,Pkgs", *ROWS), 3,
+                holds=each("demand", [5], [3], [7])),
     Spreadsheet("unknown.csv", text(f"{CSV},Zauber", *rows("rot", "blau", "gelb")), 3,
                 (("Zauber", "For the driver, as it is"),),
                 informed("Zauber", "rot", "blau", "gelb")),
@@ -134,6 +162,15 @@ SPREADSHEETS = (
                 holds=lambda request: [list(one.values()) for one in
                                        request["customers"][0]["time_windows"]]
                 == [[28800, 36000], [50400, 57600]]),
+    Spreadsheet("links.csv", text("Name,Ort,kg",
+                                  "Anna,https://maps.google.com/?q=48.137%2C11.575,5",
+                                  'Ben,"https://www.google.com/maps/@48.147,11.565,17z",3'), 2,
+                holds=lambda request: request["customers"][1]["location"] == [11.565, 48.147]),
+    Spreadsheet("table.xls", HTML.encode(), 2),
+    Spreadsheet("places.kml", KML.encode(), 2),
+    Spreadsheet("places.geojson", GEOJSON.encode(), 2, holds=each("demand", [5], [3])),
+    Spreadsheet("commas.csv", text(COMMAS, "Anna,48,137,11,575,5,5", "Ben,48,147,11,565,3,0"), 2,
+                holds=each("demand", [5.5], [3])),
     Spreadsheet("totals.csv", text(CSV, *ROWS, "Summe,,,15"), 3),
     Spreadsheet("days.csv", text(f"{CSV},Liefertag", *rows("26.11.2026", "27.11.2026",
                                                           "26.11.2026")), 2,

@@ -17,7 +17,7 @@ def with_table1(address: str) -> str:
 
 def stop_button(page: Page) -> Locator:
     """Return the button that stops planning."""
-    return page.locator("header.head").get_by_role("button", name="Stop")
+    return page.locator("header.head button.stop")
 
 
 def idle(page: Page) -> None:

@@ -1,10 +1,35 @@
 """The console in the language of whoever looks at it."""
 
+import json
+import re
+import subprocess
 from collections.abc import Callable
+from functools import cache
+from typing import Any
 
+import pytest
 from playwright.sync_api import Page, expect
 
-from tests.console.steps import idle
+from app.schemas.request import PlanRequest
+from tests.console.steps import EXAMPLES, ROOT, STATIC, idle, open_file, open_tab
+from tests.console.test_everyone import findings
+
+FORMS = (
+    "CustomerInput", "TimeWindowInput", "VehiclesInput", "DepotInput", "PlaceInput",
+    "VehicleTypeInput", "CostsInput", "SpeedChangeInput", "ShiftInput", "OvertimeInput",
+    "DronesInput", "TurnaroundInput", "DroneCostsInput", "EnergyInput", "PowerInput", "ClimbInput",
+    "WindInput", "LoadDimensionInput", "OptionsInput",
+)
+"""Schemas that the console makes forms of."""
+
+
+@cache
+def texts_of(language: str) -> dict[str, Any]:
+    """Return the console's texts in a language, by view."""
+    script = (f"import('{STATIC / 'texts' / f'{language}.js'}')"
+              ".then((file) => console.log(JSON.stringify(file.default)))")
+    done = subprocess.run(["node", "-e", script], text=True, capture_output=True, check=True)
+    return dict(json.loads(done.stdout))
 
 
 def test_console_speaks_the_browsers_language_until_another_is_chosen(
@@ -24,3 +49,125 @@ def test_console_speaks_english_to_whoever_reads_none_of_its_languages(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, locale="fi-FI")
     expect(page.get_by_label("Language")).to_have_value("en")
+
+
+def test_every_field_of_a_form_has_a_name_and_a_sentence_in_both_languages() -> None:
+    schemas = PlanRequest.model_json_schema()["$defs"]
+    for language in ("en", "de"):
+        texts = texts_of(language)
+        for owner in FORMS:
+            for name in schemas[owner]["properties"]:
+                assert texts["field"].get(name), f"{language}: the name of {owner}.{name}"
+                assert texts["help"].get(owner, {}).get(name), f"{language}: {owner}.{name}"
+
+
+def test_every_warning_is_said_in_both_languages() -> None:
+    page = (ROOT / "docs" / "warnings.md").read_text("utf-8")
+    codes = re.findall(r"^\| `([A-Z_]+)`", page, re.MULTILINE)
+    assert len(codes) > 20
+    for language in ("en", "de"):
+        assert [code for code in codes if code not in texts_of(language)["said"]] == []
+
+
+LEFT_OVERS = """async () => {
+  const en = (await import(`${modules}/../texts/en.js`)).default;
+  const de = (await import(`${modules}/../texts/de.js`)).default;
+  const flat = (texts) => Object.values(texts).flatMap(
+    (text) => (typeof text === 'string' ? [text] : flat(text)));
+  const pattern = (text) => new RegExp(`^${text
+    .replace(/[.*+?^$()|[\\]\\\\]/g, '\\\\$&').replace(/\\{\\{\\w+\\}\\}/g, '.+')}$`);
+  const worded = (text) => /[a-z]{3}/i.test(text.replace(/\\{\\{\\w+\\}\\}/g, ''));
+  const german = flat(de).map(pattern);
+  const english = flat(en).filter(worded).map(pattern);
+  // Sentences that are in no file of texts give themselves away by such words.
+  const common = /\\b(the|of|and|is|are|with|not|this|from|every|its|click)\\b/i;
+  const texts = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const { parentElement: parent, data } = walker.currentNode;
+    if (!parent.closest('[lang=en], script, style, option[value], .leaflet-control')) {
+      texts.push(data);
+    }
+  }
+  for (const name of ['aria-label', 'title', 'placeholder', 'alt', 'aria-valuetext']) {
+    for (const element of document.querySelectorAll(`[${name}]`)) {
+      if (!element.closest('[lang=en], .leaflet-control')) texts.push(element.getAttribute(name));
+    }
+  }
+  return texts.map((text) => text.trim()).filter((text) => /[a-z]{3}/i.test(text)
+    && !german.some((known) => known.test(text))
+    && (english.some((known) => known.test(text)) || common.test(text)));
+}"""
+"""Texts of a page that are English: those of en.js, and what looks like a sentence of its own."""
+
+TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes", "scenarios",
+        "replan", "export", "drivers")
+
+
+def test_german_pages_have_nothing_english(open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, locale="de-DE")
+    idle(page)
+    page.locator("header.head .problem select").select_option("city_day")
+    expect(page.locator(".result-line")).to_contain_text("bedient")
+    idle(page)
+    seen = page.evaluate(LEFT_OVERS)
+    for tab in TABS:
+        open_tab(page, tab)
+        page.evaluate("""document.querySelectorAll('.tab details:not(.in-api)')
+            .forEach((details) => { details.open = true; })""")
+        seen += page.evaluate(LEFT_OVERS)
+    open_tab(page, "routes")
+    page.locator("tr[data-key^='c:'] button.link").first.click()
+    page.get_by_role("button", name="Warum hier?").click()
+    expect(page.get_by_text("Alle anderen bleiben, wo sie sind")).to_be_visible()
+    seen += page.evaluate(LEFT_OVERS)
+    for button in ("Tasten", "Gespeichert", "Speichern"):
+        page.locator("header.head").get_by_role("button", name=button, exact=True).click()
+        expect(page.get_by_role("dialog")).to_be_visible()
+        seen += page.evaluate(LEFT_OVERS)
+        page.keyboard.press("Escape")
+    page.get_by_role("button", name="Zeichnen", exact=True).click()
+    for tool in page.locator(".draw-tools button").all():
+        tool.click()
+        seen += page.evaluate(LEFT_OVERS)
+    assert sorted(set(seen)) == []
+
+
+def test_language_changes_at_once_everywhere(console: Page) -> None:
+    open_tab(console, "costs")
+    console.get_by_label("Language").select_option("de")
+    expect(console.locator("#tab-costs")).to_have_text("Kosten")
+    expect(console.locator("#total-cost")).to_have_text(re.compile(r"\d,\d\d"))
+    expect(console.get_by_role("button", name="Tag abspielen")).to_be_visible()
+    console.get_by_label("Sprache").select_option("en")
+    expect(console.locator("#tab-costs")).to_have_text("Costs")
+
+
+def test_error_is_told_in_words_and_its_path_is_behind_a_click(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("422",), locale="de-DE")
+    request = json.loads((EXAMPLES / "smallest.json").read_text("utf-8"))
+    request["fleet"][0]["speed_kmh"] = 0.1
+    idle(page)
+    open_file(page, "falsch.json", json.dumps(request))
+    alert = page.get_by_role("alert")
+    expect(alert).to_contain_text("Fahrzeugtyp truck \u203a Geschwindigkeit")
+    expect(alert).to_contain_text("Die Zahl muss mindestens 1 sein.")
+    expect(alert.locator("code")).to_be_hidden()
+    alert.locator("summary").click()
+    expect(alert.locator("code")).to_have_text("$.fleet[0].speed_kmh")
+
+
+@pytest.mark.parametrize("width", [1440, 1024, 390])
+@pytest.mark.parametrize(("scheme", "locale"), [
+    ("light", "en-GB"), ("light", "de-DE"), ("dark", "en-GB"), ("dark", "de-DE")])
+def test_axe_finds_nothing_in_either_language(open_page: Callable[..., Page], service: str,
+                                              scheme: str, locale: str, width: int) -> None:
+    page = open_page(service, locale=locale, color_scheme=scheme,
+                     viewport={"width": width, "height": 900})
+    expect(page.locator("#total-cost")).to_be_visible()
+    seen = findings(page)
+    for tab in TABS:
+        open_tab(page, tab)
+        seen += findings(page, ".panel")
+    assert sorted(set(seen)) == []

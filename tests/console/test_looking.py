@@ -140,3 +140,27 @@ def test_problem_of_matrices_alone_is_planned_without_a_map(
     open_file(page, "matrix.json", json.dumps(request))
     planned(page, "1 of 1 served")
     expect(page.get_by_text("there is no map")).to_be_visible()
+
+
+STRENGTH = """async (key) => {
+  const { select } = await import(`${modules}/actions.js`);
+  select(key);
+  await new Promise(requestAnimationFrame);
+  await new Promise(requestAnimationFrame);
+  const { left: x, top: y } = document.querySelector('.map-handle').getBoundingClientRect();
+  const canvas = document.querySelector('.leaflet-overlay-pane canvas');
+  const { left, top, width } = canvas.getBoundingClientRect();
+  const ratio = canvas.width / width;
+  return canvas.getContext('2d').getImageData((x - left) * ratio, (y - top) * ratio, 1, 1).data[3];
+}"""
+"""Selects a stop and returns how opaque its middle is."""
+
+
+def test_the_stop_that_is_selected_does_not_step_back_with_other_trips(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("willReadFrequently",))
+    open_example(page, "city_day")
+    routes = state(page, "state.plans.0.plan.routes")
+    assert len(routes) > 1
+    stops = [route["trips"][0]["stops"][1]["id"] for route in routes]
+    assert [page.evaluate(STRENGTH, f"c:{name}") for name in stops] == [255] * len(stops)

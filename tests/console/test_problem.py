@@ -19,7 +19,7 @@ def test_file_that_is_no_problem_is_refused_in_words(console: Page) -> None:
     open_file(console, "mine.json", "{")
     expect(console.get_by_role("alert")).to_contain_text("mine.json is not JSON")
     open_file(console, "mine.json", '{"customers": []}')
-    expect(console.get_by_role("alert")).to_contain_text("It lacks depots, fleet")
+    expect(console.get_by_role("alert")).to_contain_text("It lacks Depots, Fleet")
     console.get_by_role("alert").get_by_role("button", name="Close").click()
 
 
@@ -153,7 +153,7 @@ def test_forms_are_made_from_the_schema_and_change_the_problem(page: Page) -> No
     count.fill("3")
     count.press("Enter")
     assert state(page, "state.request.fleet.0.count") == 3
-    expect(page.get_by_text("Vehicles of this type.")).to_be_visible()
+    expect(page.get_by_text("How many vehicles there are of this type.")).to_be_visible()
     latest = page.locator("#field-fleet-0-shift-latest")
     latest.fill("5:30")
     latest.press("Enter")
@@ -188,7 +188,8 @@ def test_errors_of_the_service_are_shown_at_their_fields(
     expect(page.locator("#field-fleet-0-speed_kmh-error")).to_contain_text("at least 1")
     expect(page.locator("#tab-fleet .count")).to_be_visible()
     open_tab(page, "costs")
-    page.get_by_role("alert").get_by_role("button", name="$.fleet[0].speed_kmh").click()
+    place = "Vehicle type truck \u203a Speed km/h"
+    page.get_by_role("alert").get_by_role("button", name=place).click()
     expect(speed).to_be_focused()
     speed.fill("40")
     speed.press("Enter")

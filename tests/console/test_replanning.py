@@ -179,7 +179,7 @@ def test_what_can_not_be_replanned_is_said_where_it_belongs(
     expect(page.locator(".field").filter(has_text="Parcels are back at")).to_contain_text(
         "raise it")
     open_tab(page, "costs")
-    alert.get_by_role("button", name="$.replan.parcels_back").click()
+    alert.get_by_role("button", name="Parcels back").click()
     expect(page.get_by_label("Parcels are back at")).to_be_focused()
     page.keyboard.press("Control+a")
     page.keyboard.press("Delete")

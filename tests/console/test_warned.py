@@ -25,7 +25,7 @@ def test_warnings_lead_to_what_they_are_about_and_are_dismissed(console: Page) -
     bar = console.get_by_role("region", name="Warnings")
     expect(bar).to_contain_text("5,292 km, swapped 1.34 km")
     expect(bar.get_by_role("listitem")).to_have_count(2)
-    bar.get_by_role("button", name="customers[2].location").click()
+    bar.get_by_role("button", name="Customer C \u203a Location").click()
     assert state(console, "state.selection") == "c:C"
     assert state(console, "state.tab") == "customers"
     bar.get_by_role("button", name="Dismiss").click()

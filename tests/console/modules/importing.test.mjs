@@ -84,3 +84,14 @@ test('a place is written as maps show it, or as x and y of a plane', () => {
   assert.equal(placing(null, [11.5, 48]), '48, 11.5');
   assert.equal(placing({ coordinate_system: 'planar' }, [3, 4]), '3, 4');
 });
+
+test('what is said of a column last holds, by its question or by its own choice', () => {
+  const column = { heading: 'Abladen', column: 'E' };
+  const questions = [{ id: 'column:abladen', column: 'E' }];
+  const chosen = withColumn({}, column, { meaning: 'service', unit: 'seconds' }, questions);
+  const answered = withAnswer(chosen, 'column:abladen', 'info', column);
+  assert.deepEqual(answered, { columns: [], answers: { 'column:abladen': 'info' } });
+  const back = withColumn(answered, column, { meaning: 'service', unit: null }, questions);
+  assert.deepEqual(back.answers, {});
+  assert.equal(back.columns.length, 1);
+});

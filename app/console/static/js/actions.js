@@ -5,8 +5,10 @@ import { NOTHING_TYPED } from './core/orders.js';
 import { getIn, parsePath } from './core/paths.js';
 import { indexPlan } from './core/plan.js';
 import { settledParts } from './core/replanning.js';
+import { titleOf } from './core/said.js';
 import { inSeconds } from './core/times.js';
 import { store } from './store.js';
+import { t } from './texts.js';
 
 const MOST_UNDOS = 100;
 
@@ -71,7 +73,10 @@ export function redo() {
  * @param isSafe whether it can be had again where it came from
  * @param others what else of the state comes with it, such as its plans
  */
-export function openRequest(stated, { name = 'Untitled', isSafe = false, ...others } = {}) {
+export function openRequest(
+  stated,
+  { name = t('header.untitled'), isSafe = false, ...others } = {},
+) {
   const request = inSeconds(store.get().schemas, stated);
   store.set((state) => ({
     request,
@@ -125,7 +130,7 @@ export function openTab(tab) {
 export function showFailure(error) {
   if (error.name === 'AbortError') return;
   const errors = (error.errors ?? []).map((entry) => ({ ...entry, keys: parsePath(entry.path) }));
-  const title = error.title ?? 'Something went wrong in the console';
+  const title = error.title ? titleOf(error) : t('failed.console');
   store.set({ failure: { title, detail: error.message }, errors });
 }
 

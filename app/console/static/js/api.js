@@ -1,6 +1,7 @@
 /** The service's endpoints. Every call may throw `ApiError`. */
 
 import { eventReader } from './core/sse.js';
+import { t } from './texts.js';
 
 const KEY = 'tandem-api-key';
 const RESUME_MS = 1000;
@@ -58,8 +59,8 @@ async function ask(path, options) {
     if (error.name === 'AbortError') throw error;
     throw new ApiError(
       0,
-      'The service does not answer',
-      'No connection: check that the service runs and that you are online, then try again.',
+      t('failed.unreached'),
+      t('failed.offline'),
     );
   }
 }
@@ -68,11 +69,11 @@ async function errorOf(response) {
   const isProblem = response.headers.get('content-type')?.includes('problem+json');
   const problem = isProblem ? await response.json() : {};
   const again = response.headers.get('retry-after');
-  const wait = again ? ` Try again in ${again} s.` : '';
+  const wait = again ? ` ${t('failed.again', { seconds: again })}` : '';
   return new ApiError(
     response.status,
-    problem.title ?? `The service answered ${response.status}`,
-    (problem.detail ?? 'It gave no reason.') + wait,
+    problem.title ?? t('failed.answered', { status: String(response.status) }),
+    (problem.detail ?? t('failed.noReason')) + wait,
     problem.errors ?? [],
   );
 }
@@ -100,7 +101,7 @@ export async function getReadiness() {
   const response = await ask('health/ready');
   if (response.ok) return response.json();
   if (response.status !== 503) throw await errorOf(response);
-  return response.json().catch(() => ({ status: 'starting', detail: 'It gave no reason.' }));
+  return response.json().catch(() => ({ status: 'starting', detail: t('failed.noReason') }));
 }
 
 /** Plan and return the reply. */

@@ -10,6 +10,7 @@ import { unlike } from './core/naming.js';
 import { penaltyOf, trueCost } from './core/terms.js';
 import { stop } from './planning.js';
 import { store } from './store.js';
+import { t } from './texts.js';
 
 const MOST_STEPS = 100;
 const PLACES = 3;
@@ -77,7 +78,7 @@ function applied(state, entry, { request, added, words, verdict, plan }) {
   const after = {
     ...entry,
     number: hand ? entry.number : state.plans[state.plans.length - 1].number + 1,
-    name: hand ? entry.name : unlike(`${entry.name}, by hand`, state.plans),
+    name: hand ? entry.name : unlike(t('hand.byHand', { name: entry.name }), state.plans),
     request,
     plan,
     numbers: numbersWith(entry, plan),

@@ -54,14 +54,14 @@ export function type(name, text) {
 
 /** Say what a column means. */
 export function changeColumn(column, patch) {
-  const { mapping } = store.get().importing;
-  return change({ mapping: withColumn(mapping, column, patch) });
+  const { mapping, reply } = store.get().importing;
+  return change({ mapping: withColumn(mapping, column, patch, reply.questions) });
 }
 
-/** Answer a question about the file. */
-export function answer(id, given) {
+/** Answer a question about the file, perhaps about a column of it. */
+export function answer(id, given, column) {
   const { mapping } = store.get().importing;
-  return change({ mapping: withAnswer(mapping, id, given) });
+  return change({ mapping: withAnswer(mapping, id, given, column) });
 }
 
 /** Say what a place on the map is for: `depot`, an address, or nothing. */

@@ -9,6 +9,7 @@ import { planName, unlike } from './core/naming.js';
 import { soughtIn } from './core/places.js';
 import { furtherFrom } from './core/replanning.js';
 import { store } from './store.js';
+import { t } from './texts.js';
 
 const MOST_PLANS = 12;
 
@@ -36,7 +37,7 @@ async function isPlaced() {
   if (current) await stop();
   try {
     await placeAddresses((known, all) =>
-      note({ state: 'decoding', waiting: `Looking up addresses: ${known} of ${all}` }),
+      note({ state: 'decoding', waiting: t('run.addresses', { known, all }) }),
     );
   } catch (error) {
     showFailure(error);
@@ -207,7 +208,7 @@ async function follow(task) {
       note({
         share: progress.progress,
         iterations: progress.search_iterations,
-        waiting: progress.waiting_for ? `Waiting: ${progress.waiting_for}` : null,
+        waiting: progress.waiting_for ? t('run.waiting', { what: progress.waiting_for }) : null,
       });
       if (progress.cost !== null && progress.cost !== undefined) addPoint(task, progress.cost);
       if (progress.improved) fetching();
@@ -216,7 +217,7 @@ async function follow(task) {
   );
   const ended = await api.getJob(task.job);
   if (current !== task) return;
-  if (ended.error) throw new api.ApiError(0, 'The search failed', ended.error);
+  if (ended.error) throw new api.ApiError(0, t('failed.search'), ended.error);
   if (ended.result) {
     keep(task, ended.result);
     addPoint(task, ended.result.cost.total);

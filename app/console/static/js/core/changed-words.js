@@ -1,7 +1,7 @@
 /** What of a problem changed, in words; entries are those of `requestDifferences`. */
 
 import { clock, hours } from './format.js';
-import { labelOf } from './schema.js';
+import { labelOf, withinSentence } from './schema.js';
 import { t } from '../texts.js';
 
 const LONGEST = 60;
@@ -10,21 +10,23 @@ const LENGTH = /(duration|endurance|aboard)$/;
 
 /** Return a change of one field, such as `truck: speed km/h 40 → 50`. */
 export function fieldChange({ path, before, after }) {
-  const { owner, field } = placeOf(path);
-  const [then, now] = [before, after].map((value) => shown(value, field));
+  const { owner, field, name } = placeOf(path);
+  const [then, now] = [before, after].map((value) => shown(value, name));
   return `${owner && `${owner}: `}${field} ${then} \u2192 ${now}`;
 }
 
-/** Return whose field a path is, if someone's, and the field in words. */
+/** Return whose field a path is, if someone's, and the field in words and by its own name. */
 function placeOf(path) {
   const [, owner = '', rest] = /^(?:(?:customers|fleet|depots)\[(.*)\]\.)?(.*)$/.exec(path);
-  return { owner, field: rest.split('.').map(labelOf).join(', ').toLowerCase() };
+  const names = rest.split('.');
+  const field = names.map((name) => withinSentence(labelOf(name))).join(', ');
+  return { owner, field, name: names[names.length - 1] };
 }
 
-function shown(value, field) {
+function shown(value, name) {
   if (value === undefined || value === null) return t('change.none');
-  if (typeof value === 'number' && INSTANT.test(field)) return clock(value, { precise: true });
-  if (typeof value === 'number' && LENGTH.test(field)) return hours(value, { precise: true });
+  if (typeof value === 'number' && INSTANT.test(name)) return clock(value, { precise: true });
+  if (typeof value === 'number' && LENGTH.test(name)) return hours(value, { precise: true });
   if (Array.isArray(value) && value.every((entry) => typeof entry === 'number')) {
     return value.join(', ');
   }

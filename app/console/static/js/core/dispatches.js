@@ -1,7 +1,8 @@
 /** Plans on the road: what is sent out, and how far drivers are, in words. */
 
-import { clock, count } from './format.js';
+import { clock } from './format.js';
 import { goOnFrom } from './replanning.js';
+import { language, t } from '../texts.js';
 
 /** Return what sends a plan out; its seconds count from the day's midnight here, unless stated. */
 export function dispatchOf({ request, plan }, now = new Date()) {
@@ -34,10 +35,13 @@ export function openDispatches(dispatches, now = new Date()) {
     .filter(({ ends_at: ends }) => new Date(ends) > now)
     .map(({ id, created_at: created, plan_start: start }) => ({
       id,
-      words: `${start.slice(0, 10)}, sent out ${new Date(created).toLocaleString('en', {
-        dateStyle: 'medium',
-        timeStyle: 'short',
-      })}`,
+      words: t('standing.sentOut', {
+        day: start.slice(0, 10),
+        when: new Date(created).toLocaleString(language(), {
+          dateStyle: 'medium',
+          timeStyle: 'short',
+        }),
+      }),
     }));
 }
 
@@ -59,15 +63,35 @@ export function withMade(made, { links }) {
 
 /** Return how far a driver is, in words. */
 export function standingText({ state, opened_at: opened, done, failed, steps, standing }) {
-  if (state === 'revoked') return 'revoked';
+  if (state === 'revoked') return t('standing.revoked');
   const isBroken = standing.some((told) => told.kind === 'vehicle' && told.state === 'failed');
-  const broken = isBroken ? 'broken down; ' : '';
+  const broken = isBroken ? `${t('standing.broken')}; ` : '';
   const over = done + failed;
-  const far = over ? `${over} of ${steps}` : opened ? 'opened' : 'not opened yet';
   const last = standing.reduce((latest, { time }) => Math.max(latest, time), -Infinity);
-  const at = over ? `, at ${clock(last)}` : '';
-  const lost = failed ? `, ${count(failed, 'failure')}` : '';
-  return `${broken}${far}${at}${lost}${state === 'over' ? '; the day is over' : ''}`;
+  const opening = opened ? t('standing.opened') : t('standing.unopened');
+  const far = over ? t('standing.far', { over, steps, at: clock(last) }) : opening;
+  const lost = failed ? `, ${t('standing.failures', { count: failed })}` : '';
+  return `${broken}${far}${lost}${state === 'over' ? `; ${t('standing.over')}` : ''}`;
+}
+
+/** What phones tell as known reasons, whatever their language. */
+const REASONS = {
+  'Nobody there': 'nobody',
+  Refused: 'refused',
+  'Wrong address': 'address',
+  Damaged: 'damaged',
+  'No time left': 'time',
+  'Too much wind': 'wind',
+  'Drone is broken': 'broken',
+  'Battery is empty': 'battery',
+  'Came back with the parcel': 'parcel',
+  'Did not come back': 'lost',
+  'Broken down': 'breakdown',
+};
+
+/** Return why a step failed: a known reason in the page's language, else the driver's own words. */
+export function driverReason(told) {
+  return told in REASONS ? t(`reason.${REASONS[told]}`) : told;
 }
 
 /**

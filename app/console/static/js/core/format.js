@@ -178,11 +178,6 @@ export function timeWindow(window) {
   return closes ? t('format.until', { until }) : t('format.anyTime');
 }
 
-/** Return a count and its noun. */
-export function count(value, noun, plural = `${noun}s`) {
-  return `${number(value, 0)} ${value === 1 ? noun : plural}`;
-}
-
 /** Return where a place is; degrees as navigators take them, latitude first. */
 export function pointText([x, y], { isGeographic }) {
   return isGeographic ? t('format.point', { y: String(y), x: String(x) }) : `x, y: ${x}, ${y}`;

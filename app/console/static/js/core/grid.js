@@ -11,7 +11,13 @@ export function variableFields(schemas, fleet) {
   return [
     ...fieldsOf(schemas, schemas.VehicleTypeInput, 'fleet[*]', '', dimensions),
     ...(hasDrones
-      ? fieldsOf(schemas, schemas.DronesInput, 'fleet[*].drones', 'Drones: ', dimensions)
+      ? fieldsOf(
+        schemas,
+        schemas.DronesInput,
+        'fleet[*].drones',
+        `${labelOf('drones')}: `,
+        dimensions,
+      )
       : []),
   ];
 }

@@ -1,6 +1,7 @@
 /** Changes by hand, and best places, in words. */
 
-import { clock, timesInWords } from './format.js';
+import { clock } from './format.js';
+import { saidOf } from './said.js';
 import { t } from '../texts.js';
 
 /** Return what a change does, such as `B to truck-2, after C`. */
@@ -30,10 +31,10 @@ export function placeInWords({ vehicle, by, position, service_start: start }) {
 
 /** Return broken rules in words, each once; `routes` name the vehicles that break them. */
 export function rulesInWords(rules, routes = []) {
-  return [...new Set(rules.map(({ message, path }) => {
+  return [...new Set(rules.map(({ code, message, path }) => {
     const [, index] = /\.routes\[(\d+)\]/.exec(path ?? '') ?? [];
     const vehicle = routes[index]?.vehicle;
-    const text = timesInWords(message);
+    const text = saidOf({ code, message });
     return vehicle ? `${vehicle}: ${sentence(text, false)}` : sentence(text);
   }))];
 }

@@ -65,18 +65,28 @@ export function readFields(texts) {
   return { stated, wrong };
 }
 
-/** Return a mapping in which a column means what the user says. */
-export function withColumn(mapping, { heading, column }, change) {
-  const columns = mapping.columns ?? [];
-  const others = columns.filter(
-    (entry) => entry.heading !== heading || (entry.column ?? column) !== column,
-  );
-  return { ...mapping, columns: [...others, { heading, column, ...change }] };
+/** Return a mapping in which a column means what the user says, whatever was answered before. */
+export function withColumn(mapping, { heading, column }, change, questions = []) {
+  const others = otherColumns(mapping, { heading, column });
+  const asked = questions.filter((question) => question.column === column).map(({ id }) => id);
+  const changed = { ...mapping, columns: [...others, { heading, column, ...change }] };
+  return mapping.answers ? { ...changed, answers: without(mapping.answers, asked) } : changed;
 }
 
-/** Return a mapping in which a question is answered. */
-export function withAnswer(mapping, id, answer) {
-  return { ...mapping, answers: { ...mapping.answers, [id]: answer } };
+function otherColumns({ columns = [] }, { heading, column }) {
+  return columns.filter(
+    (entry) => entry.heading !== heading || (entry.column ?? column) !== column,
+  );
+}
+
+function without(answers, ids) {
+  return Object.fromEntries(Object.entries(answers).filter(([id]) => !ids.includes(id)));
+}
+
+/** Return a mapping in which a question is answered, whatever was said of its column before. */
+export function withAnswer(mapping, id, answer, column = null) {
+  const answered = { ...mapping, answers: { ...mapping.answers, [id]: answer } };
+  return column ? { ...answered, columns: otherColumns(mapping, column) } : answered;
 }
 
 /** Return the addresses of a request that nobody has placed yet: `[{address, ids}]`. */
@@ -123,8 +133,7 @@ export function rememberPlaces(places) {
 /** Return a mapping for the next file like it, without answers that are about this file's rows. */
 export function forNextFile(mapping, questions = []) {
   const own = questions.filter(({ kind }) => OF_ONE_FILE.includes(kind)).map(({ id }) => id);
-  const answers = Object.entries(mapping.answers ?? {}).filter(([id]) => !own.includes(id));
-  return { ...mapping, ...(mapping.answers && { answers: Object.fromEntries(answers) }) };
+  return mapping.answers ? { ...mapping, answers: without(mapping.answers, own) } : mapping;
 }
 
 /** Return what tells files alike: their headings in order. */

@@ -5,9 +5,9 @@ import { requestDifferences } from './differences.js';
 import { droneCount } from './drones.js';
 import { clock } from './format.js';
 import { fromNothing } from './replanning.js';
-import { labelOf } from './schema.js';
+import { labelOf, withinSentence } from './schema.js';
 import { windowsInWords, windowsOf } from './windows.js';
-import { language, t } from '../texts.js';
+import { t } from '../texts.js';
 
 const MOST_PARTS = 2;
 const LONGEST = 60;
@@ -166,12 +166,6 @@ function fieldParts(changes) {
   return [...byField].map(([field, group]) =>
     group.length === 1
       ? fieldChange(group[0])
-      : t('name.fieldOf', { count: group.length, field: wordsOf(field) }),
+      : t('name.fieldOf', { count: group.length, field: withinSentence(labelOf(field)) }),
   );
-}
-
-/** Return a field's name as it stands within a sentence: nouns keep their capital. */
-function wordsOf(field) {
-  const label = labelOf(field);
-  return language() === 'en' ? label.toLowerCase() : label;
 }

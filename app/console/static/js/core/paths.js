@@ -44,6 +44,13 @@ export function parsePath(path) {
   return keys;
 }
 
+/** Return keys as the API writes a path: `fleet[0].profile`. */
+export function pathOf(keys) {
+  return keys
+    .map((key, at) => (typeof key === 'number' ? `[${key}]` : at ? `.${key}` : key))
+    .join('');
+}
+
 /** Return keys as one text, to compare places. */
 export function keyOf(keys) {
   return keys.join('/');

@@ -1,7 +1,7 @@
 /** A picture of a plan, map above timeline, as shapes that SVG and a canvas both draw. */
 
 import { boundsOf, planeOf } from './geometry.js';
-import { clock, count, money } from './format.js';
+import { clock, money } from './format.js';
 import { tripDash, vehicleColour } from './palette.js';
 import { spanOf } from './plan.js';
 import { standsOf } from './stands.js';
@@ -35,11 +35,13 @@ function titleShapes({ request, plan }) {
   const { summary } = plan;
   const penalty = penaltyOf({ request, plan });
   const apart = penalty ? ` (${t('header.penalty', { sum: money(penalty) })})` : '';
-  const text =
-    `Cost ${money(trueCost({ request, plan }))}${apart}, ` +
-    `${summary.served} of ${summary.customers} served, ` +
-    `${count(summary.vehicles, 'vehicle')}, ${count(summary.trips, 'trip')}, ` +
-    `${count(summary.sorties, 'flight')}`;
+  const text = [
+    t('header.cost', { sum: money(trueCost({ request, plan })) }) + apart,
+    t('header.served', { served: String(summary.served), customers: String(summary.customers) }),
+    t('header.vehicles', { count: summary.vehicles }),
+    t('routes.trips', { count: summary.trips }),
+    t('header.flights', { count: summary.sorties }),
+  ].join(', ');
   return [{ kind: 'text', at: [MARGIN, 26], text, size: 15, colour: INK }];
 }
 

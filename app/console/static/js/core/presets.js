@@ -1,6 +1,7 @@
 /** What is assumed of a part of the fleet when it is added, for a person to correct. */
 
 import { amounts, duration } from './format.js';
+import { t } from '../texts.js';
 
 /** Which of the orders a drone is assumed to carry: the lightest quarter, per dimension. */
 const SHARE = 0.25;
@@ -27,9 +28,9 @@ export function presetOf(name, request) {
 export function assumptionIn(name, request, value) {
   const assumed = presetOf(name, request);
   if (!assumed || JSON.stringify(assumed) !== JSON.stringify(value)) return '';
-  return (
-    `Assumed: one drone, which carries ${amounts(assumed.capacity)} (a quarter of the orders ` +
-    `weigh no more), flies ${duration(assumed.endurance)} at most, and takes ` +
-    `${duration(assumed.launch_duration)} to launch and to recover. State what yours does.`
-  );
+  return t('form.assumed', {
+    amounts: amounts(assumed.capacity),
+    endurance: duration(assumed.endurance),
+    handling: duration(assumed.launch_duration),
+  });
 }

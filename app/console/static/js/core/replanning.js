@@ -9,6 +9,7 @@ import { clock } from './format.js';
 import { droneCount } from './drones.js';
 import { launchDurations } from './launches.js';
 import { removeIn, setIn } from './paths.js';
+import { t } from '../texts.js';
 
 /** Return the request that goes on from a plan at an instant; null: nothing has happened yet. */
 export function goOnFrom(request, plan, now) {
@@ -177,18 +178,20 @@ export function standingIn(parts, { vehicle, trip, stop, sortie, reply }) {
 /** Return where a vehicle is at an instant, in words. */
 export function whereabouts(route, progress, now) {
   if (progress.trip < 0) {
-    return `not departed, leaves at ${clock(route.trips[0].stops[0].departure)}`;
+    return t('whereabouts.notDeparted', { at: clock(route.trips[0].stops[0].departure) });
   }
   const { stops } = route.trips[progress.trip];
   if (progress.left >= stops.length) {
     const next = route.trips[progress.trip + 1];
-    const back = `back since ${clock(stops[stops.length - 1].arrival)}`;
-    return next ? `${back}, leaves again at ${clock(next.stops[0].departure)}` : back;
+    const since = clock(stops[stops.length - 1].arrival);
+    return next
+      ? t('whereabouts.leavesAgain', { since, at: clock(next.stops[0].departure) })
+      : t('whereabouts.back', { since });
   }
   const stop = stops[progress.left];
   return stop.arrival <= now
-    ? `at ${stop.id}, until ${clock(stop.departure)}`
-    : `on its way to ${stop.id}, there at ${clock(stop.arrival)}`;
+    ? t('whereabouts.at', { stop: stop.id, until: clock(stop.departure) })
+    : t('whereabouts.onWay', { stop: stop.id, at: clock(stop.arrival) });
 }
 
 /** Return the customers of a route who aren't settled. */

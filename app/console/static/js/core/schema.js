@@ -1,10 +1,12 @@
 /** Fields of a form from the schemas of `/openapi.json`. */
 
+import { language, t } from '../texts.js';
+
 /** Units by what a description says, the first that fits. */
 const UNITS = [
   [/\bkm\/h\b/i, 'km/h'],
-  [/per kilometre/i, 'per km'],
-  [/cost per hour/i, 'per h'],
+  [/per kilometre/i, () => t('form.perKm')],
+  [/cost per hour/i, () => t('form.perHour')],
   [/\bdegrees\b/i, '\u00b0'],
   [/\bmetres per\b/i, 'm'],
   [/\bin metres\b/i, 'm'],
@@ -50,7 +52,8 @@ export function kindOf(schema) {
 export function unitOf(schema) {
   const text = schema.description ?? '';
   if (!['number', 'integer'].includes(schema.type)) return '';
-  return UNITS.find(([pattern]) => pattern.test(text))?.[1] ?? '';
+  const [, unit = ''] = UNITS.find(([pattern]) => pattern.test(text)) ?? [];
+  return typeof unit === 'function' ? unit() : unit;
 }
 
 /** Return texts by name as lines such as `phone: 089 1234`. */
@@ -72,8 +75,18 @@ export function wordsOf(text) {
   );
 }
 
-/** Return a field's name in words: `max_trip_distance` becomes `Max trip distance`. */
+/** Return a field's name in words; one that isn't known is called as the API calls it. */
 export function labelOf(name) {
+  return t(`field.${name}`, { defaultValue: plainLabel(name) });
+}
+
+/** Return a label as it stands within a sentence: nouns keep their capital where they have one. */
+export function withinSentence(label) {
+  return language() === 'en' ? label.charAt(0).toLowerCase() + label.slice(1) : label;
+}
+
+/** Return a name's own words: `max_trip_distance` becomes `Max trip distance`. */
+function plainLabel(name) {
   const words = name
     .split('_')
     .map((word) => WORDS[word] ?? word)
@@ -82,17 +95,25 @@ export function labelOf(name) {
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
-/** Return a description in plain text; a field that is null is an empty one to whoever fills it. */
-export function helpOf(schema) {
-  return (schema.description ?? '').replaceAll('`', '').replace(/\bNull: /, 'Empty: ');
+/**
+ * Return what a field is for, in the words of who fills it, else as the API describes it.
+ *
+ * @param owner title of the schema that has the field
+ * @param name of the field
+ * @param schema of the field
+ */
+export function helpOf(owner, name, schema) {
+  return t(`help.${owner}.${name}`, { defaultValue: apiHelpOf(schema) });
 }
 
-/** Return the description of a time in plain text, whose unit is not the service's. */
-export function timeHelpOf(schema) {
-  return helpOf(schema)
-    .replace(/,? in seconds( since plan start)?/g, '')
-    .replace(/^Seconds /, 'Time ')
-    .replace(' since plan start', '');
+/** Return the API's own description, in plain text. */
+export function apiHelpOf(schema) {
+  return (schema.description ?? '').replaceAll('`', '');
+}
+
+/** Return one of the values to choose from in words, itself if it is a name. */
+export function choiceOf(value) {
+  return t(`choice.${value}`, { defaultValue: value });
 }
 
 /** Return an object with what a schema demands and nothing else. */
@@ -127,9 +148,12 @@ function blankValue(schemas, schema) {
 /** Return what an empty field means, for its placeholder. */
 export function emptyMeans(schema, nullable) {
   const stated = schema.default;
-  if (stated !== null && stated !== undefined && typeof stated !== 'object') return String(stated);
+  if (stated !== null && stated !== undefined && typeof stated !== 'object') {
+    return choiceOf(String(stated));
+  }
   const byDefault = /([\d.]+) by default/.exec(schema.description ?? '');
   if (byDefault) return byDefault[1];
   const told = /Null: ([^.]*)\./.exec(schema.description ?? '')?.[1].replaceAll('`', '') ?? '';
-  return nullable && told.length <= LONGEST_HINT ? told : '';
+  if (!nullable || !told || told.length > LONGEST_HINT) return '';
+  return t(`empty.${told.replaceAll(' ', '_')}`, { defaultValue: told });
 }

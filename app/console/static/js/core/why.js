@@ -1,6 +1,7 @@
 /** Why a customer is served where it is, in words: what else there is, and what binds. */
 
-import { clock, money, number, signed, timesInWords, timeWindow } from './format.js';
+import { clock, money, number, signed, timeWindow } from './format.js';
+import { saidOf } from './said.js';
 import { costTerms } from './terms.js';
 import { windowsOf } from './windows.js';
 import { t } from '../texts.js';
@@ -41,7 +42,7 @@ export function alternativeRows(alternatives, customer) {
       .map(([term, name]) => `${name} ${signed(item.cost[term], money)}`)
       .join(', '),
     feasible: item.feasible,
-    reasons: item.reasons.map(({ message }) => timesInWords(message)),
+    reasons: item.reasons.map(saidOf),
   }));
 }
 

@@ -5,6 +5,7 @@ import { clock, parseClock, parseNumber } from '../core/format.js';
 import { html, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { TOOLS } from './tools.js';
+import { t } from '../texts.js';
 
 /** Take up a tool, or put it down. */
 export function takeTool(tool) {
@@ -25,17 +26,18 @@ export function DrawBar() {
   const isChosen = useStore(({ selection }) => Boolean(selection?.startsWith('c:')));
   const isOrdering = useStore((state) => ['customers', 'replan'].includes(state.tab));
   const hidden = { pin: !replans, fit: !isPlanned, place: !isChosen, order: !isOrdering };
-  const tools = Object.entries(TOOLS).filter(([key]) => !hidden[key]);
+  const tools = TOOLS.filter((key) => !hidden[key]);
   return html`<div class="draw-bar">
-    <button type="button" aria-expanded=${open} onClick=${toggle}>Draw</button>
+    <button type="button" aria-expanded=${open} onClick=${toggle}>${t('draw.title')}</button>
     ${
       open &&
-      html`<div class="draw-tools" role="group" aria-label="Drawing tools">
+      html`<div class="draw-tools" role="group" aria-label=${t('draw.tools')}>
       ${tools.map(
-        ([key, { name }]) => html`<button type="button" key=${key}
-        aria-pressed=${tool === key} onClick=${() => takeTool(key)}>${name}</button>`,
+        (key) => html`<button type="button" key=${key}
+        aria-pressed=${tool === key} onClick=${() => takeTool(key)}>
+          ${t(`tool.name.${key}`)}</button>`,
       )}
-      ${tool && html`<div class="draw-options"><p>${TOOLS[tool].hint}</p>
+      ${tool && html`<div class="draw-options"><p>${t(`tool.hint.${tool}`)}</p>
         <${Brush} tool=${tool} /></div>`}
     </div>`
     }
@@ -44,15 +46,17 @@ export function DrawBar() {
 
 function Brush({ tool }) {
   if (tool === 'customer' || tool === 'fit') {
-    return html`<${BrushField} name="demand" label="Demand"
+    return html`<${BrushField} name="demand" label=${t('about.demand')}
         show=${(values) => values.join(', ')} read=${readAmounts} />
-      <${BrushField} name="service_duration" label="Service (s)" show=${String}
+      <${BrushField} name="service_duration" label=${t('draw.service')} show=${String}
         read=${parseNumber} />
       <${ServedBy} />`;
   }
   if (tool !== 'window' && tool !== 'windowArea') return null;
-  return html`<${BrushField} name="earliest" label="Opens" show=${clock} read=${parseClock} />
-    <${BrushField} name="latest" label="Closes" show=${clock} read=${parseClock} />`;
+  return html`<${BrushField} name="earliest" label=${t('draw.opens')} show=${clock}
+      read=${parseClock} />
+    <${BrushField} name="latest" label=${t('draw.closes')} show=${clock}
+      read=${parseClock} />`;
 }
 
 function readAmounts(text) {
@@ -73,9 +77,9 @@ function BrushField({ name, label, show, read }) {
 
 function ServedBy() {
   const brush = useStore((state) => state.brush);
-  return html`<label>Served by <select value=${brush.served_by} onChange=${(event) =>
+  return html`<label>${t('draw.servedBy')} <select value=${brush.served_by} onChange=${(event) =>
     store.set({ brush: { ...brush, served_by: event.target.value } })}>
     ${['either', 'truck', 'drone'].map((value) => html`<option key=${value}
-      value=${value}>${value}</option>`)}
+      value=${value}>${t(`servedBy.${value}`)}</option>`)}
   </select></label>`;
 }

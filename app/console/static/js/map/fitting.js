@@ -17,31 +17,43 @@ export function fitWhole(map, lines) {
   if (!whole) return;
   const [west, south, east, north] = whole;
   const bounds = L.latLngBounds([[south, west], [north, east]]);
-  const show = ([left, top, right, bottom]) =>
-    map.fitBounds(bounds, {
-      paddingTopLeft: [left, top],
-      paddingBottomRight: [right, bottom],
-      animate: false,
-    });
-  const paddings = paddingsFor(map).map((padding) => ({
-    padding,
-    zoom: zoomFor(map, bounds, padding),
-  }));
+  const views = paddingsFor(map).map((padding) => viewOf(map, bounds, padding));
   // The closest first; where two are as close, that which leaves the plan in the middle.
-  paddings.sort((one, other) => other.zoom - one.zoom || sum(one.padding) - sum(other.padding));
-  for (const { padding } of paddings) {
-    show(padding);
-    if (isSeen(map, lines)) return;
-  }
+  views.sort((one, other) => other.zoom - one.zoom || one.padded - other.padded);
+  const flat = flattened(map, lines);
+  const over = overOn(map);
+  const best = views.find((view) => isClear(map, flat, view, over)) ?? views[0];
+  map.setView(best.center, best.zoom, { animate: false });
 }
 
 /** Tell whether all of some lines is in view, and nothing lies on it. */
 export function isSeen(map, lines) {
-  const { x, y } = map.getSize();
-  const inside = L.bounds([0, 0], [x, y]);
-  const over = overOn(map);
-  return lines.every((line) => {
-    const points = line.map((place) => map.latLngToContainerPoint(latLng(place)));
+  const view = { center: map.getCenter(), zoom: map.getZoom() };
+  return isClear(map, flattened(map, lines), view, overOn(map));
+}
+
+/** Return lines in pixels of zoom 0, of which those of any zoom are multiples. */
+function flattened(map, lines) {
+  return lines.map((line) => line.map((place) => map.project(latLng(place), 0)));
+}
+
+/** Return the view `{center, zoom, padded}` of a region with room `[left, top, right, bottom]`. */
+function viewOf(map, bounds, [left, top, right, bottom]) {
+  const zoom = map.getBoundsZoom(bounds, false, L.point(left + right, top + bottom));
+  const [start, end] = [bounds.getSouthWest(), bounds.getNorthEast()].map((corner) =>
+    map.project(corner, zoom));
+  const middle = start.add(end).add([right - left, bottom - top]).divideBy(2);
+  return { zoom, center: map.unproject(middle, zoom), padded: left + top + right + bottom };
+}
+
+/** Tell whether lines would be seen whole in a view, with nothing on them. */
+function isClear(map, flat, { center, zoom }, over) {
+  const size = map.getSize();
+  const factor = map.getZoomScale(zoom, 0);
+  const corner = map.project(center, zoom).subtract(size.divideBy(2));
+  const inside = L.bounds([0, 0], size);
+  return flat.every((line) => {
+    const points = line.map((point) => point.multiplyBy(factor).subtract(corner));
     return points.every((point) => inside.contains(point))
       && over.every((box) => !touches(points, box));
   });
@@ -80,12 +92,4 @@ function paddingsFor(map) {
     paddings = [...new Map(paddings.map((padding) => [String(padding), padding])).values()];
   }
   return paddings;
-}
-
-function zoomFor(map, bounds, [left, top, right, bottom]) {
-  return map.getBoundsZoom(bounds, false, L.point(left + right, top + bottom));
-}
-
-function sum(numbers) {
-  return numbers.reduce((whole, number) => whole + number, 0);
 }

@@ -11,6 +11,7 @@ import { store } from '../store.js';
 import { latLng } from './layers.js';
 import { LEAST_DRAG, placeDrag } from './place-drag.js';
 import { stopDrag } from './plan-drag.js';
+import { t } from '../texts.js';
 
 const L = leaflet();
 const ROOM = 66; // pixels that it needs beside a customer
@@ -66,14 +67,14 @@ function movable({ selection, tool, request, ...state }) {
   const id = selection.slice(2);
   if (tool) {
     const location = placeOf(request.customers.find((customer) => customer.id === id) ?? {});
-    const title = `Drag to where ${id} is`;
+    const title = t('map.dragPlace', { id });
     return location && { id, location, tool, title, drag: (view) => placeDrag(view, id) };
   }
   const entry = shownPlan(state);
   const halt = indexOf(entry)?.halts.get(selection);
   if (halt?.kind !== 'customer' || !halt.location) return null;
   if (standingIn(settledOf(entry, request), halt) === 'settled') return null;
-  const title = `Drag ${id} onto another way`;
+  const title = t('map.dragStop', { id });
   const drag = (view) => stopDrag(view, indexOf(entry), halt);
   return { id, location: halt.location, entry, tool, title, drag };
 }

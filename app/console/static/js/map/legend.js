@@ -1,6 +1,7 @@
 /** What the marks and lines of the map mean. */
 
 import { html, useEffect, useState } from '../libraries.js';
+import { t } from '../texts.js';
 
 const NARROW = '(max-width: 1100px)';
 
@@ -21,8 +22,8 @@ export function MapLegend({ request, index, parts }) {
   if (!entries.length) return null;
   return html`<details class="map-legend" open=${open}
       onToggle=${(event) => setOpen(event.currentTarget.open)}>
-    <summary>Legend</summary><ul>${entries.map(
-      ([sign, name]) => html`<li key=${name}><${Sign} sign=${sign} />${name}</li>`,
+    <summary>${t('legend.title')}</summary><ul>${entries.map(
+      ([sign, name]) => html`<li key=${name}><${Sign} sign=${sign} />${t(`legend.${name}`)}</li>`,
     )}</ul></details>`;
 }
 
@@ -33,18 +34,18 @@ function entriesOf(request, index, parts) {
   const isNew = index && request.customers.some(({ id }) => !index.customers.has(id));
   const lost = [...parts.values()].some(({ isBroken, isOver }) => isBroken && !isOver);
   const entries = [
-    [used, 'road', 'Truck, its colour and number'],
-    [some((trip) => trip.index > 0), 'later', 'Second trip; later ones differ too'],
-    [some((trip) => trip.sorties.length > 0), 'flight', 'Flight of a drone'],
-    [used, 'truck', 'Served by truck'],
-    [some((trip) => trip.sorties.length > 0), 'drone', 'Served by drone'],
-    [index?.plan.unassigned.length > 0, 'out', 'Unassigned'],
-    [isNew, 'new', 'New, not planned yet'],
-    [!index && request.customers.length > 0, 'new', 'Customer'],
-    [parts.size > 0, 'settled', 'Settled: it has departed'],
-    [lost, 'lost', 'Lost with a broken vehicle'],
-    [pinned, 'pin', 'Pinned to its vehicle'],
-    [request.airspace?.no_fly?.length > 0, 'area', 'No-fly area'],
+    [used, 'road', 'vehicle'],
+    [some((trip) => trip.index > 0), 'later', 'later'],
+    [some((trip) => trip.sorties.length > 0), 'flight', 'flight'],
+    [used, 'truck', 'byTruck'],
+    [some((trip) => trip.sorties.length > 0), 'drone', 'byDrone'],
+    [index?.plan.unassigned.length > 0, 'out', 'unassigned'],
+    [isNew, 'new', 'isNew'],
+    [!index && request.customers.length > 0, 'new', 'customer'],
+    [parts.size > 0, 'settled', 'settled'],
+    [lost, 'lost', 'lost'],
+    [pinned, 'pin', 'pinned'],
+    [request.airspace?.no_fly?.length > 0, 'area', 'area'],
   ];
   return entries.filter(([there]) => there).map(([, sign, name]) => [sign, name]);
 }

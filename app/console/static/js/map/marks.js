@@ -14,6 +14,8 @@ export const Disc = L.CircleMarker.extend({
     if (!renderer._drawing || this._empty()) return;
     const { x, y } = this._point;
     const half = halfOf(this.options);
+    // Lines leave theirs behind; how strong a disc is, its picture has.
+    renderer._ctx.globalAlpha = 1;
     renderer._ctx.drawImage(discOf(this.options), x - half, y - half, 2 * half, 2 * half);
   },
 });

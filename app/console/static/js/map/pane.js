@@ -22,6 +22,7 @@ import { followFit } from './plan-drag.js';
 import { MapLegend } from './legend.js';
 import { attachTools } from './tools.js';
 import { MapView, synchronise } from './view.js';
+import { t } from '../texts.js';
 
 /** The map and, if chosen, the plan that stands beside. */
 export function MapPane() {
@@ -36,25 +37,25 @@ export function MapPane() {
     [first, second],
   );
   useEffect(() => first?.fit(), [split, Boolean(second)]);
-  return html`<section class=${`maps ${split && beside ? 'split' : ''}`} aria-label="Map">
+  return html`<section class=${`maps ${split && beside ? 'split' : ''}`}
+    aria-label=${t('map.title')}>
     <div class="map-frame">
       <${Map} key=${groundOf(request)} request=${request} entry=${shown}
         onView=${setFirst} isMain />
       <${DrawBar} />
       <div class="map-tools">
-        <button type="button" onClick=${() => first?.fit()}>Fit</button>
+        <button type="button" onClick=${() => first?.fit()}>${t('map.fit')}</button>
         ${
           beside &&
           html`<button type="button" aria-pressed=${split} onClick=${() => setSplit(!split)}>
-          ${split ? 'One map' : 'Former plan beside'}</button>`
+          ${split ? t('map.one') : t('map.beside')}</button>`
         }
       </div>
       ${hasLocations(request) && html`<${MapLegend} request=${request} index=${indexOf(shown)}
         parts=${settledOf(shown, request)} />`}
       ${
         !hasLocations(request) &&
-        html`<p class="map-note">The problem has matrices and no locations,
-        so there is no map; the timeline and the tables show the plan.</p>`
+        html`<p class="map-note">${t('map.none')}</p>`
       }
     </div>
     ${

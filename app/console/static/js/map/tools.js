@@ -20,28 +20,19 @@ import { store } from '../store.js';
 import { pressPlace } from './place-drag.js';
 
 /** What can be drawn, in the order of the buttons. */
-export const TOOLS = {
-  customer: { name: 'Customer', hint: 'Click where customers are.' },
-  depot: { name: 'Depot', hint: 'Click where the depot is.' },
-  window: { name: 'Window', hint: 'Click customers to give them this window.' },
-  windowArea: {
-    name: 'Windows in an area',
-    hint: 'Click two corners: customers between get this window.',
-  },
-  area: { name: 'No-fly area', hint: 'Click the corners, the first again to close.' },
-  fit: {
-    name: 'Best places',
-    hint: 'Click where somebody is to be served, or a customer: the three best places, with costs.',
-  },
-  change: {
-    name: 'Move',
-    hint: 'Drag customers, by a finger their handle once selected, and corners of no-fly areas.',
-  },
-  place: { name: 'Place', hint: 'Click where the selected customer is.' },
-  order: { name: 'New order', hint: 'Click where the new order goes.' },
-  pin: { name: 'Pin', hint: 'Click customers to keep them with their vehicles.' },
-  erase: { name: 'Erase', hint: 'Click customers or no-fly areas to remove them.' },
-};
+export const TOOLS = [
+  'customer',
+  'depot',
+  'window',
+  'windowArea',
+  'area',
+  'fit',
+  'change',
+  'place',
+  'order',
+  'pin',
+  'erase',
+];
 
 /** Tools for which it doesn't matter what is on the map already. */
 const ON_GROUND = new Set(['customer', 'depot', 'windowArea', 'area', 'place']);

@@ -63,7 +63,8 @@ export function DoubtedPlaces({ request }) {
     </summary>
     <div class="inside"><ul>${found.map(
       ({ id, key, address, doubt }) => html`<li key=${id}><button type="button" class="link"
-        onClick=${() => (doubt ? select(key) : beginPlacing(key))}>${id}</button> ${doubt ?? t('places.none', { address })}</li>`,
+        onClick=${() => (doubt ? select(key) : beginPlacing(key))}>${id}</button>
+        ${' '}${doubt ?? t('places.none', { address })}</li>`,
     )}</ul>
     ${unplaced > 0 && html`<div class="buttons"><button type="button"
       onClick=${leaveOutUnplaced}>${t('places.leaveOut')}</button></div>`}</div></details>`;

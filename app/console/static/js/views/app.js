@@ -1,6 +1,7 @@
 /** The page: header, map, timeline, panel and dialogs. */
 
 import { closeFailure, isWaiting, shownPlan } from '../actions.js';
+import { whereInWords } from '../core/where.js';
 import { html } from '../libraries.js';
 import { MapPane } from '../map/pane.js';
 import { useStore } from '../store.js';
@@ -11,6 +12,7 @@ import { goTo } from './go-to.js';
 import { Header } from './header.js';
 import { KeepingNotice, isToBeTold } from './keeping-notice.js';
 import { Panel } from './panel.js';
+import { Plain, Said } from './said.js';
 import { WarningsBar } from './warnings-bar.js';
 
 const MOST_LISTED = 20;
@@ -37,18 +39,19 @@ export function App() {
 function Notice() {
   const failure = useStore((state) => state.failure);
   const errors = useStore((state) => state.errors);
+  const request = useStore((state) => state.request);
   const starting = useStore((state) => state.starting);
   const tells = useStore(isToBeTold);
   if (failure) {
     return html`<div class="notice" role="alert">
-      <div><strong>${failure.title}.</strong> ${failure.detail}
+      <div><strong>${failure.title}.</strong> <${Plain} message=${failure.detail} />
         ${
           errors.length > 0 &&
           html`<ul>${errors.slice(0, MOST_LISTED).map(
             (error) => html`
           <li key=${error.path + error.code}><button type="button" class="link"
-            onClick=${() => goTo(error.keys)}><code>${error.path}</code></button>
-            ${' '}${error.message}</li>`,
+            onClick=${() => goTo(error.keys)}>${whereInWords(request, error.keys)}</button>
+            ${' '}<${Said} ...${error} /></li>`,
           )}
           ${
             errors.length > MOST_LISTED &&

@@ -1,10 +1,11 @@
 /** Customers and depots: a long table, and a form for the one that is selected. */
 
 import { edit, hover, indexOf, openTab, select, shownPlan } from '../actions.js';
-import { amounts, clock, count } from '../core/format.js';
+import { amounts, clock } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
 import { freeName } from '../core/changes.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
+import { saidOf } from '../core/said.js';
 import { windowsInWords, windowsOf } from '../core/windows.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { cancelOrders } from '../ordering.js';
@@ -17,6 +18,7 @@ import { NewOrder } from './new-order.js';
 import { Name } from './parts.js';
 import { pasteNames, Pick, PickAll, PickedBar, soughtBy } from './picked-customers.js';
 import { WhyHere } from './why-here.js';
+import { t } from '../texts.js';
 
 /** The tab. */
 export function CustomersTab() {
@@ -47,19 +49,20 @@ function CustomerTable({ request }) {
     [request.customers, doubts],
   );
   const head = html`<tr><th scope="col"><${PickAll} rows=${rows} picked=${picked}
-      setPicked=${setPicked} /> Name</th>
-    <th scope="col" class="number">Demand</th>
-    <th scope="col">Window</th><th scope="col"
-      class="roomy">For</th><th scope="col">Arrival</th></tr>`;
+      setPicked=${setPicked} /> ${t('field.name')}</th>
+    <th scope="col" class="number">${t('about.demand')}</th>
+    <th scope="col">${t('about.window')}</th><th scope="col" class="roomy">${t('about.for')}</th>
+    <th scope="col">${t('about.arrival')}</th></tr>`;
   return html`<section class="section">
-    <div class="buttons"><h3>${count(request.customers.length, 'customer')}</h3>
-      <input type="text" value=${filter} placeholder="Find a name"
-        aria-label="Find a customer by name"
+    <div class="buttons"><h3>${t('customers.count', { count: request.customers.length })}</h3>
+      <input type="text" value=${filter} placeholder=${t('customers.find')}
+        aria-label=${t('customers.findLabel')}
         onPaste=${(event) => pasteNames(event, setFilter)}
         onInput=${(event) => setFilter(event.target.value)} />
-      <button type="button" onClick=${() => addCustomer(request)}>Add</button></div>
+      <button type="button" onClick=${() => addCustomer(request)}>
+        ${t('customers.add')}</button></div>
     <${PickedBar} request=${request} picked=${picked} setPicked=${setPicked} />
-    <${LongTable} label="Customers" height=${330} head=${head} rows=${rows}
+    <${LongTable} label=${t('tab.customers')} height=${330} head=${head} rows=${rows}
       revealed=${rows.findIndex(({ customer }) => selection === `c:${customer.id}`)}
       renderRow=${({
         customer,
@@ -69,8 +72,7 @@ function CustomerTable({ request }) {
         doubted=${doubted.has(customer.id)} selected=${selection === `c:${customer.id}`}
           marked=${hovered === `c:${customer.id}`} pick=${html`<${Pick} id=${customer.id}
             picked=${picked} setPicked=${setPicked} />`} />`} />
-    ${!request.customers.length && html`<p class="help">None yet: open a file, paste from a sheet,
-      draw them on the map or add them one by one.</p>`}
+    ${!request.customers.length && html`<p class="help">${t('customers.none')}</p>`}
   </section>`;
 }
 
@@ -79,11 +81,11 @@ function brokenCells(errors) {
   const cells = new Map();
   for (const {
     keys: [section, position, field],
-    message,
+    ...error
   } of errors) {
     if (section === 'customers' && typeof position === 'number') {
       if (!cells.has(position)) cells.set(position, new Map());
-      cells.get(position).set(field ?? 'id', message);
+      cells.get(position).set(field ?? 'id', saidOf(error));
     }
   }
   return cells;
@@ -93,7 +95,7 @@ function CustomerRow({ customer, place, halt, index, selected, marked, errors, d
   const key = `c:${customer.id}`;
   const cell = (field) =>
     errors?.has(field) ? { class: 'invalid', title: errors.get(field) } : {};
-  const arrival = halt ? clock(halt.arrival) : index ? 'not served' : '';
+  const arrival = halt ? clock(halt.arrival) : index ? t('customers.notServed') : '';
   return html`<tr ...${place} data-selected=${selected} data-marked=${marked}
       onMouseEnter=${() => hover(key)}
       onMouseLeave=${() => hover(null)}>
@@ -101,14 +103,14 @@ function CustomerRow({ customer, place, halt, index, selected, marked, errors, d
       <button type="button" class="link" aria-pressed=${selected}
       title=${customer.id}
       onClick=${() => select(selected ? null : key)}><${Name}>${customer.id}</${Name}>
-      </button>${doubted && html` <span class="late-text" role="img" aria-label="doubtful place"
-      title="Its place is doubtful">?</span>`}</th>
+      </button>${doubted && html` <span class="late-text" role="img" 
+      aria-label=${t('customers.doubtful')} title=${t('customers.doubtful')}>?</span>`}</th>
     <td ...${cell('demand')} class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
       ${amounts(customer.demand ?? [])}</td>
     <td ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
       ${windowsInWords(windowsOf(customer))}</td>
     <td ...${cell('served_by')} class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
-      ${customer.served_by ?? 'either'}</td>
+      ${t(`servedBy.${customer.served_by ?? 'either'}`)}</td>
     <td class=${halt?.lateness > 0 || (index && !halt) ? 'late-text' : ''}>${arrival}</td></tr>`;
 }
 
@@ -132,21 +134,23 @@ function SelectedCustomer({ request }) {
   const selected = request.customers.findIndex((customer) => customer.id === id);
   const position = selected >= 0 ? selected : (atError?.keys[1] ?? -1);
   if (position < 0 || position >= request.customers.length) {
-    return html`<p class="help">Select a customer, here or on the map, to change it.</p>`;
+    return html`<p class="help">${t('customers.select')}</p>`;
   }
   const change = (changed) => {
     edit(changed);
     const name = changed.customers[position]?.id;
     if (name && name !== id) select(`c:${name}`);
   };
-  return html`<details class="card" open><summary>Customer ${request.customers[position].id}
+  return html`<details class="card" open><summary>${t('where.customer', {
+    id: request.customers[position].id,
+  })}
       <span class="right"></span></summary>
     <div class="inside"><${PlaceOf} request=${request} id=${request.customers[position].id} />
       <${WhyHere} id=${request.customers[position].id} />
       <${Fields} schema=${schemas.CustomerInput} keys=${['customers', position]} request=${request}
         onChange=${change} skip=${request.matrices ? [] : ['location_index']} />
       <div class="buttons"><button type="button" onClick=${() =>
-        cancelOrders([request.customers[position].id])}>Remove this customer</button></div>
+        cancelOrders([request.customers[position].id])}>${t('customers.remove')}</button></div>
     </div></details>`;
 }
 
@@ -160,8 +164,10 @@ function Places({ request }) {
         location: [...(placeOf(request.depots[0]) ?? [0, 0])],
       }),
     );
-  return html`<details class="card"><summary>Coordinates and depots
-      <span class="right">${count(request.depots.length, 'depot')}</span></summary>
+  return html`<details class="card"><summary>${t('customers.places')}
+      <span class="right">${t('customers.depots', {
+        count: request.depots.length,
+      })}</span></summary>
     <div class="inside">
       <${Field} name="coordinate_system" schema=${properties.coordinate_system}
         keys=${['coordinate_system']} request=${request} onChange=${edit} />
@@ -175,18 +181,20 @@ function Places({ request }) {
       }
       ${request.depots.map(
         (_, position) => html`<fieldset class="group" key=${position}>
-        <legend>Depot ${position + 1}</legend>
+        <legend>${t('where.depot', { id: String(position + 1) })}</legend>
         <${Fields} schema=${schemas.DepotInput} keys=${['depots', position]} request=${request}
           onChange=${edit} skip=${request.matrices ? [] : ['location_index']} />
         ${
           request.depots.length > 1 &&
           html`<div class="buttons"><button type="button" onClick=${() =>
-            edit(removeIn(request, ['depots', position]))}>Remove this depot</button></div>`
+            edit(removeIn(request, ['depots', position]))}>
+            ${t('customers.removeDepot')}</button></div>`
         }
       </fieldset>`,
       )}
-      <div class="buttons"><button type="button" onClick=${addDepot}>Add a depot</button>
-        <button type="button" onClick=${clear}>Begin with an empty map</button></div>
+      <div class="buttons"><button type="button" onClick=${addDepot}>
+        ${t('customers.addDepot')}</button>
+        <button type="button" onClick=${clear}>${t('customers.empty')}</button></div>
     </div></details>`;
 }
 

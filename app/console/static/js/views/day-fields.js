@@ -6,6 +6,7 @@ import { onDay } from '../core/times.js';
 import { html } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { Field } from './form.js';
+import { t } from '../texts.js';
 
 const MIDNIGHT = 'T00:00:00';
 
@@ -16,17 +17,16 @@ export function DayFields({ request }) {
   const parts = [day?.date, request.time_zone, request.currency].filter(Boolean);
   const field = (name) => html`<${Field} name=${name} schema=${properties[name]} keys=${[name]}
     request=${request} onChange=${edit} />`;
-  return html`<details class="card" id="day"><summary>Date, currency and units
-      <span class="right">${parts.join(', ') || 'no date'}</span></summary>
+  return html`<details class="card" id="day"><summary>${t('day.title')}
+      <span class="right">${parts.join(', ') || t('day.none')}</span></summary>
     <div class="inside"><div class="fields">
-      <div class="field"><label for="day-date">Date</label>
+      <div class="field"><label for="day-date">${t('day.date')}</label>
         <input type="date" id="day-date" value=${day?.date ?? ''} aria-describedby="day-date-help"
           onChange=${(event) => setDate(event.target.value)} />
-        <p class="help" id="day-date-help">Windows and shifts stay at the same time of day. Empty:
-          times count from the plan's start.</p></div>
-      <div class="field"><label for="day-zone">Time zone</label>
+        <p class="help" id="day-date-help">${t('day.help')}</p></div>
+      <div class="field"><label for="day-zone">${t('day.zone')}</label>
         <input type="text" id="day-zone" list="day-zones" value=${request.time_zone ?? ''}
-          autocomplete="off" placeholder=${day ? 'that of plan start' : ownZone()}
+          autocomplete="off" placeholder=${day ? t('day.zoneOfStart') : ownZone()}
           onChange=${(event) => setZone(event.target.value.trim())} />
         <datalist id="day-zones">${Intl.supportedValuesOf('timeZone').map(
           (zone) => html`<option key=${zone} value=${zone} />`,

@@ -6,6 +6,7 @@ import { ImportDialog } from './import-dialog.js';
 import { KeepingDialogs } from './keeping-dialogs.js';
 import { Dialog } from './parts.js';
 import { OTHER_KEYS, setSingleKeys, SINGLE_KEYS, singleKeysWork } from './shortcuts.js';
+import { t } from '../texts.js';
 
 /** The open dialog, if any. */
 export function Dialogs() {
@@ -25,19 +26,18 @@ function KeysDialog() {
     setSingleKeys(event.target.checked);
     setWork(event.target.checked);
   };
-  return html`<${Dialog} title="Keys" name="keys" onClose=${close}>
-    <${Keys} keys=${OTHER_KEYS} />
+  return html`<${Dialog} title=${t('keys.title')} name="keys" onClose=${close}>
+    <${Keys} group="other" keys=${OTHER_KEYS} />
     <label class="check"><input type="checkbox" checked=${work} onChange=${choose} />
-      Single keys do something</label>
-    <p class="help">Put them off if you speak to your computer, or press keys by chance. This
-      browser remembers it.</p>
-    <${Keys} keys=${SINGLE_KEYS} off=${!work} /></${Dialog}>`;
+      ${t('keys.single')}</label>
+    <p class="help">${t('keys.help')}</p>
+    <${Keys} group="alone" keys=${SINGLE_KEYS} off=${!work} /></${Dialog}>`;
 }
 
-function Keys({ keys, off = false }) {
+function Keys({ group, keys, off = false }) {
   return html`<table class=${off ? 'keys-off' : ''}><tbody>${keys.map(
-    ([key, what]) => html`<tr key=${key}><th scope="row"><kbd>${key}</kbd></th>
-      <td>${what}</td></tr>`,
+    (name) => html`<tr key=${name}><th scope="row"><kbd>${t(`keys.${group}.${name}.key`)}</kbd></th>
+      <td>${t(`keys.${group}.${name}.does`)}</td></tr>`,
   )}</tbody></table>`;
 }
 
@@ -51,13 +51,11 @@ function KeyDialog({ wasWrong, answer }) {
     event.preventDefault();
     if (key.trim()) give(key.trim());
   };
-  return html`<${Dialog} title="API key" name="key" onClose=${() => give(null)}>
+  return html`<${Dialog} title=${t('keys.api')} name="key" onClose=${() => give(null)}>
     <form onSubmit=${submit}>
-      <p>${wasWrong ? 'The service refused the key.'
-        : 'This service needs an API key.'} It is kept until
-        this tab is closed, and sent to this service alone.</p>
-      <label>Key <input type="password" id="api-key" value=${key} autocomplete="off"
+      <p>${wasWrong ? t('keys.refused') : t('keys.needed')} ${t('keys.kept')}</p>
+      <label>${t('keys.key')} <input type="password" id="api-key" value=${key} autocomplete="off"
         onInput=${(event) => setKey(event.target.value)} /></label>
-      <button type="submit" class="primary">Use this key</button>
+      <button type="submit" class="primary">${t('keys.use')}</button>
     </form></${Dialog}>`;
 }

@@ -3,8 +3,14 @@
 import { amounts, clock, duration, pointText, shownDate, timeWindow } from '../core/format.js';
 import { standingOf } from '../core/replanning.js';
 import { html, render } from '../libraries.js';
+import { t } from '../texts.js';
 
-const STANDINGS = { settled: 'settled', lost: 'not to be served', open: '' };
+const BLANK = '______________'; // to be written on
+const COLUMNS = ['number', 'arrival', 'leave', 'stop', 'window', 'amount', 'drones', 'done'];
+
+function standingInWords(standing) {
+  return standing === 'open' ? '' : t(`sheet.standing.${standing}`);
+}
 
 /**
  * Print the sheets of vehicles.
@@ -29,15 +35,22 @@ export function printSheets(vehicles, parts, isGeographic, links = new Map()) {
 function Sheet({ vehicle, parts, isGeographic, link }) {
   return html`<article class="sheet-page">
     ${link?.qr && html`<figure class="qr"><img src=${link.qr} alt="" />
-      <figcaption>This day on a phone</figcaption></figure>`}
+      <figcaption>${t('sheet.phone')}</figcaption></figure>`}
     <h1>${vehicle.name}</h1>
-    <p>Works ${duration(vehicle.route.working_duration)}. Driver: ____________________
-      Date: ${shownDate() || '______________'}</p>
+    <p>${t('sheet.head', {
+      time: duration(vehicle.route.working_duration),
+      line: BLANK,
+      date: shownDate() || BLANK,
+    })}</p>
     ${vehicle.trips.map(
       (trip) => html`<section key=${trip.key}>
-      <h2>Trip ${trip.index + 1}, load ${amounts(trip.reply.load)}</h2>
-      <table><thead><tr><th>No.</th><th>Arrival</th><th>Leave</th><th>Stop</th><th>Window</th>
-        <th>Amount</th><th>Drones</th><th>Done</th></tr></thead>
+      <h2>${t('sheet.trip', {
+        number: trip.index + 1,
+        load: amounts(trip.reply.load),
+      })}</h2>
+      <table><thead><tr>${COLUMNS.map(
+        (name) => html`<th key=${name}>${t(`sheet.${name}`)}</th>`,
+      )}</tr></thead>
       <tbody>${trip.stops.map(
         (halt, position) => html`<tr key=${halt.key}><td>${position || ''}</td>
         <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
@@ -46,8 +59,8 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
         <td>${halt.kind === 'customer' ? handed(halt.source) : ''}</td>
         <td>${orders(trip, halt).map((order) => html`<div
           key=${order}>${order}</div>`)}</td>
-        <td>${STANDINGS[standingOf(parts, {
-          vehicle: vehicle.name, trip: trip.index, stop: position })]}</td></tr>`,
+        <td>${standingInWords(standingOf(parts, {
+          vehicle: vehicle.name, trip: trip.index, stop: position }))}</td></tr>`,
       )}
       </tbody></table></section>`,
     )}
@@ -56,7 +69,9 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
 
 /** Return what is delivered, and what is picked up. */
 function handed({ demand, pickup }) {
-  return pickup ? `${amounts(demand)}, back ${amounts(pickup)}` : amounts(demand);
+  return pickup
+    ? t('sheet.handed', { out: amounts(demand), back: amounts(pickup) })
+    : amounts(demand);
 }
 
 /** Return where a stop is and what is told of it. */
@@ -76,13 +91,18 @@ function orders(trip, halt) {
     .filter(({ from }) => from === halt)
     .map(
       (sortie) =>
-        `${clock(sortie.reply.launch_time)} launch ${name(sortie)} to ${sortie.visits
-          .map(({ id, source }) => `${id} (${handed(source)})`)
-          .join(', ')}`,
+        t('sheet.launch', {
+          at: clock(sortie.reply.launch_time),
+          drone: name(sortie),
+          names: sortie.visits.map(({ id, source }) => `${id} (${handed(source)})`).join(', '),
+        }),
     );
   const recoveries = trip.sorties
     .filter(({ to }) => to === halt)
-    .map((sortie) => `${clock(sortie.reply.recovery_time)} recover ${name(sortie)}`);
+    .map((sortie) => t('sheet.recover', {
+      at: clock(sortie.reply.recovery_time),
+      drone: name(sortie),
+    }));
   return [...launches, ...recoveries].sort((first, second) =>
     first.localeCompare(second, 'en', { numeric: true }),
   );

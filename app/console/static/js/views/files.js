@@ -3,10 +3,12 @@
 import { openRequest, showFailure } from '../actions.js';
 import { ApiError } from '../api.js';
 import { withoutEnding } from '../core/format.js';
+import { labelOf } from '../core/schema.js';
 import { pastedSheet } from '../core/importing.js';
 import { beginImport } from '../importing.js';
 import { plan } from '../planning.js';
 import { store } from '../store.js';
+import { t } from '../texts.js';
 
 /** Open a file that the user chose or dropped. */
 export async function openFile(file) {
@@ -43,7 +45,7 @@ export function listenToPastes() {
     const text = pastedSheet(event.clipboardData.getData('text/plain'));
     if (text === null) return;
     event.preventDefault();
-    openFile(new File([text], 'what was pasted'));
+    openFile(new File([text], t('files.pasted')));
   });
 }
 
@@ -52,7 +54,7 @@ async function openJson(file) {
   try {
     content = JSON.parse(await file.text());
   } catch (error) {
-    throw new ApiError(0, `${file.name} is not JSON`, `${error.message}.`);
+    throw new ApiError(0, t('files.noJson', { file: file.name }), `${error.message}.`);
   }
   if (content?.type === 'FeatureCollection') {
     await beginImport(file);
@@ -65,8 +67,8 @@ async function openJson(file) {
   if (lacking.length) {
     throw new ApiError(
       0,
-      `${file.name} is no problem`,
-      `It lacks ${lacking.join(', ')}: open a request as the API takes it, or an exported problem.`,
+      t('files.noProblem', { file: file.name }),
+      t('files.lacks', { names: lacking.map(labelOf).join(', ') }),
     );
   }
   openRequest(request, { name: withoutEnding(file.name), isSafe: true });

@@ -3,11 +3,12 @@
 import { edit } from '../actions.js';
 import { freeName } from '../core/changes.js';
 import { droneCount } from '../core/drones.js';
-import { amounts, count } from '../core/format.js';
+import { amounts } from '../core/format.js';
 import { removeIn } from '../core/paths.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Field, Fields } from './form.js';
+import { t } from '../texts.js';
 
 /** The tab. */
 export function FleetTab() {
@@ -37,31 +38,30 @@ export function FleetTab() {
     setAdded({ position: request.fleet.length });
   };
   return html`<div class=${help ? 'section' : 'section no-help'}>
-    <div class="buttons"><h3>${count(request.fleet.length, 'vehicle type')}</h3>
-      <button type="button" onClick=${add}>Add a type</button>
+    <div class="buttons"><h3>${t('fleet.types', { count: request.fleet.length })}</h3>
+      <button type="button" onClick=${add}>${t('fleet.add')}</button>
       <label><input type="checkbox" checked=${help}
-        onChange=${() => setHelp(!help)} /> Explain fields</label>
+        onChange=${() => setHelp(!help)} /> ${t('fleet.explain')}</label>
     </div>
     ${request.fleet.map(
       (type, position) => html`<${VehicleType} key=${position} type=${type}
       position=${position} request=${request} isNew=${position === added?.position} />`,
     )}
-    <fieldset class="group"><legend>Wind</legend>
+    <fieldset class="group"><legend>${t('field.wind')}</legend>
       <${Fields} schema=${schemas.WindInput} keys=${['airspace', 'wind']} request=${request}
         onChange=${edit} /></fieldset>
-    <fieldset class="group"><legend>No-fly areas</legend>
+    <fieldset class="group"><legend>${t('field.no_fly')}</legend>
       ${(request.airspace?.no_fly ?? []).map(
         (ring, position) => html`<div class="buttons" key=${position}>
-        Area ${position + 1}, ${count(ring.length, 'corner')}
+        ${t('fleet.area', { number: position + 1, count: ring.length })}
         <button type="button" onClick=${() =>
             edit(removeIn(request, ['airspace', 'no_fly', position]))}>
-          Remove area ${position + 1}</button></div>`,
+          ${t('fleet.removeArea', { number: position + 1 })}</button></div>`,
       )}
       <p class="help">${request.airspace?.no_fly?.length
-        ? 'Corners are moved' : 'None. They are drawn'}
-        on the map: Draw, then ${request.airspace?.no_fly?.length ? 'Move' : 'No-fly area'}.</p>
+        ? t('fleet.moveAreas') : t('fleet.drawAreas')}</p>
     </fieldset>
-    <fieldset class="group"><legend>Customers left out</legend>
+    <fieldset class="group"><legend>${t('fleet.leftOut')}</legend>
       <${Field} name="unassigned_cost" schema=${properties.unassigned_cost}
         keys=${['unassigned_cost']}
         request=${request} onChange=${edit} /></fieldset>
@@ -73,23 +73,24 @@ function VehicleType({ type, position, request, isNew }) {
   const errors = useStore((state) => state.errors).filter(
     ({ keys }) => keys[0] === 'fleet' && keys[1] === position,
   ).length;
-  const drones = droneCount(type) ? `, ${count(droneCount(type), 'drone')} each` : '';
+  const drones = droneCount(type) ? `, ${t('fleet.drones', { count: droneCount(type) })}` : '';
   const choices = { depot: request.depots.map(({ id }) => id) };
   const skip = request.matrices ? [] : ['profile'];
   return html`<details class="card" open=${position === 0 || isNew || errors > 0}>
     <summary><strong>${type.id}</strong> ${
       errors > 0 &&
       html`<span class="error">
-      ${count(errors, 'error')}</span>`
-    }<span class="right">${count(type.count, 'vehicle')}${`,
-      capacity ${amounts(type.capacity ?? [])}${drones}`}</span></summary>
+      ${t('fleet.errors', { count: errors })}</span>`
+    }<span class="right">${t('header.vehicles', { count: type.count })}, ${
+      t('fleet.capacity', { amounts: amounts(type.capacity ?? []) }) + drones}</span></summary>
     <div class="inside">
       <${Fields} schema=${schemas.VehicleTypeInput} keys=${['fleet', position]} request=${request}
         onChange=${edit} choices=${choices} skip=${skip} />
       ${
         request.fleet.length > 1 &&
         html`<div class="buttons"><button type="button" onClick=${() =>
-          edit(removeIn(request, ['fleet', position]))}>Remove ${type.id}</button></div>`
+          edit(removeIn(request, ['fleet', position]))}>
+          ${t('fleet.remove', { id: type.id })}</button></div>`
       }
     </div></details>`;
 }

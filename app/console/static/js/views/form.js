@@ -2,14 +2,17 @@
 
 import { freeName } from '../core/changes.js';
 import { clock, parseClock, parseNumber } from '../core/format.js';
-import { getIn, keyOf, removeIn, setIn } from '../core/paths.js';
+import { getIn, keyOf, pathOf, removeIn, setIn } from '../core/paths.js';
 import { assumptionIn, presetOf } from '../core/presets.js';
 import {
-  blank, emptyMeans, helpOf, kindOf, labelOf, resolve, timeHelpOf, unitOf, wordLines, wordsOf,
+  apiHelpOf, blank, choiceOf, emptyMeans, helpOf, kindOf, labelOf, resolve, unitOf, withinSentence,
+  wordLines, wordsOf,
 } from '../core/schema.js';
 import { durationText, readDuration, timeKind } from '../core/times.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
+import { t } from '../texts.js';
+import { Said } from './said.js';
 
 /**
  * Fields of an object.
@@ -23,18 +26,28 @@ import { useStore } from '../store.js';
  */
 export function Fields({ schema, keys, request, onChange, skip = [], choices = {} }) {
   const schemas = useStore((state) => state.schemas);
-  const { properties = {}, required = [] } = resolve(schemas, schema).schema;
+  const { properties = {}, required = [], title } = resolve(schemas, schema).schema;
   const names = Object.keys(properties).filter((name) => !skip.includes(name));
   return html`<div class="fields">${names.map(
     (name) => html`
-    <${Field} key=${keyOf([...keys, name])} name=${name} schema=${properties[name]}
+    <${Field} key=${keyOf([...keys, name])} name=${name} owner=${title}
+      schema=${properties[name]}
       keys=${[...keys, name]} request=${request} onChange=${onChange} choices=${choices}
       required=${required.includes(name)} />`,
   )}</div>`;
 }
 
-/** One field, of whatever kind its schema says. */
-export function Field({ name, schema, keys, request, onChange, choices = {}, required = false }) {
+/** One field, of whatever kind its schema says; `owner` is the title of the schema that has it. */
+export function Field({
+  name,
+  schema,
+  keys,
+  request,
+  onChange,
+  owner = 'PlanRequest',
+  choices = {},
+  required = false,
+}) {
   const schemas = useStore((state) => state.schemas);
   const errors = useStore((state) => state.errors).filter(
     (error) => keyOf(error.keys) === keyOf(keys),
@@ -43,7 +56,9 @@ export function Field({ name, schema, keys, request, onChange, choices = {}, req
   const kind = choices[name] ? 'choice' : kindOf(found.schema);
   if (kind === 'other') return null;
   const time = timeKind(schema);
-  const shared = { name, keys, request, onChange, errors, schema: found.schema, choices };
+  const help = html`<${Help} id=${`${idOf(keys)}-help`} keys=${keys} schema=${found.schema}
+    text=${helpOf(owner, name, found.schema)} />`;
+  const shared = { name, keys, request, onChange, errors, schema: found.schema, choices, help };
   if (kind === 'object' && Array.isArray(getIn(request, keys))) {
     return html`<${ListField} ...${shared} schema=${{ ...found.schema, items: found.schema }}
       nullable=${found.nullable} />`;
@@ -59,13 +74,24 @@ export function Field({ name, schema, keys, request, onChange, choices = {}, req
 const INSTANT = {
   show: (value) => clock(value, { precise: true }),
   read: parseClock,
-  example: '"7:30"',
+  example: () => t('form.exampleInstant'),
 };
 const TIMES = {
   instant: INSTANT,
   opening: INSTANT,
-  duration: { show: durationText, read: readDuration, example: '"10 min" or "1:30", hours first' },
+  duration: {
+    show: durationText,
+    read: readDuration,
+    example: () => t('form.exampleDuration'),
+  },
 };
+
+/** What a field is for; its place in the API and what that says of it are behind a click. */
+function Help({ id, keys, schema, text }) {
+  return html`<div class="help"><p id=${id}>${text}</p>
+    <details class="in-api"><summary>${t('form.inApi')}</summary>
+      <p lang="en"><code>${pathOf(keys)}</code> ${apiHelpOf(schema)}</p></details></div>`;
+}
 
 function idOf(keys) {
   return `field-${keys.join('-')}`;
@@ -82,6 +108,7 @@ function PlainField({
   required,
   errors,
   choices,
+  help,
 }) {
   const id = idOf(keys);
   const value = getIn(request, keys);
@@ -90,25 +117,26 @@ function PlainField({
   const Input = { choice: ChoiceInput, switch: SwitchInput }[kind] ?? TextInput;
   const invalid = errors.length > 0;
   const [problem, setProblem] = useState(null);
-  const shown = problem ? [{ message: problem }] : errors;
+  const isWrong = Boolean(problem) || invalid;
   return html`<div class=${`field kind-${kind} ${invalid || problem ? 'invalid' : ''}`}>
     <label for=${id}>${labelOf(name)}</label>
     <${Input} id=${id} kind=${kind} schema=${schema} value=${value} set=${set} nullable=${nullable}
       required=${required} choices=${choices[name]} onProblem=${setProblem}
-      describedBy=${`${id}-help${shown.length ? ` ${id}-error` : ''}`}
-        invalid=${shown.length > 0} />
+      describedBy=${`${id}-help${isWrong ? ` ${id}-error` : ''}`}
+        invalid=${isWrong} />
     <span class="unit">${TIMES[kind] ? '' : unitOf(schema)}</span>
-    <p class="help" id=${`${id}-help`}>${TIMES[kind] ? timeHelpOf(schema) : helpOf(schema)}</p>
+    ${help}
     ${
-      shown.length > 0 &&
-      html`<p class="error" id=${`${id}-error`}>
-      ${shown.map(({ message }) => message).join(' ')}</p>`
+      isWrong &&
+      html`<div class="error" id=${`${id}-error`}>${
+        problem ?? errors.map((error) => html`<${Said} key=${error.code} ...${error} />`)
+      }</div>`
     }
   </div>`;
 }
 
-/** Shown for a value that is no choice but an object. */
-const OWN_PLACE = 'a place of its own';
+/** Stands for a value that is no choice but an object. */
+const OWN_PLACE = 'own place';
 
 function ChoiceInput({ id, schema, value, set, choices, describedBy, nullable }) {
   const values = choices ?? schema.enum;
@@ -116,9 +144,10 @@ function ChoiceInput({ id, schema, value, set, choices, describedBy, nullable })
   const shown = own ? OWN_PLACE : (value ?? schema.default ?? '');
   return html`<select id=${id} aria-describedby=${describedBy} value=${shown}
     onChange=${(event) => set(event.target.value === '' ? undefined : event.target.value)}>
-    ${own && html`<option value=${OWN_PLACE}>${OWN_PLACE}</option>`}
-    ${nullable && html`<option value="">${emptyMeans(schema, true) || 'none'}</option>`}
-    ${values.map((entry) => html`<option key=${entry} value=${entry}>${entry}</option>`)}
+    ${own && html`<option value=${OWN_PLACE}>${t('form.ownPlace')}</option>`}
+    ${nullable && html`<option value="">${emptyMeans(schema, true) || t('form.none')}</option>`}
+    ${values.map((entry) => html`<option key=${entry} 
+      value=${entry}>${choices ? entry : choiceOf(entry)}</option>`)}
   </select>`;
 }
 
@@ -143,23 +172,23 @@ function valueOf(text, { kind, required }) {
   const trimmed = text.trim();
   if (trimmed === '' && kind === 'texts') return { value: undefined };
   if (trimmed === '') {
-    return required ? { problem: 'This field is required: state a value.' } : { value: undefined };
+    return required ? { problem: t('form.required') } : { value: undefined };
   }
   if (kind === 'text') return { value: trimmed };
   if (kind === 'texts') return { value: trimmed.split(LIST).filter(Boolean) };
   if (TIMES[kind]) {
     const value = TIMES[kind].read(trimmed);
     return value === null
-      ? { problem: `"${trimmed}" is no time: write ${TIMES[kind].example}.` }
+      ? { problem: t('form.noTime', { text: trimmed, example: TIMES[kind].example() }) }
       : { value };
   }
   if (kind === 'number') {
     const value = parseNumber(trimmed);
-    return value === null ? { problem: `"${trimmed}" is not a number: state one.` } : { value };
+    return value === null ? { problem: t('form.noNumber', { text: trimmed }) } : { value };
   }
   const values = trimmed.split(LIST).map(parseNumber);
   return values.includes(null)
-    ? { problem: 'State numbers with commas between.' }
+    ? { problem: t('form.numbers') }
     : { value: values };
 }
 
@@ -194,7 +223,7 @@ function TextInput({
     onKeyDown=${(event) => event.key === 'Enter' && commit()} />`;
 }
 
-function ObjectField({ name, schema, keys, request, onChange, nullable, choices }) {
+function ObjectField({ name, schema, keys, request, onChange, nullable, choices, help }) {
   const schemas = useStore((state) => state.schemas);
   const value = getIn(request, keys);
   const present = value !== null && value !== undefined;
@@ -211,7 +240,7 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices 
       onChange=${toggle} /> ${labelOf(name)}</label>`
         : labelOf(name)
     }</legend>
-    <p class="help">${helpOf(schema)}</p>
+    ${help}
     <p class="assumed" role="status">${present ? assumptionIn(name, request, value) : ''}</p>
     ${
       (present || !nullable) &&
@@ -221,7 +250,7 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices 
   </fieldset>`;
 }
 
-function WordsField({ name, schema, keys, request, onChange, errors }) {
+function WordsField({ name, keys, request, onChange, errors, help }) {
   const id = idOf(keys);
   const value = wordLines(getIn(request, keys));
   const [text, setText] = useState(value);
@@ -231,19 +260,20 @@ function WordsField({ name, schema, keys, request, onChange, errors }) {
     if (!words || wordLines(words) === value) return;
     onChange(text.trim() ? setIn(request, keys, words) : removeIn(request, keys));
   };
-  const shown = words ? errors : [{ message: 'Write lines such as phone: 089 1234.' }];
-  return html`<div class=${`field kind-words ${shown.length ? 'invalid' : ''}`}>
+  const isWrong = !words || errors.length > 0;
+  return html`<div class=${`field kind-words ${isWrong ? 'invalid' : ''}`}>
     <label for=${id}>${labelOf(name)}</label>
     <textarea id=${id} rows=${Math.min(value.split('\n').length + 1, 6)} value=${text}
-      aria-describedby=${`${id}-help`} aria-invalid=${shown.length > 0}
+      aria-describedby=${`${id}-help`} aria-invalid=${isWrong}
       placeholder="phone: 089 1234" onInput=${(event) => setText(event.target.value)}
       onBlur=${commit}></textarea>
-    <p class="help" id=${`${id}-help`}>${helpOf(schema)}</p>
-    ${shown.map(({ message }) => html`<p class="error" key=${message}>${message}</p>`)}
+    ${help}
+    ${!words && html`<p class="error">${t('form.lines')}</p>`}
+    ${errors.map((error) => html`<div class="error"><${Said} ...${error} /></div>`)}
   </div>`;
 }
 
-function ListField({ name, schema, keys, request, onChange, nullable, errors, choices }) {
+function ListField({ name, schema, keys, request, onChange, nullable, errors, choices, help }) {
   const schemas = useStore((state) => state.schemas);
   const values = getIn(request, keys) ?? [];
   const add = () => {
@@ -257,16 +287,18 @@ function ListField({ name, schema, keys, request, onChange, nullable, errors, ch
   };
   return html`<fieldset class="group list">
     <legend>${labelOf(name)}</legend>
-    <p class="help">${helpOf(schema)}</p>
-    ${errors.map(({ message }) => html`<p class="error">${message}</p>`)}
+    ${help}
+    ${errors.map((error) => html`<div class="error"><${Said} ...${error} /></div>`)}
     ${values.map(
       (_, index) => html`<div class="entry" key=${index}>
       <${Fields} schema=${schema.items} keys=${[...keys, index]} request=${request}
         onChange=${onChange} choices=${choices} />
       <button type="button" class="quiet"
-        onClick=${() => remove(index)}>Remove entry ${index + 1}</button>
+        onClick=${() => remove(index)}>${t('form.remove', { number: index + 1 })}</button>
     </div>`,
     )}
-    <button type="button" onClick=${add}>Add to ${labelOf(name).toLowerCase()}</button>
+    <button type="button" onClick=${add}>${t('form.add', {
+      list: withinSentence(labelOf(name)),
+    })}</button>
   </fieldset>`;
 }

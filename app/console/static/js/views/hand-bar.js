@@ -1,7 +1,7 @@
 /** What was changed by hand and how it was judged, and the best places of a customer. */
 
 import { hover, openTab, shownPlan } from '../actions.js';
-import { count, money, signed } from '../core/format.js';
+import { money, signed } from '../core/format.js';
 import { placeInWords, rulesInWords } from '../core/hands-words.js';
 import { trueCost } from '../core/terms.js';
 import { sendChange, sendOut } from '../dispatching.js';
@@ -9,7 +9,7 @@ import { isFurther, redoStep, stepBack, stepForth, takeFit, undoStep } from '../
 import { html } from '../libraries.js';
 import { improvePlan } from '../planning.js';
 import { store, useStore } from '../store.js';
-import { t } from '../texts.js';
+import { parts, t } from '../texts.js';
 
 const MOST_RULES = 6;
 
@@ -21,7 +21,8 @@ export function HandBar() {
   const hand = entry?.hand;
   const isBroken = !fit && hand?.violations.length > 0;
   return html`<section class=${`hand-bar ${isBroken ? 'broken' : ''}`} aria-live="polite"
-    aria-label="Changes by hand">${judging && html`<p>Judging: ${judging}</p>`}${
+    aria-label=${t('hand.title')}>${
+      judging && html`<p>${t('hand.judging', { what: judging })}</p>`}${
       fit && html`<${Fit} fit=${fit} />`}${
       !fit && !judging && hand && html`<${Outcome} entry=${entry} />`}${
       !fit && !judging && !hand && html`<${Again} />`}</section>`;
@@ -35,16 +36,21 @@ function Outcome({ entry }) {
   const isForth = useStore((state) => Boolean(stepForth(state)));
   const whole = trueCost(entry) - before;
   return html`<p id="hand-outcome">${words}: <strong class=${classOf(change)}>${signed(change)}
-      </strong>${Math.abs(whole - change) > 0.005 && html`, in all <strong class=${classOf(whole)}
-      >${signed(whole)}</strong> beside ${fromName}`}${Math.abs(penalty) > 0.005
+      </strong>${Math.abs(whole - change) > 0.005 && html`, ${parts('hand.whole', {
+        sum: html`<strong class=${classOf(whole)}>${signed(whole)}</strong>`,
+        name: fromName,
+      })}`}${Math.abs(penalty) > 0.005
         && html`; ${t('hand.penalty', { sum: signed(penalty) })}`}</p>
-    ${rules.length > 0 && html`<p class="late-text">Breaks ${count(rules.length, 'rule')}:</p>
+    ${rules.length > 0 && html`<p class="late-text">${t('hand.breaks', { count: rules.length })}</p>
       <ul>${rules.slice(0, MOST_RULES).map((rule) => html`<li key=${rule}>${rule}</li>`)}
-      ${rules.length > MOST_RULES && html`<li>and ${rules.length - MOST_RULES} more</li>`}</ul>`}
+      ${rules.length > MOST_RULES && html`<li>${t('app.more', {
+        count: rules.length - MOST_RULES,
+      })}</li>`}</ul>`}
     <div class="buttons">
-      <button type="button" disabled=${!isBack} onClick=${undoStep}>Undo</button>
-      <button type="button" disabled=${!isForth} onClick=${redoStep}>Redo</button>
-      <button type="button" disabled=${busy} onClick=${improvePlan}>Improve around this</button>
+      <button type="button" disabled=${!isBack} onClick=${undoStep}>${t('hand.undo')}</button>
+      <button type="button" disabled=${!isForth} onClick=${redoStep}>${t('hand.redo')}</button>
+      <button type="button" disabled=${busy} onClick=${improvePlan}>
+        ${t('hand.improve')}</button>
       ${!rules.length && html`<${SendNow} entry=${entry} />`}
     </div>`;
 }
@@ -65,8 +71,9 @@ function SendNow({ entry }) {
 /** What was just taken back can be made again. */
 function Again() {
   const step = useStore(stepForth);
-  return step && html`<div class="buttons"><span>Taken back: ${step.after.entry.hand.words}</span>
-    <button type="button" onClick=${redoStep}>Redo</button></div>`;
+  return step && html`<div class="buttons"><span>${
+    t('hand.takenBack', { what: step.after.entry.hand.words })}</span>
+    <button type="button" onClick=${redoStep}>${t('hand.redo')}</button></div>`;
 }
 
 function classOf(change) {
@@ -77,18 +84,21 @@ function classOf(change) {
 function Fit({ fit }) {
   const { customer, told } = fit;
   const close = () => store.set({ fit: null });
-  return html`<p><strong>Best places for ${customer.id}</strong>
-      ${told?.here && html`, now with ${told.here.vehicle} at ${money(told.here.saving.total)}`}</p>
-    ${!told && html`<p>Trying places</p>`}
+  return html`<p><strong>${t('hand.bestFor', { id: customer.id })}</strong>
+      ${told?.here && `, ${t('hand.nowWith', {
+        vehicle: told.here.vehicle,
+        cost: money(told.here.saving.total),
+      })}`}</p>
+    ${!told && html`<p>${t('hand.trying')}</p>`}
     ${told && html`<ol class="places">${told.places.map(
       (place, position) => html`<${Place} key=${position} fit=${fit} place=${place} />`)}</ol>
       ${told.others.length > 0 && html`<details><summary>${
-        count(told.others.length, 'other vehicle')}</summary><ul>${told.others.map(
+        t('hand.others', { count: told.others.length })}</summary><ul>${told.others.map(
         (place, position) => html`<li key=${position}>${placeInWords(place).join(', ')}: ${
           place.feasible ? signed(place.cost.total, money)
             : rulesInWords(place.reasons).join(' ')}</li>`)}</ul></details>`}
-      ${!told.complete && html`<p class="help">There was not time to try every place.</p>`}`}
-    <div class="buttons"><button type="button" onClick=${close}>Close</button></div>`;
+      ${!told.complete && html`<p class="help">${t('why.ask.noTime')}</p>`}`}
+    <div class="buttons"><button type="button" onClick=${close}>${t('app.close')}</button></div>`;
 }
 
 function Place({ fit, place }) {
@@ -97,7 +107,7 @@ function Place({ fit, place }) {
     <span>${who} <span class="help">${[where, ...notesOn(fit, place)].join(', ')}</span></span>
     <strong class="number">${signed(place.cost.total, money)}</strong>
     <button type="button" onClick=${() => takeFit(fit, place)}
-      aria-label=${`Take ${who}, ${where}`}>Take</button>
+      aria-label=${t('hand.takeOf', { who, where })}>${t('hand.take')}</button>
     ${!place.feasible && html`<span class="late-text">${
       rulesInWords(place.reasons).join(' ')}</span>`}</li>`;
 }

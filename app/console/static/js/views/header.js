@@ -1,7 +1,7 @@
 /** The header: what problem is open, planning, and what came of it. */
 
 import { isWaiting, openRequest, shownPlan } from '../actions.js';
-import { count, duration, money } from '../core/format.js';
+import { duration, money } from '../core/format.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
 import { html, useRef } from '../libraries.js';
 import { plan, stop } from '../planning.js';
@@ -23,11 +23,12 @@ export function Header() {
     <h1><img src=${ICON} alt="" /><span class="word">Tandem</span></h1>
     ${ready && html`<${ProblemName} /><${Opener} />`}
     <button type="button" class="primary" disabled=${!ready} onClick=${plan}
-      id="plan-button">${goesOn ? 'Plan on' : 'Plan'}</button>
-    <button type="button" class="stop" disabled=${!busy} onClick=${stop}>Stop</button>
+      id="plan-button">${goesOn ? t('header.goOn') : t('header.plan')}</button>
+    <button type="button" class="stop" disabled=${!busy} onClick=${stop}>
+      ${t('header.stop')}</button>
     <${Result} />
     <button type="button" class="quiet" onClick=${() => store.set({ dialog: { name: 'keys' } })}
-      ><${Sign} sign="\u2328" /><span class="word">Keys</span></button>
+      ><${Sign} sign="\u2328" /><span class="word">${t('header.keys')}</span></button>
     <button type="button" class="quiet" onClick=${switchTheme}
       ><${Sign} sign="\u25d0" /><span class="word"><${ThemeName} /></span></button>
     <${LanguageChoice} />
@@ -41,7 +42,7 @@ function Sign({ sign }) {
 }
 
 function ThemeName() {
-  return useStore((state) => state.dark) ? 'Light' : 'Dark';
+  return useStore((state) => state.dark) ? t('header.light') : t('header.dark');
 }
 
 /** Change between light and dark, and remember it. */
@@ -61,14 +62,16 @@ function Opener() {
     plan();
   };
   return html`<div class="problem">
-    <select aria-label="Open an example" onChange=${choose} value="">
+    <select aria-label=${t('header.example')} onChange=${choose} value="">
       <option value="" disabled hidden>${t('header.examples')}</option>
       ${examples.map(({ name, summary }) => html`<option key=${name}
         value=${name}>${name}: ${summary}</option>`)}
     </select>
-    <button type="button" onClick=${() => input.current.click()}>Open a file</button>
-    <button type="button" id="saved-plans" onClick=${openPlans}>Saved</button>
-    <input type="file" hidden ref=${input} id="file-input" aria-label="File to open"
+    <button type="button" onClick=${() => input.current.click()}>
+      ${t('header.file')}</button>
+    <button type="button" id="saved-plans" onClick=${openPlans}>
+      ${t('header.saved')}</button>
+    <input type="file" hidden ref=${input} id="file-input" aria-label=${t('header.fileInput')}
       accept=".json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods,.html,.htm,.kml,.geojson"
       onChange=${(event) => {
         openFile(event.target.files[0]);
@@ -80,8 +83,6 @@ function Opener() {
 /** Seconds that are planned without telling how long it takes. */
 const MOST_UNTOLD = 5;
 
-const STATES = { decoding: 'Building a plan', improving: 'Improving', stopping: 'Stopping' };
-
 function Result() {
   const entry = useStore(shownPlan);
   const run = useStore((state) => state.run);
@@ -91,7 +92,7 @@ function Result() {
   return html`<div class="result-line" aria-live="polite">
     ${entry && html`<${Totals} entry=${entry} />`}
     ${run.state !== 'idle' && html`<span>${
-      run.waiting ?? STATES[waits ? 'decoding' : run.state]}</span>`}
+      run.waiting ?? t(`run.${waits ? 'decoding' : run.state}`)}</span>`}
     ${
       ['decoding', 'improving'].includes(run.state) &&
       run.limit?.isChosen &&
@@ -101,10 +102,10 @@ function Result() {
         count: run.request.customers.length,
       })}</span>`
     }
-    ${waits && entry && html`<span class="stale">The plan before is shown meanwhile.</span>`}
+    ${waits && entry && html`<span class="stale">${t('run.meanwhile')}</span>`}
     ${
       run.state === 'improving' &&
-      html`<span class="progress" role="progressbar" aria-label="Search"
+      html`<span class="progress" role="progressbar" aria-label=${t('run.search')}
       aria-valuenow=${Math.round((run.share ?? 0) * 100)} aria-valuemin="0" aria-valuemax="100">
       <span style=${{ width: `${(run.share ?? 0) * 100}%` }}></span></span>`
     }
@@ -128,9 +129,12 @@ function Totals({ entry }) {
     })}</span>
     ${penalty > 0 && html`<span id="total-penalty" title=${t('header.penaltyHelp')}>${
       t('header.penalty', { sum: money(penalty) })}</span>`}
-    <span class="served">${summary.served} of ${summary.customers} served</span>
-    ${out > 0 && html`<span class="out">${out} unassigned</span>`}
-    <span class="least">${count(summary.vehicles, 'vehicle')}</span>
-    <span class="least">${count(summary.trips, 'trip')}</span>
-    <span class="least">${count(summary.sorties, 'flight')}</span>`;
+    <span class="served">${t('header.served', {
+      served: String(summary.served),
+      customers: String(summary.customers),
+    })}</span>
+    ${out > 0 && html`<span class="out">${t('header.out', { count: out })}</span>`}
+    <span class="least">${t('header.vehicles', { count: summary.vehicles })}</span>
+    <span class="least">${t('routes.trips', { count: summary.trips })}</span>
+    <span class="least">${t('header.flights', { count: summary.sorties })}</span>`;
 }

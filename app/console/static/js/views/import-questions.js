@@ -1,7 +1,7 @@
 /** What a file leaves open, each answered by a click; what is taken without one is marked. */
 
 import { knownOr } from '../core/importing.js';
-import { answer, changeColumn } from '../importing.js';
+import { answer } from '../importing.js';
 import { html } from '../libraries.js';
 import { t } from '../texts.js';
 
@@ -16,16 +16,16 @@ export function Questions({ importing: { reply, mapping } }) {
       open ? t('import.questionsOpen', { count: open }) : t('import.questionsDone')
     }</p>
     <ol>${questions.map((question, at) => html`<${Question} key=${question.id} at=${at}
-      question=${question} reply=${reply} given=${mapping.answers?.[question.id]} />`)}</ol></section>`;
+      question=${question} reply=${reply}
+      given=${mapping.answers?.[question.id]} />`)}</ol></section>`;
 }
 
 function Question({ at, question, reply, given }) {
   const { id, kind, default: assumed, is_answered: isAnswered, examples } = question;
   const taken = given ?? question.answer;
   const column =
-    kind === 'column' && reply.columns.find((entry) => entry.column === question.column);
-  const choose = (chosen) =>
-    column ? changeColumn(column, { meaning: chosen, unit: null }) : answer(id, chosen);
+    kind === 'column' ? reply.columns.find((entry) => entry.column === question.column) : null;
+  const choose = (chosen) => answer(id, chosen, column);
   const state = isAnswered ? 'answered' : taken === null ? 'wanted' : 'open';
   return html`<li class=${state}><div role="group" aria-labelledby=${`question-${at}`}>
     <p><span id=${`question-${at}`}>${textOf(question)}</span>

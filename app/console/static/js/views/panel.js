@@ -16,20 +16,21 @@ import { RoutesTab } from './routes-tab.js';
 import { ScenariosTab } from './scenarios-tab.js';
 import { SolveTab } from './solve-tab.js';
 import { UnassignedTab } from './unassigned-tab.js';
+import { t } from '../texts.js';
 
-/** Tabs in order; the digit of each of the first ten, 0 for the tenth, is its shortcut. */
+/** Views by tab, in order; the digit of each of the first ten, 0 for the tenth, is its shortcut. */
 export const TABS = {
-  customers: { name: 'Customers', view: CustomersTab },
-  fleet: { name: 'Fleet', view: FleetTab },
-  solve: { name: 'Search', view: SolveTab },
-  routes: { name: 'Routes', view: RoutesTab },
-  costs: { name: 'Costs', view: CostsTab },
-  unassigned: { name: 'Unassigned', view: UnassignedTab },
-  changes: { name: 'What if', view: ChangesTab },
-  replan: { name: 'Replan', view: ReplanTab },
-  scenarios: { name: 'Scenarios', view: ScenariosTab },
-  export: { name: 'Export', view: ExportTab },
-  drivers: { name: 'Drivers', view: DriversTab },
+  customers: CustomersTab,
+  fleet: FleetTab,
+  solve: SolveTab,
+  routes: RoutesTab,
+  costs: CostsTab,
+  unassigned: UnassignedTab,
+  changes: ChangesTab,
+  replan: ReplanTab,
+  scenarios: ScenariosTab,
+  export: ExportTab,
+  drivers: DriversTab,
 };
 
 /** Return the tab where a place of the request is edited. */
@@ -57,20 +58,21 @@ export function Panel() {
     opened.current = tab;
     document.getElementById(`tab-${tab}`).scrollIntoView({ block: 'nearest', inline: 'nearest' });
   }, [tab]);
-  const { view: View, name: label } = TABS[tab];
-  return html`<aside class="panel" aria-label="Problem and plan">
-    <div class="tabs" role="tablist" aria-label="Panel" onKeyDown=${onKey}>
-      ${Object.entries(TABS).map(
-        ([name, { name: title }]) => html`<button type="button" role="tab"
+  const View = TABS[tab];
+  return html`<aside class="panel" aria-label=${t('panel.title')}>
+    <div class="tabs" role="tablist" aria-label=${t('panel.tabs')}
+      onKeyDown=${onKey}>
+      ${Object.keys(TABS).map(
+        (name) => html`<button type="button" role="tab"
         key=${name} id=${`tab-${name}`} aria-controls="tab-body" aria-selected=${tab === name}
-        tabindex=${tab === name ? 0 : -1} onClick=${() => openTab(name)}>${title}${
+        tabindex=${tab === name ? 0 : -1} onClick=${() => openTab(name)}>${t(`tab.${name}`)}${
           counts[name] > 0 && html`<span class="count">${counts[name]}</span>`
         }</button>`,
       )}
     </div>
     <${DronesLine} /><${HandBar} />
     <div class="tab" role="tabpanel" id="tab-body" aria-labelledby=${`tab-${tab}`} tabindex="0"
-      key=${tab}><h2 class="visually-hidden">${label}</h2><${View} /></div>
+      key=${tab}><h2 class="visually-hidden">${t(`tab.${tab}`)}</h2><${View} /></div>
   </aside>`;
 }
 

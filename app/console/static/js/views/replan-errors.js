@@ -1,7 +1,7 @@
 /** Errors of what is to be replanned, where they belong. */
 
-import { timesInWords } from '../core/format.js';
 import { html } from '../libraries.js';
+import { Said } from './said.js';
 
 /** Return the errors of `request.replan` whose keys a test accepts. */
 export function errorsAt(errors, test) {
@@ -11,7 +11,7 @@ export function errorsAt(errors, test) {
 /** Messages one below the other. */
 export function Errors({ errors, id }) {
   return errors.map(
-    ({ message, path, code }) => html`<p class="error" id=${id} tabindex=${id ? -1 : undefined}
-      key=${path + code}>${timesInWords(message)}</p>`,
+    (error) => html`<div class="error" id=${id} tabindex=${id ? -1 : undefined}
+      key=${error.path + error.code}><${Said} ...${error} /></div>`,
   );
 }

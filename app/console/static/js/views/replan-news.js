@@ -11,6 +11,7 @@ import { useStore } from '../store.js';
 import { Change } from './change-words.js';
 import { NewOrder } from './new-order.js';
 import { WindowFields } from './window-fields.js';
+import { t } from '../texts.js';
 
 const MOST_LISTED = 30;
 
@@ -24,18 +25,20 @@ export function News({ request, basis }) {
     : [];
   const button = (name, text) => html`<button type="button" aria-pressed=${tool === name}
     onClick=${() => takeTool(name)}>${text}</button>`;
-  return html`<section class="section"><h3>What is new</h3>
+  return html`<section class="section"><h3>${t('news.title')}</h3>
     <${NewOrder} open />
-    <div class="buttons">${button('customer', 'Add orders on the map')}
-      ${button('erase', 'Cancel orders on the map')}</div>
-    ${tool === 'customer' || tool === 'erase' ? html`<p class="help">Click on the map; Esc puts the
-      tool down.</p>` : ''}
+    <div class="buttons">${button('customer', t('news.add'))}
+      ${button('erase', t('news.cancel'))}</div>
+    ${tool === 'customer' || tool === 'erase' ? html`<p class="help">${t('news.click')}</p>` : ''}
     <${SelectedOrder} request=${request} />
     ${changes.length > 0 && html`<ul>${changes.slice(0, MOST_LISTED).map(
       (change) => html`<li key=${change.path}><${Change} ...${change} /></li>`,
-    )}${changes.length > MOST_LISTED && html`<li>and ${changes.length - MOST_LISTED} more</li>`}
+    )}${changes.length > MOST_LISTED && html`<li>${t('app.more', {
+      count: changes.length - MOST_LISTED,
+    })}</li>`}
     </ul>
-    <div class="buttons"><button type="button" onClick=${undo}>Undo the last change</button></div>`}
+    <div class="buttons"><button type="button" onClick=${undo}>
+      ${t('news.undo')}</button></div>`}
   </section>`;
 }
 
@@ -45,23 +48,23 @@ function SelectedOrder({ request }) {
   const id = selection?.startsWith('c:') ? selection.slice(2) : null;
   const customer = request.customers.find((other) => other.id === id);
   if (!customer) {
-    return html`<p class="help">Select a customer, on the map or in the timeline, to pin or cancel
-      it or to change its window.</p>`;
+    return html`<p class="help">${t('news.select')}</p>`;
   }
   const { vehicle, isPlanned, mayPin, mayCancel } = choicesOf(request, id);
   const isPinned = (request.replan.pinned ?? []).includes(id);
   return html`<div class="card"><header><strong>${id}</strong>
-      <span class="right">${isPlanned ? `with ${vehicle}` : 'not planned yet'}</span></header>
+      <span class="right">${
+        isPlanned ? t('news.with', { vehicle }) : t('about.notYet')}</span></header>
     <div class="inside">
-      ${!mayCancel && html`<p class="help">Settled: it is served, or a vehicle is on its way.</p>`}
+      ${!mayCancel && html`<p class="help">${t('news.settled')}</p>`}
       <div class="buttons">
         ${mayPin && html`<button type="button" aria-pressed=${isPinned}
           onClick=${() => edit(setPinned(request, [id], !isPinned))}>
-          ${isPinned ? `Pinned to ${vehicle}` : `Pin to ${vehicle}`}</button>`}
-        <button type="button" disabled=${!mayCancel}
-          onClick=${() => cancelOrders([id])}>Cancel this order</button>
+          ${isPinned ? t('news.pinned', { vehicle }) : t('news.pin', { vehicle })}</button>`}
+        <button type="button" disabled=${!mayCancel} onClick=${() => cancelOrders([id])}>
+          ${t('news.cancelOrder')}</button>
       </div>
-      <div class="buttons"><span>Window</span><${WindowFields} customer=${customer}
+      <div class="buttons"><span>${t('about.window')}</span><${WindowFields} customer=${customer}
         onApply=${(windows) => edit(giveWindows(request, [id], windows))} /></div>
     </div></div>`;
 }

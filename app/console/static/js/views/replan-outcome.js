@@ -1,10 +1,12 @@
 /** What became of the plan that was gone on from: what was settled, what was broken already. */
 
 import { select } from '../actions.js';
-import { clock, count, timesInWords } from '../core/format.js';
+import { clock } from '../core/format.js';
 import { getIn, parsePath } from '../core/paths.js';
 import { isDrone } from '../core/replanning.js';
+import { saidOf } from '../core/said.js';
 import { html } from '../libraries.js';
+import { parts, t } from '../texts.js';
 
 /** The section. `entry` is a plan that goes on from another. */
 export function Outcome({ entry }) {
@@ -13,21 +15,30 @@ export function Outcome({ entry }) {
   const broken = unavailable.filter((name) => !isDrone(name));
   const lost = unavailable.filter(isDrone);
   const now = entry.request.replan?.freeze_before ?? null;
-  return html`<section class="section" id="replan-outcome"><h3>What stayed as it was</h3>
+  return html`<section class="section" id="replan-outcome">
+    <h3>${t('outcome.title')}</h3>
     ${settled.length > 0
-      ? html`<p>${count(settled.length, 'vehicle')} had departed${
-          now === null ? '' : ` by ${clock(now, { precise: true })}`}:</p>
+      ? html`<p>${now === null
+          ? t('outcome.departed', { count: settled.length })
+          : t('outcome.departedBy', {
+            count: settled.length,
+            at: clock(now, { precise: true }),
+          })}</p>
         <ul>${settled.map((kept) => html`<li key=${kept.vehicle}>
           ${inWords(entry.plan, kept)}</li>`)}</ul>`
-      : html`<p>Nothing had departed, so all was free.</p>`}
-    ${broken.length > 0 && html`<p>${broken.join(', ')} ${broken.length > 1 ? 'do' : 'does'} nothing
-      more: others serve whom ${broken.length > 1 ? 'they' : 'it'} hadn't reached.</p>`}
-    ${lost.length > 0 && html`<p>${lost.join(', ')} ${lost.length > 1 ? 'are' : 'is'} launched no
-      more.</p>`}
-    ${excused.length > 0 && html`<h4>Broken already, by what had happened</h4>
+      : html`<p>${t('outcome.free')}</p>`}
+    ${broken.length > 0 && html`<p>${t('outcome.broken', {
+      count: broken.length,
+      names: broken.join(', '),
+    })}</p>`}
+    ${lost.length > 0 && html`<p>${t('outcome.lost', {
+      count: lost.length,
+      names: lost.join(', '),
+    })}</p>`}
+    ${excused.length > 0 && html`<h4>${t('outcome.excused')}</h4>
       <ul>${excused.map((rule) => html`<li key=${rule.path + rule.code}>
-        <${Place} entry=${entry} path=${rule.path} />${timesInWords(rule.message)}</li>`)}</ul>
-      <p class="help">Nothing can mend these; all other rules are kept.</p>`}
+        <${Place} entry=${entry} path=${rule.path} />${saidOf(rule)}</li>`)}</ul>
+      <p class="help">${t('outcome.unmendable')}</p>`}
   </section>`;
 }
 
@@ -35,15 +46,18 @@ function inWords(plan, { vehicle, trip, stop }) {
   const { trips } = plan.routes.find((route) => route.vehicle === vehicle);
   const { stops } = trips[trip];
   const place = stops[stop];
-  const which = trips.length > 1 ? `trip ${trip + 1} ` : '';
+  const number = trip + 1;
   if (!place || stop >= stops.length - 1) {
-    return `${vehicle}: all of ${which.trim() || 'its trip'}.`;
+    return trips.length > 1
+      ? t('outcome.allOf', { vehicle, number })
+      : t('outcome.all', { vehicle });
   }
   const link = place.kind === 'customer'
     ? html`<button type="button" class="link"
         onClick=${() => select(`c:${place.id}`)}>${place.id}</button>`
     : place.id;
-  return html`${vehicle}: ${which}up to ${link}, ${clock(place.arrival)}.`;
+  const so = { vehicle, number, stop: link, at: clock(place.arrival) };
+  return trips.length > 1 ? parts('outcome.upToOf', so) : parts('outcome.upTo', so);
 }
 
 /** The customer or vehicle that a path of the plan or problem names. */

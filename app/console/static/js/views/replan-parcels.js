@@ -5,6 +5,7 @@ import { clock, parseClock } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 import { Errors, errorsAt } from './replan-errors.js';
+import { t } from '../texts.js';
 
 /** When parcels that broken vehicles carry can be loaded again. */
 export function ParcelsBack({ request, errors }) {
@@ -22,12 +23,12 @@ export function ParcelsBack({ request, errors }) {
     edit(text.trim() === '' ? removeIn(request, keys) : setIn(request, keys, parsed));
   };
   return html`<div class=${mine.length || isWrong ? 'field invalid' : 'field'}>
-    <label for=${id}>Parcels are back at</label>
-    <input type="text" id=${id} value=${text} placeholder="at once" autocomplete="off"
+    <label for=${id}>${t('replan.parcels')}</label>
+    <input type="text" id=${id} value=${text} placeholder=${t('replan.atOnce')} autocomplete="off"
       aria-describedby=${`${id}-help`} onInput=${(event) => setText(event.target.value)}
       onBlur=${commit} onKeyDown=${(event) => event.key === 'Enter' && commit()} />
     <span class="unit">h:mm</span>
-    <p class="help" id=${`${id}-help`}>When what broken vehicles carry is at the depots again.</p>
-    ${isWrong && html`<p class="error">State a time of day such as 11:15.</p>`}
+    <p class="help" id=${`${id}-help`}>${t('replan.parcelsHelp')}</p>
+    ${isWrong && html`<p class="error">${t('replan.clock', { example: '11:15' })}</p>`}
     <${Errors} errors=${mine} /></div>`;
 }

@@ -1,10 +1,11 @@
 /** Replanning: go on from a plan while its day is under way, or search on from it. */
 
 import { besidePlan, edit, shownPlan } from '../actions.js';
-import { clock, money, number, parseClock, signed } from '../core/format.js';
+import { clock, money, parseClock, signed } from '../core/format.js';
 import { nowOf } from '../core/orders.js';
 import { setIn } from '../core/paths.js';
 import { fromNothing } from '../core/replanning.js';
+import { saidOf } from '../core/said.js';
 import { trueCost } from '../core/terms.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 import { goOnWith, replanFrom } from '../ordering.js';
@@ -15,6 +16,7 @@ import { Errors, errorsAt } from './replan-errors.js';
 import { News } from './replan-news.js';
 import { Outcome } from './replan-outcome.js';
 import { PinnedCustomers, Vehicles } from './replan-vehicles.js';
+import { parts, t } from '../texts.js';
 
 /** The tab. */
 export function ReplanTab() {
@@ -22,7 +24,7 @@ export function ReplanTab() {
   const entry = useStore(shownPlan);
   const former = useStore(besidePlan);
   const isResult = Boolean(entry?.plan.replan) && entry.plan !== request.replan?.plan;
-  if (!entry && !request.replan) return html`<p class="empty">Nothing is planned yet.</p>`;
+  if (!entry && !request.replan) return html`<p class="empty">${t('timeline.nothing')}</p>`;
   return html`
     ${request.replan ? html`<${Draft} request=${request} entry=${entry} />`
       : html`<${Beginning} entry=${entry} />`}
@@ -33,11 +35,9 @@ export function ReplanTab() {
 /** Before anything is settled: from when on, or look for a cheaper plan. */
 function Beginning({ entry }) {
   const time = useStore((state) => state.time);
-  return html`<section class="section"><h3>The day is under way</h3>
-      <p class="help">Say what time it is: what has departed by then stays as it is in this plan,
-        ${' '}and the rest is planned anew, with new orders, cancelled ones and
-        broken vehicles.</p>
-      <${Now} value=${minuteOf(time) ?? nowOf(entry.request)} label="Replan from here"
+  return html`<section class="section"><h3>${t('replan.title')}</h3>
+      <p class="help">${t('replan.help')}</p>
+      <${Now} value=${minuteOf(time) ?? nowOf(entry.request)} label=${t('player.replan')}
         onSet=${replanFrom} />
     </section>
     <${Improve} entry=${entry} />`;
@@ -49,11 +49,10 @@ function minuteOf(time) {
 
 function Improve({ entry }) {
   const busy = useStore((state) => state.run.state !== 'idle');
-  return html`<section class="section"><h3>Improve this plan</h3>
-    <p class="help">Search on from \u201c${entry.name}\u201d for a cheaper one, as long as the time
-      limit says.</p>
+  return html`<section class="section"><h3>${t('replan.improve')}</h3>
+    <p class="help">${t('replan.improveHelp', { name: entry.name })}</p>
     <div class="buttons"><button type="button" disabled=${busy}
-      onClick=${improvePlan}>Improve this plan</button></div></section>`;
+      onClick=${improvePlan}>${t('replan.improve')}</button></div></section>`;
 }
 
 /** A time of day, taken from the clock of the day or typed. */
@@ -64,7 +63,7 @@ function Now({ value, label, onSet, errors = [], primary = true }) {
   const isWrong = now === null || now < 0;
   const id = 'field-replan-freeze_before';
   return html`<div class=${`field now ${errors.length ? 'invalid' : ''}`}>
-    <label for=${id}>Now</label>
+    <label for=${id}>${t('field.freeze_before')}</label>
     <input type="text" id=${id} value=${text} placeholder="10:30" autocomplete="off"
       aria-invalid=${(isWrong && text !== '') || errors.length > 0}
       aria-describedby="replan-now-error"
@@ -72,8 +71,8 @@ function Now({ value, label, onSet, errors = [], primary = true }) {
       onKeyDown=${(event) => event.key === 'Enter' && !isWrong && onSet(now)} />
     <button type="button" class=${primary ? 'primary' : ''} disabled=${isWrong || now === value
       && !primary} onClick=${() => onSet(now)}>${label}</button>
-    <p class="error" id="replan-now-error">${errors.map(({ message }) => message).join(' ')}
-      ${isWrong && text !== '' ? 'State a time of day such as 10:30.' : ''}</p></div>`;
+    <p class="error" id="replan-now-error">${errors.map(saidOf).join(' ')}
+      ${isWrong && text !== '' ? t('replan.clock', { example: '10:30' }) : ''}</p></div>`;
 }
 
 /** What goes on from which plan, what is new, and which vehicles can do it. */
@@ -83,26 +82,29 @@ function Draft({ request, entry }) {
   const basis = useStore(({ plans, request: { replan } }) =>
     plans.find((other) => other.plan === replan?.plan));
   const now = request.replan.freeze_before ?? null;
-  const name = basis ? `\u201c${basis.name}\u201d` : 'the plan that came with the problem';
+  const name = basis ? t('replan.quoted', { name: basis.name }) : t('replan.given');
   const set = (instant) =>
     goOnWith((edited) => setIn(edited, ['replan', 'freeze_before'], instant), basis?.request);
   const isFurther = entry && entry.plan !== request.replan.plan;
   return html`<section class="section">
-      <h3>Go on from ${name}${now === null ? '' : `, at ${clock(now, { precise: true })}`}</h3>
+      <h3>${now === null
+        ? t('replan.from', { name })
+        : t('replan.fromAt', { name, at: clock(now, { precise: true }) })}</h3>
       <${Errors} errors=${errorsAt(errors, (keys) => keys.length < 2)} />
-      <${Now} value=${now} label="Change" onSet=${set} primary=${false}
+      <${Now} value=${now} label=${t('replan.change')} onSet=${set} primary=${false}
         errors=${errorsAt(errors, (keys) => keys[1] === 'freeze_before')} />
       <${Verdict} />
       <div class="buttons">
-        <button type="button" class="primary" onClick=${plan}>Plan on</button>
+        <button type="button" class="primary" onClick=${plan}>${t('header.goOn')}</button>
         ${time !== null && minuteOf(time) !== now && html`<button type="button"
-          onClick=${() => set(minuteOf(time))}>Move to ${clock(time)}</button>`}
+          onClick=${() => set(minuteOf(time))}>${t('replan.moveTo', { at: clock(time) })}</button>`}
         ${isFurther && html`<button type="button"
           onClick=${() => replanFrom(minuteOf(time) ?? now ?? 0)}>
-          Go on from the new plan</button>`}
+          ${t('replan.goOn')}</button>`}
         ${isFurther && html`<button type="button"
-          onClick=${improvePlan}>Improve the new plan</button>`}
-        <button type="button" onClick=${() => edit(fromNothing(request))}>Stop replanning</button>
+          onClick=${improvePlan}>${t('replan.improveNew')}</button>`}
+        <button type="button" onClick=${() => edit(fromNothing(request))}>
+          ${t('replan.stop')}</button>
       </div></section>
     <${News} request=${request} basis=${basis} />
     <${Vehicles} request=${request} basis=${basis} errors=${errors} />
@@ -122,8 +124,11 @@ function Verdict() {
   if (!former || !entry?.plan.replan || entry.plan === request.replan?.plan) return null;
   const [now, before] = [entry, former].map(trueCost);
   const out = entry.plan.unassigned.length;
-  return html`<p id="replan-verdict">The new plan costs <strong>${money(now)}</strong>,
-    ${' '}<span class=${judgeOf(now - before)}>${signed(now - before)}
-    </span> beside \u201c${former.name}\u201d${out > 0 && html`; <button type="button" class="link"
-      onClick=${() => store.set({ tab: 'unassigned' })}>${number(out, 0)} left out</button>`}.</p>`;
+  return html`<p id="replan-verdict">${parts('replan.verdict', {
+    cost: html`<strong>${money(now)}</strong>`,
+    change: html`<span class=${judgeOf(now - before)}>${signed(now - before)}</span>`,
+    name: former.name,
+  })}${out > 0 && html`; <button type="button" class="link"
+      onClick=${() => store.set({ tab: 'unassigned' })}>${
+        t('replan.out', { count: out })}</button>`}.</p>`;
 }

@@ -1,7 +1,6 @@
 /** Vehicles of the plan that is gone on from: where they are, whom they keep, which are broken. */
 
 import { edit, indexOf } from '../actions.js';
-import { count } from '../core/format.js';
 import { setIn } from '../core/paths.js';
 import {
   basisRoutes,
@@ -18,6 +17,7 @@ import { useStore } from '../store.js';
 import { Badge, SelectButton } from './parts.js';
 import { Errors, errorsAt } from './replan-errors.js';
 import { ParcelsBack } from './replan-parcels.js';
+import { t } from '../texts.js';
 
 const MOST_IDLE = 200;
 
@@ -43,18 +43,20 @@ export function Vehicles({ request, basis, errors }) {
   const others = unavailable.filter((name) => !used.has(name));
   const whole = (names) => names.filter((name) => !others.includes(name)).slice(0, MOST_IDLE);
   const [idle, drones] = [idleVehicles(request), dronesOnTheWay(request)].map(whole);
-  return html`<section class="section"><h3>Vehicles</h3>
-    <table class="replan-vehicles"><thead><tr><th scope="col">Vehicle</th>
-      <th scope="col">Keeps all</th><th scope="col">Broken</th></tr></thead>
+  return html`<section class="section"><h3>${t('replan.vehicles')}</h3>
+    <table class="replan-vehicles"><thead><tr><th scope="col">${t('about.vehicle')}</th>
+      <th scope="col">${t('replan.keepsAll')}</th>
+      <th scope="col">${t('replan.broken')}</th></tr></thead>
     <tbody>${rows.map((row) => html`<${Row} key=${row.route.vehicle} row=${row}
       request=${request} />`)}
     ${others.map((name) => html`<${BrokenRow} key=${name} name=${name} request=${request}
       id=${`field-replan-unavailable-${unavailable.indexOf(name)}`}
       errors=${errorsAt(errors, ([, section, position]) =>
         section === 'unavailable' && unavailable[position] === name)} />`)}</tbody></table>
-    <${Broken} label="Another is broken:" hint="choose an unused vehicle" names=${idle}
-      request=${request} />
-    <${Broken} label="A drone is lost:" hint="choose a drone" names=${drones} request=${request} />
+    <${Broken} label=${t('replan.anotherBroken')} hint=${t('replan.chooseVehicle')}
+      names=${idle} request=${request} />
+    <${Broken} label=${t('replan.droneLost')} hint=${t('replan.chooseDrone')}
+      names=${drones} request=${request} />
     ${unavailable.some((name) => !isDrone(name)) && html`<${ParcelsBack} request=${request}
       errors=${errors} />`}
   </section>`;
@@ -65,19 +67,20 @@ function Row({ row, request }) {
   const { pinned = [], pin_all: pinAll, freeze_before: now } = request.replan;
   const name = route.vehicle;
   const keepsAll = pinAll || (open.length > 0 && open.every((id) => pinned.includes(id)));
-  const place = progress.isBroken ? 'broken' : whereabouts(route, progress, now ?? -1);
+  const place = progress.isBroken ? t('replan.isBroken') : whereabouts(route, progress, now ?? -1);
   const left = progress.isBroken
-    ? `${count(open.length, 'customer')} for others`
-    : `${count(open.length, 'customer')} to go`;
+    ? t('replan.forOthers', { count: open.length })
+    : t('replan.toGo', { count: open.length });
   return html`<tr><th scope="row">
       ${vehicle && html`<${SelectButton} of=${vehicle.key}><${Badge} vehicle=${vehicle} /> ${name}
         </${SelectButton}>`}${!vehicle && name}
       <div class="help">${place}; ${left}</div>
       <${Errors} errors=${errors} id=${`field-replan-plan-routes-${position}`} /></th>
-    <td><input type="checkbox" aria-label=${`${name} keeps all its customers`} checked=${keepsAll}
+    <td><input type="checkbox" aria-label=${t('replan.keepsOf', { name })} checked=${keepsAll}
       disabled=${pinAll || progress.isBroken || !open.length}
       onChange=${() => edit(setPinned(request, open, !keepsAll))} /></td>
-    <td><input type="checkbox" aria-label=${`${name} is broken`} checked=${progress.isBroken}
+    <td><input type="checkbox" aria-label=${t('replan.brokenOf', { name })}
+      checked=${progress.isBroken}
       onChange=${() => edit(setBroken(request, name, !progress.isBroken))} /></td></tr>`;
 }
 
@@ -92,10 +95,10 @@ function Broken({ label, hint, names, request }) {
 
 /** A drone that is lost, or a vehicle that is broken and that the plan doesn't use. */
 function BrokenRow({ name, request, id, errors }) {
-  const state = isDrone(name) ? 'launched no more' : 'broken; not used in the plan';
+  const state = isDrone(name) ? t('replan.grounded') : t('replan.brokenUnused');
   return html`<tr><th scope="row">${name}<div class="help">${state}</div>
       <${Errors} errors=${errors} /></th><td></td>
-    <td><input type="checkbox" id=${id} aria-label=${`${name} is broken`} checked
+    <td><input type="checkbox" id=${id} aria-label=${t('replan.brokenOf', { name })} checked
       onChange=${() => edit(setBroken(request, name, false))} /></td></tr>`;
 }
 
@@ -103,21 +106,21 @@ function BrokenRow({ name, request, id, errors }) {
 export function PinnedCustomers({ request, errors }) {
   const tool = useStore((state) => state.tool);
   const { pinned = [], pin_all: pinAll = false } = request.replan;
-  return html`<section class="section"><h3>Pinned to their vehicles</h3>
+  return html`<section class="section"><h3>${t('replan.pinned')}</h3>
     <label><input type="checkbox" checked=${pinAll}
-      onChange=${() => edit(setIn(request, ['replan', 'pin_all'], !pinAll))} /> All customers of the
-      plan</label>
+      onChange=${() => edit(setIn(request, ['replan', 'pin_all'], !pinAll))} />
+      ${' '}${t('replan.pinAll')}</label>
     <div class="buttons"><button type="button" aria-pressed=${tool === 'pin'} disabled=${pinAll}
-        onClick=${() => takeTool('pin')}>Pin on the map</button>
+        onClick=${() => takeTool('pin')}>${t('replan.pinOnMap')}</button>
       ${pinned.length > 0 && html`<button type="button"
-        onClick=${() => edit(setPinned(request, pinned, false))}>Let go of all</button>`}</div>
-    ${pinned.length > 0 && html`<ul class="chips" aria-label="Pinned customers">${pinned.map(
+        onClick=${() => edit(setPinned(request, pinned, false))}>
+        ${t('replan.letGoAll')}</button>`}</div>
+    ${pinned.length > 0 && html`<ul class="chips" aria-label=${t('replan.pinnedList')}>${pinned.map(
       (id, position) => html`<li key=${id}><span>${id}</span><button type="button" class="quiet"
-        id=${`field-replan-pinned-${position}`} aria-label=${`Let go of ${id}`}
+        id=${`field-replan-pinned-${position}`} aria-label=${t('replan.letGo', { id })}
         onClick=${() => edit(setPinned(request, [id], false))}>\u00d7</button>
         <${Errors} errors=${errorsAt(errors, ([, section, at]) =>
           section === 'pinned' && at === position)} /></li>`,
     )}</ul>`}
-    ${!pinned.length && !pinAll && html`<p class="help">None: customers who aren't settled may
-      change vehicles.</p>`}</section>`;
+    ${!pinned.length && !pinAll && html`<p class="help">${t('replan.nonePinned')}</p>`}</section>`;
 }

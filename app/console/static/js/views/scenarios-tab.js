@@ -9,11 +9,12 @@ import {
 import { fittingSeconds } from '../core/limits.js';
 import { heatColour } from '../core/palette.js';
 import { fromNothing } from '../core/replanning.js';
+import { withinSentence } from '../core/schema.js';
 import { costTerms, penaltyOf, statesPenalty, trueTerms } from '../core/terms.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { showScenarioJob, showScenarioPlan, startScenario, stopScenario } from '../scenarios.js';
 import { store, useStore } from '../store.js';
-import { language, t } from '../texts.js';
+import { t } from '../texts.js';
 
 /** The tab. */
 export function ScenariosTab() {
@@ -222,11 +223,6 @@ function CompareResult({ scenario: { body, result } }) {
     </tbody></table></section>`;
 }
 
-/** Return a label as it stands within a sentence: German nouns keep their capital. */
-function withinText(label) {
-  return language() === 'en' ? label.toLowerCase() : label;
-}
-
 function SweepResult({ scenario: { body, result } }) {
   const schemas = useStore((state) => state.schemas);
   const fields = variableFields(schemas, body.base.fleet);
@@ -241,8 +237,11 @@ function SweepResult({ scenario: { body, result } }) {
         : `${number(value)} ${found?.unit ?? ''}`;
   const table = heatTable(result);
   return html`<section class="section wide"><h3>${across
-    ? t('scenario.costByBoth', { down: withinText(down.label), across: withinText(across.label) })
-    : t('scenario.costBy', { down: withinText(down.label) })}</h3>
+    ? t('scenario.costByBoth', {
+      down: withinSentence(down.label),
+      across: withinSentence(across.label),
+    })
+    : t('scenario.costBy', { down: withinSentence(down.label) })}</h3>
     <table class="heat" id="heat-map"><thead><tr><th
       scope="col">${down.label}${across && ` \\ ${across.label}`}</th>
       ${table.columns.map((value) => html`<th scope="col"

@@ -15,28 +15,23 @@ const KEPT = 'tandem-single-keys';
 
 /** Keys that do something by themselves, as the list of keys shows them; they can be put off. */
 export const SINGLE_KEYS = [
-  ['P', 'Plan'],
-  ['S', 'Stop planning'],
-  ['I', 'Improve the plan: search on from it'],
-  ['R', 'Replan from the clock of the day'],
-  ['Space', 'Play or pause the day'],
-  ['1 to 9, 0', 'Open a tab of the panel'],
-  ['O', 'Open a saved plan'],
-  ['U', 'Undo, as Ctrl Z'],
-  ['Y', 'Redo, as Ctrl Y'],
-  ['T', 'Go to the timeline; arrows then go from stop to stop'],
-  ['M', 'Go to the map; arrows pan, + and \u2212 zoom'],
-  ['L', 'Light or dark'],
-  ['?', 'This list'],
+  'plan',
+  'stop',
+  'improve',
+  'replan',
+  'play',
+  'tabs',
+  'open',
+  'undo',
+  'redo',
+  'timeline',
+  'map',
+  'theme',
+  'list',
 ];
 
 /** Keys that work in any case. */
-export const OTHER_KEYS = [
-  ['Ctrl Z', 'Undo the last change by hand, or edit of the problem since it was opened'],
-  ['Ctrl Y', 'Redo what was undone last'],
-  ['Ctrl S', 'Save: keep what is open by a name'],
-  ['Esc', 'Put a drawing tool down, else select nothing'],
-];
+export const OTHER_KEYS = ['undo', 'redo', 'save', 'escape'];
 
 const undoLast = () => undoStep() || undo();
 const redoLast = () => redoStep() || redo();

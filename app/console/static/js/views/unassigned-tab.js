@@ -1,8 +1,10 @@
 /** Customers that no vehicle serves, by what would help: its price, and one click to apply it. */
 
 import { edit, indexOf, shownPlan } from '../actions.js';
-import { count, money, number, signed, timesInWords } from '../core/format.js';
+import { money, signed } from '../core/format.js';
+import { remedyInWords } from '../core/remedy-words.js';
 import { applyRemedy, groupUnassigned, otherReason } from '../core/remedies.js';
+import { saidOf } from '../core/said.js';
 import { html, useEffect, useMemo } from '../libraries.js';
 import { plan } from '../planning.js';
 import { priceGroup, priceLargest, priceOf } from '../pricing.js';
@@ -10,6 +12,7 @@ import { useStore } from '../store.js';
 import { linked, SelectButton } from './parts.js';
 import { StopMoves } from './stop-moves.js';
 import { WhyHere } from './why-here.js';
+import { t } from '../texts.js';
 
 /** Customers of a group who are shown one by one from the start. */
 const FEW = 3;
@@ -25,12 +28,15 @@ export function UnassignedTab() {
   useEffect(() => {
     if (entry && idle) priceLargest(entry, groups);
   }, [entry, idle]);
-  if (!entry) return html`<p class="empty">Nothing is planned yet.</p>`;
+  if (!entry) return html`<p class="empty">${t('timeline.nothing')}</p>`;
   const { unassigned, summary } = entry.plan;
-  if (!unassigned.length) return html`<p class="empty">Every customer is served.</p>`;
-  return html`<section class="section"><h3>${count(unassigned.length, 'customer')} unassigned</h3>
-    ${summary.must_unserved > 0 && html`<p>${number(summary.must_unserved, 0)} of them must be
-      served: nothing says what leaving them out may cost.</p>`}
+  if (!unassigned.length) return html`<p class="empty">${t('unassigned.none')}</p>`;
+  return html`<section class="section"><h3>${t('unassigned.count', {
+    count: unassigned.length,
+  })}</h3>
+    ${summary.must_unserved > 0 && html`<p>${t('unassigned.must', {
+      count: summary.must_unserved,
+    })}</p>`}
     ${groups.map(
       (group) => html`<${Group} key=${group.key} group=${group} entry=${entry} />`,
     )}</section>`;
@@ -50,8 +56,8 @@ function Group({ group, entry }) {
     return html`<section>${customers}${ways.length > 1 ? priced : price(group)}</section>`;
   }
   return html`<section class="group" data-group=${group.key}>
-    <h4>${count(members.length, 'customer')}:
-      ${' '}${timesInWords(members[0].reason?.message ?? 'no reason found')}</h4>
+    <h4>${t('customers.count', { count: members.length })}:
+      ${' '}${members[0].reason ? saidOf(members[0].reason) : t('unassigned.noReason')}</h4>
     ${priced}
     <details open=${members.length <= FEW}><summary>${members
       .map(({ customer }) => customer.id)
@@ -63,7 +69,7 @@ function Group({ group, entry }) {
 /** What would help all of a group. */
 function Way({ way: { remedy, isForEach } }) {
   if (!remedy) return null;
-  return html`<p>${isForEach ? 'Each its own, at most: ' : ''}${sentenceOf(remedy)}.</p>`;
+  return html`<p>${isForEach ? `${t('unassigned.each')} ` : ''}${sentenceOf(remedy)}.</p>`;
 }
 
 /** What a remedy for a whole group serves and costs, and the button that applies it. */
@@ -81,25 +87,28 @@ function Price({ group, entry }) {
   )}</span>
     ${
       !price &&
-      html`<button type="button" onClick=${() => priceGroup(entry, group)}>What it
-        costs</button>`
+      html`<button type="button" onClick=${() => priceGroup(entry, group)}>
+        ${t('unassigned.whatCosts')}</button>`
     }
     ${
       group.members.length > 1 &&
       html`<button type="button" class="primary" disabled=${request !== entry.request}
-      aria-label=${[`Apply to all ${group.members.length} and plan again: ${
-        timesInWords(group.remedy)}`,
-        group.type].join(', ')} onClick=${apply}>Apply to all and plan again</button>`
+      aria-label=${[t('unassigned.applyAllOf', {
+        count: group.members.length,
+        remedy: remedyInWords(group.remedy),
+      }), group.type].join(', ')} onClick=${apply}>${t('unassigned.applyAll')}</button>`
     }</div>`;
 }
 
 function priceInWords(price, { members }) {
   if (!price) return '';
-  if (price.state === 'asking') return 'Finding what it costs\u2026';
+  if (price.state === 'asking') return t('unassigned.asking');
   if (price.state === 'failed') return price.reason;
-  if (price.served <= 0) return 'Serves nobody more, by a short search.';
-  const whom = members.length === 1 ? 'Serves it' : `Serves ${price.served} more`;
-  return `${whom}, cost ${signed(price.cost, money)}.`;
+  if (price.served <= 0) return t('unassigned.nobody');
+  const cost = signed(price.cost, money);
+  return members.length === 1
+    ? t('unassigned.servesIt', { cost })
+    : t('unassigned.serves', { count: price.served, cost });
 }
 
 function Unassigned({ customer, index, request }) {
@@ -110,7 +119,7 @@ function Unassigned({ customer, index, request }) {
     <header><${SelectButton} of=${key}><strong>${customer.id}</strong></${SelectButton}></header>
     <div class="inside">${customer.reasons.map(
       (reason) => html`<div key=${reason.vehicle_type}>
-      <p><strong>${reason.vehicle_type}</strong>: ${timesInWords(reason.message)}</p>
+      <p><strong>${reason.vehicle_type}</strong>: ${saidOf(reason)}</p>
       ${[reason, otherReason(reason)].filter((each) => each?.remedy).map((each) => html`<${Remedy}
         key=${each.remedy} customer=${customer} reason=${each} request=${request} />`)}
     </div>`,
@@ -119,7 +128,7 @@ function Unassigned({ customer, index, request }) {
 
 /** Return a remedy as a sentence without its full stop. */
 function sentenceOf(remedy) {
-  const words = timesInWords(remedy);
+  const words = remedyInWords(remedy);
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
@@ -134,8 +143,8 @@ function Remedy({ customer, reason, request }) {
     ${
       changed &&
       html`<button type="button" onClick=${apply}
-      aria-label=${['Apply and plan again: ' + timesInWords(reason.remedy), reason.vehicle_type,
-        customer.id].join(', ')}>
-      Apply and plan again</button>`
+      aria-label=${[t('unassigned.applyOf', { remedy: remedyInWords(reason.remedy) }),
+        reason.vehicle_type, customer.id].join(', ')}>
+      ${t('unassigned.apply')}</button>`
     }</div>`;
 }

@@ -1,11 +1,13 @@
 /** What looks wrong with the problem, though it can be planned: above the map, one click away. */
 
 import { shownPlan } from '../actions.js';
-import { count } from '../core/format.js';
 import { isLasting, standingWarnings } from '../core/warned.js';
+import { whereInWords } from '../core/where.js';
 import { html } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { goTo } from './go-to.js';
+import { Said } from './said.js';
+import { t } from '../texts.js';
 
 const DISMISSED = 'tandem-dismissed-warnings';
 
@@ -19,21 +21,23 @@ export function WarningsBar() {
   const warned = asked?.request === request || !planned ? asked : planned;
   const found = standingWarnings(warned, request, dismissed);
   if (!found.length) return null;
-  return html`<section class="notice warned" aria-label="Warnings"><div>
-      <strong>${found.length === 1 ? 'Is this meant?' : `${count(found.length, 'warning')}: are
-      these meant?`}</strong>
-      <ul>${found.map((warning) => html`<${Warning} key=${warning.key} warning=${warning} />`)}</ul>
+  return html`<section class="notice warned" aria-label=${t('warned.title')}><div>
+      <strong>${t('warned.meant', { count: found.length })}</strong>
+      <ul>${found.map(
+        (warning) => html`<${Warning} key=${warning.key} request=${request} warning=${warning} />`,
+      )}</ul>
     </div>
-    <button type="button" class="quiet" onClick=${() => dismiss(found)}>Dismiss</button></section>`;
+    <button type="button" class="quiet" onClick=${() => dismiss(found)}>
+      ${t('warned.dismiss')}</button></section>`;
 }
 
-function Warning({ warning }) {
-  const { keys, path, message } = warning;
+function Warning({ request, warning }) {
+  const { keys } = warning;
   return html`<li>${
     keys.length > 0 &&
     html`<button type="button" class="link"
-      onClick=${() => goTo(keys)}><code>${path.slice(2)}</code></button> `
-  }${message}</li>`;
+      onClick=${() => goTo(keys)}>${whereInWords(request, keys)}</button> `
+  }<${Said} ...${warning} /></li>`;
 }
 
 /** Hide warnings; those that every problem has stay hidden in later visits. */

@@ -1,0 +1,49 @@
+/** Remedies of the service in the page's language. */
+
+import { language, t } from '../texts.js';
+import { timesInWords } from './format.js';
+
+const NUMBER = '(?<number>[\\d.,]+)';
+const TIME = '(?<time>[\\d.,]+ minutes?)';
+const NAME = '(?<name>.+)';
+
+/** How the service says remedies, the first that fits; what they are called in the texts. */
+const SAID = [
+  ['truck', 'fits if a truck may serve it'],
+  ['mayServe', `fits if ${NAME} may serve it`],
+  ['vehicle', 'fits with one more vehicle'],
+  ['trip', `fits if ${NAME} could make another trip`],
+  ['price', `served if unassigned_cost were above ${NUMBER}`],
+  ['itsPrice', `served if its unassigned_cost were above ${NUMBER}`],
+  ['had', `fits if ${NAME} had (?<what>.+)`],
+  ['capacity', 'fits if capacity were at least (?<number>.+)'],
+  ['droneCapacity', 'fits if the drone capacity(?: of .+?)? were at least (?<number>.+)'],
+  ['pickups', `fits if ${NAME} may pick up at any time`],
+  ['endurance', `fits if endurance(?: of .+)? were ${TIME} longer`],
+  ['battery', `fits with a battery(?: of .+)? of ${NUMBER} Wh more`],
+  ['km', `fits if trips could be ${NUMBER} km longer`],
+  ['lastWindow', `fits if its last window closed ${TIME} later`],
+  ['itsWindow', `fits if its window closed ${TIME} later`],
+  ['window', `fits if its window ${NUMBER} closed ${TIME} later`],
+  ['aboard', `fits if it could be aboard ${TIME} longer`],
+  ['shift', `fits if ${NAME}'s shift ended ${TIME} later`],
+  ['overtime', `fits if ${NAME} could work ${TIME} more overtime`],
+  ['stop', `fits if ${NAME} could make 1 stop`],
+  ['sortie', `fits if ${NAME} could launch 1 sortie`],
+  ['carried', `fits if ${NAME} carried 1 battery(?: of .+)?`],
+  ['works', `fits if ${NAME} could work ${TIME} longer`],
+].map(([name, pattern]) => [name, new RegExp(`^${pattern}$`)]);
+
+/** Return a remedy in the page's language; in the service's if it is none that is known. */
+export function remedyInWords(remedy) {
+  const english = timesInWords(remedy);
+  if (language() === 'en') return english;
+  for (const [name, pattern] of SAID) {
+    const found = pattern.exec(remedy)?.groups ?? (pattern.test(remedy) ? {} : null);
+    if (found) {
+      const time = found.time && timesInWords(found.time.replaceAll(',', ''));
+      return t(`remedy.${name}`, { ...found, time });
+    }
+  }
+  return english;
+}

@@ -1,0 +1,209 @@
+"""Why a truck can't serve a customer whom it would serve best on its way through others.
+
+Where legs are shorter by way of others, what keeps a truck from going there and straight back says
+little: the shortest ways through others are tried instead.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from model.judge.clock import MS_PER_MINUTE
+from model.judge.network import NEVER, Network, network_of
+from model.judge.past import EVERYTHING_OPEN
+from model.judge.retiming import TimedRoute, time_route
+from model.judge.rules import decimal
+from model.judge.timing import RouteDecision, TripDecision
+from model.problem import (
+    MAX_QUANTITY, MM_PER_KM, UNLIMITED, BoolArray, Problem, VehicleType,
+)
+
+MOST_CUSTOMERS = 250
+"""Among so many customers ways through others are looked for."""
+
+MOST_NAMES = 5
+"""So many customers on a way are named."""
+
+BY_LEGS = frozenset({"TIME_WINDOW", "TIME_ABOARD", "SHIFT", "WORKING_DURATION", "TRIP_DISTANCE"})
+"""Rules that shorter legs may keep."""
+
+
+class Lacking(NamedTuple):
+    """What a trip through others lacks, and the type of vehicle that wouldn't lack it."""
+
+    code: str
+    words: str  # what happens
+    changed: VehicleType
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A trip that serves a customer and others on its way."""
+
+    timed: TimedRoute
+    others: tuple[int, ...]  # nodes, in order
+    lacks: Lacking | None  # None: nothing
+
+
+def passage_to(problem: Problem, kind: int, node: int) -> Passage | None:
+    """Return the best trip found to a customer through others.
+
+    None if none keeps the rules, or would if one of them were a little less strict, or the way
+    straight there and back is shortest.
+    """
+    net = _network(problem, kind)
+    if net is None or node not in net.nodes:
+        return None
+    place = int(np.flatnonzero(net.nodes == node)[0])
+    best: Passage | None = None
+    tried = {(place,)}
+    for between in _ways(net, place):
+        if between in tried:
+            continue
+        tried.add(between)
+        nodes = tuple([int(net.nodes[each]) for each in between])
+        found = _tried(problem, kind, node, nodes)
+        if found is not None and found.lacks is None:
+            return found
+        if found is not None and (best is None or _rank(found) < _rank(best)):
+            best = found
+    return best
+
+
+@lru_cache(maxsize=8)
+def _network(problem: Problem, kind: int) -> Network | None:
+    """Return the network among all customers; None if they are many, or legs are straight."""
+    travel = problem.travel[problem.vehicle_types[kind].travel]
+    if travel.straight is not None or problem.num_customers > MOST_CUSTOMERS:
+        return None
+    return network_of(problem, kind, np.arange(problem.num_depots, problem.num_nodes))
+
+
+def _ways(net: Network, place: int) -> Iterator[tuple[int, ...]]:
+    """Yield places in order: shortest ways there and back through others, in time or distance."""
+    for in_time in (True, False):
+        outward, homeward = (_path(_tree(net, in_time, back), place) for back in (False, True))
+        there, home = outward[::-1], homeward
+        for before, behind in product((there, ()), (home, ())):
+            yield (*before, place, *[each for each in behind if each not in before])
+        if not set(there).isdisjoint(home):
+            # One of both ways goes elsewhere, so that nobody is served twice.
+            yield (*there, place, *_path(_tree_without(net, in_time, True, there), place))
+            yield (*_path(_tree_without(net, in_time, False, home), place)[::-1], place, *home)
+
+
+class _Tree(NamedTuple):
+    """Shortest ways between one place and all others."""
+
+    root: int
+    towards: list[int]  # (place,) the next one on its way to the root
+
+
+def _path(tree: _Tree, place: int) -> tuple[int, ...]:
+    """Return the places between one and the root of a tree, without these."""
+    places, at = [], tree.towards[place]
+    while at != tree.root:
+        places.append(at)
+        at = tree.towards[at]
+    return tuple(places)
+
+
+@lru_cache(maxsize=16)
+def _tree(net: Network, in_time: bool, back: bool) -> _Tree:
+    return _tree_without(net, in_time, back, ())
+
+
+def _tree_without(net: Network, in_time: bool, back: bool, barred: Sequence[int]) -> _Tree:
+    """Return ways from where the first trip begins, or `back` to where the last ends.
+
+    They don't go through some places that are `barred`.
+    """
+    legs = net.ride if in_time else net.far
+    stay = net.stay if in_time else np.zeros_like(net.stay)
+    legs, root = (legs.T, net.end) if back else (legs, net.begin)
+    through: BoolArray = np.arange(len(net.nodes)) >= net.num_depots
+    through[[*barred]] = False
+    length, towards = legs[root].copy(), np.full(len(legs), root)
+    while True:
+        ways = np.where(through, length + stay, NEVER)[:, None] + legs
+        nearest = ways.argmin(axis=0)
+        shorter = ways[nearest, np.arange(len(legs))]
+        better = shorter < length
+        better[root] = False
+        if not better.any():
+            return _Tree(root, towards.tolist())
+        length, towards = np.where(better, shorter, length), np.where(better, nearest, towards)
+
+
+def _tried(problem: Problem, kind: int, node: int, nodes: tuple[int, ...]) -> Passage | None:
+    """Return a trip to some customers, if it keeps the rules or all but one."""
+    vehicles = problem.vehicle_types[kind]
+    decision = RouteDecision(kind, 0, (TripDecision((vehicles.begins_at, *nodes,
+                                                     vehicles.ends_at)),))
+    timed = time_route(problem, decision, "", EVERYTHING_OPEN)
+    others = tuple([each for each in nodes if each != node])
+    if not timed.judged.violations:
+        return Passage(timed, others, None)
+    lacks = _lacking(vehicles, timed)
+    if lacks is None:
+        return None
+    types = [*problem.vehicle_types]
+    types[kind] = lacks.changed
+    again = time_route(replace(problem, vehicle_types=tuple(types)), decision, "", EVERYTHING_OPEN)
+    return None if again.judged.violations else Passage(again, others, lacks)
+
+
+def _lacking(vehicles: VehicleType, timed: TimedRoute) -> Lacking | None:
+    """Say what a trip that breaks one rule lacks; None if it breaks another one."""
+    codes = {each.code for each in timed.judged.violations}
+    if codes == {"SHIFT"} and vehicles.overtime is not None:
+        over = vehicles.overtime.max_duration
+        late = _up_to_tenth(timed.judged.end - vehicles.latest - over, MS_PER_MINUTE)
+        longer = replace(vehicles.overtime, max_duration=min(over + late, UNLIMITED))
+        return Lacking("SHIFT", f"would be back {_minutes(late)} after its shift and all the "
+                       "overtime allowed", replace(vehicles, overtime=longer))
+    if codes == {"SHIFT"}:
+        late = _up_to_tenth(timed.judged.end - vehicles.latest, MS_PER_MINUTE)
+        enough = min(vehicles.latest + late, UNLIMITED)
+        return Lacking("SHIFT", f"would be back {_minutes(late)} after its shift ends",
+                       replace(vehicles, latest=enough))
+    if codes == {"WORKING_DURATION"} and vehicles.overtime is None:
+        limit = vehicles.max_working_duration or 0
+        more = _up_to_tenth(timed.judged.metrics.working_duration - limit, MS_PER_MINUTE)
+        return Lacking("WORKING_HOURS", f"would work {_minutes(more)} more than it may",
+                       replace(vehicles, max_working_duration=min(limit + more, MAX_QUANTITY)))
+    if codes == {"TRIP_DISTANCE"}:
+        limit = vehicles.max_trip_distance or 0
+        more = _up_to_tenth(timed.judged.metrics.trips[0].distance - limit, MM_PER_KM)
+        km = f"{decimal(more * 1000 // MM_PER_KM)} km"
+        return Lacking("RANGE", f"would drive {km} more than a trip may be long",
+                       replace(vehicles, max_trip_distance=min(limit + more, MAX_QUANTITY)))
+    return None
+
+
+def _rank(passage: Passage) -> tuple[int, float]:
+    """Return what is smaller for a better trip: the route takes less time, or costs less."""
+    judged = passage.timed.judged
+    return judged.metrics.working_duration, judged.cost.total
+
+
+def _up_to_tenth(quantity: int, unit: int) -> int:
+    return -(-quantity * 10 // unit) * unit // 10
+
+
+def _minutes(duration: int) -> str:
+    number = decimal(duration * 1000 // MS_PER_MINUTE)
+    return "1 minute" if number == "1" else f"{number} minutes"
+
+
+def names_of(problem: Problem, nodes: Sequence[int]) -> str:
+    """Return customers' ids as a list in words, the first ones of many."""
+    names = [problem.customer_at(node).id for node in nodes[:MOST_NAMES]]
+    if len(nodes) > MOST_NAMES:
+        names[-1] = f"{len(nodes) - MOST_NAMES + 1} others"
+    return " and ".join([", ".join(names[:-1]), names[-1]]) if len(names) > 1 else names[0]
+
