@@ -106,7 +106,7 @@ class Companion:
 
     def __init__(self, client: httpx.Client) -> None:
         self._client = client
-        self._request = request_of("/plan", dict.fromkeys(PLAN, 0) | BESIDE, BESIDE_SECONDS)
+        self._request = request_of("/plan", {**dict.fromkeys(PLAN, 0), **BESIDE}, BESIDE_SECONDS)
         self._job: str | None = None
 
     def keep_running(self) -> None:

@@ -11,7 +11,7 @@ from app.kept.rows import Content
 from app.kept.schemas import KeptPlanInput
 from app.requests.refusal import MAX_LOOSE, require_json, require_readable
 
-BYTES_PER_VALUE = 16
+BYTES_PER_VALUE = 8
 """Requests and plans, which are kept unread, have no more values than one for so many bytes."""
 
 NOTHING = msgspec.Raw(b"null")

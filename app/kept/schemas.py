@@ -6,6 +6,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.fields import Input
+from app.settings import MAX_CUSTOMERS
 
 MAX_NOTE = 10_000
 
@@ -28,7 +29,7 @@ class KeptRequest(_Loose):
     """A request of `POST /plan`, kept as it is."""
 
     depots: list[Any] = Field(description="As in `PlanRequest`.")
-    customers: list[Any] = Field(description="As in `PlanRequest`.")
+    customers: list[Any] = Field(max_length=MAX_CUSTOMERS, description="As in `PlanRequest`.")
     fleet: list[Any] = Field(description="As in `PlanRequest`.")
 
 

@@ -27,6 +27,9 @@ HEADING_LINES = 10
 EQUALLY_GOOD = 0.02
 """Difference of `charset_normalizer`'s chaos that tells nothing."""
 
+PIECE = 2**16
+"""Characters that are cut into lines at a time."""
+
 LONGEST_CELL = 100_000
 MAX_CELLS = 2_000_000
 
@@ -131,11 +134,19 @@ def _delimiter_of(text: str) -> str:
 def _records(text: str, delimiter: str, most: int) -> Iterator[list[str]]:
     """Yield rows; a cell may hold line breaks between quotes."""
     csv.field_size_limit(LONGEST_CELL)
-    lines = text.splitlines(keepends=True)
     try:
-        for number, row in enumerate(csv.reader(lines, delimiter=delimiter)):
+        for number, row in enumerate(csv.reader(_lines(text), delimiter=delimiter)):
             if number == most:
                 return
             yield row
     except csv.Error as error:
         raise NoTextError(f"it can't be cut into cells: {error}") from error
+
+
+def _lines(text: str) -> Iterator[str]:
+    """Yield lines as `splitlines` does, a piece at a time: most are never asked for."""
+    begin = 0
+    while begin < len(text):
+        end = text.find("\n", begin + PIECE) + 1 or len(text)
+        yield from text[begin:end].splitlines(keepends=True)
+        begin = end
