@@ -54,7 +54,7 @@ def open_tab(page: Page, name: str) -> None:
 def open_advanced(page: Page) -> None:
     """Show the options of planning that few need."""
     open_tab(page, "solve")
-    page.locator("details", has_text="Advanced").locator("summary").click()
+    page.locator("details.card", has_text="Advanced").locator("> summary").click()
 
 
 def let_search(page: Page, seconds: float) -> None:
