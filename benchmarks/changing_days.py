@@ -27,12 +27,13 @@ class Change:
     broken: frozenset[str] = frozenset()  # vehicles
     lost: frozenset[str] = frozenset()  # drones
     back: float | None = None  # when parcels aboard broken vehicles are at the depots
+    stay: frozenset[str] = frozenset()  # which of `pin_all` and `keep_order` hold
 
     def replan(self, plan: Data) -> Data:
         """Return the request to plan on from a plan."""
         terms = {"plan": {"routes": plan["routes"], "unassigned": plan["unassigned"]},
                  "freeze_before": self.now, "unavailable": sorted(self.broken | self.lost),
-                 "parcels_back": self.back}
+                 "parcels_back": self.back, **dict.fromkeys(sorted(self.stay), True)}
         return self.request | {"replan": terms}
 
 
@@ -144,7 +145,8 @@ def what_happens(rng: random.Random, request: Data, plan: Data, since: float = 0
                      for sortie in trip["sorties"]})
     lost = frozenset(drone for drone in drones if rng.random() < 0.2)
     back = round(now + rng.choice((0, 600)), 3) if broken and rng.random() < 0.5 else None
-    return Change(later, now, broken, lost, back)
+    stay = frozenset(rng.choice(((), (), (), ("pin_all",), ("pin_all", "keep_order"))))
+    return Change(later, now, broken, lost, back, stay)
 
 
 def _instant(rng: random.Random, plan: Data, since: float) -> float:

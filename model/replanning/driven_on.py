@@ -11,9 +11,11 @@ from model.judge.check import judge_route
 from model.judge.ends import with_ends
 from model.judge.past import Past, Vehicle
 from model.judge.retiming import time_route
-from model.judge.timing import RouteDecision, TripDecision, read_decision
+from model.judge.timing import (
+    RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
+)
 from model.problem import Problem, VehicleType
-from model.replanning.amend import broken_by, customers_of, repaired, without
+from model.replanning.amend import Broken, broken_by, customers_of, repaired, without
 from model.replanning.handover import complete
 from model.replanning.kept import Kept, by_launch
 from model.solution import Route, Solution, Trip
@@ -25,10 +27,10 @@ def carried_through(problem: Problem, planned: Route, own: Kept, past: Past) -> 
     That is without the customers for whom rules are broken; as before if nobody is left.
     """
     begun = _with_trip_under_way(problem, planned, own, past)
-    decision = _mended(problem, begun, own, past)
+    decision, route = _mended(problem, begun, own, past)
     if set(customers_of(decision.trips[-1])) <= own.served:
         return own
-    return Kept(own.vehicle, decision, _timed(problem, decision, past))
+    return Kept(own.vehicle, decision, route)
 
 
 def driven_on(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
@@ -46,8 +48,8 @@ def driven_on(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
             continue
         decision = _whole(problem, planned[vehicle], own, past)
         if decision.trips:
-            mended = _mended(problem, decision, own, past)
-            routes += [_timed(problem, mended, past)] if mended.trips else []
+            mended, route = _mended(problem, decision, own, past)
+            routes += [route] if mended.trips else []
     return complete(problem, tuple(routes))
 
 
@@ -89,18 +91,35 @@ def _without_lost(decision: TripDecision) -> TripDecision:
 
 
 def _mended(problem: Problem, decision: RouteDecision, own: Kept | None,
-            past: Past) -> RouteDecision:
+            past: Past) -> tuple[RouteDecision, Route]:
     """Return a route without the customers for whom it breaks rules that weren't broken before."""
-    if not judge_route(problem, _timed(problem, decision, past), "", past).violations:
-        return decision
+    stated = _as_stated(problem, decision, past)
+    if not judge_route(problem, stated, "", past).violations:
+        return decision, stated
     fixed: Collection[int] = ()
-    excused = frozenset[tuple[str, str, tuple[int, ...]]]()
+    excused = frozenset[Broken]()
     if own is not None:
         fixed = own.served
         excused = broken_by(problem, own.decision, lambda _: own.route, past)
-    return (repaired(problem, decision, fixed, [lambda tried: _timed(problem, tried, past)], past,
-                     excused) or replace(decision, trips=()))
+    timings = [lambda tried: _as_stated(problem, tried, past),
+               lambda tried: time_route(problem, tried, "", past).route]
+    mended = repaired(problem, decision, fixed, timings, past, excused)
+    if mended is None:
+        return replace(decision, trips=()), stated
+    return mended, time_route(problem, mended, "", past).route
 
 
-def _timed(problem: Problem, decision: RouteDecision, past: Past) -> Route:
-    return time_route(problem, decision, "", past).route
+def _as_stated(problem: Problem, decision: RouteDecision, past: Past) -> Route:
+    """Return a route whose trips begin when they state, if they can by then."""
+    kind = problem.vehicle_types[decision.vehicle_type]
+    known = past.trips.get(Vehicle(decision.vehicle_type, decision.vehicle), ())
+    trips = [resume_trip(problem, kind, trip, facts, past.now)
+             for trip, facts in zip(decision.trips, known, strict=False)]
+    for trip in decision.trips[len(known):]:
+        ready = max(kind.earliest, past.now)
+        if trips:
+            ready = max(ready, trips[-1].stops[-1].departure + kind.reload_duration)
+        back = max([past.returned.get(node, 0) for node in trip.customers], default=0)
+        start = max(ready, back, latest_release(problem, trip), trip.start or 0)
+        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready))
+    return Route(decision.vehicle_type, decision.vehicle, tuple(trips))

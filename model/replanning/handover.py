@@ -112,9 +112,14 @@ def _timed_at_once(problem: Problem, decision: RouteDecision) -> Route:
 
 def complete(problem: Problem, routes: tuple[Route, ...]) -> Solution:
     """Return a plan whose other customers are left out."""
-    served = {node for route in routes for trip in route.trips for node in _served(trip)}
+    served = served_by(Solution(routes))
     nodes = range(problem.num_depots, problem.num_nodes)
     return Solution(routes, tuple(node for node in nodes if node not in served))
+
+
+def served_by(plan: Solution) -> set[int]:
+    """Return whom a plan serves."""
+    return {node for route in plan.routes for trip in route.trips for node in _served(trip)}
 
 
 def _served(trip: Trip) -> list[int]:

@@ -17,7 +17,7 @@ from model.planner import (
 )
 from model.problem import Problem
 from model.replanning.driven_on import carried_through, driven_on
-from model.replanning.handover import hand_over, settled, take_back
+from model.replanning.handover import hand_over, served_by, settled, take_back
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.remainder import Remainder, what_is_left
@@ -133,8 +133,11 @@ class Replanning:
         first, begun, evaluation = self._beginning(
             bridge, hand_over(self.problem, plan, kept, self._left), options,
             listener.should_stop)
-        solution, before = self._cheapest(
-            (begun, evaluation), driven_on(self.problem, plan, kept, self.past))
+        solution, before = begun, evaluation
+        # It takes a while in large plans, and would do no better where nobody is lost.
+        if served_by(plan).intersection(begun.unassigned):
+            solution, before = self._cheapest(
+                (begun, evaluation), driven_on(self.problem, plan, kept, self.past))
         result = planner.plan(self._in_order(self._left, first), options, received_at,
                               _relayed(listener, evaluation.cost.total, bridge), first)
         found = begun if result.solution is first else by_order(
