@@ -332,10 +332,10 @@ def _bound_reasons(problem: Problem, past: Past, vehicle: Vehicle,
                    node: int) -> tuple[Reason, ...]:
     """Return why a customer is unassigned whom one vehicle alone may serve."""
     name = vehicle_name(problem, vehicle)
-    if node in past.pinned:
-        code, why = "PINNED", f"It is pinned to {name}"
-    else:
+    if node in past.carriers():
         code, why = "ABOARD", f"Its parcel is aboard {name}"
+    else:
+        code, why = "PINNED", f"It is pinned to {name}"
     return tuple(
         Reason(kind, code, f"{why}, which has no room or time for it." if kind == vehicle.type
                else f"{why}.")

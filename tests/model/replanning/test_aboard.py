@@ -70,6 +70,15 @@ def test_parcel_that_its_truck_can_not_deliver_is_left_aboard(planner: Planner,
     assert {item.code for item in replanning.check(taken).violations} == {"ABOARD"}
 
 
+def test_parcel_aboard_is_said_to_be_there_though_it_is_pinned(planner: Planner,
+                                                              street: Problem) -> None:
+    plan = solution_of(street, RouteDecision(0, 0, (TripDecision((0, A, B, C, 0)),)))
+    closed = with_customer(street, C, latest=15 * MINUTE)
+    replanning = Replanning(closed, Terms(plan, 10 * MINUTE, pinned=frozenset({C})))
+    solution = replanning.plan(planner, OPTIONS).solution
+    assert [reason.code for reason in replanning.reasons(solution, C)] == ["ABOARD"]
+
+
 def test_truck_serves_what_it_brought_home_on_its_next_trip(planner: Planner, street: Problem,
                                                            drones: DroneType) -> None:
     # The drone is lost on its way to c, before it was to serve d from the depot.
