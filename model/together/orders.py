@@ -68,6 +68,8 @@ class Orders:
                         for node in self._nodes]
         self._taken = [() if node < first else net.problem.customers[node - first].taken_in
                        for node in self._nodes]
+        self._is_plain = _is_plain(net)
+        self._known: dict[tuple[int, ...], list[tuple[int, ...]]] = {}
         start = _Path((net.begin,), (), net.vehicle_type.earliest, 0, 0, 0, 0, 0)
         none = (0,) * net.problem.num_dimensions
         yield from self._onward(start, none, none)
@@ -86,7 +88,7 @@ class Orders:
                 continue
             self._count()
             longer = self._with(path, here, place)
-            if longer is None:
+            if longer is None or (self._is_plain and self._is_worse(longer)):
                 continue
             more = tuple(map(sum, zip(given, self._demand[place], strict=True)))
             load = tuple(map(sum, zip(taken, self._taken[place], strict=True)))
@@ -97,6 +99,19 @@ class Orders:
         self.tried += 1
         if self.tried > self.most or (self.tried % LOOKS == 0 and self.should_stop()):
             raise TooManyError
+
+    def _is_worse(self, path: "_Path") -> bool:
+        """Tell whether a path known serves the same, ends at the same place, and is no worse.
+
+        In place: else it is known from now on.
+        """
+        trip = sum([1 << place for place in path.places[1:]])
+        known = self._known.setdefault((path.group, trip, path.places[-1], len(path.trips)), [])
+        own = path.time, path.span, path.far, path.gone
+        if any(all(map(_at_most, other, own)) for other in known):
+            return True
+        known.append(own)
+        return False
 
     def _with(self, path: "_Path", here: int, place: int) -> "_Path | None":
         """Return a path with one more customer; None if a bound forbids it."""
@@ -143,6 +158,19 @@ class Orders:
     def _trip(self, path: "_Path", end: int) -> TripDecision:
         nodes = self._nodes
         return TripDecision((*[nodes[place] for place in path.places], nodes[end]))
+
+
+def _is_plain(net: Network) -> bool:
+    """Tell whether what a route may still do, and costs, hangs on no more than how it goes by now.
+
+    So it does where nobody waits, and no customer asks for more than to be reached in time.
+    """
+    problem = net.problem
+    return (net.vehicle_type.speed_profile is None and not problem.incompatible_goods
+            and not net.vehicle_type.cost_per_load_km
+            and not any(each.earliest or each.gaps or each.release_time or any(each.pickup)
+                        or each.late_cost_per_hour is not None or each.setup_duration
+                        or each.max_time_aboard is not None for each in problem.customers))
 
 
 class _Path(NamedTuple):
