@@ -165,7 +165,7 @@ class _Stages:
     def _end(self, reserve: float) -> float | None:
         """Return when there is as much time left as plans take to be compared, and some more."""
         end = self._terms.deadline
-        return None if end is None else end - 2 * self._judging - reserve
+        return None if end is None else end - 4 * self._judging - reserve
 
     def _filled(self, plan: Solution, deadline: float | None, turns: int) -> Solution:
         """Return a plan with strings of those left out, as far as it costs less."""
