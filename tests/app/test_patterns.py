@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from itertools import product
 from pathlib import Path
-from time import perf_counter
+from time import thread_time
 from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -27,15 +28,16 @@ from app.sheets.table import NotASheetError
 PACKAGES = (app.sheets, app.addresses)
 
 STARTS = ("", "8", "8:30", "8:30 am", "2026-01-01", "1.", "48.1", "a@b", "ab ", "pt1", "(",
-          "between 8", "POINT(1", "$.customers[1", "https://maps.google.com/", "geo:1", "1\u00b0")
+          "between 8", "POINT(1", "$.customers[1", "https://maps.google.com/", "geo:1", "1\u00b0",
+          "<row ", "<col a=\"", "!3d1.1")
 PIECES = (" ", "\t", "\n", "\u00a0", "1", "0", "1 ", "a", "A", "\u00e9", "8 ", "-", "- ", ".", ",",
           ":", ";", "'", "1.", "1,", "1.1", "1,111", ".111", "a.", "a@", "am ", "N ", "1\u00b0",
           "1\u00b0 ", "and ", "between ", "ab ", "T,", "(", "((", "()", "[1]", "/", "//", "@", "%",
-          "+", "=", "<", "a ")
+          "+", "=", "<", "a ", 'a="1" ', "<c>", "1E", "~")
 ENDS = ("", "x", "\nx", "!", "1", "\u00e9", ")")
 
 SIZE, LONGER = 3000, 12_000
-QUICK = 0.01
+QUICK = 0.004
 """Seconds that a text of `SIZE` letters may always take: trying all splits takes more."""
 
 MOST_PER_CELL = 0.1
@@ -50,7 +52,7 @@ def modules() -> Iterator[ModuleType]:
             yield importlib.import_module(found.name)
 
 
-def patterns_in(value: object) -> Iterator[re.Pattern[str]]:
+def patterns_in(value: object) -> Iterator[re.Pattern[Any]]:
     if isinstance(value, re.Pattern):
         yield value
     elif isinstance(value, dict):
@@ -61,9 +63,9 @@ def patterns_in(value: object) -> Iterator[re.Pattern[str]]:
             yield from patterns_in(held)
 
 
-def patterns() -> dict[str, re.Pattern[str]]:
+def patterns() -> dict[str, re.Pattern[Any]]:
     """Return the patterns of all modules, by where they are and what they are."""
-    return {f"{module.__name__}.{name}: {pattern.pattern[:40]}": pattern
+    return {f"{module.__name__}.{name}: {pattern.pattern[:40]!r}": pattern
             for module in modules() for name, value in vars(module).items()
             for pattern in patterns_in(value)}
 
@@ -76,9 +78,9 @@ def texts(size: int) -> Iterator[str]:
 def seconds_of(work: Callable[[], object], times: int = 1) -> float:
     least = float("inf")
     for _ in range(times):
-        before = perf_counter()
+        before = thread_time()
         work()
-        least = min(least, perf_counter() - before)
+        least = min(least, thread_time() - before)
     return least
 
 
@@ -94,14 +96,19 @@ def slow_texts(work: Callable[[str], object]) -> list[str]:
     return slow
 
 
-def find_all(pattern: re.Pattern[str], text: str) -> None:
-    deque(pattern.finditer(text), maxlen=0)
+def whole(pattern: re.Pattern[Any], text: str) -> object:
+    return pattern.fullmatch(text if isinstance(pattern.pattern, str) else text.encode())
+
+
+def find_all(pattern: re.Pattern[Any], text: str) -> None:
+    found = pattern.finditer(text if isinstance(pattern.pattern, str) else text.encode())
+    deque(found, maxlen=0)
 
 
 @pytest.mark.parametrize("name", patterns())
 def test_no_pattern_tries_all_ways_to_split_a_text(name: str) -> None:
     pattern = patterns()[name]
-    assert slow_texts(pattern.fullmatch) == []
+    assert slow_texts(lambda text: whole(pattern, text)) == []
     assert slow_texts(lambda text: find_all(pattern, text)) == []
 
 
@@ -125,10 +132,10 @@ def test_a_pattern_that_tries_all_splits_is_found(monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize("kind", READERS)
 def test_no_cell_takes_long_to_read(kind: str) -> None:
     for text in texts(LONGEST_READ):
-        before = perf_counter()
+        before = thread_time()
         with suppress(MisreadError):
             READERS[kind](text, None, Style())  # type: ignore[index]
-        assert perf_counter() - before < MOST_PER_CELL
+        assert thread_time() - before < MOST_PER_CELL
 
 
 @pytest.mark.parametrize("cell", ["8" + " " * 1000 + "x", "8" + "\t " * 500 + "x",
@@ -139,9 +146,9 @@ def test_a_small_sheet_is_read_at_once_whatever_its_cells_hold(cell: str) -> Non
     for meaning in MEANINGS:
         mapping = {"columns": [{"heading": "nasty", "meaning": meaning}]}
         content = (f"{','.join(headings)},nasty\n" + f'A,48.1,11.5,"{cell}"\n' * 3).encode()
-        before = perf_counter()
+        before = thread_time()
         import_file(content, ImportSettings.model_validate({"mapping": mapping}))
-        assert perf_counter() - before < 1
+        assert thread_time() - before < 1
 
 
 def test_headings_of_many_words_are_known_at_once() -> None:
@@ -154,7 +161,7 @@ def test_headings_of_many_words_are_known_at_once() -> None:
 def test_eight_million_cells_are_refused_as_they_are_read() -> None:
     content = (",".join(f"column {number}" for number in range(80)) + "\n"
                + ("1," * 79 + "1\n") * 99_990).encode()
-    before = perf_counter()
+    before = thread_time()
     with pytest.raises(NotASheetError, match="more than 2000000 cells"):
         import_file(content, ImportSettings())
-    assert perf_counter() - before < 5
+    assert thread_time() - before < 5
