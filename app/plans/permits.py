@@ -17,6 +17,7 @@ class Permits:
     indices: Mapping[str, int] = field(default_factory=dict)  # of types, by id
     counts: Mapping[str, int] = field(default_factory=dict)
     choosy: Mapping[str, VehiclesInput] = field(default_factory=dict)  # by id of customer
+    found: dict[str, Place | None] = field(default_factory=dict)  # by name, as far as looked for
 
     @classmethod
     def of(cls, request: PlanRequest) -> "Permits":
@@ -41,14 +42,20 @@ class Permits:
 
     def _barring(self, vehicles: VehiclesInput, kind: str) -> list[str]:
         """Return the fewest names to be allowed, or forbidden no more, for one of a type."""
-        if vehicles.forbidden is None or self.roster is None:
+        if vehicles.forbidden is None:
             return [kind]
         places: dict[Place, str] = {}
         for name in vehicles.forbidden:
-            place = self.roster.find(name)
+            place = self._find(name)
             if place is not None and place[0] == self.indices[kind]:
                 places.setdefault(place, name)
         whole = [name for (_, number), name in places.items() if number is None]
         single = [name for (_, number), name in places.items() if number is not None]
         is_each = len(single) == self.counts[kind]
         return [*whole, *single[:is_each]] or [kind]
+
+    def _find(self, name: str) -> Place | None:
+        """Return what a name means: thousands of customers may forbid the same thousand."""
+        if name not in self.found:
+            self.found[name] = None if self.roster is None else self.roster.find(name)
+        return self.found[name]
