@@ -60,3 +60,21 @@ def test_addresses_are_placed_and_doubts_put_right(
     page.locator("#plan-button").click()
     planned(page, "of 4 served")
     assert state(page, "state.request.customers.3.id") == "Bulevardi 5"
+
+
+def test_a_new_order_goes_to_an_address(open_page: Callable[..., Page], finding: str) -> None:
+    page = open_page(finding, allow=("422",))
+    idle(page)
+    open_file(page, "addresses.json", json.dumps(REQUEST))
+    planned(page, "1 of 1 served")
+    page.locator(".new-order summary").click()
+    page.locator("#order-place").fill("Xyzzyweg 12")
+    page.locator("#order-place").press("Enter")
+    expect(page.locator("#order-place-error")).to_be_visible()
+    page.locator("#order-place").fill("Bulevardi 5")
+    page.locator("#order-place").press("Enter")
+    page.get_by_role("button", name="Take van-1").click()
+    expect(page.locator("#hand-outcome")).to_contain_text("order-2 to van-1")
+    order = state(page, "state.request.customers.1")
+    assert order["location"][0] == pytest.approx(24.94, abs=1e-2)
+    assert order["info"] == {"address": "Bulevardi 5"}
