@@ -134,6 +134,17 @@ def test_a_guess_is_corrected_by_a_choice_and_remembered(page: Page) -> None:
     expect(shown.get_by_label("Meaning of notes")).to_have_value("ignored")
 
 
+def test_a_list_of_pickups_is_put_right_by_one_choice(page: Page) -> None:
+    open_file(page, "today.csv", SHEET)
+    dialog(page).get_by_label("Meaning of kg").select_option("pickup")
+    read_anew(page)
+    use(page)
+    planned(page, "2 of 2 served")
+    customers = state(page, "state.request.customers")
+    assert [customer["pickup"] for customer in customers] == [[5], [7]]
+    assert all(not any(customer["demand"]) for customer in customers)
+
+
 def test_cells_are_pasted_from_a_sheet(page: Page) -> None:
     page.evaluate("""(text) => {
       const data = new DataTransfer();

@@ -6,7 +6,9 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
-from tests.console.spreadsheets import HEAD, MUNICH, SPREADSHEETS, Spreadsheet, book
+from tests.console.spreadsheets import (
+    CSV, HEAD, MUNICH, ROWS, SPREADSHEETS, Spreadsheet, book,
+)
 from tests.console.steps import open_file, state
 from tests.console.test_importing import dialog, read_anew, use
 
@@ -71,3 +73,22 @@ def test_all_that_a_workbook_leaves_open_is_answered_and_remembered(
     expect(dialog(page).get_by_text("Read as the last file like it")).to_be_visible()
     expect(read_anew(page).get_by_text("One is not answered")).to_be_visible()
     expect(shown.get_by_text("3 customers of")).to_be_visible()
+
+
+def test_dozens_of_unused_columns_are_asked_without_filling_the_dialog(console: Page) -> None:
+    console.evaluate("localStorage.clear()")
+    more = [f"Feld {number}" for number in range(30)]
+    lines = [",".join([CSV, *more]), *(",".join([row, *["x"] * 30]) for row in ROWS)]
+    open_file(console, "export.csv", "\n".join(lines))
+    shown = dialog(console)
+    expect(shown.get_by_text("30 are not answered")).to_be_visible()
+    expect(shown.get_by_role("group", name="Feld 0")).to_be_visible()
+    last = shown.get_by_role("group", name="Feld 29")
+    expect(last).to_have_count(0)
+    shown.get_by_text("24 more columns that are not used").click()
+    last.get_by_role("button", name="Notes").click()
+    read_anew(console)
+    expect(last.get_by_role("button", name="Notes")).to_have_attribute("aria-pressed", "true")
+    use(console)
+    expect(console.locator(".result-line")).to_contain_text("of 3 served")
+    assert state(console, "state.request.customers.0.info") == {"notes": "x"}

@@ -35,6 +35,8 @@ export default {
     questionsOpen_one: 'Eine ist nicht beantwortet: Es gilt, was markiert ist.',
     questionsOpen_other: '{{count}} sind nicht beantwortet: Es gilt, was markiert ist.',
     questionsDone: 'Alle sind beantwortet.',
+    moreColumns_one: '{{count}} weitere Spalte, die nicht verwendet wird',
+    moreColumns_other: '{{count}} weitere Spalten, die nicht verwendet werden',
     assumed: 'gilt',
     other: 'Etwas anderes',
     otherMeaning: 'Etwas anderes in {{name}}',
@@ -1915,6 +1917,8 @@ export default {
     searching: 'Suche mit und ohne Drohnen',
   },
   orders: {
+    numbers_one: '{{count}} Zahl',
+    numbers_other: '{{count}} Zahlen',
     title: 'Neuer Auftrag',
     place: 'Adresse oder Ort',
     placeOnGlobe: 'Adresse, oder 52.5219, 13.4132',

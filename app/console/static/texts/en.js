@@ -23,6 +23,8 @@ export default {
     questionsOpen_one: 'One is not answered: what is marked is taken.',
     questionsOpen_other: '{{count}} are not answered: what is marked is taken.',
     questionsDone: 'All are answered.',
+    moreColumns_one: '{{count}} more column that is not used',
+    moreColumns_other: '{{count}} more columns that are not used',
     assumed: 'taken',
     other: 'Something else',
     otherMeaning: 'Something else in {{name}}',
@@ -1858,6 +1860,8 @@ export default {
     searching: 'Searching, with drones and without',
   },
   orders: {
+    numbers_one: '{{count}} number',
+    numbers_other: '{{count}} numbers',
     title: 'New order',
     place: 'Address or place',
     placeOnGlobe: 'Address, or 52.5219, 13.4132',

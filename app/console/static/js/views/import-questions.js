@@ -5,19 +5,28 @@ import { answer } from '../importing.js';
 import { html } from '../libraries.js';
 import { t } from '../texts.js';
 
-/** All questions, in the order of the service. */
+/** Columns that are asked about at once; exports of some programs have dozens. */
+const MOST_COLUMNS = 6;
+
+/** All questions, in the order of the service; where many columns are unused, some folded away. */
 export function Questions({ importing: { reply, mapping } }) {
   const { questions = [] } = reply;
   if (!questions.length) return null;
   const open = questions.filter(({ is_answered: isAnswered }) => !isAnswered).length;
+  const columns = questions.filter(({ kind }) => kind === 'column').slice(MOST_COLUMNS);
+  const folded = new Set(columns.length > 1 ? columns : []);
+  const list = (isWanted) => html`<ol>${questions.map((question, at) => isWanted(question) &&
+    html`<${Question} key=${question.id} at=${at} question=${question} reply=${reply}
+      given=${mapping.answers?.[question.id]} />`)}</ol>`;
   return html`<section class="import-questions" aria-labelledby="import-questions-title">
     <h3 id="import-questions-title">${t('import.questions', { count: questions.length })}</h3>
     <p class="help">${
       open ? t('import.questionsOpen', { count: open }) : t('import.questionsDone')
     }</p>
-    <ol>${questions.map((question, at) => html`<${Question} key=${question.id} at=${at}
-      question=${question} reply=${reply}
-      given=${mapping.answers?.[question.id]} />`)}</ol></section>`;
+    ${list((question) => !folded.has(question))}
+    ${folded.size > 0 && html`<details><summary>${t('import.moreColumns', {
+      count: folded.size,
+    })}</summary>${list((question) => folded.has(question))}</details>`}</section>`;
 }
 
 function Question({ at, question, reply, given }) {

@@ -1,6 +1,5 @@
 /** A box for an order that comes in: where, how much, when; then the three best vans for it. */
 
-import { count } from '../core/format.js';
 import { placeText, NOTHING_TYPED } from '../core/orders.js';
 import { candidateInWords } from '../core/places.js';
 import { html, useState } from '../libraries.js';
@@ -69,7 +68,7 @@ function unitsOf({ load_dimensions: stated, fleet }) {
   const units = (stated ?? []).map(({ unit, name }) => unit ?? name).filter(Boolean);
   if (units.length) return units.join('; ');
   const dimensions = fleet[0]?.capacity.length ?? 1;
-  return dimensions > 1 ? count(dimensions, 'number') : '1';
+  return dimensions > 1 ? t('orders.numbers', { count: dimensions }) : '1';
 }
 
 function OrderField({ name, typed, hint, isWrong }) {
