@@ -13,8 +13,6 @@ from starlette.requests import ClientDisconnect
 
 from app.access.gate import KeyScrubber
 from app.access.setup import control_access, guarding
-from app.addresses.routes import new_lookups
-from app.addresses.routes import router as addresses_router
 from app.console.routes import mount_console
 from app.dispatches.pages import mount_drivers_page
 from app.dispatches.routes import router as dispatches_router
@@ -37,6 +35,8 @@ from app.requests.bounds import Bounds
 from app.roads.opening import extracts_of, opened_roads
 from app.schemas.openapi import TAGS, allowed_methods, describe, operation_id
 from app.settings import Settings
+from app.sheets.lookups import new_lookups
+from app.sheets.lookups import router as addresses_router
 from app.sheets.routes import router as sheets_router
 from app.streets.gallery import Gallery
 from app.streets.routes import router as streets_router

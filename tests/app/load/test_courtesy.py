@@ -34,7 +34,12 @@ def test_work_waits_until_nobody_waits_for_a_plan() -> None:
     waits, done = threading.Event(), threading.Event()
     waits.set()
     way = Courtesy(waits.is_set)
-    thread = threading.Thread(target=lambda: (way.give_way(), done.set()))
+
+    def work() -> None:
+        way.give_way()
+        done.set()
+
+    thread = threading.Thread(target=work)
     thread.start()
     assert not done.is_set()
     waits.clear()

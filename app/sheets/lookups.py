@@ -1,4 +1,4 @@
-"""The endpoint that looks addresses up."""
+"""The endpoint that looks addresses up, as those of a sheet are: behind the door for bodies."""
 
 from collections.abc import Callable
 from typing import Annotated
