@@ -35,7 +35,7 @@ export const TOOLS = [
 ];
 
 /** Tools for which it doesn't matter what is on the map already. */
-const ON_GROUND = new Set(['customer', 'depot', 'windowArea', 'area', 'place']);
+const ON_GROUND = new Set(['customer', 'depot', 'windowArea', 'area', 'place', 'order']);
 
 const isCustomer = (key) => key?.startsWith('c:');
 const idOf = (key) => key.slice(2);
@@ -116,7 +116,6 @@ const BEGIN = {
       store.set({ tool: null });
       requestAnimationFrame(() => document.getElementById('order-amount')?.focus());
     };
-    view.onSelect = (key, point) => view.onGround(point);
   },
   pin(view) {
     view.onSelect = (key) => {
