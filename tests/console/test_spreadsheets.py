@@ -78,7 +78,7 @@ def test_all_that_a_workbook_leaves_open_is_answered_and_remembered(
 def test_dozens_of_unused_columns_are_asked_without_filling_the_dialog(console: Page) -> None:
     console.evaluate("localStorage.clear()")
     more = [f"Feld {number}" for number in range(30)]
-    lines = [",".join([CSV, *more]), *(",".join([row, *["x"] * 30]) for row in ROWS)]
+    lines = [",".join([CSV, *more]), *(",".join([row, *["so und so"] * 30]) for row in ROWS)]
     open_file(console, "export.csv", "\n".join(lines))
     shown = dialog(console)
     expect(shown.get_by_text("30 are not answered")).to_be_visible()
@@ -91,4 +91,4 @@ def test_dozens_of_unused_columns_are_asked_without_filling_the_dialog(console: 
     expect(last.get_by_role("button", name="Notes")).to_have_attribute("aria-pressed", "true")
     use(console)
     expect(console.locator(".result-line")).to_contain_text("of 3 served")
-    assert state(console, "state.request.customers.0.info") == {"notes": "x"}
+    assert state(console, "state.request.customers.0.info") == {"notes": "so und so"}
