@@ -12,7 +12,7 @@ from app.sheets.layout import Table
 from app.sheets.links import is_link, place_of
 from app.sheets.meanings import MEANINGS
 from app.sheets.numbers import own_unit
-from app.sheets.readers import NO, ORDER_KINDS, YES, read
+from app.sheets.readers import NO, ORDER_KINDS, YES, read, ticked_kind
 from app.sheets.states import CANCELLED, DONE, STATES
 from app.sheets.schemas import ColumnMapping
 from app.sheets.units import UnitGuess, amount_unit, clock_unit, duration_unit
@@ -230,7 +230,8 @@ def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
     if kind == "text":
         return 1.0
     if kind == "kind":
-        return sum(read(raw, kind, None, style) in ORDER_KINDS for raw in cells) / len(cells)
+        return sum(ticked_kind(read(raw, kind, None, style), column.heading) in ORDER_KINDS
+                   for raw in cells) / len(cells)
     if kind == "amount" and any(own_unit(raw) for raw in cells):
         return 1.0
     said = 0

@@ -168,6 +168,16 @@ def _date(raw: Raw, unit: str | None, style: Style) -> Any:
     return read_date(raw, style)
 
 
+def ticked_kind(value: Any, heading: str) -> Any:
+    """Return the kind of order of a row; a column of ticks is about what it is named after."""
+    text = simple(str(value))
+    named = _kind(heading, None, Style())
+    if text not in YES | NO or named not in (PICKUP, DELIVERY):
+        return value
+    other = DELIVERY if named == PICKUP else PICKUP
+    return named if text in YES else other
+
+
 def _kind(raw: Raw, unit: str | None, style: Style) -> str:
     """Return what a row is; what no language here calls so as it is written."""
     words = simple(shown(raw)).split()

@@ -11,7 +11,7 @@ from app.sheets.clocks import Style
 from app.sheets.columns import Column
 from app.sheets.layout import Table
 from app.sheets.meanings import MEANINGS
-from app.sheets.readers import DEPOT, DEPOTS, NO, YES, read
+from app.sheets.readers import DEPOT, DEPOTS, NO, YES, read, ticked_kind
 from app.sheets.headings import simple
 
 
@@ -68,6 +68,8 @@ def _read_column(table: Table, column: Column, style: Style, rows: Sequence[Row]
     def reading(kind: str, raw: Raw) -> tuple[Any, str | None]:
         try:
             value = read(raw, meaning.kind, column.unit, style)
+            if column.meaning == "kind" and value is not None:
+                return ticked_kind(value, column.heading), None
             return _ticked(value, column) if column.meaning == "skills" else value, None
         except MisreadError as error:
             return None, f"{error}."

@@ -302,8 +302,10 @@ WORDS: dict[str, dict[str, str]] = {
         "de": "verbotene fahrzeuge|nicht mit",
     },
     "kind": {
-        "en": "kind|type|stop type|order type|job type|service type|activity",
-        "de": "art|typ|stopptyp|auftragsart|vorgang|vorgangsart|auftragstyp|tatigkeit",
+        "en": "kind|type|stop type|order type|job type|service type|activity|pickup|"
+              "pick up|collection|return",
+        "de": "art|typ|stopptyp|auftragsart|vorgang|vorgangsart|auftragstyp|tatigkeit|abholung|"
+              "retoure|abholauftrag",
         "fr": "type",
         "es": "tipo",
         "it": "tipo",

@@ -199,6 +199,16 @@ def test_pickups_are_pickups() -> None:
     assert reply.questions == []
 
 
+@pytest.mark.parametrize(("heading", "ends"), [
+    ("Abholung", ["", "x", ""]), ("Abholung", ["nein", "ja", "nein"]),
+    ("Pickup", ["no", "yes", "no"]), ("Auftragsart", ["Zustellung", "Retoure", "Lieferung"]), ("Type", ["Delivery", "Pickup", ""])])
+def test_pickups_are_known_by_words_and_by_ticks(heading: str, ends: list[str]) -> None:
+    reply = read(heading, ends)
+    assert reply.request is not None
+    assert [customer.get("pickup") for customer in reply.request["customers"]] == [None, [7], None]
+    assert reply.questions == []
+
+
 def test_a_kind_of_order_that_is_not_known_is_asked_about() -> None:
     reply = read("Art", ["Lieferung", "Umtausch", "Lieferung"])
     question = asked(reply, "order_kind")
