@@ -154,10 +154,10 @@ def _capacity_of(van: Van, totals: Sequence[float], amounts: Sequence[Column]) -
         if found[place] is None:
             # What has no unit is for what has none, in their order.
             unit = amounts[place].unit if place < len(amounts) else None
-            entry = next((entry for entry in left if not (entry[1] and unit)), None)
-            found[place] = max(total, 1.0) if entry is None else entry[2]
-            if entry is not None:
-                left.remove(entry)
+            other = next((entry for entry in left if not (entry[1] and unit)), None)
+            found[place] = max(total, 1.0) if other is None else other[2]
+            if other is not None:
+                left.remove(other)
     return [amount for amount in found if amount is not None]
 
 

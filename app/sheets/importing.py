@@ -176,16 +176,17 @@ def _of_day(work: Import, rows: list[Row], sums: list[Row],
     if day is None and not days:
         days = _days_of_clocks(work)
     if day != work.style.day or (day is None and days):
-        kept = {row.number for row in rows}
+        numbers = {row.number for row in rows}
         work.style = replace(work.style, day=day or days[0])
         rows = [row for row in rows_of(work.table, work.columns, work.style)
-                if row.number in kept]
-    if day is None:
+                if row.number in numbers]
+    planned = work.style.day
+    if planned is None:
         return rows
-    kept = [row for row in rows if row.get("date") in (None, day)]
+    kept = [row for row in rows if row.get("date") in (None, planned)]
     if len(kept) < len(rows):
         work.doubts.append(Doubt("OTHER_DAYS", f"{len(rows) - len(kept)} rows of other days than "
-                                 f"{day.isoformat()} are left out."))
+                                 f"{planned.isoformat()} are left out."))
     return kept
 
 

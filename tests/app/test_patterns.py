@@ -7,6 +7,7 @@ import re
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import partial
 from itertools import product
 from pathlib import Path
 from time import thread_time
@@ -88,9 +89,8 @@ def slow_texts(work: Callable[[str], object]) -> list[str]:
     """Return starts of texts whose time grows faster than their length."""
     slow = []
     for text, longer in zip(texts(SIZE), texts(LONGER), strict=True):
-        if seconds_of(lambda text=text: work(text)) > QUICK:
-            short = seconds_of(lambda text=text: work(text), 3)
-            long = seconds_of(lambda longer=longer: work(longer), 3)
+        if seconds_of(partial(work, text)) > QUICK:
+            short, long = seconds_of(partial(work, text), 3), seconds_of(partial(work, longer), 3)
             if short > QUICK and long > GROWTH * short:
                 slow.append(text[:60])
     return slow

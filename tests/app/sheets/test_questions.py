@@ -200,8 +200,9 @@ def test_pickups_are_pickups() -> None:
 
 
 @pytest.mark.parametrize(("heading", "ends"), [
-    ("Abholung", ["", "x", ""]), ("Abholung", ["nein", "ja", "nein"]),
-    ("Pickup", ["no", "yes", "no"]), ("Auftragsart", ["Zustellung", "Retoure", "Lieferung"]), ("Type", ["Delivery", "Pickup", ""])])
+    ("Auftragsart", ["Zustellung", "Retoure", "Lieferung"]), ("Abholung", ["", "x", ""]),
+    ("Abholung", ["nein", "ja", "nein"]),
+    ("Pickup", ["no", "yes", "no"]), ("Type", ["Delivery", "Pickup", ""])])
 def test_pickups_are_known_by_words_and_by_ticks(heading: str, ends: list[str]) -> None:
     reply = read(heading, ends)
     assert reply.request is not None
