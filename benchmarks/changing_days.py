@@ -139,7 +139,8 @@ def what_happens(rng: random.Random, request: Data, plan: Data, since: float = 0
     events = rng.choices((_windows_change, _orders_change, _fleet_changes), k=rng.choice((0, 1, 2)))
     committed = set(committed_to(plan, now, request))
     for event in events:
-        event(rng, later, committed, now)
+        if later["customers"]:
+            event(rng, later, committed, now)
     broken = frozenset(route["vehicle"] for route in plan["routes"] if rng.random() < 0.12)
     drones = sorted({sortie["drone"] for route in plan["routes"] for trip in route["trips"]
                      for sortie in trip["sorties"]})

@@ -134,8 +134,9 @@ class Replanning:
             bridge, hand_over(self.problem, plan, kept, self._left), options,
             listener.should_stop)
         solution, before = begun, evaluation
-        # It takes a while in large plans, and would do no better where nobody is lost.
-        if served_by(plan).intersection(begun.unassigned):
+        # It takes a while in large plans, and would do no better where nobody is lost, and no
+        # truck waits for all its drones before it is planned on.
+        if _has_flights(self.past) or served_by(plan).intersection(begun.unassigned):
             solution, before = self._cheapest(
                 (begun, evaluation), driven_on(self.problem, plan, kept, self.past))
         result = planner.plan(self._in_order(self._left, first), options, received_at,
@@ -244,6 +245,12 @@ def _past(problem: Problem, terms: Terms) -> Past:
     grounded = {vehicle: drones for vehicle, drones in terms.grounded.items()
                 if vehicle not in terms.unavailable}
     return Past(terms.now or 0, known, terms.unavailable, grounded, pinned, orders=orders)
+
+
+def _has_flights(past: Past) -> bool:
+    """Tell whether any drone is in the air."""
+    return any(sortie.recovery_start is None
+               for trips in past.trips.values() for sortie in trips[-1].sorties)
 
 
 def _as_given(plan: Solution, settled: Solution,
