@@ -83,7 +83,7 @@ def test_marks_and_lines_take_no_click_of_who_draws_on_the_ground(page: Page) ->
     expect(page.locator(".marker-icon.cursor-marker")).to_be_attached()
     (x, y), (other_x, other_y) = corners[0], corners[1]
     on_line = ((x + other_x) / 2, (y + other_y) / 2)
-    ring = [corners[0], on_line, corners[1], (other_x + 60, other_y - 60), (x + 90, y - 40)]
+    ring = [corners[0], on_line, corners[1], (other_x + 40, other_y - 200), (x + 120, y - 60)]
     for place in [*ring, ring[0]]:
         page.mouse.move(*place)
         page.mouse.click(*place)
