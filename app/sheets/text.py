@@ -30,6 +30,7 @@ EQUALLY_GOOD = 0.02
 PIECE = 2**16
 """Characters that are cut into lines at a time."""
 
+LONGEST_LINE = 2**20
 LONGEST_CELL = 100_000
 MAX_CELLS = 2_000_000
 
@@ -148,5 +149,8 @@ def _lines(text: str) -> Iterator[str]:
     begin = 0
     while begin < len(text):
         end = text.find("\n", begin + PIECE) + 1 or len(text)
-        yield from text[begin:end].splitlines(keepends=True)
+        for line in text[begin:end].splitlines(keepends=True):
+            if len(line) > LONGEST_LINE:
+                raise NoTextError(f"it has a line of more than {LONGEST_LINE} characters")
+            yield line
         begin = end
