@@ -99,7 +99,7 @@ def test_marks_and_lines_take_no_click_of_who_draws_on_the_ground(page: Page) ->
     assert state(page, "state.request.depots.length") == depots + 1
     assert state(page, "state.selection") is None
     page.keyboard.press("Escape")
-    page.mouse.click(*corners[0])
+    page.mouse.click(*place_of(page, f"c:{customers[0]}"))
     assert state(page, "state.selection") is not None
 
 
