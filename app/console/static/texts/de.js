@@ -1586,6 +1586,11 @@ export default {
     removeDepot: 'Dieses Depot entfernen',
     addDepot: 'Depot hinzufügen',
     empty: 'Mit leerer Karte beginnen',
+    by: {
+      either: 'beide',
+      truck: 'Fahrzeug',
+      drone: 'Drohne',
+    },
   },
   fleet: {
     types_one: '{{count}} Fahrzeugtyp',

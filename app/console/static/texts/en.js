@@ -1538,6 +1538,11 @@ export default {
     removeDepot: 'Remove this depot',
     addDepot: 'Add a depot',
     empty: 'Begin with an empty map',
+    by: {
+      either: 'either',
+      truck: 'truck',
+      drone: 'drone',
+    },
   },
   fleet: {
     types_one: '{{count}} vehicle type',

@@ -110,7 +110,7 @@ function CustomerRow({ customer, place, halt, index, selected, marked, errors, d
     <td ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
       ${windowsInWords(windowsOf(customer))}</td>
     <td ...${cell('served_by')} class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
-      ${t(`servedBy.${customer.served_by ?? 'either'}`)}</td>
+      ${t(`customers.by.${customer.served_by ?? 'either'}`)}</td>
     <td class=${halt?.lateness > 0 || (index && !halt) ? 'late-text' : ''}>${arrival}</td></tr>`;
 }
 
