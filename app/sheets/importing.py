@@ -200,7 +200,7 @@ def _asked_day(work: Import, rows: Sequence[Row], days: Sequence[date]) -> date 
         "day", "day", f"There are {len(days)} days ({listed}): which is planned?",
         {day.isoformat(): f"{day.isoformat()}, {counts[day]} rows" for day in days[:100]}, None,
         {"count": len(days), "days": listed}, cell=cell),
-        stated.isoformat() if stated in days else None)
+        stated.isoformat() if stated is not None and stated in days else None)
     if stated is None and answer is None:
         work.errors.append(CellError("SEVERAL_DAYS", f"There are {len(days)} days ({listed}): "
                                      "state the one that is planned.", cell))

@@ -16,10 +16,12 @@ import numpy as np
 from model.judge.bench import Bench, Setting, Trial
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
-from model.judge.places import halts
+from model.judge.places import Means, halts
 from model.judge.screening import Screen
 from model.problem import UNREACHABLE, Customer, DroneType, Problem, VehicleType
 from model.solution import Route, Solution
+
+BY_DRONE: tuple[Means, ...] = ("drone",)
 
 TRIES = 3
 """Flights tried to a customer, the likeliest ones."""
@@ -168,7 +170,7 @@ def _tried(problem: Problem, solution: Solution, index: int, nodes: list[int], s
 def _flights(bench: Bench, vehicle: Vehicle) -> Iterator[Trial]:
     """Yield plans in which a vehicle's drones fly to a customer, the likeliest flights."""
     screen = Screen(bench.problem, bench.left_out.solution, bench.node, bench.setting.past,
-                    ("drone",))
+                    BY_DRONE)
     for guess in screen.guesses().get((vehicle, "drone"), [])[:TRIES]:
         yield bench.put(guess.place)
 

@@ -60,7 +60,7 @@ def passage_to(problem: Problem, kind: int, node: int) -> Passage | None:
         return None
     place = int(np.flatnonzero(net.nodes == node)[0])
     best: Passage | None = None
-    tried = {(place,)}
+    tried: set[tuple[int, ...]] = {(place,)}
     for between in _ways(net, place):
         if between in tried:
             continue

@@ -68,7 +68,9 @@ def test_a_limit_that_fits_the_size_is_chosen_and_told(open_page: Callable[..., 
     set_option(page, "time_limit", "1.5")
     with page.expect_request("**/jobs") as asked:
         page.get_by_role("button", name="Plan", exact=True).click()
-    assert asked.value.post_data_json["options"]["time_limit"] == 1.5
+    sent = asked.value.post_data_json
+    assert sent is not None
+    assert sent["options"]["time_limit"] == 1.5
     expect(told).to_have_count(0)
     idle(page)
 
