@@ -36,7 +36,7 @@ def test_a_day_is_planned_by_its_clock(page: Page) -> None:
     expect(latest).to_have_value("9:00")
     latest.fill("9:15")
     latest.press("Enter")
-    page.locator("#day summary").click()
+    page.locator("#day > summary").click()
     page.get_by_label("Date", exact=True).fill("2026-10-25")
     expect(latest).to_have_value("9:15")
     page.get_by_role("button", name="Plan", exact=True).click()

@@ -25,7 +25,7 @@ def test_first_view_is_a_city_and_says_what_its_drones_do(
         line = page.locator(".drones-line")
         # Of the plan that is shown, not of any.
         told = (r"\d drones? serves? {} of 40 customers"
-                r"( and saves? \d+ %|; vans alone cost no more)\.")
+                r"( and saves? \d+\s%|; vans alone cost no more)\.")
         expect(line.get_by_role("button")).to_have_count(0)
         sorties = [len(sortie["customers"]) for route in state(page, "state.plans.0.plan.routes")
                    for trip in route["trips"] for sortie in trip["sorties"]]

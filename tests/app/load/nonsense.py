@@ -1,6 +1,7 @@
 """Nonsense for every route of the API's description, and what it takes to refuse it.
 
-Run as a program, it sends all kinds to a service of its own and prints as JSON what each took.
+Run as a program, it sends all kinds to a service of its own, or every `n`-th if told so, and prints
+as JSON what each took.
 """
 
 import json
@@ -185,12 +186,16 @@ def example() -> Data:
             "fleet": [{"id": "t", "count": 1, "capacity": [1]}]}
 
 
-def takings(server: Server, size: int = SIZE) -> Iterator[Taken]:
-    """Yield what each kind of nonsense takes at each route that takes a body."""
+def takings(server: Server, size: int = SIZE, each: int = 1) -> Iterator[Taken]:
+    """Yield what nonsense takes at each route that takes a body.
+
+    Of its kinds every `each`-th is sent, others at each route.
+    """
     description = create_app(Settings()).openapi()
     watch = Watch(server)
-    for route in routes(server, description):
-        for kind, body_of in (KINDS | dict(in_fields(route.schema))).items():
+    for number, route in enumerate(routes(server, description)):
+        kinds = list((KINDS | dict(in_fields(route.schema))).items())
+        for kind, body_of in kinds[number % each::each]:
             yield _taken(server, watch, route, kind, body_of(size))
     watch.stop()
 
@@ -208,14 +213,14 @@ def _taken(server: Server, watch: Watch, route: Route, kind: str, body: bytes) -
     return Taken(f"{route.method} {route.path}", kind, status, seconds, *watch.end(before))
 
 
-def main(size: int) -> None:
-    """Print what all takes."""
+def main(each: int) -> None:
+    """Print what every `each`-th kind takes at each route."""
     with tempfile.TemporaryDirectory() as folder, running(
             TANDEM_DATA_DIR=folder, TANDEM_DRIVER_REQUESTS_PER_MINUTE="0",
             TANDEM_LOG_LEVEL="error") as server:
-        for taken in takings(server, size):
+        for taken in takings(server, each=each):
             print(json.dumps(asdict(taken)), flush=True)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else SIZE)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1)

@@ -89,6 +89,21 @@ test('texts take numbers as the language writes them, and are chosen by them', (
   assert.equal(t('ride.stops', { count: 1234 }), '1,234 stops');
 });
 
+test('texts of another language are fetched once it is chosen', async () => {
+  globalThis.localStorage = { setItem() {} };
+  const fetched = [];
+  const load = async (name) => {
+    fetched.push(name);
+    return { ride: { stops_one: '{{count}} Stopp', stops_other: '{{count}} Stopps' } };
+  };
+  const spoken = speaking({ en: { ride: { stops_one: '1 stop', stops_other: 'stops' } } }, load);
+  for (const name of ['de', 'en', 'de']) await spoken.choose(name);
+  delete globalThis.localStorage;
+  assert.deepEqual(fetched, ['de']);
+  assert.equal(spoken.language(), 'de');
+  assert.equal(spoken.t('ride.stops', { count: 1234 }), '1.234 Stopps');
+});
+
 test('names are told as they are, whatever stands in them', () => {
   const { t } = speaking({ en: { to: 'To {{name}}' } });
   assert.equal(t('to', { name: '<b>$t(to) {{name}} & co' }), 'To <b>$t(to) {{name}} & co');

@@ -11,7 +11,7 @@ const MARK = '\u0000'; // stands around what is no text
 const DIGITS = 2;
 
 /** Return the language that was chosen here, else the first of the browser's that is known. */
-function wanted() {
+export function wanted() {
   if (typeof document === 'undefined') return FALLBACK;
   const kept = localStorage.getItem(KEPT);
   const stated = navigator.languages.map((tag) => tag.toLowerCase().split('-')[0]);
@@ -30,9 +30,10 @@ const NUMBERS = {
 /**
  * Return what says texts: `{t, parts, language, choose}`.
  *
- * @param texts by language: `{en: {view: {key: text}}, de: ...}`
+ * @param texts by language: `{en: {view: {key: text}}, de: ...}`; the wanted one is among them
+ * @param load returns a promise of those of another language
  */
-export function speaking(texts) {
+export function speaking(texts, load = null) {
   const library = createInstance().use(NUMBERS);
   library.init({
     resources: Object.fromEntries(
@@ -76,9 +77,13 @@ export function speaking(texts) {
     },
     /** Return the language that is spoken, as numbers and dates take it. */
     language: () => language,
-    /** Speak another language from now on, and after the page was closed. */
-    choose(name) {
+    /** Speak another language once its texts are there, and after the page was closed. */
+    async choose(name) {
       localStorage.setItem(KEPT, name);
+      if (!said[name]) {
+        library.addResourceBundle(name, 'translation', await load(name));
+        said[name] = library.getFixedT(name);
+      }
       speak(name);
     },
   };

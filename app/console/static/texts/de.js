@@ -1911,9 +1911,10 @@ export default {
   dronesLine: {
     serve_one: '{{count}} Drohne beliefert {{customers}} von {{all}} Kunden.',
     serve_other: '{{count}} Drohnen beliefern {{customers}} von {{all}} Kunden.',
-    save_one: '{{count}} Drohne beliefert {{customers}} von {{all}} Kunden und spart {{share}} %.',
+    save_one:
+      '{{count}} Drohne beliefert {{customers}} von {{all}} Kunden und spart {{share}}\u00a0%.',
     save_other:
-      '{{count}} Drohnen beliefern {{customers}} von {{all}} Kunden und sparen {{share}} %.',
+      '{{count}} Drohnen beliefern {{customers}} von {{all}} Kunden und sparen {{share}}\u00a0%.',
     saveNothing_one:
       '{{count}} Drohne beliefert {{customers}} von {{all}} Kunden; ohne sie kostet es nicht mehr.',
     saveNothing_other:

@@ -1855,8 +1855,10 @@ export default {
   dronesLine: {
     serve_one: '{{count}} drone serves {{customers}} of {{all}} customers.',
     serve_other: '{{count}} drones serve {{customers}} of {{all}} customers.',
-    save_one: '{{count}} drone serves {{customers}} of {{all}} customers and saves {{share}} %.',
-    save_other: '{{count}} drones serve {{customers}} of {{all}} customers and save {{share}} %.',
+    save_one:
+      '{{count}} drone serves {{customers}} of {{all}} customers and saves {{share}}\u00a0%.',
+    save_other:
+      '{{count}} drones serve {{customers}} of {{all}} customers and save {{share}}\u00a0%.',
     saveNothing_one:
       '{{count}} drone serves {{customers}} of {{all}} customers; vans alone cost no more.',
     saveNothing_other:

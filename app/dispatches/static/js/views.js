@@ -70,8 +70,8 @@ export function Day({ day, waiting, isReached, isChanged, failure, link, onTell,
 }
 
 function LanguageChoice({ onLanguage }) {
-  const speak = (event) => {
-    choose(event.target.value);
+  const speak = async (event) => {
+    await choose(event.target.value);
     onLanguage();
   };
   return html`<label>${t('page.language')} <select value=${language()} onChange=${speak}>

@@ -96,14 +96,15 @@ function plainLabel(name) {
 }
 
 /**
- * Return what a field is for, in the words of who fills it, else as the API describes it.
+ * Return what a field is for, in the words of who fills it, else as the API describes it. What a
+ * view says of it here (`help` of the schema) comes first.
  *
  * @param owner title of the schema that has the field
  * @param name of the field
  * @param schema of the field
  */
 export function helpOf(owner, name, schema) {
-  return t(`help.${owner}.${name}`, { defaultValue: apiHelpOf(schema) });
+  return schema.help ?? t(`help.${owner}.${name}`, { defaultValue: apiHelpOf(schema) });
 }
 
 /** Return the API's own description, in plain text. */

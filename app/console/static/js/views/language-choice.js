@@ -1,4 +1,4 @@
-/** The choice of a language, at once for the whole page. */
+/** The choice of a language, for the whole page. */
 
 import { html } from '../libraries.js';
 import { LANGUAGES } from '../language.js';
@@ -7,8 +7,8 @@ import { choose, language, t } from '../texts.js';
 
 /** A list of languages, each as its speakers call it. */
 export function LanguageChoice() {
-  const change = (event) => {
-    choose(event.target.value);
+  const change = async (event) => {
+    await choose(event.target.value);
     store.set({ language: language() });
   };
   return html`<select class="quiet" id="language" aria-label=${t('header.language')}

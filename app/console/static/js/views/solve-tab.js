@@ -44,8 +44,8 @@ export function SolveTab() {
 /** Return the schema of the options, which says how long is planned where nothing is stated. */
 function withFittingLimit(schema, request, most) {
   const seconds = fittingSeconds(request, most);
-  const description = t('solve.limit', { seconds, count: request.customers.length });
-  const limit = { ...schema.properties.time_limit, default: seconds, description };
+  const help = t('solve.limit', { seconds, count: request.customers.length });
+  const limit = { ...schema.properties.time_limit, default: seconds, help };
   return { ...schema, properties: { ...schema.properties, time_limit: limit } };
 }
 
