@@ -103,6 +103,20 @@ def test_marks_and_lines_take_no_click_of_who_draws_on_the_ground(page: Page) ->
     assert state(page, "state.selection") is not None
 
 
+def test_legend_takes_no_click_of_who_draws_on_the_ground(page: Page) -> None:
+    tools, _ = drawing(page)
+    tools.get_by_role("button", name="No-fly area").click()
+    expect(page.locator(".marker-icon.cursor-marker")).to_be_attached()
+    summary = page.locator(".map-legend summary").bounding_box()
+    assert summary is not None
+    x, y = summary["x"] + 10, summary["y"] + summary["height"] / 2
+    ring = [(x, y), (x - 150, y - 20), (x - 100, y - 150)]
+    for place in [*ring, ring[0]]:
+        page.mouse.move(*place)
+        page.mouse.click(*place)
+    assert state(page, "state.request.airspace.no_fly.0.length") == len(ring)
+
+
 def test_corner_of_an_area_is_dragged(page: Page) -> None:
     open_example(page, "city_day")
     before = state(page, "state.request.airspace.no_fly.0")
