@@ -272,6 +272,10 @@ def json_path(location: Iterable[str | int]) -> str:
     return path
 
 
+NO_LEG = ("A leg that isn't there is stated as 1000000000 in both tables: no vehicle drives it "
+          "within a shift.latest or a max_trip_distance.")
+
+
 def schema_errors(found: Sequence[ErrorDetails]) -> list[InputError]:
     """Return all that pydantic found, in our words.
 
@@ -308,6 +312,8 @@ def schema_error(details: ErrorDetails) -> InputError:
     code = cast(ErrorCode, kind) if kind in _STATED_CODES else _CODES.get(kind, "WRONG_TYPE")
     if location[:1] == ("matrices",) and len(location) > 3:
         code = "MATRIX_VALUE"
+        if details.get("input", ...) is None or kind == "less_than_equal":
+            message = f"{message[:-1]}. {NO_LEG}"
     return InputError(code=code, path=json_path(location), message=message)
 
 

@@ -284,6 +284,17 @@ def test_matrices_are_checked(client: httpx.Client, smallest: Request, durations
     assert errors_of(client, _with_matrix(smallest, durations)) == errors
 
 
+@pytest.mark.parametrize("entry", [None, 2_147_483_647])
+def test_it_is_told_how_a_leg_is_stated_that_is_not_there(client: httpx.Client, smallest: Request,
+                                                          entry: Any) -> None:
+    request = _with_matrix(smallest, [[0, entry, 2], [1, 0, 1], [2, 1, 0]])
+    reply = client.post("/plan", json=request)
+    assert "A leg that isn't there is stated as 1000000000" in reply.json()["errors"][0]["message"]
+    request["matrices"]["truck"]["durations"][0][1] = 10**9
+    request["fleet"][0]["shift"] = {"latest": 86_400}
+    assert client.post("/plan", json=request).status_code == 200
+
+
 def test_places_need_an_index_with_matrices(client: httpx.Client, smallest: Request) -> None:
     request = _with_matrix(smallest, [[0, 1, 2], [1, 0, 1], [2, 1, 0]])
     del request["customers"][1]["location_index"]
