@@ -35,8 +35,10 @@ def read_content(body: bytes) -> Content:
     """
     require_readable(body, KeptPlanInput, MAX_LOOSE + len(body) // BYTES_PER_VALUE)
     require_json(body)
-    parts = _checked(body)
-    stated = _fields(msgspec.Raw(body))
+    # What is told of a value's type is how it begins.
+    value = msgspec.Raw(body.strip())
+    parts = _checked(value)
+    stated = _fields(value)
     content = b"".join((b'{"request":', stated["request"], b',"plan":',
                         stated.get("plan", NOTHING), b"}"))
     return Content(parts.name, parts.note, msgspec.json.format(content, indent=-1),
@@ -44,9 +46,9 @@ def read_content(body: bytes) -> Content:
                    None if parts.plan is None else parts.plan.cost.total)
 
 
-def _checked(body: bytes) -> KeptPlanInput:
+def _checked(body: msgspec.Raw) -> KeptPlanInput:
     """Return what is read of a body, its long lists empty; raises as `read_content` does."""
-    outline = _outline(msgspec.Raw(body), {
+    outline = _outline(body, {
         "name": _text, "note": _text,
         "request": lambda request: _outline(request, {}),
         "plan": lambda plan: _outline(plan, {

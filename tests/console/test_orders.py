@@ -42,6 +42,32 @@ def type_order(page: Page, **texts: str) -> None:
     page.locator("#order-place").press("Enter")
 
 
+def test_an_order_that_could_not_be_priced_is_still_typed(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("503",))
+    begin(page)
+    open_tab(page, "customers")
+    page.route("**/fit", lambda route: route.fulfill(status=503, json={"title": "Busy"}))
+    page.locator(".new-order summary").click()
+    type_order(page, place="0, 6", amount="1", name="Late")
+    expect(page.locator(".notice[role=alert]")).to_be_visible()
+    expect(page.locator("#order-name")).to_have_value("Late")
+
+
+def test_places_of_an_order_belong_to_the_plan_that_they_were_asked_for(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service)
+    begin(page)
+    open_tab(page, "customers")
+    page.locator(".new-order summary").click()
+    type_order(page, place="0, 6", amount="1", name="Late")
+    expect(page.locator(".places li")).to_have_count(3)
+    page.evaluate("import(`${modules}/planning.js`).then(({ plan }) => plan())")
+    expect(page.locator(".places li")).to_have_count(0)
+    idle(page)
+    assert len(state(page, "state.plans")) == 2
+
+
 @pytest.mark.parametrize("width", [1440, 1024, 390])
 def test_an_order_is_priced_taken_and_sent_in_three_clicks(
         open_page: Callable[..., Page], service: str, width: int) -> None:

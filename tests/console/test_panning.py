@@ -131,6 +131,12 @@ def test_a_handle_moves_a_selected_customer_by_mouse_or_finger(
     expect(hands.locator(".map-handle")).to_have_count(0)
 
 
+def test_a_handle_is_still_there_after_a_click_on_it(hands: Page) -> None:
+    hands.mouse.click(*handle_of(hands, "c:A"))
+    expect(hands.locator(".map-handle span")).to_be_visible()
+    assert state(hands, "state.selection") == "c:A"
+
+
 def test_a_drag_by_the_handle_is_given_up_with_escape(hands: Page) -> None:
     x, y = place_of(hands, "c:E")
     hands.mouse.move(*handle_of(hands, "c:A"))

@@ -26,6 +26,10 @@ def test_content_stays_as_written_but_for_its_blanks() -> None:
     assert (kept.name, kept.note, kept.customers, kept.cost) == ("a", "", 0, 1.5)
 
 
+def test_blanks_around_a_body_count_for_nothing() -> None:
+    assert read_content(b" \n" + body_with() + b"\t") == read_content(body_with())
+
+
 @pytest.mark.parametrize(("parts", "path"), [
     ({"request": b"[]"}, "$.request"), ({"request": b"0"}, "$.request"),
     ({"plan": b"[]"}, "$.plan"), ({"plan": b'"x"'}, "$.plan"), ({"name": b"1"}, "$.name"),

@@ -32,7 +32,7 @@ function isUntouched(before, after, keys) {
 
 /** Return what changes of the state where its problem becomes another, so that it is undone. */
 export function editedTo({ request: former, past }, request) {
-  return { request, past: [...past.slice(-MOST_UNDOS), former], ahead: [] };
+  return { request, past: [...past.slice(-MOST_UNDOS), former], ahead: [], undone: [] };
 }
 
 /** Bring back the problem as it was before the last edit since it was opened. */

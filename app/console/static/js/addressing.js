@@ -5,6 +5,7 @@ import * as api from './api.js';
 import { freeName } from './core/changes.js';
 import { doubtedPlaces, soughtIn, withDepot, withFound, withPlace } from './core/places.js';
 import { store } from './store.js';
+import { t } from './texts.js';
 
 const known = new Map(); // what was found, by address
 
@@ -24,7 +25,7 @@ async function ask(addresses, onProgress = () => {}) {
       .forEach((found) => known.set(found.address, found));
     const left = open.filter((address) => !known.has(address));
     if (left.length === open.length) {
-      throw new api.ApiError(0, 'Addresses are not looked up', reply.error ?? '');
+      throw new api.ApiError(0, t('failed.addresses'), reply.error ?? '');
     }
     open = left;
     onProgress(addresses.length - open.length, addresses.length);

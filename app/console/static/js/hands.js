@@ -31,9 +31,10 @@ export const moveCustomerTo = (id, place, words) =>
     words,
   }));
 
-/** Put a customer where the service found a place, see `askFit`. */
+/** Put a customer where the service found a place in the plan that is looked at, see `askFit`. */
 export const takeFit = (fit, place) =>
   change((entry) => {
+    if (entry.plan !== fit.entry.plan) return null;
     const { id } = fit.customer;
     const isNew = entry.request.customers.every((customer) => customer.id !== id);
     const base = isFurther(fit, place)
@@ -44,7 +45,7 @@ export const takeFit = (fit, place) =>
       request,
       added: isNew ? fit.customer : null,
       decided: withRoute(entry.plan, id, place.route),
-      words: `${id} to ${place.vehicle}`,
+      words: t('hand.to', { id, vehicle: place.vehicle }),
     };
   });
 
@@ -53,7 +54,8 @@ function change(decide) {
   work = work.then(async () => {
     if (store.get().run.state !== 'idle') await stop();
     const entry = shownPlan(store.get());
-    if (entry) await judge(entry, decide(entry));
+    const changed = entry && decide(entry);
+    if (changed) await judge(entry, changed);
   }).catch(showFailure);
   return work;
 }
@@ -190,10 +192,12 @@ export function isFurther(fit, place) {
  *
  * @param order `{base, asked}` if it is an order that comes in: see `askedFor`; then the best place
  * of each vehicle is told
+ *
+ * Returns whether they were told.
  */
 export async function askFit(customer, order = null) {
   const entry = shownPlan(store.get());
-  if (!entry) return;
+  if (!entry) return false;
   const known = entry.request.customers.some(({ id }) => id === customer.id);
   const { base, asked } = order ?? { base: entry.request, asked: entry.request };
   const fit = { customer, entry, base, isOrder: order !== null, told: null };
@@ -208,9 +212,11 @@ export async function askFit(customer, order = null) {
       options: { time_limit: FIT_SECONDS },
     });
     store.set((state) => (state.fit === fit ? { fit: { ...fit, told } } : {}));
+    return true;
   } catch (error) {
     store.set((state) => (state.fit === fit ? { fit: null } : {}));
     showFailure(error);
+    return false;
   }
 }
 

@@ -79,11 +79,11 @@ export function speaking(texts, load = null) {
     language: () => language,
     /** Speak another language once its texts are there, and after the page was closed. */
     async choose(name) {
-      localStorage.setItem(KEPT, name);
       if (!said[name]) {
         library.addResourceBundle(name, 'translation', await load(name));
         said[name] = library.getFixedT(name);
       }
+      localStorage.setItem(KEPT, name);
       speak(name);
     },
   };

@@ -18,8 +18,8 @@ export function noteOrder(patch) {
 /**
  * Price an order as it is typed in the plan that is looked at, each vehicle's best place.
  *
- * Returns `{wrong, places}`: fields that can't be read, and where its address may be if that is not
- * sure. Without a plan the order is added.
+ * Returns `{wrong, places, isTold}`: fields that can't be read, where its address may be if that is
+ * not sure, and whether prices were told. Without a plan the order is added.
  */
 export async function priceOrder(typed) {
   const { request, config } = store.get();
@@ -38,18 +38,19 @@ export async function priceOrder(typed) {
   const customers = [...new Map(both.map((each) => [each.id, each])).values()];
   const { customer, wrong } = orderOf({ ...request, customers }, typed, location);
   if (wrong.length) return { wrong, places: [] };
-  await price(entry, { ...customer, ...(address && { info: { address } }) });
-  return { wrong: [], places: [] };
+  const isTold = await price(entry, { ...customer, ...(address && { info: { address } }) });
+  return { wrong: [], places: [], isTold };
 }
 
+/** Price a new customer, or just add him where there is no plan; return whether that was done. */
 async function price(entry, customer) {
   if (!entry) {
     edit((request) => ({ ...request, customers: [...request.customers, customer] }));
     select(`c:${customer.id}`);
-    return;
+    return true;
   }
   const now = store.get().request.replan?.freeze_before ?? nowOf(entry.request);
-  await askFit(customer, askedFor(entry.request, entry.plan, now));
+  return askFit(customer, askedFor(entry.request, entry.plan, now));
 }
 
 /** Cancel orders, but for those that can't be any more, which is told. */

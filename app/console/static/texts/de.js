@@ -1283,6 +1283,7 @@ export default {
     status413: 'Das ist zu viel',
     status422: 'Im Problem stimmt etwas nicht',
     status429: 'Zu viel auf einmal',
+    addresses: 'Adressen werden nicht nachgeschlagen',
     status503: 'Der Dienst ist ausgelastet oder nicht erreichbar',
     again: 'Versuchen Sie es in {{seconds}} s erneut.',
     noReason: 'Er nannte keinen Grund.',

@@ -1256,6 +1256,7 @@ export default {
     status413: 'There is too much of it',
     status422: 'Something in the problem is not right',
     status429: 'Too much is asked at once',
+    addresses: 'Addresses are not looked up',
     status503: 'The service is busy or cannot be reached',
     again: 'Try again in {{seconds}} s.',
     noReason: 'It gave no reason.',

@@ -53,6 +53,6 @@ export function forgetDraft(storage) {
 
 /** Keep what the driver is writing about a step; `null` when it is told or given up. */
 export function keepDraft(storage, link, step, text) {
-  if (text === null) forgetDraft(storage);
-  else storage.setItem(KEPT, JSON.stringify({ link, step, text }));
+  if (text !== null) storage.setItem(KEPT, JSON.stringify({ link, step, text }));
+  else if (draftOf(storage, link, step) !== null) forgetDraft(storage);
 }

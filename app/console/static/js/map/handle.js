@@ -38,7 +38,9 @@ export function attachHandle(view) {
     turnInwards(view.map, marker);
     listen(view, marker, what, (isNow) => {
       isHeld = isNow;
-      if (!isNow) follow(store.get());
+      if (isNow) return;
+      hide();
+      follow(store.get());
     });
   };
   const turn = () => marker && !isHeld && turnInwards(view.map, marker);

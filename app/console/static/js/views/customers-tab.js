@@ -23,7 +23,8 @@ import { t } from '../texts.js';
 /** The tab. */
 export function CustomersTab() {
   const request = useStore((state) => state.request);
-  return html`<${NewOrder} /><${CustomerTable} request=${request} />
+  const epoch = useStore((state) => state.epoch);
+  return html`<${NewOrder} /><${CustomerTable} key=${epoch} request=${request} />
     <${AddressSearch} request=${request} />
     <${DoubtedPlaces} request=${request} /><${SelectedCustomer} request=${request} />
     <${Places} request=${request} /><${DayFields} request=${request} />`;

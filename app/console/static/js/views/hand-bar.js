@@ -17,7 +17,8 @@ const MOST_RULES = 6;
 export function HandBar() {
   const entry = useStore(shownPlan);
   const judging = useStore((state) => state.judging);
-  const fit = useStore((state) => state.fit);
+  const asked = useStore((state) => state.fit);
+  const fit = asked && asked.entry.plan === entry?.plan ? asked : null;
   const hand = entry?.hand;
   const isBroken = !fit && hand?.violations.length > 0;
   return html`<section class=${`hand-bar ${isBroken ? 'broken' : ''}`} aria-live="polite"

@@ -4,7 +4,7 @@ import { shownPlan } from '../actions.js';
 import { idleCarriers, idleInWords } from '../core/idle-drones.js';
 import { askIdle, IDLE, toldOf } from '../explaining.js';
 import { html, useEffect } from '../libraries.js';
-import { useStore } from '../store.js';
+import { store, useStore } from '../store.js';
 import { t } from '../texts.js';
 
 /** Plans of so many customers are asked about without a click. */
@@ -21,7 +21,8 @@ export function IdleDrones({ vehicle = null }) {
   const isSmall = (entry?.request.customers.length ?? 0) <= MOST_CUSTOMERS;
   const isToBeAsked = names.length > 0 && isSmall && idle && !answer && !entry.hand;
   useEffect(() => {
-    if (isToBeAsked) askIdle(entry, true);
+    // Another of these may have asked meanwhile.
+    if (isToBeAsked && !toldOf(store.get().why, entry, IDLE)) askIdle(entry, true);
   }, [isToBeAsked, entry]);
   if (!names.length) return null;
   const isOpen = (!answer || answer.state === 'failed') && !isToBeAsked;

@@ -63,9 +63,10 @@ function Typed({ address }) {
   const [isWrong, setWrong] = useState(false);
   const take = (event) => {
     const [lat, lon, ...more] = event.target.value.split(/[\s,;]+/).map(parseNumber);
-    const isPlace = !more.length && Math.abs(lat) <= 90 && Math.abs(lon) <= 180;
+    const isNumbers = !more.length && Number.isFinite(lat) && Number.isFinite(lon);
+    const isPlace = isNumbers && Math.abs(lat) <= 90 && Math.abs(lon) <= 180;
     setWrong(!isPlace);
-    if (isPlace && lat !== null && lon !== null) placeAt([lon, lat]);
+    if (isPlace) placeAt([lon, lat]);
   };
   return html`<label>${t('import.typePlace')}<input type="text" id="import-place"
     placeholder="48.137, 11.575" aria-invalid=${isWrong} aria-description=${address}

@@ -6,7 +6,7 @@ import { html, useState } from '../libraries.js';
 import { takeTool } from '../map/draw-bar.js';
 import { noteOrder, priceOrder } from '../ordering.js';
 import { showFailure } from '../actions.js';
-import { useStore } from '../store.js';
+import { store, useStore } from '../store.js';
 import { t } from '../texts.js';
 
 /** The box; `open` shows it unfolded. */
@@ -57,7 +57,8 @@ async function ask(typed, setTold) {
     const told = await priceOrder(typed);
     setTold(told);
     if (told.wrong.length) document.getElementById(`order-${told.wrong[0]}`)?.focus();
-    else noteOrder(NOTHING_TYPED);
+    // What was typed meanwhile is another order.
+    else if (told.isTold && store.get().order === typed) noteOrder(NOTHING_TYPED);
   } catch (error) {
     showFailure(error);
   }

@@ -28,7 +28,11 @@ export function pasteNames(event, setText) {
 /** The box that picks all who are found, or lets go of them. */
 export function PickAll({ rows, picked, setPicked }) {
   const all = rows.length > 0 && rows.every(({ customer }) => picked.has(customer.id));
-  const change = () => setPicked(new Set(all ? [] : rows.map(({ customer }) => customer.id)));
+  const change = () => {
+    const changed = new Set(picked);
+    rows.forEach(({ customer: { id } }) => (all ? changed.delete(id) : changed.add(id)));
+    setPicked(changed);
+  };
   return html`<input type="checkbox" checked=${all} disabled=${!rows.length} onChange=${change}
     aria-label=${t('picked.all', { count: rows.length })} />`;
 }

@@ -98,14 +98,14 @@ function actionAlone({ key, target }) {
 
 /** Return what a press of a key does, if anything. */
 function actionOf(event) {
-  const typing = event.target.matches(
-    'input:not([type=range]), select, textarea, [contenteditable]',
-  );
+  const { target } = event;
+  const typing = target.matches('input:not([type=range]), select, textarea, [contenteditable]');
   if (event.altKey) return null;
   if (event.ctrlKey || event.metaKey) {
     const action = actionWithControl(event);
     // Within a field its own typing is undone.
-    return typing && action !== save ? null : action;
+    const undoes = typing && !target.matches('select, [type=checkbox], [type=radio]');
+    return undoes && action !== save ? null : action;
   }
   return typing && event.key !== 'Escape' ? null : actionAlone(event);
 }
