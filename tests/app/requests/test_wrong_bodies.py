@@ -31,7 +31,7 @@ from app.settings import Settings
 from app.vroom.schemas import VroomRequest
 from tests.app.conftest import APP_DIR, FirstFitPlanner, ready
 from tests.app.requests.wrong_bodies import SHAPES, body_of
-from tests.conftest import made_once
+from tests.conftest import PATIENCE, made_once
 
 MULTIPLE, BESIDE = 32, 250 * 2**20
 """What reading a body may take: so many times its length, and so many bytes beside."""
@@ -231,7 +231,7 @@ def test_others_are_answered_while_wrong_bodies_are_refused(
     done = threading.Event()
 
     def listen() -> None:
-        with httpx.Client(base_url=client.base_url, trust_env=False) as own:
+        with httpx.Client(base_url=client.base_url, timeout=PATIENCE, trust_env=False) as own:
             while not done.is_set():
                 began = time.perf_counter()
                 own.get("/health/live")
