@@ -37,7 +37,8 @@ def without_hidden(table: Table, asking: Asking) -> Table:
         examples=tuple(_shown_row(table, row) for row in unseen[:3])))
     if answer == PLAN:
         return table
-    return replace(table, rows=tuple(row for row in table.rows if row not in set(unseen)))
+    left_out = set(unseen)
+    return replace(table, rows=tuple(row for row in table.rows if row not in left_out))
 
 
 def without_sums(table: Table, rows: Sequence[Row], sums: Sequence[Row],
@@ -53,7 +54,8 @@ def without_sums(table: Table, rows: Sequence[Row], sums: Sequence[Row],
         KEEP_OR_NOT, LEAVE_OUT, {"count": len(sums), "rows": named},
         cell=table.name(numbers[0], 0),
         examples=tuple(_shown_row(table, row) for row in numbers[:3])))
-    return list(rows) if answer == PLAN else [row for row in rows if row.number not in numbers]
+    left_out = set(() if answer == PLAN else numbers)
+    return [row for row in rows if row.number not in left_out]
 
 
 def without_cancelled(table: Table, rows: Sequence[Row], columns: Sequence[Column],
@@ -121,7 +123,7 @@ def with_kinds(table: Table, rows: Sequence[Row], columns: Sequence[Column],
     for row in rows:
         if row.get("kind") not in (None, *ORDER_KINDS):
             unknown[str(row.get("kind"))].append(row)
-    left_out: list[Row] = []
+    left_out: set[int] = set()
     for wording, alike in list(unknown.items())[:MOST_WORDINGS]:
         numbers = [row.number for row in alike]
         answer = asking.ask(Question(
@@ -133,8 +135,8 @@ def with_kinds(table: Table, rows: Sequence[Row], columns: Sequence[Column],
             cell=table.name(numbers[0], column.index)))
         for row in alike:
             row.values["kind"] = answer
-        left_out += alike if answer == LEAVE_OUT else []
-    return [row for row in rows if row not in left_out]
+        left_out |= set(numbers if answer == LEAVE_OUT else ())
+    return [row for row in rows if row.number not in left_out]
 
 
 def without_doubles(table: Table, rows: Sequence[Row], asking: Asking) -> list[Row]:

@@ -48,7 +48,8 @@ class Table:
     def rows_named(self, rows: Sequence[int]) -> str:
         """Return rows as people name them: 3, 5-7."""
         own = [row for row in rows if not self.origins or row < self.origins[0].first]
-        others = [self.name(row, 0) for row in rows if row not in set(own)]
+        known = set(own)
+        others = [self.name(row, 0) for row in rows if row not in known]
         return ", ".join([*([rows_named(own)] if own else ()), *others[:10]])
 
     def cell(self, row: int, column: int) -> Raw:

@@ -13,6 +13,9 @@ EXACT = frozenset(("degrees",))
 
 FEWEST_ROWS = 1
 
+MOST_COLUMNS = 100
+"""Of a table that is put together: in each row, every column is tried at every cell."""
+
 
 def rejoined(table: Table, delimiter: str | None) -> tuple[Table, list[Doubt], list[CellError]]:
     """Return a table whose numbers are whole again, and what is to be said of it or is wrong.
@@ -22,7 +25,8 @@ def rejoined(table: Table, delimiter: str | None) -> tuple[Table, list[Doubt], l
     count = len(table.header_rows) and max(
         (place + 1 for place, heading in enumerate(table.headings) if heading), default=0)
     wide = [row for row in table.rows if _width(table.sheet.rows[row]) > count] if count else []
-    if delimiter != "," or len(wide) < max(FEWEST_ROWS, len(table.rows) / 2):
+    is_cut = delimiter == "," and len(wide) >= max(FEWEST_ROWS, len(table.rows) / 2)
+    if not is_cut or len(table.headings) > MOST_COLUMNS:
         return table, [], []
     kinds = [_kind(heading) for heading in table.headings[:count]]
     rows = list(table.sheet.rows)

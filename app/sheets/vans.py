@@ -1,6 +1,6 @@
 """A sheet that lists vehicles -> their names, capacities, shifts and costs."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -82,8 +82,10 @@ def vans_of(sheet: Sheet, style: Style) -> tuple[list[Van], list[Doubt]]:
     """Return the vehicles of a sheet, and what of it isn't used."""
     table = table_of(sheet)
     meant = _columns(table)
+    units = {column: clock_unit([raw for _, raw in table.column(column)], None).unit
+             for column, meaning in meant.items() if meaning in ("earliest", "latest")}
     vans = [van for row in table.rows[:MOST_VANS]
-            if (van := _van(table, row, meant, style)) is not None]
+            if (van := _van(table, row, meant, units, style)) is not None]
     unused = [heading or letters(column) for column, heading in enumerate(table.headings)
               if column not in meant and table.column(column)]
     doubts = [Doubt("FLEET_IN_FILE", f"The sheet {sheet.name} is read as the vehicles: "
@@ -117,12 +119,13 @@ def _columns(table: Table) -> dict[int, str]:
     return meant
 
 
-def _van(table: Table, row: int, meant: dict[int, str], style: Style) -> Van | None:
+def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, str | None],
+         style: Style) -> Van | None:
     """Return the vehicle of a row; None: it is none, as it has no name and holds nothing."""
     van = Van(table.name(row, 0))
     ends: dict[str, float] = {}
     for column, meaning in meant.items():
-        value = _value(table, row, column, meaning, style)
+        value = _value(table, row, column, KINDS[meaning], units.get(column), style)
         if value is None:
             continue
         if meaning in ("name", "driver"):
@@ -143,12 +146,10 @@ def _van(table: Table, row: int, meant: dict[int, str], style: Style) -> Van | N
     return van if van.name or van.capacities else None
 
 
-def _value(table: Table, row: int, column: int, meaning: str, style: Style) -> Any:
-    cells: Sequence[Raw] = [raw for _, raw in table.column(column)]
-    unit = clock_unit(cells, None).unit if meaning in ("earliest", "latest") else None
-    raw = table.cell(row, column)
+def _value(table: Table, row: int, column: int, kind: Kind, unit: str | None,
+           style: Style) -> Any:
     try:
-        return read(raw, KINDS[meaning], unit, style)
+        return read(table.cell(row, column), kind, unit, style)
     except MisreadError as error:
         raise MisreadError(f"{table.sheet.name}!{table.name(row, column)}: {error}") from error
 
