@@ -214,9 +214,10 @@ def _days_of_clocks(work: Import) -> list[date]:
         if MEANINGS[column.meaning].kind == "clock":
             for _, raw in work.table.column(column.index):
                 try:
-                    days.add(read(raw, "date", None, work.style))
+                    day = read(raw, "date", None, work.style)
                 except MisreadError:
                     continue
+                days |= set() if day is None else {day}
     return sorted(day for day in days if day.year > 1900)[:1]
 
 
