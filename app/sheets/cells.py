@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from datetime import date, datetime, time, timedelta
+from math import isfinite
 from typing import Any
 
 Raw = str | float | bool | datetime | date | time | timedelta | None
@@ -50,10 +51,19 @@ class MisreadError(ValueError):
 
 
 def raw_of(value: Any) -> Raw:
-    """Return what a cell of a workbook holds, from JSON."""
+    """Return what a cell of a workbook holds, from JSON; what no type can hold is a text."""
+    try:
+        return _typed(value)
+    except (ValueError, OverflowError):
+        return str(value[-1] if isinstance(value, list) else value)
+
+
+def _typed(value: Any) -> Raw:
     match value:
         case str():
-            return tidy(value)
+            return tidy(value.encode(errors="replace").decode())
+        case float() if not isfinite(value):
+            return str(value)
         case bool() | float() | None:
             return value
         case int():

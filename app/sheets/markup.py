@@ -3,7 +3,9 @@
 import json
 import zipfile
 from collections.abc import Iterable, Iterator
+from datetime import datetime
 from io import BytesIO
+from math import isfinite
 from typing import Any
 
 from lxml import etree, html
@@ -31,8 +33,7 @@ def sheets_of(content: bytes, max_cells: int) -> list[dict[str, Any]]:
     head = content.lstrip(b"\xef\xbb\xbf \r\n\t")
     if content.startswith(b"PK"):
         head = content = _unzipped(content)
-    found = (_of_json(json.loads(content.decode("utf-8-sig"))) if head.startswith((b"{", b"["))
-             else _of_markup(content))
+    found = (_of_json(_loaded(content)) if head.startswith((b"{", b"[")) else _of_markup(content))
     cells = 0
     sheets = []
     for name, rows, hidden in found:
@@ -145,9 +146,9 @@ def _typed(data: Any) -> Any:
     kind = _attribute(data, "Type")
     try:
         if kind == "Number":
-            return float(text)
+            return float(text) if isfinite(float(text)) else text
         if kind == "DateTime":
-            return ["datetime", text.partition(".")[0]]
+            return ["datetime", datetime.fromisoformat(text.partition(".")[0]).isoformat()]
     except ValueError:
         pass
     return text
@@ -215,16 +216,29 @@ def _words(thing: Any) -> str:
 def _pair(text: str) -> Place | None:
     """Return longitude and latitude of `11.5,48.1,0`."""
     parts = text.split(",")
+    return _place(parts[0], parts[1]) if len(parts) > 1 else None
+
+
+def _place(lon: str | float, lat: str | float) -> Place | None:
+    """Return two numbers; None: they are none, or beyond all bounds."""
     try:
-        return float(parts[0]), float(parts[1])
-    except (ValueError, IndexError):
+        place = float(lon), float(lat)
+    except (ValueError, OverflowError):
         return None
+    return place if all(map(isfinite, place)) else None
 
 
 def _middle(pairs: Iterable[Place]) -> Place:
     """Return latitude and longitude amid places given longitude first."""
     lons, lats = zip(*pairs, strict=True)
     return (min(lats) + max(lats)) / 2, (min(lons) + max(lons)) / 2
+
+
+def _loaded(content: bytes) -> Any:
+    def refuse(constant: str) -> None:
+        raise ValueError(f"{constant} is no number of JSON")
+
+    return json.loads(content.decode("utf-8-sig"), parse_constant=refuse)
 
 
 def _of_json(data: Any) -> Iterable[tuple[str, Rows, list[int]]]:
@@ -258,7 +272,8 @@ def _pairs_in(data: Any, depth: int) -> Iterator[Place]:
     if not isinstance(data, list) or not depth:
         return
     if len(data) >= 2 and all(isinstance(number, int | float) for number in data[:2]):
-        yield float(data[0]), float(data[1])
+        if place := _place(data[0], data[1]):
+            yield place
         return
     for part in data:
         yield from _pairs_in(part, depth - 1)

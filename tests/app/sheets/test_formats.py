@@ -62,6 +62,35 @@ def test_a_workbook_of_2003_in_xml_is_read() -> None:
     assert (reply.sheet, placed(reply)) == ("Tour", {"Anna": [11.5, 48.1]})
 
 
+@pytest.mark.parametrize(("kind", "text"), [
+    ("DateTime", "garbage"), ("Number", "NaN"), ("Number", "inf"), ("Number", "1e999")])
+def test_a_cell_that_is_not_of_its_type_is_a_text(kind: str, text: str) -> None:
+    name = "urn:schemas-microsoft-com:office:spreadsheet"
+    rows = "".join("<Row>" + "".join(f'<Cell><Data ss:Type="{kind}">{text}</Data></Cell>'
+                                     for kind, text in row) + "</Row>" for row in (
+        [("String", heading) for heading in ("Kunde", "lat", "lon", "Hinweis")],
+        [("String", "Anna"), ("Number", "48.1"), ("Number", "11.5"), (kind, text)]))
+    reply = read(f'<?xml version="1.0"?><Workbook xmlns="{name}" xmlns:ss="{name}"><Worksheet>'
+                 f"<Table>{rows}</Table></Worksheet></Workbook>")
+    assert customers(reply)[0]["info"] == {"notes": text}
+
+
+@pytest.mark.parametrize("cell", ["1e999", "1" * 400, r'"\ud800"'])
+def test_what_json_alone_can_hold_is_a_text(cell: str) -> None:
+    reply = read(f'[{{"name": "Anna", "lat": 48.1, "lon": 11.5, "notes": {cell}}}]')
+    assert customers(reply)
+    assert "Anna" in reply.model_dump_json()
+
+
+@pytest.mark.parametrize("number", ["1e999", "1" * 400])
+def test_points_that_are_nowhere_are_left_out(number: str) -> None:
+    feature = ('{{"type": "Feature", "geometry": {{"type": "Point", "coordinates": [{}, 48.1]}},'
+               '"properties": {{"name": "{}"}}}}')
+    reply = read('{"type": "FeatureCollection", "features": ['
+                 f'{feature.format("11.5", "Anna")}, {feature.format(number, "Ben")}]}}')
+    assert placed(reply) == {"Anna": [11.5, 48.1]}
+
+
 @pytest.mark.parametrize("is_zipped", [False, True])
 def test_points_of_kml_are_customers_and_its_areas_asked_about(is_zipped: bool) -> None:
     content = KML.format(more=ZONE).encode()
@@ -95,7 +124,9 @@ def test_points_of_geojson_are_customers() -> None:
 
 @pytest.mark.parametrize("content", [
     '{"a": 1}', "[" * 100_000, '{"features": ' + "[" * 50_000, "<html><p>Log in</p></html>", "<",
-    "[", '{"type": "FeatureCollection", "features": [{"geometry": {"coordinates": 1}}]}'])
+    "[", '[{"name": "Anna", "lat": 48.1, "lon": 11.5, "demand": NaN}]',
+    '{"features": [{"geometry": {"type": "Point", "coordinates": [NaN, 48.1]}}]}',
+    '{"type": "FeatureCollection", "features": [{"geometry": {"coordinates": 1}}]}'])
 def test_marks_without_rows_are_refused(content: str) -> None:
     with pytest.raises(NotASheetError, match="save it as CSV"):
         read(content)
