@@ -7,7 +7,8 @@ from app.sheets.headings import simple
 from app.sheets.layout import Origin, Table, table_of
 from app.sheets.questions import Asking, Question
 from app.sheets.schemas import Mapping
-from app.sheets.table import NotASheetError, Sheet, SheetFile
+from app.sheets.table import MAX_COLUMNS, NotASheetError, Sheet, SheetFile
+from app.sheets.text import MAX_CELLS
 from app.sheets.vans import lists_vans
 
 MOST_ASKED = 40
@@ -80,7 +81,13 @@ def _worth(sheet: Sheet) -> int:
 
 
 def with_rows_of(table: Table, other: Table) -> Table:
-    """Return a table with the rows of another below its own, by their headings."""
+    """Return a table with the rows of another below its own, by their headings.
+
+    Raises
+    ------
+    NotASheetError
+        If it has more columns or cells than a sheet may have.
+    """
     headings = list(table.headings)
     places = []
     for heading in other.headings:
@@ -90,6 +97,10 @@ def with_rows_of(table: Table, other: Table) -> Table:
         if places[-1] == len(headings):
             headings.append(heading)
     first = len(table.sheet.rows)
+    if (len(headings) > MAX_COLUMNS
+            or (first + len(other.sheet.rows)) * len(headings) > MAX_CELLS):
+        raise NotASheetError(f"With the rows of {other.sheet.name} there are more than "
+                             f"{MAX_COLUMNS} columns or {MAX_CELLS} cells: leave that sheet out.")
     moved = []
     for cells in other.sheet.rows:
         row: list[object] = [None] * len(headings)

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from app.sheets.choosing import with_rows_of
 from app.sheets.clocks import Style
 from app.sheets.columns import Column
 from app.sheets.dropping import with_kinds, without_hidden, without_sums
@@ -13,7 +14,7 @@ from app.sheets.layout import Origin, Table, table_of
 from app.sheets.questions import LEAVE_OUT, Asking
 from app.sheets.rejoining import rejoined
 from app.sheets.rows import Row
-from app.sheets.table import Sheet
+from app.sheets.table import MAX_COLUMNS, NotASheetError, Sheet
 from app.sheets.text import LONGEST_LINE, PIECE, NoTextError, read_text
 from app.sheets.vans import vans_of
 
@@ -90,3 +91,13 @@ def test_a_wide_table_is_not_put_together() -> None:
     start = process_time()
     assert rejoined(table, ",") == (table, [], [])
     assert process_time() - start < SECONDS
+
+
+@pytest.mark.parametrize(("width", "height"), [(MAX_COLUMNS - 1, 2), (20, 60_000)])
+def test_sheets_that_are_too_large_together_are_refused(width: int, height: int) -> None:
+    def table(name: str) -> Table:
+        heads: list[Any] = [f"{name}{column}" for column in range(width)]
+        return Table(Sheet(name, [heads, *[["1"]] * height]), (0,), tuple(heads), (1,), 0)
+
+    with pytest.raises(NotASheetError, match="With the rows of b there are more than"):
+        with_rows_of(table("a"), table("b"))
