@@ -8,8 +8,9 @@ from io import BytesIO
 from xml.etree.ElementTree import ParseError, fromstring
 from zipfile import BadZipFile, ZipFile
 
-MAX_ROWS = 2_000_000
-"""Of a repeated row of LibreOffice, that ends a sheet."""
+MAX_ROWS = 100_000
+MAX_COLUMNS = 1000
+"""Up to which rows and columns are kept; a repeated one of LibreOffice may go on far beyond."""
 
 CHUNK = 2**20
 TAIL = 4096
@@ -29,9 +30,14 @@ class TooManyCellsError(ValueError):
 class Hidden:
     """What isn't shown of a sheet; rows and columns are counted from 0."""
 
-    rows: list[int] = field(default_factory=list)
-    columns: list[int] = field(default_factory=list)
+    rows: list[range] = field(default_factory=list)
+    columns: list[range] = field(default_factory=list)
     has_filter: bool = False
+
+
+def places_in(spans: list[range], size: int) -> list[int]:
+    """Return the rows or columns of spans that a sheet of this height or width has."""
+    return sorted({place for span in spans for place in range(span.start, min(span.stop, size))})
 
 
 def hidden_in(content: bytes, max_cells: int) -> dict[str, Hidden]:
@@ -82,10 +88,10 @@ def _of_sheet(tags: Iterator[tuple[bytes, dict[bytes, bytes]]], most: int) -> tu
         elif tag == b"row":
             row = int(stated[b"r"]) - 1 if _is_number(stated.get(b"r")) else row + 1
             if stated.get(b"hidden") in (b"1", b"true"):
-                hidden.rows.append(row)
+                hidden.rows.append(_span(row, 1, MAX_ROWS))
         elif tag == b"col" and stated.get(b"hidden") in (b"1", b"true"):
             first, last = (int(stated[name]) for name in (b"min", b"max"))
-            hidden.columns += range(first - 1, min(last, first + 1000))
+            hidden.columns.append(_span(first - 1, last + 1 - first, MAX_COLUMNS))
         elif tag == b"autoFilter":
             hidden.has_filter = True
     return hidden, cells
@@ -105,12 +111,16 @@ def _open_document(tags: Iterator[tuple[bytes, dict[bytes, bytes]]]) -> dict[str
         is_hidden = stated.get(b"visibility") in (b"collapse", b"filter")
         hidden.has_filter |= stated.get(b"visibility") == b"filter"
         if tag == b"table-row":
-            hidden.rows += range(row, row + count) if is_hidden and count < MAX_ROWS // 4 else ()
+            hidden.rows += [_span(row, count, MAX_ROWS)] if is_hidden else ()
             row += count
         else:
-            hidden.columns += range(column, column + count) if is_hidden and count < 1000 else ()
+            hidden.columns += [_span(column, count, MAX_COLUMNS)] if is_hidden else ()
             column += count
     return found
+
+
+def _span(first: int, count: int, most: int) -> range:
+    return range(max(first, 0), min(first + count, most))
 
 
 def _tags(archive: ZipFile, name: str) -> Iterator[tuple[bytes, dict[bytes, bytes]]]:

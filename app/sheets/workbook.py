@@ -21,7 +21,7 @@ from python_calamine import (
 
 # Run as a file of its own, without the package around it.
 sys.path.append(str(Path(__file__).parent))
-from hidden import Hidden, hidden_in  # type: ignore[import-not-found]
+from hidden import Hidden, hidden_in, places_in  # type: ignore[import-not-found]
 from markup import sheets_of  # type: ignore[import-not-found]
 
 MEMORY_BYTES = 2**30
@@ -72,9 +72,12 @@ def _sheets(book: CalamineWorkbook, unseen: dict[str, Any]) -> list[dict[str, An
         if cells > MAX_CELLS:
             raise ValueError(f"it has more than {MAX_CELLS} cells")
         hidden = unseen.get(entry.name, Hidden())
-        sheets.append({"name": entry.name, "rows": _rows(sheet), "is_hidden": is_hidden,
-                       "merged": sheet.merged_cell_ranges or [], "hidden_rows": hidden.rows,
-                       "hidden_columns": hidden.columns, "has_filter": hidden.has_filter})
+        rows = _rows(sheet)
+        width = max(map(len, rows), default=0)
+        sheets.append({"name": entry.name, "rows": rows, "is_hidden": is_hidden,
+                       "merged": sheet.merged_cell_ranges or [], "has_filter": hidden.has_filter,
+                       "hidden_rows": places_in(hidden.rows, len(rows)),
+                       "hidden_columns": places_in(hidden.columns, width)})
     return sheets
 
 

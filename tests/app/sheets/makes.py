@@ -158,7 +158,7 @@ def dates() -> bytes:
     return workbook(fill)
 
 
-def open_document() -> bytes:
+def open_document(more: str = "") -> bytes:
     """Return a sheet of LibreOffice: headings over two columns, clocks, a repeated empty column."""
     def cell(value: Any, span: int = 1) -> str:
         spanned = f' table:number-columns-spanned="{span}"' if span > 1 else ""
@@ -191,7 +191,7 @@ def open_document() -> bytes:
             f'manifest:media-type="{kind}"/></manifest:manifest>'))
         archive.writestr("content.xml", (
             f'<?xml version="1.0"?><office:document-content{names}><office:body>'
-            f'<office:spreadsheet><table:table table:name="Touren">{table}</table:table>'
+            f'<office:spreadsheet><table:table table:name="Touren">{table}{more}</table:table>'
             "</office:spreadsheet></office:body></office:document-content>"))
     return content.getvalue()
 

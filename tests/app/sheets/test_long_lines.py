@@ -14,9 +14,10 @@ from app.sheets.layout import Origin, Table, table_of
 from app.sheets.questions import LEAVE_OUT, Asking
 from app.sheets.rejoining import rejoined
 from app.sheets.rows import Row
-from app.sheets.table import MAX_COLUMNS, NotASheetError, Sheet
+from app.sheets.table import MAX_COLUMNS, NotASheetError, Sheet, read_sheets
 from app.sheets.text import LONGEST_LINE, PIECE, NoTextError, read_text
 from app.sheets.vans import vans_of
+from tests.app.sheets.makes import open_document
 
 
 def test_a_line_without_end_is_refused() -> None:
@@ -101,3 +102,13 @@ def test_sheets_that_are_too_large_together_are_refused(width: int, height: int)
 
     with pytest.raises(NotASheetError, match="With the rows of b there are more than"):
         with_rows_of(table("a"), table("b"))
+
+
+def test_rows_and_columns_beyond_a_sheet_are_not_hidden() -> None:
+    hidden = 'table:visibility="collapse"/>'
+    more = (f'<table:table-column table:number-columns-repeated="5" {hidden}'
+            f'<table:table-column table:number-columns-repeated="900" {hidden}'
+            + f'<table:table-row table:number-rows-repeated="400000" {hidden}' * 3)
+    [sheet] = read_sheets(open_document(more)).sheets
+    assert sheet.hidden_rows == frozenset()
+    assert sheet.hidden_columns == frozenset(range(6))
