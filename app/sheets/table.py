@@ -1,6 +1,7 @@
 """Bytes -> sheets of rows of cells, whatever program wrote them."""
 
 import json
+import re
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -19,6 +20,9 @@ WORKBOOK_SECONDS = 40
 OTHERS = {b"%PDF": "a PDF"}
 MARKED = {b"{": "JSON", b"[": "JSON", b"<": "a page of HTML or XML"}
 """How files begin that may hold rows all the same: points of GeoJSON and KML, tables of HTML."""
+
+_LIST = re.compile(rb"\[\s*+(?:[\[{\"]|$)")
+"""How a list of JSON begins; a heading such as `[id]` doesn't."""
 
 
 class NotASheetError(RequestError):
@@ -66,7 +70,7 @@ def read_sheets(content: bytes, encoding: str | None = None) -> SheetFile:
         return SheetFile(tuple(_read_workbook(content)))
     head = content[:1000].lstrip(b"\xef\xbb\xbf \r\n\t")
     for start, name in (OTHERS | MARKED).items():
-        if head.startswith(start):
+        if head.startswith(start) and (start != b"[" or _LIST.match(head)):
             wrong = f"The file is {name}: save it as CSV or as a workbook (.xlsx)."
             if start in MARKED:
                 return SheetFile(tuple(_read_workbook(content, wrong)))

@@ -132,6 +132,10 @@ def test_marks_without_rows_are_refused(content: str) -> None:
         read(content)
 
 
+def test_headings_in_brackets_are_no_json() -> None:
+    assert placed(read("[Name];lat;lon\nAnna;48.1;11.5")) == {"Anna": [11.5, 48.1]}
+
+
 def test_entities_of_xml_are_not_unfolded() -> None:
     bomb = "".join(f'<!ENTITY e{number} "{f"&e{number - 1};" * 10}">' for number in range(1, 12))
     with pytest.raises(NotASheetError):
