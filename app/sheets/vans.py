@@ -45,8 +45,8 @@ WORDS = {
 KINDS: dict[str, Kind] = {
     "name": "text", "driver": "text", "count": "number", "capacity": "amount", "earliest": "clock",
     "latest": "clock", "window": "windows", "speed": "number", "per_km": "number",
-    "per_hour": "number", "fixed": "number", "max_trips": "number", "skills": "names",
-    "drones": "number"}
+    "per_hour": "number", "fixed": "number", "max_trips": "number", "skills": "names"}
+"""What is read; of drones nothing is made, though a number of them is none of vehicles."""
 
 MEANINGS = {phrase: meaning for meaning, phrases in WORDS.items() for phrase in phrases.split("|")}
 
@@ -114,14 +114,14 @@ def _columns(table: Table) -> dict[int, str]:
     meant: dict[int, str] = {}
     for column, heading in enumerate(table.headings):
         meaning = _meaning_of(heading)
-        if meaning is not None and (meaning == "capacity" or meaning not in meant.values()):
+        if meaning in KINDS and (meaning == "capacity" or meaning not in meant.values()):
             meant[column] = meaning
     return meant
 
 
 def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, str | None],
          style: Style) -> Van | None:
-    """Return the vehicle of a row; None: it is none, as it has no name and holds nothing."""
+    """Return the vehicle of a row; None: there is none, or no name and no capacity."""
     van = Van(table.name(row, 0))
     ends: dict[str, float] = {}
     for column, meaning in meant.items():
@@ -143,7 +143,8 @@ def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, s
             van.values[meaning] = value
     if ends:
         van.shift = ends.get("earliest"), ends.get("latest")
-    return van if van.name or van.capacities else None
+    is_there = van.values.get("count") != 0
+    return van if is_there and (van.name or van.capacities) else None
 
 
 def _value(table: Table, row: int, column: int, kind: Kind, unit: str | None,

@@ -257,6 +257,20 @@ def test_the_fleet_of_an_english_file_is_read() -> None:
     assert "Home base" in unused.message
 
 
+def test_vehicles_that_are_not_there_and_drones_are_not_planned() -> None:
+    def fill(book: xlsxwriter.Workbook) -> None:
+        monday(book)
+        sheet_of(book, "Fahrzeuge", [
+            ["Fahrzeug", "Anzahl", "Anzahl Drohnen", "Kapazität kg", "Schicht"],
+            ["V1", 2, 1, 40, "6-14"], ["V2", 0, 1, 25, "6-14"]])
+
+    reply = imported(workbook(fill))
+    assert reply.request is not None
+    assert [(kind["id"], kind["count"]) for kind in reply.request["fleet"]] == [("V1", 2)]
+    [unused] = [doubt for doubt in reply.doubts if doubt.code == "FLEET_UNUSED"]
+    assert "Anzahl Drohnen" in unused.message
+
+
 def test_of_several_days_one_is_asked_for() -> None:
     reply = read("Datum", ["23.11.2026", "24.11.2026", "23.11.2026"])
     question = asked(reply, "day")
