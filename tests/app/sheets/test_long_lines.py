@@ -98,7 +98,8 @@ def test_a_wide_table_is_not_put_together() -> None:
 def test_sheets_that_are_too_large_together_are_refused(width: int, height: int) -> None:
     def table(name: str) -> Table:
         heads: list[Any] = [f"{name}{column}" for column in range(width)]
-        return Table(Sheet(name, [heads, *[["1"]] * height]), (0,), tuple(heads), (1,), 0)
+        cells = [heads, *([["1"]] * height)]
+        return Table(Sheet(name, cells), (0,), tuple(heads), (1,), 0)
 
     with pytest.raises(NotASheetError, match="With the rows of b there are more than"):
         with_rows_of(table("a"), table("b"))
