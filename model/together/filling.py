@@ -82,7 +82,8 @@ class Filling:
         for part in self._everywhere():
             if self._should_stop() or not self._left_out:
                 return
-            self._replace([part], WIDE, None)
+            if self._is_there(part):
+                self._replace([part], WIDE, None)
         done = 0
         while done < rounds and self._left_out and not self._should_stop():
             done += 1
@@ -90,6 +91,13 @@ class Filling:
             if not parts:
                 return
             self._replace(parts, NARROW, self._rng)
+
+    def _is_there(self, part: Part) -> bool:
+        """Tell whether a vehicle still has such stops: trips go once nobody is served on them."""
+        trips = self._decision(part.vehicle).trips
+        if part.trip >= len(trips):
+            return part.trip == len(trips) and part.behind == 1
+        return part.behind < len(trips[part.trip].nodes)
 
     def put(self, vehicle: Vehicle, nodes: Iterable[int]) -> None:
         """Let a vehicle without a route serve as many of some customers as it can. In place."""

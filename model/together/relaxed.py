@@ -11,7 +11,8 @@ import numpy as np
 
 from model.judge.network import Network
 from model.problem import (
-    MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, Overtime, Problem, Travel, VehicleType,
+    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, BoolArray, Customer, Overtime, Problem, Travel,
+    VehicleType,
 )
 from model.together.joint import Joint
 
@@ -20,6 +21,10 @@ PENALTY = 50.0
 
 LEFT_OUT = 1000.0
 """What leaving somebody out costs, by such a leg: nobody is, as long as vehicles hold all."""
+
+
+ENDLESS = MAX_QUANTITY - 1
+"""Who may work for so many milliseconds, or longer, works as long as there is anything to do."""
 
 
 def relaxed(problem: Problem, joint: Joint) -> Problem | None:
@@ -38,7 +43,7 @@ def relaxed(problem: Problem, joint: Joint) -> Problem | None:
         customers=tuple(_soft(customer, price, LEFT_OUT * PENALTY * cost)
                         for customer in problem.customers),
         vehicle_types=tuple(_tireless(kind, price, horizon) for kind in problem.vehicle_types),
-        travel=tuple(_capped(problem, index, known, 2 * horizon)
+        travel=tuple(_capped(problem, index, known, min(2 * horizon, MAX_QUANTITY))
                      for index in range(len(problem.travel))),
         unassigned_cost=LEFT_OUT * PENALTY * cost)
 
@@ -47,10 +52,9 @@ def _horizon(net: Network) -> int:
     """Return how long a route may last, or, if it may last for ever, would by legs that are driven.
     """
     kind = net.vehicle_type
-    longest = min(net.latest_end - kind.earliest, net.longest_work)
-    if longest < UNLIMITED:
-        return max(1, longest)
-    return max(1, int(net.ride[_driven(net)].sum() if _driven(net).any() else 1))
+    if min(net.latest_end, net.longest_work) < ENDLESS:
+        return max(1, min(net.latest_end - kind.earliest, net.longest_work))
+    return max(1, int(np.where(_driven(net), net.ride, 0).max(axis=0).sum()))
 
 
 def _driven(net: Network) -> BoolArray:
@@ -83,7 +87,7 @@ def _soft(customer: Customer, price: float, left_out: float) -> Customer:
 
 def _tireless(kind: VehicleType, price: float, horizon: int) -> VehicleType:
     """Return a type whose trucks may work longer, and drive farther, at a price."""
-    endless = (kind.latest >= UNLIMITED and kind.max_working_duration is None) or (
+    endless = (kind.latest >= ENDLESS and kind.max_working_duration is None) or (
         kind.max_trip_distance is not None)
     return replace(
         kind, overtime=Overtime(price), max_trip_distance=None, drones=None, more_drones=(),

@@ -1,17 +1,24 @@
 """Customers who can be served together alone: the plans that are found."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from model.judge.check import check
+from model.judge.past import EVERYTHING_OPEN
+from model.judge.retiming import time_route
+from model.judge.timing import RouteDecision, TripDecision
 from model.planner import Planner, PlanOptions, PlanResult, load_planner
 from model.problem import (
-    UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType,
+    MAX_QUANTITY, UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType,
 )
-from model.together.joint import find_joint
+from model.solution import Solution
+from model.together.filling import Filling
+from model.together.joint import Joint, find_joint
+from model.together.relaxed import relaxed
 from training.instances import VARIANTS, generate
 
 WEIGHTS = Path(__file__).parents[3] / "model" / "weights"
@@ -125,3 +132,31 @@ def test_usual_problems_have_no_groups() -> None:
     rng = np.random.default_rng(3)
     for variant in VARIANTS:
         assert find_joint(generate(rng, 20, variant)) is None, variant
+
+
+def test_limits_are_soft_where_vehicles_work_for_years_and_legs_are_missing() -> None:
+    problem = problem_of(3, {(0, 1): 5, (1, 2): 5, (2, 0): 5}, replace(
+        van(1), latest=MAX_QUANTITY - 1, earliest=8 * 3600 * SECOND))
+    legs, distance = problem.travel[0].arrays()
+    legs[0, 3] = legs[3, 0] = MAX_QUANTITY
+    problem = replace(problem, travel=(Travel(legs, distance),))
+    soft = relaxed(problem, Joint(problem, True))
+    assert soft is not None
+    # An hour late costs more than many legs.
+    assert soft.vehicle_types[0].overtime is not None
+    assert soft.vehicle_types[0].overtime.cost_per_hour > 1
+
+
+def test_trips_that_go_while_strings_are_put_in_are_passed_over() -> None:
+    roads = {(0, 1): 5, (1, 0): 5, (0, 2): 5, (2, 0): 5, (0, 3): 5, (3, 0): 5}
+    problem = problem_of(3, roads, replace(van(1000), max_trips=3))
+    customers = (*[replace(each, unassigned_cost=0.001) for each in problem.customers[:2]],
+                 replace(problem.customers[2], demand=(11,)))
+    problem = replace(problem, customers=customers)
+    plan = Solution((time_route(problem, RouteDecision(0, 0, (
+        TripDecision((0, 1, 0)), TripDecision((0, 2, 0)))), "", EVERYTHING_OPEN).route,), (3,))
+    filling = Filling(problem, plan, Joint(problem, True), lambda: False,
+                      np.random.default_rng(0))
+    filling.fill(4)
+    assert check(problem, filling.plan).violations == ()
+    assert check(problem, filling.plan).cost.total <= check(problem, plan).cost.total
