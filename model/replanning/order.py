@@ -59,7 +59,8 @@ def _ordered(stops: Sequence[Stop], places: Mapping[int, int]) -> tuple[Stop, ..
     for end in range(len(found) - 1, 0, -1):
         for index in range(1, end):
             one, other = found[index:index + 2]
-            is_at_once = one.arrival == one.departure == other.arrival == other.service_start
+            is_at_once = (one.arrival == one.departure == other.arrival == other.service_start
+                          == other.departure)
             if is_at_once and places.get(one.node, -1) > places.get(other.node, len(places)):
                 found[index] = replace(one, node=other.node)
                 found[index + 1] = replace(other, node=one.node)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.judge.past import Past
+from model.judge.past import Past, Vehicle
 from model.planner import Planner, PlanOptions
 from model.problem import Customer, Problem
 from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.replan import Terms
-from model.solution import Solution
+from model.solution import Route, Solution, Stop, Trip
 from tests.model.street import (
     MINUTE, ONE, A, B, C, D, planned, replan, route_of, served, with_customer,
 )
@@ -123,3 +123,17 @@ def test_checker_sees_an_order_at_an_instant(street: Problem) -> None:
     swapped = planned(problem, ((B, A, C),))
     assert [item.code for item in check(problem, swapped, past).violations] == ["ORDER"]
     assert check(problem, by_order(swapped, past.orders), past).violations == ()
+
+
+def test_whoever_is_left_later_keeps_the_place_at_one_instant() -> None:
+    at_once = Stop(2, 10, 10, 10, 0)
+    longer, done = Stop(1, 10, 10, 15, 0), Stop(1, 10, 10, 10, 0)
+    ends = Stop(0, 0, 0, 0, 0), Stop(0, 20, 20, 20, 0)
+
+    def ordered(other: Stop) -> list[int]:
+        trip = Trip((ends[0], at_once, other, ends[1]), ())
+        plan = by_order(Solution((Route(0, 0, (trip,)),), ()), {Vehicle(0, 0): (1, 2)})
+        return [stop.node for stop in plan.routes[0].trips[0].stops[1:-1]]
+
+    assert ordered(done) == [1, 2]
+    assert ordered(longer) == [2, 1]
