@@ -22,6 +22,9 @@ NOTHING: Value = (0, 0, 0)
 MOST_SETS = 4000
 """Sets of jobs, each with a last one and a kind of vehicle, that are looked at: some 0.1 s."""
 
+MOST_BEGINNINGS = 8000
+"""Beginnings that are gone on from, since none of them is the best in everything: some 0.3 s."""
+
 
 def is_few(num_jobs: int, num_kinds: int) -> bool:
     """Tell whether so many jobs, for so many kinds of vehicles, are few enough."""
@@ -42,8 +45,8 @@ class Beginning:
 
 
 def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: Sequence[int],
-                vehicles: Sequence[int]) -> Routes:
-    """Return the best routes for jobs.
+                vehicles: Sequence[int]) -> Routes | None:
+    """Return the best routes for jobs; None if there are too many ways to begin with.
 
     Parameters
     ----------
@@ -52,8 +55,12 @@ def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: S
     vehicles
         The kind of each vehicle that may be used, an index into `kinds`.
     """
-    tours = {kind: _tours(request, Driver(request, places, kinds[kind].vehicles[0]), jobs)
-             for kind in set(vehicles)}
+    tours = {}
+    for kind in set(vehicles):
+        found = _tours(request, Driver(request, places, kinds[kind].vehicles[0]), jobs)
+        if found is None:
+            return None
+        tours[kind] = found
     everyone = 2**len(jobs) - 1
     # By the set of jobs that is left to those behind: what those before make of the others.
     best: dict[int, tuple[Value, tuple[tuple[int, tuple[int, ...]], ...]]] = {
@@ -77,19 +84,22 @@ def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: S
 
 
 def _tours(request: Request, driver: Driver,
-           jobs: Sequence[int]) -> Mapping[int, tuple[Value, tuple[int, ...]]]:
+           jobs: Sequence[int]) -> Mapping[int, tuple[Value, tuple[int, ...]]] | None:
     """Return the best route of a vehicle through each set of jobs that it can serve.
 
-    Sets are numbers whose bits stand for `jobs`.
+    Sets are numbers whose bits stand for `jobs`. None if beginnings are too many.
     """
     best: dict[int, tuple[Value, tuple[int, ...]]] = {}
-    begun = {(0, -1): [Beginning((), driver.begin())]}
+    begun, number = {(0, -1): [Beginning((), driver.begin())]}, 0
     while begun:
+        number += sum(map(len, begun.values()))
+        if number > MOST_BEGINNINGS:
+            return None
         longer: dict[tuple[int, int], list[Beginning]] = {}
         for (taken, _), beginnings in begun.items():
-            for number, job in enumerate(jobs):
-                if not taken >> number & 1:
-                    known = longer.setdefault((taken | 1 << number, number), [])
+            for index, job in enumerate(jobs):
+                if not taken >> index & 1:
+                    known = longer.setdefault((taken | 1 << index, index), [])
                     for beginning in beginnings:
                         _go_on(driver, beginning, job, known)
         for (taken, _), beginnings in longer.items():

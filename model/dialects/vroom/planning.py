@@ -90,9 +90,9 @@ class Planning:
         servable = model.servable()
         if not servable:
             return self._judged({})
-        if is_few(len(servable), len(self.kinds)):
-            return self._judged(best_routes(self._request, self._places, self.kinds, servable,
-                                            self._vehicles(servable)))
+        best = self._best_of_few(servable)
+        if best is not None:
+            return best
         price = self._price(model)
         if len(servable) < len(model.nodes.jobs) and self._left(deadline) > SPARE * price:
             model = self._converter.model(servable)
@@ -109,6 +109,13 @@ class Planning:
                 return found
             model = self._converter.model(sorted(found.served))
         return self._improve(model, self._left(deadline), found.routes)
+
+    def _best_of_few(self, jobs: Sequence[int]) -> Found | None:
+        """Return the best plan for few jobs; None for more."""
+        if not is_few(len(jobs), len(self.kinds)):
+            return None
+        routes = best_routes(self._request, self._places, self.kinds, jobs, self._vehicles(jobs))
+        return None if routes is None else self._judged(routes)
 
     def _vehicles(self, jobs: Sequence[int]) -> list[int]:
         """Return the kinds of all vehicles, none more often than there are jobs."""

@@ -16,6 +16,7 @@ def value_of_best(stated: Data) -> tuple[int, int, int]:
     kinds = find_kinds(request, places)
     vehicles = [number for number, kind in enumerate(kinds) for _ in kind.vehicles]
     routes = best_routes(request, places, kinds, range(len(request.jobs)), vehicles)
+    assert routes is not None
     timed = [Driver(request, places, kinds[kind].vehicles[0]).drive(jobs)
              for kind, its_routes in routes.items() for jobs in its_routes]
     served = [job for route in timed if route is not None for job in route.jobs]
@@ -36,3 +37,10 @@ def test_routes_are_as_good_as_those_found_by_trying_all(seed: int) -> None:
 
 def test_few_are_few_enough_to_be_looked_at_in_a_moment() -> None:
     assert [is_few(7, 4), is_few(7, 5), is_few(12, 1)] == [True, False, False]
+
+
+def test_too_many_ways_to_begin_with_are_left_to_the_planner(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("model.dialects.vroom.exact.MOST_BEGINNINGS", 10)
+    request, places = read(drawn_request(random.Random(1), 4, binds=False))
+    assert best_routes(request, places, find_kinds(request, places), range(4), [0]) is None
