@@ -29,6 +29,9 @@ TURNS, TURNS_FOR_ALL = 60, 1000
 SHARE_FOR_ALL = 0.4
 """Most of the time left that the search for all takes."""
 
+MOST_LEGS = 2_500_000
+"""For so many legs of all types' vehicles it takes a second at most to see where these may go."""
+
 COOLED = 0.5
 """Share of the cooling that is left out, so that much of the plan stays."""
 
@@ -69,6 +72,8 @@ class Pulling:
         if not region.vehicles:
             return plan
         part = part_of(self._problem, region)
+        if len(part.problem.vehicle_types) * part.problem.num_nodes**2 > MOST_LEGS:
+            return plan
         joint = Joint(part.problem, True)
         soft = relaxed(part.problem, joint)
         if soft is None:

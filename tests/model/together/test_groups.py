@@ -1,5 +1,6 @@
 """Customers who can be served together alone: the plans that are found."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +19,7 @@ from model.problem import (
 from model.solution import Solution
 from model.together.filling import Filling
 from model.together.joint import Joint, find_joint
+from model.together.pulling import Pulling, nobody_served
 from model.together.relaxed import relaxed
 from training.instances import VARIANTS, generate
 
@@ -160,3 +162,14 @@ def test_trips_that_go_while_strings_are_put_in_are_passed_over() -> None:
     filling.fill(4)
     assert check(problem, filling.plan).violations == ()
     assert check(problem, filling.plan).cost.total <= check(problem, plan).cost.total
+
+
+def test_nobody_is_pulled_in_where_looking_takes_longer_than_a_look_at_the_clock(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("model.together.pulling.MOST_LEGS", 15)
+    monkeypatch.setattr("model.together.pulling.relaxed", None)  # which would look
+    problem = problem_of(3, {(0, 1): 5, (1, 2): 5, (2, 0): 5}, van(20))
+    plan = nobody_served(problem)
+    pulling = Pulling(problem, Joint(problem, True), lambda: False, math.inf,
+                      np.random.default_rng(0))
+    assert pulling.pull(plan, True) == plan
