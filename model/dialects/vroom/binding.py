@@ -1,7 +1,7 @@
 """Whether time windows can make any difference to what is planned."""
 
 from collections.abc import Sequence
-from itertools import chain
+from functools import cache
 
 import numpy as np
 
@@ -25,31 +25,45 @@ def windows_bind(request: Request, places: Places, kinds: Sequence[Kind]) -> boo
         return True
     opens = max((begin for begin, _ in open_for), default=0)
     closes = min((end for _, end in open_for), default=None)
-    return any(_binds(request, places, kind, opens, closes) for kind in kinds)
+    longest = _Longest(request, places)
+    return any(_binds(longest, kind, opens, closes) for kind in kinds)
 
 
-def _binds(request: Request, places: Places, kind: Kind, opens: int, closes: int | None) -> bool:
+def _binds(longest: "_Longest", kind: Kind, opens: int, closes: int | None) -> bool:
     shift = kind.stated.time_window
     begin = opens if shift is None else max(opens, shift[0])
     ends = [end for end in (closes, None if shift is None else shift[1]) if end is not None]
-    return bool(ends) and (begin * TIME_SCALE + _longest_route(request, places, kind)
-                           > min(ends) * TIME_SCALE)
+    return bool(ends) and (begin * TIME_SCALE + longest.route(kind) > min(ends) * TIME_SCALE)
 
 
-def _longest_route(request: Request, places: Places, kind: Kind) -> int:
-    """Return hundredths of a second that no route of a kind exceeds, floats' precision aside."""
-    durations = places.legs[kind.stated.profile].durations
-    to_sites: IntArray = durations.max(axis=0)
-    each = np.sort(to_sites[places.jobs])
-    most = kind.stated.max_tasks
-    travel = float(each[len(each) - (len(each) if most is None else min(most, len(each))):].sum()
-                   + to_sites.max())
-    if kind.stated.max_travel_time is not None:
-        limit = kind.stated.max_travel_time * TIME_SCALE / kind.rates.time
-        travel = min(travel, limit)
-    spent = sum(chain.from_iterable(
-        (setup_of(job, kind.type), service_of(job, kind.type)) for job in request.jobs))
-    return int(travel * kind.rates.time) + TIME_SCALE * (1 + spent)
+class _Longest:
+    """How long routes take at most; what many kinds of vehicles have in common is summed once."""
+
+    def __init__(self, request: Request, places: Places) -> None:
+        self._jobs = request.jobs
+        self._places = places
+        self._travel = cache(self._travel_by)
+        self._spent = cache(self._spent_by)
+
+    def route(self, kind: Kind) -> int:
+        """Return hundredths of a second that no route of a kind exceeds."""
+        stated, rate = kind.stated, kind.rates.time
+        travel = self._travel(stated.profile)
+        most = len(travel) - 1 if stated.max_tasks is None else stated.max_tasks
+        longest = rate * int(travel[min(most, len(travel) - 1)])
+        if stated.max_travel_time is not None:
+            longest = min(longest, stated.max_travel_time * TIME_SCALE)
+        return longest + TIME_SCALE * (1 + self._spent(kind.type))
+
+    def _travel_by(self, profile: str) -> IntArray:
+        """Return (jobs served,) seconds of travel that routes with so many take at most."""
+        to_sites = self._places.legs[profile].durations.max(axis=0)
+        each = np.sort(to_sites[self._places.jobs])[::-1]
+        return int(to_sites.max()) + np.concatenate([[0], np.cumsum(each)])
+
+    def _spent_by(self, name: str) -> int:
+        """Return the seconds that setup and service of all jobs take by vehicles of a type."""
+        return sum([setup_of(job, name) + service_of(job, name) for job in self._jobs])
 
 
 def _length(window: Window) -> int:

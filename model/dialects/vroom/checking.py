@@ -30,13 +30,11 @@ def route_faults(request: Request, places: Places, vehicle: int,
     if stated.max_tasks is not None and len(jobs) > stated.max_tasks:
         yield f"Too many tasks for vehicle {stated.id}."
     driver = Driver(request, places, vehicle)
-    missing = driver.missing_leg(jobs)
-    if missing is not None:
-        yield (f"No way for vehicle {stated.id} {missing}: matrices state {NO_WAY} s or more.")
-        return
     route = driver.drive(jobs)
     if route is None:
-        yield f"Infeasible route for vehicle {stated.id}."
+        missing = driver.missing_leg(jobs)
+        yield (f"Infeasible route for vehicle {stated.id}." if missing is None else
+               f"No way for vehicle {stated.id} {missing}: matrices state {NO_WAY} s or more.")
         return
     if (stated.max_travel_time is not None
             and route.travels[-1] > stated.max_travel_time * TIME_SCALE):

@@ -124,10 +124,10 @@ class Driver:
         It ends as early as possible, begins as late as that allows, and waits as late as possible.
         """
         pairs = self._pairs(jobs)
-        if self.missing_leg(jobs) is not None:
-            return None
         legs = [self._leg(*pair) for pair in pairs]
         times = [travel for travel, _, _ in legs]
+        if max(times) >= self._endless:
+            return None
         actions = [self._action(*pair, job) for pair, job in zip(pairs, jobs, strict=False)]
         windows = [_windows(self.request.jobs[job]) for job in jobs]
         begin, end = _scaled(self._stated.time_window)
