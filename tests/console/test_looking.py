@@ -18,7 +18,8 @@ UNSERVABLE = {
                   {"id": "early", "location": [30, 0], "demand": [0],
                    "time_window": {"latest": 1200}}],
     "fleet": [{"id": "van", "count": 1, "capacity": [20]}],
-    "options": {"time_limit": 0.2},
+    # By turns: a machine that is busy has no time for turns in few tenths of a second.
+    "options": {"time_limit": 20, "search_iterations": 500},
 }
 
 
