@@ -1,0 +1,867 @@
+/* The one place where the engine and Python meet: plain structs, functions that return codes. */
+#ifndef TANDEM_H
+#define TANDEM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct tandem_size {
+    int64_t depots;
+    int64_t customers;
+    int64_t types;
+    int64_t dimensions;
+} tandem_size;
+
+typedef struct tandem_node {
+    int64_t window_earliest;
+    int64_t arrival_limit;
+    int64_t service_duration;
+    int64_t release;
+    int64_t window_latest;
+    int64_t demand[3];
+} tandem_node;
+
+typedef struct tandem_setup {
+    int64_t site;
+    int64_t setup_duration;
+} tandem_setup;
+
+typedef struct tandem_price {
+    double lateness;
+    double waiting;
+} tandem_price;
+
+typedef struct tandem_goods {
+    int64_t held;
+    int64_t barred_on_trip;
+    int64_t barred_on_vehicle;
+} tandem_goods;
+
+typedef struct tandem_vehicle_type {
+    int64_t count;
+    int64_t travel;
+    int64_t depot;
+    int64_t begins_at;
+    int64_t ends_at;
+    int64_t changes_ends;
+    int64_t shift_earliest;
+    int64_t busy_until;
+    int64_t begun;
+    int64_t shift_latest;
+    int64_t max_working_duration;
+    int64_t usual_end;
+    int64_t usual_working;
+    int64_t max_trip_distance;
+    int64_t max_trips;
+    int64_t max_stops;
+    int64_t max_sorties;
+    int64_t reload_duration;
+    int64_t speed_changes;
+    int64_t drone_row;
+    int64_t drones;
+    int64_t drone_travel;
+    int64_t home_travel;
+    int64_t endurance;
+    int64_t waiting_counts;
+    int64_t launch_duration;
+    int64_t relaunch_duration;
+    int64_t recovery_duration;
+    int64_t variant;
+    int64_t drone_variant;
+    int64_t points;
+    int64_t battery;
+    int64_t lands;
+    int64_t climb_duration;
+    int64_t descent_duration;
+    int64_t charge;
+    int64_t pickup_order;
+    int64_t carried;
+    int64_t capacity[9];
+    int64_t payload[9];
+    int64_t weights[24];
+    int64_t cruise[24];
+    int64_t hover[24];
+    int64_t climb[24];
+    int64_t descent[24];
+    int64_t first_charge[256];
+} tandem_vehicle_type;
+
+typedef struct tandem_rate {
+    double fixed;
+    double distance;
+    double stop;
+    double time;
+    double overtime;
+    double drone_distance;
+    double drone_time;
+    double load;
+} tandem_rate;
+
+typedef struct tandem_leg_law {
+    int64_t table;
+    int64_t rounding;
+    int64_t more;
+    int64_t nowhere;
+    int64_t sets_up;
+    double metres;
+    double pace;
+} tandem_leg_law;
+
+typedef struct tandem_point {
+    int64_t node;
+    int64_t site;
+    int64_t setup_duration;
+    double x;
+    double y;
+    double z;
+} tandem_point;
+
+typedef struct tandem_halt {
+    int64_t leaves;
+    int64_t comes;
+    int64_t picked;
+    int64_t due;
+    int64_t given;
+    int64_t load;
+    int64_t driven;
+    int64_t leaving[3];
+    int64_t coming[3];
+    int64_t before[3];
+    int64_t behind[3];
+} tandem_halt;
+
+typedef struct tandem_logged_stop {
+    int64_t node;
+    int64_t arrival;
+    int64_t start;
+    int64_t leave;
+} tandem_logged_stop;
+
+typedef struct tandem_logged_trip {
+    int64_t first_stop;
+    int64_t first_op;
+    int64_t release;
+    int64_t start;
+} tandem_logged_trip;
+
+typedef struct tandem_operation {
+    int64_t stop;
+    int64_t sortie;
+    int64_t is_recovery;
+} tandem_operation;
+
+typedef struct tandem_logged_sortie {
+    int64_t drone;
+    int64_t row;
+    int64_t node;
+    int64_t launch_stop;
+    int64_t recovery_stop;
+    int64_t takeoff;
+    int64_t arrival;
+    int64_t start;
+    int64_t ready;
+    int64_t recovery_start;
+    int64_t recovery_end;
+    int64_t left;
+    int64_t trial_takeoff;
+    int64_t trial_ready;
+    int64_t trial_end;
+    int64_t trial_left;
+} tandem_logged_sortie;
+
+typedef struct tandem_log_lengths {
+    int64_t trips;
+    int64_t stops;
+    int64_t ops;
+    int64_t sorties;
+} tandem_log_lengths;
+
+typedef struct tandem_vehicle {
+    int64_t type;
+    int64_t index;
+    int64_t node;
+    int64_t idle;
+    int64_t service_end;
+    int64_t crew;
+    int64_t free;
+    int64_t distance;
+    int64_t start_best;
+    int64_t departure_best;
+    int64_t next_start;
+    int64_t launched;
+    int64_t flying;
+    int64_t given;
+    int64_t picked;
+    int64_t taken;
+    int64_t barred_on_trip;
+    int64_t barred_on_vehicle;
+    int64_t load[9];
+    int64_t aboard[9];
+} tandem_vehicle;
+
+typedef struct tandem_drone {
+    int64_t row;
+    int64_t sortie;
+    int64_t place;
+    int64_t node;
+    int64_t takeoff;
+    int64_t ready;
+    int64_t back;
+    int64_t recovery;
+    int64_t kept;
+    int64_t since;
+    int64_t lacking;
+    int64_t left;
+} tandem_drone;
+
+typedef struct tandem_cost {
+    double fixed;
+    double distance;
+    double stops;
+    double time;
+    double overtime;
+    double lateness;
+    double earliness;
+    double unassigned;
+} tandem_cost;
+
+typedef struct tandem_outlook {
+    int64_t arrival;
+    int64_t start;
+    int64_t end;
+} tandem_outlook;
+
+typedef struct tandem_node_features {
+    float x;
+    float y;
+    float is_depot;
+    float opening;
+    float closing;
+    float width;
+    float never_closes;
+    float may_not_be_late;
+    float slack_from_depot;
+    float capacity_share;
+    float share_of_demand;
+    float payload_share;
+    float service;
+    float release;
+    float lateness_price;
+    float waiting_price;
+    float can_drive;
+    float can_fly;
+    float way_home;
+    float nearness;
+    float unassigned_cost;
+    float pickup_share;
+    float between_windows;
+    float max_time_aboard;
+    float setup;
+    float barred;
+} tandem_node_features;
+
+typedef struct tandem_type_features {
+    float capacity;
+    float share_of_demand;
+    float fleet_share;
+    float count;
+    float fixed;
+    float per_km;
+    float per_hour;
+    float way_home;
+    float shift_earliest;
+    float usual_end;
+    float usual_working;
+    float max_trip_distance;
+    float max_trips;
+    float reload;
+    float speed_changes;
+    float drones;
+    float payload;
+    float endurance;
+    float flight_home;
+    float per_flight;
+    float can_drive;
+    float can_fly;
+    float way_out;
+    float way_back;
+    float overtime_price;
+    float overtime;
+    float per_stop;
+    float per_load;
+    float max_stops;
+    float max_sorties;
+    float pickup_order;
+    float other_depots;
+    float handling;
+    float charge;
+} tandem_type_features;
+
+typedef struct tandem_action_features {
+    float kind[4];
+    float duration;
+    float nearness;
+    float cost;
+    float waiting;
+    float window_slack;
+    float lateness;
+    float load_share;
+    float capacity_share;
+    float shift_slack;
+    float way_home;
+    float distance_slack;
+    float working_slack;
+    float detour;
+    float excess;
+    float endurance_share;
+    float release_delay;
+    float next_way;
+    float third_way;
+    float next_excess;
+    float next_duration;
+    float next_slack;
+    float lost;
+    float detour_before;
+    float later_duration;
+} tandem_action_features;
+
+typedef struct tandem_vehicle_features {
+    float unserved;
+    float unserved_demand;
+    float demand_by_reserve;
+    float way_home;
+    float idle;
+    float clock;
+    float load_left;
+    float spare_reserve;
+    float trips_left;
+    float shift_slack;
+    float working_slack;
+    float flying;
+    float drone_aboard;
+    float load_by_demand;
+    float type[34];
+} tandem_vehicle_features;
+
+typedef struct tandem_stop {
+    int64_t node;
+    int64_t kind;
+    int64_t release;
+    int64_t leave;
+    int64_t latest;
+    int64_t leg;
+    int64_t gap;
+    int64_t flying;
+    int64_t trip;
+    int64_t early;
+    int64_t rest;
+    int64_t end;
+    int64_t cum;
+    int64_t depart;
+    int64_t arrival;
+    int64_t before;
+    int64_t block;
+    int64_t last;
+    int64_t d;
+    int64_t c;
+    int64_t hi;
+    int64_t lo;
+    int64_t dep;
+    int64_t hold;
+    int64_t idle;
+    double window_cost;
+} tandem_stop;
+
+typedef struct tandem_sortie {
+    int64_t launch;
+    int64_t recovery;
+    int64_t drone;
+    int64_t count;
+    int64_t state;
+    int64_t takeoff_d;
+    int64_t takeoff_c;
+    int64_t ready_d;
+    int64_t ready_c;
+    int64_t takeoff;
+    int64_t begin;
+    int64_t held;
+    int64_t home;
+    int64_t limit;
+    int64_t left;
+    int64_t taken;
+    int64_t charged;
+    int64_t kept;
+    int64_t since;
+    int64_t follows;
+    int64_t nodes[8];
+    int64_t arrivals[8];
+} tandem_sortie;
+
+typedef struct tandem_trip {
+    int64_t first;
+    int64_t last;
+    int64_t release;
+    int64_t distance;
+    int64_t barred;
+    int64_t load[3];
+} tandem_trip;
+
+typedef struct tandem_route {
+    int64_t type;
+    int64_t length;
+    int64_t trips;
+    int64_t sorties;
+    int64_t end;
+    int64_t cum;
+    int64_t working;
+    int64_t offset;
+    int64_t awaited;
+    int64_t stamp;
+    int64_t barred;
+} tandem_route;
+
+typedef struct tandem_kept {
+    int64_t stamp;
+    int64_t detour;
+    int64_t stop;
+} tandem_kept;
+
+typedef struct tandem_bound {
+    double best;
+    double blink;
+} tandem_bound;
+
+typedef struct tandem_place {
+    int64_t slot;
+    int64_t position;
+    int64_t sortie;
+} tandem_place;
+
+typedef struct tandem_move {
+    int64_t kind;
+    int64_t slot;
+    int64_t first;
+    int64_t last;
+    int64_t drone;
+    int64_t sortie;
+    int64_t type;
+} tandem_move;
+
+typedef struct tandem_block_sums {
+    int64_t time;
+    int64_t free_d;
+    int64_t free_c;
+    int64_t hi;
+    int64_t lo;
+    int64_t dep;
+    int64_t oldest;
+    int64_t flying;
+    int64_t launched;
+    int64_t first_sortie;
+    int64_t awaited;
+    int64_t end;
+    int64_t cum;
+    int64_t depart;
+    int64_t driven;
+} tandem_block_sums;
+
+typedef struct tandem_search_counts {
+    int64_t active;
+    int64_t missing;
+    int64_t absent;
+    int64_t touched;
+    int64_t turn;
+    int64_t stamp;
+    int64_t best_missing;
+    int64_t customers;
+    int64_t lean;
+    int64_t offers;
+    int64_t changed;
+    int64_t stay;
+    int64_t focus;
+} tandem_search_counts;
+
+typedef struct tandem_search_values {
+    double cost;
+    double best;
+    double temperature;
+    double cooling;
+    double longest;
+} tandem_search_values;
+
+typedef struct tandem_line {
+    int64_t node;
+    int64_t drive;
+    int64_t distance;
+    int64_t grounded;
+    int64_t before;
+    int64_t flight;
+    int64_t spared_drive;
+    int64_t spared_distance;
+} tandem_line;
+
+typedef struct tandem_chain {
+    int64_t before;
+    int64_t behind;
+    int64_t route;
+    int64_t leave;
+    int64_t latest;
+    int64_t last;
+    int64_t length;
+    int64_t busy;
+} tandem_chain;
+
+typedef struct tandem_chain_cargo {
+    int64_t delivers;
+    int64_t picks;
+    int64_t delivered[3];
+    int64_t picked[3];
+    int64_t most[3];
+} tandem_chain_cargo;
+
+typedef struct tandem_link {
+    int64_t slot;
+    int64_t before;
+    int64_t behind;
+    int64_t inward;
+    int64_t onward;
+    int64_t gap;
+    int64_t leave;
+    int64_t latest;
+} tandem_link;
+
+typedef struct tandem_run {
+    int64_t type;
+    int64_t first;
+    int64_t last;
+    int64_t count;
+    int64_t distance;
+    int64_t load[3];
+} tandem_run;
+
+typedef struct tandem_piece {
+    int64_t slot;
+    int64_t type;
+    int64_t count;
+    int64_t gap;
+    int64_t saved;
+} tandem_piece;
+
+typedef struct tandem_entry {
+    int64_t node;
+    int64_t onward;
+    int64_t gap;
+} tandem_entry;
+
+typedef struct tandem_moment {
+    int64_t node;
+    int64_t leave;
+    int64_t latest;
+} tandem_moment;
+
+typedef struct tandem_noted {
+    int64_t pieces;
+    int64_t removed;
+    int64_t entries;
+    int64_t moments;
+    int64_t retyped;
+    int64_t over;
+} tandem_noted;
+
+typedef struct tandem_least {
+    double distance;
+    double stop;
+} tandem_least;
+
+/* Arrays of others, row by row. */
+
+typedef struct tandem_action_features_2d { tandem_action_features *data; int64_t shape[2]; } tandem_action_features_2d;
+typedef struct tandem_bool_1d { bool *data; int64_t shape[1]; } tandem_bool_1d;
+typedef struct tandem_bool_2d { bool *data; int64_t shape[2]; } tandem_bool_2d;
+typedef struct tandem_bool_3d { bool *data; int64_t shape[3]; } tandem_bool_3d;
+typedef struct tandem_cost_1d { tandem_cost *data; int64_t shape[1]; } tandem_cost_1d;
+typedef struct tandem_drone_2d { tandem_drone *data; int64_t shape[2]; } tandem_drone_2d;
+typedef struct tandem_entry_1d { tandem_entry *data; int64_t shape[1]; } tandem_entry_1d;
+typedef struct tandem_f32_1d { float *data; int64_t shape[1]; } tandem_f32_1d;
+typedef struct tandem_f32_2d { float *data; int64_t shape[2]; } tandem_f32_2d;
+typedef struct tandem_f32_3d { float *data; int64_t shape[3]; } tandem_f32_3d;
+typedef struct tandem_f32_4d { float *data; int64_t shape[4]; } tandem_f32_4d;
+typedef struct tandem_f64_1d { double *data; int64_t shape[1]; } tandem_f64_1d;
+typedef struct tandem_f64_2d { double *data; int64_t shape[2]; } tandem_f64_2d;
+typedef struct tandem_f64_3d { double *data; int64_t shape[3]; } tandem_f64_3d;
+typedef struct tandem_goods_1d { tandem_goods *data; int64_t shape[1]; } tandem_goods_1d;
+typedef struct tandem_goods_2d { tandem_goods *data; int64_t shape[2]; } tandem_goods_2d;
+typedef struct tandem_halt_3d { tandem_halt *data; int64_t shape[3]; } tandem_halt_3d;
+typedef struct tandem_i32_1d { int32_t *data; int64_t shape[1]; } tandem_i32_1d;
+typedef struct tandem_i32_2d { int32_t *data; int64_t shape[2]; } tandem_i32_2d;
+typedef struct tandem_i32_4d { int32_t *data; int64_t shape[4]; } tandem_i32_4d;
+typedef struct tandem_i64_1d { int64_t *data; int64_t shape[1]; } tandem_i64_1d;
+typedef struct tandem_i64_2d { int64_t *data; int64_t shape[2]; } tandem_i64_2d;
+typedef struct tandem_i64_3d { int64_t *data; int64_t shape[3]; } tandem_i64_3d;
+typedef struct tandem_i64_4d { int64_t *data; int64_t shape[4]; } tandem_i64_4d;
+typedef struct tandem_i64_5d { int64_t *data; int64_t shape[5]; } tandem_i64_5d;
+typedef struct tandem_kept_2d { tandem_kept *data; int64_t shape[2]; } tandem_kept_2d;
+typedef struct tandem_leg_law_1d { tandem_leg_law *data; int64_t shape[1]; } tandem_leg_law_1d;
+typedef struct tandem_line_1d { tandem_line *data; int64_t shape[1]; } tandem_line_1d;
+typedef struct tandem_link_1d { tandem_link *data; int64_t shape[1]; } tandem_link_1d;
+typedef struct tandem_log_lengths_2d { tandem_log_lengths *data; int64_t shape[2]; } tandem_log_lengths_2d;
+typedef struct tandem_logged_sortie_2d { tandem_logged_sortie *data; int64_t shape[2]; } tandem_logged_sortie_2d;
+typedef struct tandem_logged_stop_2d { tandem_logged_stop *data; int64_t shape[2]; } tandem_logged_stop_2d;
+typedef struct tandem_logged_trip_2d { tandem_logged_trip *data; int64_t shape[2]; } tandem_logged_trip_2d;
+typedef struct tandem_moment_1d { tandem_moment *data; int64_t shape[1]; } tandem_moment_1d;
+typedef struct tandem_move_1d { tandem_move *data; int64_t shape[1]; } tandem_move_1d;
+typedef struct tandem_move_2d { tandem_move *data; int64_t shape[2]; } tandem_move_2d;
+typedef struct tandem_node_3d { tandem_node *data; int64_t shape[3]; } tandem_node_3d;
+typedef struct tandem_node_4d { tandem_node *data; int64_t shape[4]; } tandem_node_4d;
+typedef struct tandem_operation_2d { tandem_operation *data; int64_t shape[2]; } tandem_operation_2d;
+typedef struct tandem_outlook_2d { tandem_outlook *data; int64_t shape[2]; } tandem_outlook_2d;
+typedef struct tandem_piece_1d { tandem_piece *data; int64_t shape[1]; } tandem_piece_1d;
+typedef struct tandem_place_1d { tandem_place *data; int64_t shape[1]; } tandem_place_1d;
+typedef struct tandem_point_1d { tandem_point *data; int64_t shape[1]; } tandem_point_1d;
+typedef struct tandem_price_1d { tandem_price *data; int64_t shape[1]; } tandem_price_1d;
+typedef struct tandem_price_2d { tandem_price *data; int64_t shape[2]; } tandem_price_2d;
+typedef struct tandem_rate_1d { tandem_rate *data; int64_t shape[1]; } tandem_rate_1d;
+typedef struct tandem_rate_2d { tandem_rate *data; int64_t shape[2]; } tandem_rate_2d;
+typedef struct tandem_route_1d { tandem_route *data; int64_t shape[1]; } tandem_route_1d;
+typedef struct tandem_run_1d { tandem_run *data; int64_t shape[1]; } tandem_run_1d;
+typedef struct tandem_setup_1d { tandem_setup *data; int64_t shape[1]; } tandem_setup_1d;
+typedef struct tandem_setup_2d { tandem_setup *data; int64_t shape[2]; } tandem_setup_2d;
+typedef struct tandem_size_1d { tandem_size *data; int64_t shape[1]; } tandem_size_1d;
+typedef struct tandem_sortie_2d { tandem_sortie *data; int64_t shape[2]; } tandem_sortie_2d;
+typedef struct tandem_stop_2d { tandem_stop *data; int64_t shape[2]; } tandem_stop_2d;
+typedef struct tandem_trip_2d { tandem_trip *data; int64_t shape[2]; } tandem_trip_2d;
+typedef struct tandem_u64_1d { uint64_t *data; int64_t shape[1]; } tandem_u64_1d;
+typedef struct tandem_vehicle_1d { tandem_vehicle *data; int64_t shape[1]; } tandem_vehicle_1d;
+typedef struct tandem_vehicle_features_1d { tandem_vehicle_features *data; int64_t shape[1]; } tandem_vehicle_features_1d;
+typedef struct tandem_vehicle_type_1d { tandem_vehicle_type *data; int64_t shape[1]; } tandem_vehicle_type_1d;
+typedef struct tandem_vehicle_type_2d { tandem_vehicle_type *data; int64_t shape[2]; } tandem_vehicle_type_2d;
+
+typedef struct tandem_cells {
+    tandem_f64_2d low;  /* (cell, axis) */
+    tandem_f64_2d high;  /* (cell, axis) */
+    tandem_i64_1d first;  /* (cell,) its points, by their place in `point` */
+    tandem_i64_1d last;  /* (cell,) */
+    tandem_i64_2d half;  /* (cell, 2) the cells that it is halved into; -1 if it is not */
+    tandem_f64_2d point;  /* (place, axis) */
+    tandem_i32_1d number;  /* (place,) of the point */
+} tandem_cells;
+
+typedef struct tandem_sights {
+    tandem_i64_1d begin;  /* (row + 1,) */
+    tandem_i64_1d place;  /* (entry,) */
+    tandem_f64_1d distance;  /* (entry,) metres */
+    tandem_f64_1d duration;  /* (entry,) seconds, infinite where the wind is too strong */
+} tandem_sights;
+
+typedef struct tandem_legs {
+    tandem_i32_4d stated;  /* (travel, origin, to, 2); null where some are computed */
+    tandem_i64_5d table;  /* (direction, table, node, node, 2); one direction if they are the same back */
+    tandem_point_1d point;  /* (node,) POINT */
+    tandem_leg_law_1d law;  /* (travel,) LAW */
+} tandem_legs;
+
+typedef struct tandem_instance {
+    tandem_size_1d size;  /* (problem,) SIZE */
+    tandem_node_4d node;  /* (problem, variant, node, 1 + gaps) NODE */
+    tandem_i64_4d amount;  /* (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all */
+    tandem_price_2d price;  /* (problem, node) PRICE */
+    tandem_goods_2d goods;  /* (problem, node) GOODS, or (problem, 0) */
+    tandem_setup_2d setup;  /* (problem, node) SETUP, or (problem, 0) */
+    tandem_i64_2d fresh_for;  /* (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one */
+    tandem_vehicle_type_2d type;  /* (problem, row) TYPE; trucks first, as many as SIZE says */
+    tandem_rate_2d rate;  /* (problem, row) RATE */
+    tandem_bool_3d reload;  /* (problem, type, node) where a trip may end and the next begin */
+    tandem_bool_3d can_drive;  /* (problem, type, node) table, kind, skills and capacity allow a truck */
+    tandem_bool_3d can_fly;  /* (problem, type, node) likewise for its drones */
+    tandem_i64_3d profile_time;  /* (problem, type, change) */
+    tandem_i64_3d profile_factor;  /* (problem, type, change + 1) */
+    tandem_i64_4d duration;  /* (problem, travel, node, node) */
+    tandem_i64_4d distance;  /* (problem, travel, node, node) */
+    tandem_f64_1d unassigned_cost;  /* (problem,) of whoever it costs least to leave out */
+    tandem_f64_2d unassigned_more;  /* (problem, node) what leaving out another costs above that */
+    tandem_i64_3d neighbour;  /* (problem, node, rank) nearest customers first, -1 behind the last */
+} tandem_instance;
+
+typedef struct tandem_vehicle_logs {
+    tandem_log_lengths_2d count;  /* LENGTHS */
+    tandem_logged_trip_2d trip;  /* (trip,) LOGGED_TRIP */
+    tandem_logged_stop_2d stop;  /* (stop,) LOGGED_STOP */
+    tandem_operation_2d op;  /* (op,) OPERATION */
+    tandem_logged_sortie_2d sortie;  /* (sortie,) LOGGED_SORTIE */
+} tandem_vehicle_logs;
+
+typedef struct tandem_state {
+    tandem_i64_1d problem;  /* (rollout,) row in the Instance */
+    tandem_bool_2d served;  /* (rollout, node) */
+    tandem_i64_1d num_unserved;  /* (rollout,) */
+    tandem_i64_2d used;  /* (rollout, type) vehicles opened */
+    tandem_bool_1d done;  /* (rollout,) */
+    tandem_vehicle_1d vehicle;  /* (rollout,) VEHICLE, the open one */
+    tandem_drone_2d drone;  /* (rollout, drone) DRONE, its drones */
+    tandem_vehicle_logs log;
+    tandem_cost_1d cost;  /* (rollout,) COST of the vehicles closed so far */
+    tandem_bool_3d fresh;  /* (problem, type, node) servable alone by a fresh vehicle */
+} tandem_state;
+
+typedef struct tandem_scales {
+    tandem_f64_1d time;  /* (problem,) ms from a depot to a customer, mean */
+    tandem_f64_1d near;  /* (problem,) ms from a customer to its nearest neighbour, mean */
+    tandem_f64_1d horizon;  /* (problem,) ms, the last limit stated, or a guess */
+    tandem_f64_1d cost;  /* (problem,) cost of driving from a depot to a customer, mean */
+    tandem_f64_1d amount;  /* (problem,) total demand in the first dimension, or of pickups if more */
+} tandem_scales;
+
+typedef struct tandem_tokens {
+    tandem_f32_3d node;  /* (problem, node, NUM_NODE_FEATURES) */
+    tandem_f32_3d type;  /* (problem, type, NUM_TYPE_FEATURES) */
+    tandem_f32_4d pair;  /* (problem, node, node, NUM_PAIR_FEATURES) from row to column */
+    tandem_bool_2d mask;  /* (problem, node + type) True = a token, False = padding */
+} tandem_tokens;
+
+typedef struct tandem_observation {
+    tandem_i64_1d count;  /* (rollout,) */
+    tandem_i64_2d action;  /* (rollout, candidate) codes */
+    tandem_i64_2d token;  /* (rollout, candidate) node, or number of nodes + type */
+    tandem_outlook_2d outlook;  /* (rollout, candidate) OUTLOOK */
+    tandem_f32_3d feature;  /* (rollout, candidate, NUM_ACTION_FEATURES) */
+    tandem_action_features_2d described;  /* (rollout, candidate) ACTION */
+    tandem_f32_2d glob;  /* (rollout, NUM_GLOBAL_FEATURES) */
+    tandem_vehicle_features_1d vehicle;  /* (rollout,) VEHICLE_STATE */
+    tandem_i64_1d here;  /* (rollout,) token of the vehicle's place */
+} tandem_observation;
+
+typedef struct tandem_step_weights {
+    tandem_f32_2d globe;
+    tandem_f32_1d globe_bias;
+    tandem_f32_2d globe_output;
+    tandem_f32_1d globe_output_bias;
+    tandem_f32_2d action;
+    tandem_f32_1d action_bias;
+    tandem_f32_2d glimpse_bias;
+    tandem_f32_2d glimpse_output;
+    tandem_f32_2d action_query;
+    tandem_f32_2d action_mix;
+    tandem_f32_1d action_mix_bias;
+    tandem_f32_1d action_score;
+} tandem_step_weights;
+
+typedef struct tandem_desk {
+    tandem_f32_1d hidden;  /* (WIDTH,) */
+    tandem_f32_1d query;  /* (WIDTH,) */
+    tandem_f32_1d glimpsed;  /* (WIDTH,) */
+    tandem_f32_1d asked;  /* (ACTION_WIDTH,) */
+    tandem_f32_2d action;  /* (candidate, ACTION_WIDTH) */
+    tandem_f32_2d mixed;  /* (candidate, ACTION_WIDTH) */
+    tandem_f32_2d weight;  /* (NUM_HEADS, candidate) */
+} tandem_desk;
+
+typedef struct tandem_world {
+    int64_t num_depots;
+    int64_t num_nodes;
+    int64_t num_types;
+    int64_t max_visits;  /* customers on a sortie */
+    bool tails;  /* routes may swap their tails */
+    bool single_drones;  /* some type has one drone, and trips may be split anew */
+    bool loops;  /* sorties may end where they began */
+    bool crossings;  /* sorties may end elsewhere */
+    bool general;  /* insertions may cost more than their detour; else all routes are lean */
+    bool traded;  /* vehicles may drive each other's routes */
+    bool mixed;  /* types of vehicles, some of whose routes are not lean, may drive each other's */
+    bool scan_all;  /* else insertion looks beside neighbours only */
+    bool optional;  /* nobody has to be served */
+    bool adds_up;  /* to insert a customer never saves anything, if no detour does */
+    bool keeps;  /* customers' best places on routes are kept from turn to turn */
+    double blink;  /* how often a better place for a customer is overlooked */
+    double unassigned_cost;  /* of whoever it costs least to leave out */
+    tandem_f64_1d unassigned_more;  /* (node,) what leaving out another costs above that */
+    bool unequal;  /* leaving out some costs more than others */
+    tandem_bool_1d must_serve;  /* (node,) leaving it out costs more than any route for one */
+    tandem_node_3d place;  /* (variant, node, row) NODE */
+    tandem_i64_3d amount;  /* (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all */
+    tandem_price_1d price;  /* (node,) PRICE, per ms */
+    tandem_goods_1d goods;  /* (node,) GOODS, none where all go together */
+    tandem_setup_1d setup;  /* (node,) SETUP, none where nobody sets up */
+    tandem_i64_1d fresh_for;  /* (node,) ms, none where nothing is limited */
+    tandem_vehicle_type_1d type;  /* (row,) TYPE */
+    tandem_rate_1d rate;  /* (row,) RATE, per mm and per ms */
+    tandem_i64_1d mode;  /* (row,) MODE_ flags */
+    tandem_bool_2d reload;  /* (type, node) where a trip may end and the next begin */
+    tandem_i64_1d visits;  /* (row,) customers on a sortie */
+    tandem_bool_3d can;  /* (row, 2, node) by truck, by drone */
+    tandem_bool_2d splice;  /* (type, type) vehicles may end each other's routes */
+    tandem_bool_2d swap;  /* (type, type) may drive each other's routes at a cost by distance alone */
+    tandem_legs leg;  /* duration, distance */
+    tandem_legs back;  /* the same, for those to a node */
+    tandem_i64_2d profile_time;  /* (type, change) */
+    tandem_i64_2d profile_factor;  /* (type, change + 1) */
+    tandem_i32_2d near;  /* (node, rank) customers, nearest first, -1 behind the last */
+    tandem_i32_2d fit;  /* (node, rank) customers whom a truck would visit before or after */
+    tandem_i64_1d stop;  /* (1,) not 0 once the search must end, as `model.kernel.alarm` says */
+} tandem_world;
+
+typedef struct tandem_fleet {
+    tandem_route_1d route;  /* (slot,) ROUTE */
+    tandem_f64_1d cost;  /* (slot,) */
+    tandem_f64_1d early;  /* (slot,) of it, what waiting costs where trips are held back */
+    tandem_stop_2d stop;  /* (slot, position) STOP */
+    tandem_halt_3d halt;  /* (slot, tier, position) HALT; no tiers where `TRIP.load` tells all */
+    tandem_trip_2d trip;  /* (slot, trip) TRIP */
+    tandem_sortie_2d sortie;  /* (slot, sortie) SORTIE */
+    tandem_place_1d where;  /* (node,) PLACE */
+    tandem_i64_1d used;  /* (type,) routes */
+} tandem_fleet;
+
+typedef struct tandem_searcher {
+    tandem_fleet now;
+    tandem_fleet before;  /* those touched this turn, as they are listed there; who is where is not noted */
+    tandem_fleet best;  /* likewise not */
+    tandem_search_counts *count;  /* COUNTS */
+    tandem_search_values *value;  /* VALUES */
+    tandem_u64_1d rng;  /* (1,) */
+    tandem_i64_1d active;  /* slots in use, and behind them those that are free */
+    tandem_i64_1d rank;  /* (slot,) where it stands in `active` */
+    tandem_i64_1d changed;  /* slots changed since the best */
+    tandem_bool_1d is_changed;  /* (slot,) it is among those */
+    tandem_i64_1d missing;  /* customers left out */
+    tandem_i64_1d best_missing;
+    tandem_i64_1d absent;  /* to be inserted this turn, behind those left alone */
+    tandem_i64_1d touched;  /* slots changed this turn */
+    tandem_bool_1d marked;  /* (node,) removed this turn */
+    tandem_i64_1d absences;  /* (node,) turns after which a customer was left out */
+    tandem_i64_2d hit;  /* (slot, trip) turn of the last string */
+    tandem_line_1d line;  /* (node + 3,) scratch, places of a trip or two in order */
+    tandem_f64_1d line_cost;  /* (node + 3,) scratch */
+    tandem_f64_1d key;  /* (node,) order of insertion */
+    tandem_i64_1d moved;  /* scratch */
+    tandem_move *move;  /* MOVE, scratch, best insertion */
+    tandem_move_1d offer;  /* (offer,) MOVE, scratch, insertions that may be best */
+    tandem_f64_1d least;  /* (offer,) scratch, what each costs at least */
+    tandem_block_sums *acc;  /* SUMS of a block, scratch */
+    tandem_bound *bound;  /* BOUND, scratch */
+    tandem_f64_3d alone;  /* (type, 2, node) cost of a route that serves one customer */
+    tandem_kept_2d kept;  /* (node, slot) KEPT, the best places on lean routes as they are */
+    tandem_move_2d kept_move;  /* (node, slot) MOVE, the best insertions where not all routes are lean */
+    tandem_f64_2d kept_cost;  /* (node, slot) where not all routes are lean, what these cost */
+} tandem_searcher;
+
+typedef struct tandem_linked {
+    tandem_link_1d link;  /* (node,) LINK */
+    tandem_run_1d run;  /* (slot,) RUN */
+    tandem_piece_1d piece;  /* (piece,) PIECE */
+    tandem_link_1d removed;  /* (customer,) LINK, of the pieces one after another */
+    tandem_i64_1d removed_node;  /* (customer,) who that is */
+    tandem_entry_1d entry;  /* (customer,) ENTRY */
+    tandem_moment_1d moment;  /* (moment,) MOMENT */
+    tandem_i64_1d retyped;  /* (slot,) routes that another type drives since this turn */
+    tandem_i64_1d former;  /* (slot,) the type that did before, else NOWHERE */
+    tandem_noted *noted;  /* NOTED */
+    tandem_i64_1d hit;  /* (slot,) turn of the last string */
+    tandem_i32_2d near;  /* (node, rank) mm to or from those that `World.fit` lists, or what fits */
+    tandem_i64_1d best_first;  /* (slot,) first customer of the best plan's route, else NOWHERE */
+    tandem_i64_1d best_type;  /* (slot,) */
+    tandem_i64_1d best_behind;  /* (node,) */
+    tandem_least *cheapest;  /* LEAST, of all types */
+    bool timed;  /* something limits when customers are served */
+} tandem_linked;
+
+#endif

@@ -1,0 +1,62 @@
+// Problems as Python packed them, a row per problem.
+#pragma once
+
+#include "include/tandem.h"
+#include "view.h"
+
+namespace tandem {
+
+using Size = tandem_size;
+using Node = tandem_node;
+using Setup = tandem_setup;
+using Price = tandem_price;
+using Goods = tandem_goods;
+using VehicleType = tandem_vehicle_type;
+using Rate = tandem_rate;
+using LegLaw = tandem_leg_law;
+using Point = tandem_point;
+
+using Int = std::int64_t;
+
+constexpr Int far = Int{1} << 58;  // an instant later than any that occurs
+constexpr Int none = -far;  // and one earlier
+constexpr Int tier = 3;  // how many dimensions of load are looked at together
+
+struct Legs {
+    View<const std::int32_t, 4> stated;  // (travel, origin, to, 2); none where some are computed
+    View<const std::int64_t, 5> table;  // (direction, table, node, node, 2); one direction if they are the same back
+    View<const Point, 1> point;  // (node,) POINT
+    View<const LegLaw, 1> law;  // (travel,) LAW
+};
+
+inline Legs legs_of(const tandem_legs& from) {
+    return {from.stated, from.table, from.point, from.law};
+}
+
+struct Instance {
+    View<const Size, 1> size;  // (problem,) SIZE
+    View<const Node, 4> node;  // (problem, variant, node, 1 + gaps) NODE
+    View<const std::int64_t, 4> amount;  // (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
+    View<const Price, 2> price;  // (problem, node) PRICE
+    View<const Goods, 2> goods;  // (problem, node) GOODS, or (problem, 0)
+    View<const Setup, 2> setup;  // (problem, node) SETUP, or (problem, 0)
+    View<const std::int64_t, 2> fresh_for;  // (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
+    View<const VehicleType, 2> type;  // (problem, row) TYPE; trucks first, as many as SIZE says
+    View<const Rate, 2> rate;  // (problem, row) RATE
+    View<const bool, 3> reload;  // (problem, type, node) where a trip may end and the next begin
+    View<const bool, 3> can_drive;  // (problem, type, node) table, kind, skills and capacity allow a truck
+    View<const bool, 3> can_fly;  // (problem, type, node) likewise for its drones
+    View<const std::int64_t, 3> profile_time;  // (problem, type, change)
+    View<const std::int64_t, 3> profile_factor;  // (problem, type, change + 1)
+    View<const std::int64_t, 4> duration;  // (problem, travel, node, node)
+    View<const std::int64_t, 4> distance;  // (problem, travel, node, node)
+    View<const double, 1> unassigned_cost;  // (problem,) of whoever it costs least to leave out
+    View<const double, 2> unassigned_more;  // (problem, node) what leaving out another costs above that
+    View<const std::int64_t, 3> neighbour;  // (problem, node, rank) nearest customers first, -1 behind the last
+};
+
+inline Instance instance_of(const tandem_instance& from) {
+    return {from.size, from.node, from.amount, from.price, from.goods, from.setup, from.fresh_for, from.type, from.rate, from.reload, from.can_drive, from.can_fly, from.profile_time, from.profile_factor, from.duration, from.distance, from.unassigned_cost, from.unassigned_more, from.neighbour};
+}
+
+}  // namespace tandem

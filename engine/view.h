@@ -1,0 +1,94 @@
+// Arrays that belong to others, row by row without gaps.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace tandem {
+
+// A view of an array of N dimensions. Indices are not checked but in builds for sanitizers, which
+// see the memory behind.
+template <class T, int N>
+class View {
+public:
+    static_assert(N >= 1);
+
+    View() = default;
+    View(T* data, const std::array<std::int64_t, N>& shape) : data_(data), shape_(shape) {}
+
+    // From a plain C array of `tandem.h`: `data` and `shape`.
+    template <class Array>
+        requires requires(const Array& from) {
+            from.data;
+            from.shape[N - 1];
+        }
+    View(const Array& from) : data_(from.data) {
+        static_assert(sizeof(from.shape) == N * sizeof(std::int64_t));
+        for (std::size_t axis = 0; axis < N; ++axis) shape_[axis] = from.shape[axis];
+    }
+
+    // A view that doesn't write of one that may.
+    template <class Other>
+        requires std::is_same_v<const Other, T>
+    View(const View<Other, N>& from) : data_(from.data()), shape_(from.shape()) {}
+
+    template <class... Index>
+        requires(sizeof...(Index) == N)
+    T& operator()(Index... index) const {
+        return data_[offset(index...)];
+    }
+
+    // The row, or the element, of the first axis.
+    decltype(auto) operator[](std::int64_t index) const {
+        if constexpr (N == 1) {
+            return (data_[index]);
+        } else {
+            std::array<std::int64_t, N - 1> rest{};
+            std::int64_t stride = 1;
+            for (std::size_t axis = 1; axis < N; ++axis) {
+                rest[axis - 1] = shape_[axis];
+                stride *= shape_[axis];
+            }
+            return View<T, N - 1>(data_ + index * stride, rest);
+        }
+    }
+
+    T* data() const { return data_; }
+    T* begin() const
+        requires(N == 1)
+    {
+        return data_;
+    }
+    T* end() const
+        requires(N == 1)
+    {
+        return data_ + shape_[0];
+    }
+    const std::array<std::int64_t, N>& shape() const { return shape_; }
+    std::int64_t shape(std::size_t axis) const { return shape_[axis]; }
+    std::int64_t size() const { return shape_[0]; }
+    bool empty() const { return shape_[0] == 0; }
+
+    // The first `count` rows.
+    View first(std::int64_t count) const {
+        View part = *this;
+        part.shape_[0] = count;
+        return part;
+    }
+
+private:
+    template <class... Index>
+    std::int64_t offset(Index... index) const {
+        const std::array<std::int64_t, N> at{static_cast<std::int64_t>(index)...};
+        std::int64_t place = at[0];
+        for (std::size_t axis = 1; axis < N; ++axis) place = place * shape_[axis] + at[axis];
+        return place;
+    }
+
+    T* data_ = nullptr;
+    std::array<std::int64_t, N> shape_{};
+};
+
+}  // namespace tandem
