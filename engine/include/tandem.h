@@ -864,4 +864,10 @@ typedef struct tandem_linked {
     bool timed;  /* something limits when customers are served */
 } tandem_linked;
 
+/* Search: moves. */
+
+/* Ruin and recreate; by an order, insert all who are left out instead. */
+int tandem_anneal(const tandem_world *world, const tandem_searcher *searcher, int64_t turns,
+                  int64_t order);
+
 #endif

@@ -1,0 +1,32 @@
+// An order of customers, cut at best into what a truck and its drone do together.
+//
+// The order is cut into operations that begin and end with truck and drone together, by dynamic
+// programming. Waiting for windows is left to the exact timing that follows.
+//
+// References: Agatz, Bouman and Schmidt (2018), optimization approaches for the traveling salesman
+// problem with drone, Transportation Science 52:965-981.
+#pragma once
+
+#include "search/route/layout.h"
+
+namespace tandem {
+
+constexpr Int no_flight = 0;
+constexpr Int near_places = 8;  // among how many nearest neighbours of a place one is drawn
+
+// Moves what is at place `one` to place `to`.
+void shift(View<Line, 1> line, Int one, Int to);
+
+// Changes the order of the customers in the line a little.
+void shuffle(const World& world, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng);
+
+// Writes what a truck that served the whole line would drive.
+void measure(const World& world, Int k, View<Line, 1> line, Int length);
+
+// Cuts the line into operations at least cost; false if it can't be cut.
+bool split(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int length);
+
+// What the operations that are noted in the line cost.
+double present_cost(const World& world, Int k, View<Line, 1> line, Int length);
+
+}  // namespace tandem
