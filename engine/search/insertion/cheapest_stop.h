@@ -1,0 +1,37 @@
+// The cheapest stop for a customer where only the distance of the detour counts.
+#pragma once
+
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// A type of vehicles that would serve a customer more on a trip, and what it costs more.
+struct Serving {
+    Int type;
+    double cost;
+};
+
+// Tells whether an insertion into a route costs its detour alone.
+bool is_simple(const World& world, const Fleet& fleet, Int slot);
+
+// Returns the type that would serve a customer more on a trip: a larger one if `enlarge`; or
+// `nowhere`.
+Serving serving_type(const World& world, const Fleet& fleet, Int slot, Int index, Int node,
+                     bool enlarge);
+
+// Finds the cheapest stop where all routes are lean; returns the best cost so far.
+//
+// In place: the move, if that is a stop that costs less than `best`; also what is kept.
+double scan_lean(const World& world, Searcher& searcher, Int node, double best, bool enlarge);
+
+// Finds the cheapest stop on a route where only distance counts. As `try_route` of places.h.
+void scan_simple(const World& world, Searcher& searcher, Int slot, Int node, bool enlarge);
+
+// Finds the cheapest stop beside neighbours where only distance counts. As `scan_lean`.
+double scan_beside(const World& world, Searcher& searcher, Int node, double best, bool enlarge);
+
+// Finds the cheapest stop beside neighbours where all routes are lean. As `scan_lean`.
+double scan_beside_lean(const World& world, Searcher& searcher, Int node, double best,
+                        bool enlarge);
+
+}  // namespace tandem

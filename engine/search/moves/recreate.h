@@ -1,0 +1,29 @@
+// Insertion of the customers left out, one after another, each where that costs least.
+#pragma once
+
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// How often a full route may take a larger vehicle to serve a customer more.
+constexpr double enlarged = 0.2;
+
+// How often the first customer inserted is given a route of its own.
+constexpr double opening_share = 0.03;
+
+// In what order customers are inserted.
+enum InsertionOrder : Int { by_chance, by_demand, by_far, by_close, by_width, by_latest, by_cost };
+
+// Draws in what order customers are inserted.
+Int draw_order(const World& world, View<std::uint64_t, 1> rng);
+
+// Puts the customers to insert in order, from number `first` on.
+void sort_absent(const World& world, Searcher& searcher, Int first, Int order);
+
+// Inserts the absent customers from number `first` on, each where it costs least.
+//
+// False, with some inserted, once that costs more than is to `spare`. Once the search must end,
+// the others are left out.
+bool recreate(const World& world, Searcher& searcher, Int first, bool scan_all, double spare);
+
+}  // namespace tandem
