@@ -5,6 +5,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
 typedef struct tandem_size {
     int64_t depots;
     int64_t customers;
@@ -864,10 +869,41 @@ typedef struct tandem_linked {
     bool timed;  /* something limits when customers are served */
 } tandem_linked;
 
+/* Functions return 0, or -1 without memory, or -2 after any other failure. */
+
+/* Build. */
+
+int tandem_version(int64_t *version); /* of this interface */
+
+/* Travel. */
+
+/* Rules. */
+
+/* Simulation. */
+
+/* Policy. */
+
+/* Search: route. */
+
+/* Search: insertion. */
+
 /* Search: moves. */
 
 /* Ruin and recreate; by an order, insert all who are left out instead. */
 int tandem_anneal(const tandem_world *world, const tandem_searcher *searcher, int64_t turns,
                   int64_t order);
+
+/* Search: linked. */
+
+/* Search: beginning. */
+
+/* Search: sharing. */
+
+/* End of sections. */
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,0 +1,23 @@
+// Where exceptions end: functions of the C interface return codes.
+#pragma once
+
+#include <new>
+
+namespace tandem {
+
+enum Code : int { done = 0, out_of_memory = -1, failed = -2 };
+
+// Run what may throw; return 0, or what it threw as a code.
+template <class F>
+int guarded(F&& run) {
+    try {
+        run();
+        return done;
+    } catch (const std::bad_alloc&) {
+        return out_of_memory;
+    } catch (...) {
+        return failed;
+    }
+}
+
+}  // namespace tandem
