@@ -609,7 +609,7 @@ typedef struct tandem_kept_2d { tandem_kept *data; int64_t shape[2]; } tandem_ke
 typedef struct tandem_leg_law_1d { tandem_leg_law *data; int64_t shape[1]; } tandem_leg_law_1d;
 typedef struct tandem_line_1d { tandem_line *data; int64_t shape[1]; } tandem_line_1d;
 typedef struct tandem_link_1d { tandem_link *data; int64_t shape[1]; } tandem_link_1d;
-typedef struct tandem_log_lengths_2d { tandem_log_lengths *data; int64_t shape[2]; } tandem_log_lengths_2d;
+typedef struct tandem_log_lengths_1d { tandem_log_lengths *data; int64_t shape[1]; } tandem_log_lengths_1d;
 typedef struct tandem_logged_sortie_2d { tandem_logged_sortie *data; int64_t shape[2]; } tandem_logged_sortie_2d;
 typedef struct tandem_logged_stop_2d { tandem_logged_stop *data; int64_t shape[2]; } tandem_logged_stop_2d;
 typedef struct tandem_logged_trip_2d { tandem_logged_trip *data; int64_t shape[2]; } tandem_logged_trip_2d;
@@ -619,6 +619,7 @@ typedef struct tandem_move_2d { tandem_move *data; int64_t shape[2]; } tandem_mo
 typedef struct tandem_node_3d { tandem_node *data; int64_t shape[3]; } tandem_node_3d;
 typedef struct tandem_node_4d { tandem_node *data; int64_t shape[4]; } tandem_node_4d;
 typedef struct tandem_operation_2d { tandem_operation *data; int64_t shape[2]; } tandem_operation_2d;
+typedef struct tandem_outlook_1d { tandem_outlook *data; int64_t shape[1]; } tandem_outlook_1d;
 typedef struct tandem_outlook_2d { tandem_outlook *data; int64_t shape[2]; } tandem_outlook_2d;
 typedef struct tandem_piece_1d { tandem_piece *data; int64_t shape[1]; } tandem_piece_1d;
 typedef struct tandem_place_1d { tandem_place *data; int64_t shape[1]; } tandem_place_1d;
@@ -688,11 +689,11 @@ typedef struct tandem_instance {
 } tandem_instance;
 
 typedef struct tandem_vehicle_logs {
-    tandem_log_lengths_2d count;  /* LENGTHS */
-    tandem_logged_trip_2d trip;  /* (trip,) LOGGED_TRIP */
-    tandem_logged_stop_2d stop;  /* (stop,) LOGGED_STOP */
-    tandem_operation_2d op;  /* (op,) OPERATION */
-    tandem_logged_sortie_2d sortie;  /* (sortie,) LOGGED_SORTIE */
+    tandem_log_lengths_1d count;  /* (rollout,) LENGTHS */
+    tandem_logged_trip_2d trip;  /* (rollout, trip) LOGGED_TRIP */
+    tandem_logged_stop_2d stop;  /* (rollout, stop) LOGGED_STOP */
+    tandem_operation_2d op;  /* (rollout, op) OPERATION */
+    tandem_logged_sortie_2d sortie;  /* (rollout, sortie) LOGGED_SORTIE */
 } tandem_vehicle_logs;
 
 typedef struct tandem_state {
@@ -881,6 +882,24 @@ int tandem_version(int64_t *version); /* of this interface */
 
 /* Simulation. */
 
+/* Mark who could be served alone by a fresh vehicle of each type; rows behind rollouts are scratch. */
+int tandem_mark_fresh(const tandem_instance *instance, const tandem_state *state, int64_t scratch);
+/* Write the codes of the legal actions and what each on a customer leads to; `found` is how many. */
+int tandem_legal_actions(const tandem_instance *instance, const tandem_state *state, int64_t r,
+                         int64_t scratch, const tandem_i64_1d *actions,
+                         const tandem_outlook_1d *outlooks, int64_t *found);
+/* Do one legal action. */
+int tandem_apply(const tandem_instance *instance, const tandem_state *state, int64_t r,
+                 int64_t action);
+/* Do legal actions from the `first` on up to the one that opens the next vehicle, at `behind`. */
+int tandem_apply_route(const tandem_instance *instance, const tandem_state *state, int64_t r,
+                       const tandem_i64_1d *actions, int64_t first, int64_t *behind);
+/* Write what each vehicle of legal actions costs as if there were no other. */
+int tandem_price_routes(const tandem_instance *instance, const tandem_state *state, int64_t r,
+                        const tandem_i64_1d *actions, const tandem_cost_1d *price);
+/* End a rollout that has no legal action left. */
+int tandem_finish(const tandem_instance *instance, const tandem_state *state, int64_t r);
+
 /* Policy. */
 
 /* Search: route. */
@@ -905,5 +924,4 @@ int tandem_anneal(const tandem_world *world, const tandem_searcher *searcher, in
 #ifdef __cplusplus
 }
 #endif
-
 #endif

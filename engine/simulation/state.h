@@ -16,17 +16,62 @@ using Cost = tandem_cost;
 using Outlook = tandem_outlook;
 
 struct VehicleLogs {
-    View<LogLengths, 2> count;  // LENGTHS
-    View<LoggedTrip, 2> trip;  // (trip,) LOGGED_TRIP
-    View<LoggedStop, 2> stop;  // (stop,) LOGGED_STOP
-    View<Operation, 2> op;  // (op,) OPERATION
-    View<LoggedSortie, 2> sortie;  // (sortie,) LOGGED_SORTIE
+    View<LogLengths, 1> count;  // (rollout,) LENGTHS
+    View<LoggedTrip, 2> trip;  // (rollout, trip) LOGGED_TRIP
+    View<LoggedStop, 2> stop;  // (rollout, stop) LOGGED_STOP
+    View<Operation, 2> op;  // (rollout, op) OPERATION
+    View<LoggedSortie, 2> sortie;  // (rollout, sortie) LOGGED_SORTIE
 };
 
 inline VehicleLogs vehicle_logs_of(const tandem_vehicle_logs& from) {
     return {from.count, from.trip, from.stop, from.op, from.sortie};
 }
 
+// What one vehicle does, in order.
+struct VehicleLog {
+    LogLengths& count;
+    View<LoggedTrip, 1> trip;
+    View<LoggedStop, 1> stop;
+    View<Operation, 1> op;
+    View<LoggedSortie, 1> sortie;
+};
+
+// The log of one rollout.
+inline VehicleLog log_of(const VehicleLogs& logs, Int r) {
+    return {logs.count[r], logs.trip[r], logs.stop[r], logs.op[r], logs.sortie[r]};
+}
+
+// What one vehicle type meets in one problem. What is said of drones holds where they are of one
+// type, else `craft_of` tells.
+struct Setting {
+    View<const Node, 2> node;         // (node, row)
+    View<const Node, 2> node_by_air;  // (node, row), as drones meet them
+    View<const Int, 3> amount;        // (node, tier, amounts); no tiers where `Node::demand` tells all
+    View<const Goods, 1> goods;       // (node,), none where all go together
+    View<const Int, 1> fresh_for;     // (node,) ms, none where nothing is limited
+    const VehicleType& type;
+    View<const Int, 2> drive;     // (node, node) ms
+    View<const Int, 2> fly;       // (node, node) ms
+    View<const Int, 2> fly_home;  // (node, node) ms, to where the truck is
+    View<const Setup, 1> setup;   // (node,), none where nobody sets up
+    View<const Int, 1> profile_time;    // (change,)
+    View<const Int, 1> profile_factor;  // (change + 1,)
+    View<const VehicleType, 1> types;   // (row,)
+    View<const Node, 3> nodes;          // (variant, node, row)
+    View<const Int, 3> durations;       // (travel, node, node) ms
+    View<const bool, 2> can_fly;        // (row, node)
+};
+
+// What a type of drones meets.
+struct Craft {
+    const VehicleType& type;
+    View<const Node, 2> node;  // (node, row)
+    View<const Int, 2> out;    // (node, node) ms
+    View<const Int, 2> home;   // (node, node) ms, to where the truck is
+};
+
+// Running plans, a row per rollout, then scratch rows. Times in ms since plan start; those of sorties
+// in flight are as if they were launched at once, in the log and in `drone`.
 struct State {
     View<std::int64_t, 1> problem;  // (rollout,) row in the Instance
     View<bool, 2> served;  // (rollout, node)

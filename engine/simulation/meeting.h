@@ -1,0 +1,53 @@
+// Where truck and drones meet again, and when all that happens from one stop to the next.
+//
+// A sortie takes off at the truck's stop and is recovered at the next or, if it can't be met there
+// within endurance, at the same stop: a loop. Its launch is held back as long as the customer's
+// window would let the flight last longer than the endurance, which depends on where it is
+// recovered. So launches are timed anew once it is known where the truck drives to.
+#pragma once
+
+#include "simulation/state.h"
+
+namespace tandem {
+
+constexpr Int no_vehicle = -1;  // type of the open vehicle before the first opens
+
+// Where a drone is to be recovered: nowhere, at the next stop, at this stop.
+enum class Recovery : Int { aboard, meet, loop };
+
+inline bool is_recovered(const Drone& drone, Recovery place) {
+    return drone.place == static_cast<Int>(place);
+}
+
+inline bool is_aboard(const Drone& drone) { return is_recovered(drone, Recovery::aboard); }
+
+// Write with what drones have last come aboard on this trip, if they are charged.
+void note_charges(const Setting& setting, const VehicleLog& log, View<Drone, 1> drones);
+
+// The drone that would fly to a customer, of those aboard; -1 if there is none.
+//
+// The first that could come back here, else the first that lifts the parcel.
+Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
+               View<const Drone, 1> drones, Int node);
+
+// Tell whether another drone in flight may be the first, so that working may begin sooner.
+bool order_is_open(const Setting& setting, const Vehicle& vehicle);
+
+// When a drone takes off at the soonest that does at `takeoff` behind all in flight: one of another
+// type may be launched before these.
+Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
+                    Int takeoff);
+
+// End of the launches and recoveries at a stop, arrival at the next, end of the recoveries there;
+// -1 each if some sortie can be recovered at neither, or is launched too late.
+struct Leaving {
+    Int left;
+    Int arrival;
+    Int free;
+};
+
+// Decide what the sorties in flight do if the truck drives to `to` next, and mark each as met or
+// looping, with its times.
+Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int to);
+
+}  // namespace tandem

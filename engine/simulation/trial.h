@@ -1,0 +1,23 @@
+// Actions done on a scratch row, and the return home, to tell whether they are legal.
+#pragma once
+
+#include "simulation/state.h"
+
+namespace tandem {
+
+constexpr Int no_reload = -1;
+
+// Tell whether an action on a customer is legal by doing it and the return home on a scratch row.
+//
+// Exact for every customer that the load, the kind and the number of trips allow. If `reload` is a
+// node, the trip ends there before.
+bool legal_by_trial(const Instance& instance, State& state, Int r, Int scratch, Int reload,
+                    bool by_drone, Int node, Outlook& outlook);
+
+// Tell whether the trip may end at a place that is not where the route may: if another follows.
+//
+// Somebody can be served from there before the vehicle goes where its route ends.
+bool may_reload(const Instance& instance, State& state, Int r, Int scratch, Int place,
+                Outlook& outlook);
+
+}  // namespace tandem

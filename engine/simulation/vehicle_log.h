@@ -1,0 +1,85 @@
+// When one vehicle's route happens: as soon as possible, and how late it may depart.
+//
+// A vehicle log lists what one vehicle does: trips, their stops, its sorties, and the launches and
+// recoveries at each stop in order. `replay` times it; `latest_start` finds the latest beginning of a
+// trip that costs nothing elsewhere.
+#pragma once
+
+#include "rules/clock.h"
+#include "rules/window.h"
+#include "simulation/state.h"
+
+namespace tandem {
+
+constexpr Int in_flight = -1;  // recovery stop of a sortie until it is recovered
+
+// What vehicle type `k` meets in problem `b`.
+inline Setting setting_of(const Instance& instance, Int b, Int k) {
+    const VehicleType& type = instance.type(b, k);
+    const View<const Node, 3> nodes = instance.node[b];
+    const View<const Int, 3> durations = instance.duration[b];
+    return {
+        .node = places_of(nodes, type),
+        .node_by_air = places_by_air(nodes, type),
+        .amount = instance.amount[b],
+        .goods = instance.goods[b],
+        .fresh_for = instance.fresh_for[b],
+        .type = type,
+        .drive = durations[type.travel],
+        .fly = durations[type.drone_travel],
+        .fly_home = durations[type.home_travel],
+        .setup = instance.setup[b],
+        .profile_time = instance.profile_time[b][k],
+        .profile_factor = instance.profile_factor[b][k],
+        .types = instance.type[b],
+        .nodes = nodes,
+        .durations = durations,
+        .can_fly = instance.can_fly[b],
+    };
+}
+
+// What drones meet whose type is at a row.
+inline Craft craft_of(const Setting& setting, Int row) {
+    const VehicleType& type = setting.types[row];
+    return {type, places_by_air(setting.nodes, type), setting.durations[type.drone_travel],
+            setting.durations[type.home_travel]};
+}
+
+// When a truck that leaves at `leave` arrives, by its speed at the time of day, and is set up.
+inline Int travel_arrival(const Setting& setting, Int origin, Int to, Int leave) {
+    return leg_end(setting.type, setting.profile_time, setting.profile_factor,
+                   setting.drive(origin, to), leave) +
+           setup_beside(setting.type, setting.setup, origin, to);
+}
+
+// Time the trips from `first_trip` on, the first begun at `start`, all else without delay.
+//
+// The log takes new times, void if a hard window doesn't hold; the result tells whether endurance
+// holds, too.
+bool retime(const Setting& setting, Int num_depots, VehicleLog& log, Int first_trip, Int start);
+
+// Tell whether a later start of `first_trip` costs nothing: no more lateness, no longer sortie, no
+// later end than logged, and no parcel too long aboard. Writes trial times of sorties alone.
+bool costs_nothing(const Setting& setting, Int num_depots, VehicleLog& log, Int first_trip,
+                   Int start);
+
+// By how much a parcel is too long aboard on the last trip; at most 0 if none is.
+Int most_excess(const Setting& setting, Int num_depots, const VehicleLog& log);
+
+// The latest start of a trip that costs nothing; `known` is one that costs nothing.
+Int latest_start(const Setting& setting, Int num_depots, VehicleLog& log, Int trip, Int known);
+
+// When truck or drone first leaves the depot if the first trip begins at `start`; if its work counts
+// from an instant, however late it leaves: that instant.
+Int first_departure(const Setting& setting, const VehicleLog& log, Int start);
+
+// The start of the first trip by which none leaves the depot before `departure`.
+Int start_to_depart(const Setting& setting, const VehicleLog& log, Int departure);
+
+// A start of the first trip that costs nothing and keeps the working duration, or `known`.
+//
+// Only the soonest that would keep it is tried: mostly all before one that costs nothing cost
+// nothing, but where batteries are charged, not all do.
+Int start_within_work(const Setting& setting, Int num_depots, VehicleLog& log, Int known);
+
+}  // namespace tandem
