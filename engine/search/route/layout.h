@@ -1,4 +1,15 @@
 // The problem as the search reads it, and the routes that it changes.
+//
+// A route is a row of stops: each trip begins with a start at the depot and ends with an end there,
+// customers of the truck between. Sorties name the stops where they begin and end by position in
+// the route and are sorted by them. All else in the arrays follows from these and is written by
+// `refresh`.
+//
+// Times inside a block of stops hang on the truck's arrival `t` as `max(t + d, c)`: `d` is the
+// longest path of durations from there, `c` what windows and releases hold up. Such pairs add up
+// and take maxima by parts, so that a block, a trip and a route are each a pair with an interval of
+// arrivals at which all rules hold (Vidal et al. 2013, time-window segments, with drones).
+// `docs/search.md` derives what is made of them under "Times on a route".
 #pragma once
 
 #include "problem/instance.h"
@@ -18,6 +29,43 @@ using BlockSums = tandem_block_sums;
 using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
 using Line = tandem_line;
+
+constexpr Int most_visits = 8;  // customers on a sortie that the search puts there at most
+
+// `Stop.kind`.
+constexpr Int customer_stop = 0;
+constexpr Int start_stop = 1;
+constexpr Int end_stop = 2;
+
+// `Sortie.state`.
+constexpr Int sortie_waits = 0;
+constexpr Int sortie_flies = 1;
+constexpr Int sortie_done = 2;
+
+// Stamp of a route that this turn changes; any other stands for what the route in the slot is.
+constexpr Int changing = 0;
+
+// Stamp of a route of the best plan that was not made turn by turn: no route as it is has it.
+constexpr Int others = -1;
+
+// Slot of a customer who is left out; of one whom another thread deals with.
+constexpr Int nowhere = -1;
+constexpr Int elsewhere = -2;
+
+// `SearchCounts.changed` where any slot may have changed since the best.
+constexpr Int all_slots = -1;
+
+// Flags of a type, in `World.mode`.
+constexpr Int mode_timed = 1;    // working time costs or is limited
+constexpr Int mode_priced = 2;   // lateness, waiting or what is aboard cost, or all is retimed
+constexpr Int mode_settled = 4;  // trips must be held back to know the cost
+// All behind a change is timed again, since speed changes, who comes later may have to wait for
+// another window, or drones are charged aboard.
+constexpr Int mode_retimed = 8;
+constexpr Int mode_simple = 16;  // an insertion's cost is that of its distance alone
+constexpr Int mode_lean = 32;    // as that, with one trip of any distance, no releases, no drones
+constexpr Int mode_apart = 64;   // several trips don't all begin and end at one place
+constexpr Int mode_loaded = 128;  // what is aboard costs by the way that it is driven
 
 struct World {
     std::int64_t num_depots;
@@ -118,6 +166,30 @@ struct Searcher {
 
 inline Searcher searcher_of(const tandem_searcher& from) {
     return {fleet_of(from.now), fleet_of(from.before), fleet_of(from.best), from.count, from.value, from.rng, from.active, from.rank, from.changed, from.is_changed, from.missing, from.best_missing, from.absent, from.touched, from.marked, from.absences, from.hit, from.line, from.line_cost, from.key, from.moved, from.move, from.offer, from.least, from.acc, from.bound, from.alone, from.kept, from.kept_move, from.kept_cost};
+}
+
+// Copy what is chosen of a stop. In place.
+inline void copy_sequence(const Stop& stop, Stop& to) {
+    to.node = stop.node;
+    to.kind = stop.kind;
+    to.release = stop.release;
+}
+
+// Copy what a lean route needs of a stop. In place.
+inline void copy_lean(const Stop& stop, Stop& to) {
+    copy_sequence(stop, to);
+    to.leave = stop.leave;
+    to.latest = stop.latest;
+    to.leg = stop.leg;
+    to.gap = stop.gap;
+    to.flying = stop.flying;
+    to.trip = stop.trip;
+}
+
+// Let a trip be empty. In place.
+inline void clear_trip(Trip& trip) {
+    trip.first = trip.last = trip.release = trip.distance = 0;
+    for (Int dimension = 0; dimension < tier; ++dimension) trip.load[dimension] = 0;
 }
 
 }  // namespace tandem

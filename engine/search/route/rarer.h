@@ -1,0 +1,26 @@
+// What the search looks at only where a rarer rule is stated.
+#pragma once
+
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// Return how many tiers loads have to be looked at in at each stop; 0 if that isn't needed.
+inline Int tiers_of(const World& world) { return world.amount.shape(1); }
+
+// As `tiers_of`, by the routes.
+inline Int tiers_aboard(const Fleet& fleet) { return fleet.halt.shape(1); }
+
+// Tell whether some goods must not go with others.
+inline bool goods_count(const World& world) { return !world.goods.empty(); }
+
+// Tell whether some parcels may be aboard for so long and no longer.
+inline bool time_aboard_counts(const World& world) { return !world.fresh_for.empty(); }
+
+// Tell whether what a vehicle of type `k` has aboard costs by the way that it is driven.
+inline bool loads_cost(const World& world, Int k) { return (world.mode[k] & mode_loaded) != 0; }
+
+// Tell whether leaving out some costs more than leaving out others.
+inline bool is_dearer_to_some(const World& world) { return world.unequal; }
+
+}  // namespace tandem

@@ -1,0 +1,52 @@
+// Bringing a route up to date after its sequence has changed.
+#pragma once
+
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// Let every trip begin as soon as possible. In place.
+void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> trips);
+
+// Let each trip of a timed route begin as late as costs nothing. In place; false if a rule is
+// broken.
+bool settle(const World& world, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
+            View<Sortie, 1> sorties, BlockSums& acc);
+
+// Write all that follows from the sequence of a route. In place; false if it breaks a rule.
+//
+// Where trips may end at several places, that which costs least is chosen between two.
+bool refresh(const World& world, const Fleet& fleet, Int slot, BlockSums& acc);
+
+// Return how much of the time that a route works is waiting, which a change may use up.
+//
+// For windows, or batteries.
+inline Int idle_time(const Route& route) {
+    return route.working + route.offset - route.cum + route.awaited;
+}
+
+// Return a random customer whom this thread deals with, served or left out.
+//
+// Whoever comes last if this thread deals with too few to be found.
+Int any_customer(const World& world, const Fleet& fleet, View<std::uint64_t, 1> rng);
+
+// Return a random customer near `focus`, or anywhere if that is `nowhere`. As `any_customer`.
+Int draw_customer(const World& world, const Fleet& fleet, Int focus, View<std::uint64_t, 1> rng);
+
+// Return the stop at a customer, or the one from where a drone flies there.
+inline Int stop_beside(const Fleet& fleet, Int node) {
+    const Place& place = fleet.where[node];
+    if (place.position >= 0) return place.position;
+    return fleet.sortie(place.slot, place.sortie).launch;
+}
+
+// Write where the customers of the route in a slot are. In place: `places` (node,).
+void note_places(View<Place, 1> places, const Route& route, View<const Stop, 1> stops,
+                 View<const Sortie, 1> sorties, Int slot);
+
+// Write where the customers of a route are. In place.
+inline void locate(const Fleet& fleet, Int slot) {
+    note_places(fleet.where, fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], slot);
+}
+
+}  // namespace tandem

@@ -1,0 +1,96 @@
+// What trips and sorties carry, and what a lean route costs by vehicles of each type.
+#pragma once
+
+#include "rules/drone_types.h"
+#include "rules/flight.h"
+#include "rules/load.h"
+#include "rules/shift.h"
+#include "search/route/layout.h"
+#include "search/route/rarer.h"
+
+namespace tandem {
+
+// Return how many customers the truck itself serves on a trip.
+inline Int stops_on(const Trip& trip) { return trip.last - trip.first - 1; }
+
+// Tell whether a sortie more may be flown on a trip of a route, by their number.
+bool may_launch(const VehicleType& type, const Route& route, View<const Sortie, 1> sorties,
+                const Trip& trip);
+
+// Return how many of a truck's sorties from `first` on are flown by drones of a row.
+Int num_flown(View<const VehicleType, 1> types, Int k, View<const Sortie, 1> sorties, Int first,
+              Int behind, Int row);
+
+// Tell whether there are batteries for the sorties of a trip.
+//
+// Where drones are of one type, `allows_sorties` tells that already.
+bool have_batteries(View<const VehicleType, 1> types, Int k, View<const Sortie, 1> sorties,
+                    Int first, Int behind);
+
+// Tell whether drones of a row have a battery for one more sortie on a trip.
+//
+// Where they are of one type, `may_launch` tells that already.
+bool has_battery(View<const VehicleType, 1> types, const Route& route,
+                 View<const Sortie, 1> sorties, const Trip& trip, Int row);
+
+// Return how many launches of a trip come before its stop `p`, if that matters.
+inline Int launches_before(const VehicleType& type, const Route& route,
+                           View<const Sortie, 1> sorties, const Trip& trip, Int p) {
+    Int count = 0;
+    if (launches_differ(type)) {
+        for (const Sortie& sortie : sorties.first(route.sorties)) {
+            if (trip.first <= sortie.launch && sortie.launch < p) ++count;
+        }
+    }
+    return count;
+}
+
+// Return the stop of the launch that takes another time since a trip changes at stop `p`.
+//
+// That was the trip's first launch where a sortie from stop `p` comes before it; where the trip is
+// cut behind stop `p`, the next launch becomes one. `nowhere`: none does.
+Int launch_changed(const VehicleType& type, const Route& route, View<const Sortie, 1> sorties,
+                   const Trip& trip, Int p, bool is_sortie);
+
+// Return what a lean route's only trip costs by a vehicle of type `k`.
+inline double route_cost(const World& world, Int k, const Trip& trip) {
+    const Rate& rate = world.rate[k];
+    return rate.fixed + static_cast<double>(trip.distance) * rate.distance +
+           static_cast<double>(stops_on(trip)) * rate.stop;
+}
+
+// Return what a trip carries from the depot.
+inline Amount load_of(const Trip& trip) { return amount_of(trip.load); }
+
+// Tell whether a vehicle of a type holds what a trip carries, and may stop so often.
+inline bool may_make(const VehicleType& type, const Trip& trip) {
+    return holds(type, load_of(trip)) && allows_stops(type, stops_on(trip));
+}
+
+// Let a trip carry more. In place.
+inline void add_load(Trip& trip, const Amount& amount) {
+    for (std::size_t dimension = 0; dimension < amount.size(); ++dimension) {
+        trip.load[dimension] += amount[dimension];
+    }
+}
+
+// Tell whether a vehicle of type `k` may hold what a trip does and a customer's amounts.
+//
+// Where more than its load tells, that hangs on where the customer is served: see `has_room`.
+bool may_fit(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node);
+
+// Tell whether a vehicle of type `k` may fit a customer in as well, and stop once more.
+inline bool takes(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node) {
+    return may_fit(world, fleet, slot, index, k, node) &&
+           allows_stops(world.type[k], stops_on(fleet.trip(slot, index)) + 1);
+}
+
+// Return the type for which a route would be exchanged to take a customer more.
+//
+// The cheapest that is left and holds them all; `nowhere` if there is none.
+Int larger_type(const World& world, const Fleet& fleet, Int slot, Int node);
+
+// Let a vehicle of another type drive a lean route. In place.
+void change_type(const World& world, const Fleet& fleet, Int slot, Int k);
+
+}  // namespace tandem
