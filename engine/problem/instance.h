@@ -21,6 +21,20 @@ using Int = std::int64_t;
 constexpr Int far = Int{1} << 58;  // an instant later than any that occurs
 constexpr Int none = -far;  // and one earlier
 constexpr Int tier = 3;  // how many dimensions of load are looked at together
+constexpr Int max_tiers = 3;  // for all eight dimensions
+
+constexpr Int unlimited = Int{1} << 42;  // no limit on a time (ms) or a distance (mm)
+constexpr Int unreachable_leg = Int{1} << 50;  // duration and distance of what can't be flown
+constexpr std::int32_t no_leg = INT32_MAX;  // the same where legs are held in 32 bits
+constexpr Int full_speed = 1'000'000;  // factor at which a leg takes the duration its table states
+
+constexpr Int no_profile = -1;  // `speed_changes` of who drives as fast all day
+constexpr Int no_row = -1;  // `drone_row` behind the last
+
+// `pickup_order`: in any order, after all deliveries, and so where some came before the trip began.
+constexpr Int pickups_any = 0;
+constexpr Int pickups_last = 1;
+constexpr Int pickups_begun = 2;
 
 struct Legs {
     View<const std::int32_t, 4> stated;  // (travel, origin, to, 2); none where some are computed
