@@ -874,7 +874,7 @@ typedef struct tandem_linked {
 
 /* Build. */
 
-int tandem_version(int64_t *version); /* of this interface */
+int tandem_header(uint64_t *digest); /* of this file, the first 64 bits of its SHA-256 */
 
 /* Travel. */
 

@@ -1,0 +1,1 @@
+"""The compiled engine: its library, and how what Python has becomes what it takes."""

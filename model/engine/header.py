@@ -1,0 +1,74 @@
+"""The engine's C interface, `tandem.h`, read as it is: functions, structs and their layout."""
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import Any, cast
+
+import cffi
+import numpy as np
+
+_HERE = Path(__file__).parent
+
+_NUMBERS = {"double": np.float64, "float": np.float32, "_Bool": np.bool_, "int64_t": np.int64,
+            "uint64_t": np.uint64, "int32_t": np.int32, "uint32_t": np.uint32, "int": np.int32,
+            "int8_t": np.int8, "uint8_t": np.uint8}
+
+
+def header() -> Path:
+    """Return where the header lies: beside the library once installed, else with its source."""
+    installed = _HERE / "tandem.h"
+    return installed if installed.exists() else _HERE.parents[1] / "engine/include/tandem.h"
+
+
+@cache
+def interface() -> Any:
+    """Return what cffi knows from the header."""
+    ffi = cffi.FFI()
+    ffi.cdef(_declarations(header().read_text()))
+    return ffi
+
+
+def _declarations(text: str) -> str:
+    """Return a C header without what the preprocessor and C++ alone read."""
+    text = re.sub(r"^#ifdef __cplusplus$.*?^#endif$", "", text, flags=re.MULTILINE | re.DOTALL)
+    return re.sub(r"^#.*$", "", text, flags=re.MULTILINE)
+
+
+def dtype_of(name: str) -> np.dtype[Any]:
+    """Return NumPy's type of a C struct of numbers, `tandem_node` for example, or of a number."""
+    return dtype_of_type(interface().typeof(name))
+
+
+@cache
+def dtype_of_type(kind: Any) -> np.dtype[Any]:
+    """Return NumPy's type of one that cffi knows.
+
+    Raises
+    ------
+    TypeError
+        If it points to others, or C lays it out otherwise.
+    """
+    if kind.kind == "primitive":
+        return np.dtype(_NUMBERS[kind.cname])
+    if not is_row(kind):
+        raise TypeError(f"{kind.cname} is no row of numbers")
+    row = np.dtype([_field(name, field.type) for name, field in kind.fields], align=True)
+    if [row.fields[name][1] for name, _ in kind.fields] != [  # type: ignore[index]
+            field.offset for _, field in kind.fields]:
+        raise TypeError(f"{kind.cname} is laid out otherwise")
+    return cast("np.dtype[Any]", np.dtype((np.record, row)))
+
+
+def is_row(kind: Any) -> bool:
+    """Tell whether a type is a struct of nothing but numbers."""
+    return kind.kind == "struct" and all(
+        field.type.kind == "primitive"
+        or (field.type.kind == "array" and field.type.item.kind == "primitive")
+        for _, field in kind.fields)
+
+
+def _field(name: str, kind: Any) -> tuple[Any, ...]:
+    if kind.kind == "array":
+        return name, dtype_of_type(kind.item), (kind.length,)
+    return name, dtype_of_type(kind)

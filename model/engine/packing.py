@@ -1,0 +1,227 @@
+"""Named tuples of arrays as the C structs that the engine takes: addresses, shapes and numbers."""
+
+import operator
+import re
+import struct
+from collections.abc import Callable
+from functools import cache
+from itertools import chain
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from model.engine.header import dtype_of_type, interface, is_row
+
+Encode = Callable[[Any, list[Any]], None]
+"""Appends the numbers that stand for a value in memory. Raises a TypeError that names the field."""
+
+LEGS = "tandem_legs"
+"""Stated as one array, or computed from a table, points and laws."""
+
+OTHER_NAMES = {"tandem_vehicle_log": "tandem_vehicle_logs"}
+"""Structs whose class stands for a row of theirs as well."""
+
+_FORMATS = {"double": "d", "float": "f", "_Bool": "?", "int64_t": "q", "uint64_t": "Q",
+            "int32_t": "i", "uint32_t": "I", "int": "i", "int8_t": "b", "uint8_t": "B"}
+_CONVERSIONS: dict[str, Callable[[Any], Any]] = {"d": float, "f": float, "?": bool}
+
+
+class Packed:
+    """A value as the C struct that functions take, packed once for several calls.
+
+    Keeps all alive that it points to. What is in arrays may change, which arrays they are can't.
+    """
+
+    __slots__ = ("_value", "kind", "pointer")
+
+    def __init__(self, value: Any, kind: Any) -> None:
+        """Pack a value as a C struct."""
+        layout, encode = _packing(kind)
+        numbers: list[Any] = []
+        encode(value, numbers)
+        self.kind = kind
+        self.pointer = interface().from_buffer(_pointer_to(kind), layout.pack(*numbers))
+        self._value = value
+
+
+def packed(value: Any, name: str = "") -> Packed:
+    """Pack a named tuple of arrays once, to be given to several calls.
+
+    Parameters
+    ----------
+    value
+        A `World`, for example.
+    name
+        Of the C struct; without, that of the value's class.
+    """
+    return Packed(value, interface().typeof(name or struct_name(type(value))))
+
+
+def struct_name(kind: type) -> str:
+    """Return the C struct that belongs to a class: `tandem_step_weights` to `StepWeights`."""
+    name = "tandem_" + re.sub(r"(?<!^)(?=[A-Z])", "_", kind.__name__).lower()
+    return OTHER_NAMES.get(name, name)
+
+
+def is_view(kind: Any) -> bool:
+    """Tell whether a type is that of an array: where it begins, and its shape."""
+    return kind.kind == "struct" and [name for name, _ in kind.fields] == ["data", "shape"]
+
+
+def number_of(kind: Any, path: str) -> Callable[[Any], Any]:
+    """Return what makes a Python number one of C's."""
+    convert = _CONVERSIONS.get(_FORMATS[kind.cname], operator.index)
+
+    def number(value: Any) -> Any:
+        try:
+            return convert(value)
+        except (TypeError, ValueError):
+            raise TypeError(f"{path}: {kind.cname} was expected, not {_told(value)}") from None
+
+    return number
+
+
+def address_of(dtype: np.dtype[Any], path: str) -> Callable[[Any], Any]:
+    """Return what tells where a row stands in memory, or an array of such rows."""
+    from_buffer = interface().from_buffer
+
+    def address(value: Any) -> Any:
+        try:
+            if value.dtype == dtype:
+                return from_buffer(value)
+        except (AttributeError, ValueError):
+            pass
+        raise TypeError(f"{path}: a row of {_shown(dtype)} was expected, not {_told(value)}")
+
+    return address
+
+
+@cache
+def _pointer_to(kind: Any) -> Any:
+    return interface().typeof(f"{kind.cname} *")
+
+
+@cache
+def _packing(kind: Any) -> tuple[struct.Struct, Encode]:
+    plan = _plan(kind, kind.cname)
+    return struct.Struct("=" + plan.format), plan.encode
+
+
+class _Plan(NamedTuple):
+    """How a type lies in memory."""
+
+    format: str  # as `struct` reads it, without padding of its own
+    encode: Encode
+
+
+def _plan(kind: Any, path: str) -> _Plan:
+    """Return how values of a type are packed, which errors call by a path of fields."""
+    if kind.kind == "primitive":
+        return _Plan(_FORMATS[kind.cname], _number(kind, path))
+    if kind.kind == "pointer":
+        return _Plan("Q", _row(dtype_of_type(kind.item), path))
+    if is_view(kind):
+        (_, data), (_, shape) = kind.fields
+        return _Plan(f"Q{shape.type.length}q",
+                     _array(dtype_of_type(data.type.item), shape.type.length, path))
+    if is_row(kind):
+        raise TypeError(f"{path}: rows are pointed to, not part of others")
+    plans = {name: _plan(field.type, f"{path}.{name}") for name, field in kind.fields}
+    return _Plan(_with_gaps(kind, [plan.format for plan in plans.values()]),
+                 (_legs if kind.cname == LEGS else _fields)(plans, path))
+
+
+def _with_gaps(kind: Any, formats: list[str]) -> str:
+    """Return the format of a struct whose fields have these, as the compiler lays them out."""
+    whole, end = "", 0
+    for (_, field), form in zip(kind.fields, formats, strict=True):
+        whole += f"{field.offset - end}x{form}"
+        end = field.offset + struct.calcsize("=" + form)
+    return f"{whole}{interface().sizeof(kind) - end}x"
+
+
+def _number(kind: Any, path: str) -> Encode:
+    number = number_of(kind, path)
+
+    def encode(value: Any, numbers: list[Any]) -> None:
+        numbers.append(number(value))
+
+    return encode
+
+
+def _row(dtype: np.dtype[Any], path: str) -> Encode:
+    address, cast = address_of(dtype, path), interface().cast
+    integer = interface().typeof("uintptr_t")
+
+    def encode(value: Any, numbers: list[Any]) -> None:
+        numbers.append(int(cast(integer, address(value))))
+
+    return encode
+
+
+def _array(dtype: np.dtype[Any], dimensions: int, path: str) -> Encode:
+    from_buffer, cast = interface().from_buffer, interface().cast
+    integer = interface().typeof("uintptr_t")
+
+    def encode(value: Any, numbers: list[Any]) -> None:
+        try:
+            if value.dtype == dtype and value.ndim == dimensions:
+                numbers.append(int(cast(integer, from_buffer(value))))
+                numbers.extend(value.shape)
+                return
+        except (AttributeError, ValueError):
+            pass
+        raise TypeError(f"{path}: an array of {_shown(dtype)}, of {dimensions} dimensions and row "
+                        f"by row, was expected, not {_told(value)}")
+
+    return encode
+
+
+def _fields(plans: dict[str, _Plan], path: str) -> Encode:
+    encoders = [plan.encode for plan in plans.values()]
+    known: set[type] = set()
+    read = operator.attrgetter(*plans)
+
+    def check(kind: type) -> None:
+        if set(getattr(kind, "_fields", ())) != set(plans):
+            raise TypeError(f"{path}: fields {', '.join(plans)} were expected, not a "
+                            f"{kind.__name__} of {', '.join(getattr(kind, '_fields', ()))}")
+        known.add(kind)
+
+    def encode(value: Any, numbers: list[Any]) -> None:
+        if type(value) not in known:
+            check(type(value))
+        for encode_field, field in zip(encoders, read(value), strict=True):
+            encode_field(field, numbers)
+
+    return encode
+
+
+def _legs(plans: dict[str, _Plan], path: str) -> Encode:
+    computed = _fields({name: plan for name, plan in plans.items() if name != "stated"}, path)
+    stated = plans["stated"].encode
+    nothing = {name: struct.unpack("=" + plan.format, bytes(struct.calcsize("=" + plan.format)))
+               for name, plan in plans.items()}
+    not_stated = nothing.pop("stated")
+    not_computed = list(chain.from_iterable(nothing.values()))
+
+    def encode(value: Any, numbers: list[Any]) -> None:
+        if isinstance(value, np.ndarray):
+            stated(value, numbers)
+            numbers.extend(not_computed)
+        else:
+            numbers.extend(not_stated)
+            computed(value, numbers)
+
+    return encode
+
+
+def _shown(dtype: np.dtype[Any]) -> str:
+    return f"rows ({', '.join(dtype.names)})" if dtype.names else dtype.name
+
+
+def _told(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        order = "" if value.flags.c_contiguous else ", not row by row"
+        return f"one of {_shown(value.dtype)} and shape {value.shape}{order}"
+    return f"{value!r:.80}"
