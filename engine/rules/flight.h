@@ -1,0 +1,170 @@
+// What a flight may last, and all instants of one but those on the way.
+//
+// `place` is the customer's rows from the drones' table of nodes, `launched` how many launches of
+// the trip come before one; `out` and `home` are the durations of a sortie's legs.
+#pragma once
+
+#include <algorithm>
+
+#include "rules/energy.h"
+#include "rules/load.h"
+#include "rules/window.h"
+
+namespace tandem {
+
+// Whether a flight duration marks a flight that can't be flown.
+inline bool unreachable(Int duration) { return duration >= unreachable_leg; }
+
+// Whether it matters which launch is the first of a trip.
+inline bool launches_differ(const VehicleType& type) {
+    return type.relaunch_duration != type.launch_duration;
+}
+
+// How long a launch takes: before all but a trip's first, a battery is swapped.
+inline Int launch_duration(const VehicleType& type, Int launched) {
+    return launched > 0 ? type.relaunch_duration : type.launch_duration;
+}
+
+// When a drone is in the air whose launch begins at `begin`.
+inline Int take_off(const VehicleType& type, Int begin, Int launched) {
+    return begin + launch_duration(type, launched);
+}
+
+// When the launch begins of a drone that takes off at `takeoff`.
+inline Int launch_begin(const VehicleType& type, Int takeoff, Int launched) {
+    return takeoff - launch_duration(type, launched);
+}
+
+// When a drone is aboard whose recovery begins at `begin`.
+inline Int recovery_end(const VehicleType& type, Int begin) {
+    return begin + type.recovery_duration;
+}
+
+// When a drone takes off at the latest whose truck would leave at `leave` without it, if no window
+// holds it back. A usual launch is taken to be over by then, a swap to begin, and where it has to be
+// charged, nothing is known.
+inline Int gone_by(const VehicleType& type, Int leave) {
+    if (charges_aboard(type)) return far;
+    return launches_differ(type) ? take_off(type, leave, 1) : leave;
+}
+
+// How long launch and recovery take together, but for a trip's first launch.
+inline Int handling_duration(const VehicleType& type) {
+    return type.relaunch_duration + type.recovery_duration;
+}
+
+// Whether a recovery, or else a launch, ends as it begins.
+inline bool takes_no_time(const VehicleType& type, bool is_recovery, Int launched) {
+    return (is_recovery ? type.recovery_duration : launch_duration(type, launched)) == 0;
+}
+
+// When a drone is where `home` leads to that is at a customer as the window opens in which whoever
+// comes at `arrival` is served.
+inline Int earliest_back(NodeRows place, Int arrival, Int home) {
+    return opening(place, arrival) + service_duration(place) + home;
+}
+
+// In how long after its take-off windows may let a drone be back. Its endurance; and where it hovers
+// before windows, what it can beside the `flight`, services included, after which so much is `left`
+// of its battery, with the most `weight` aboard.
+inline Int longest_hold(const VehicleType& type, Int flight, Int left, Int weight) {
+    if (!hovers_at_customers(type) || left < 0) return type.endurance;
+    return std::min(type.endurance, flight + longest_hover(type, left, weight));
+}
+
+// The earliest take-off after which a drone can be back within a limit. `back` is the earliest that
+// windows allow; the flight itself may be too long.
+inline Int held_until(Int back, Int limit) { return back - limit; }
+
+// What is left of the battery after a flight to one customer without any waiting.
+inline Int after_flight(const VehicleType& type, NodeRows place, Int out, Int home) {
+    const Int weight = weight_brought(place);
+    Int left = after_leg(type, battery_of(type), weight, out);
+    if (hovers_at_customers(type)) {
+        left = after_hovering(type, left, weight, service_duration(place));
+    }
+    return after_leg(type, left, weight_taken(place), home);
+}
+
+// When a drone takes off to one customer that can at `takeoff`: then, or held back.
+inline Int held_takeoff(const VehicleType& type, NodeRows place, Int takeoff, Int out, Int home) {
+    Int limit = type.endurance;
+    if (hovers_at_customers(type)) {
+        limit = longest_hold(type, out + service_duration(place) + home,
+                             after_flight(type, place, out, home),
+                             std::max(weight_brought(place), weight_taken(place)));
+    }
+    while (true) {
+        const Int held = held_until(earliest_back(place, takeoff + out, home), limit);
+        if (held <= takeoff) return takeoff;
+        takeoff = held;
+    }
+}
+
+// Whether a flight, out, service and home, is within the endurance if nothing waits. None is that
+// leads where nobody can fly.
+inline bool can_last(const VehicleType& type, Int duration) { return duration <= type.endurance; }
+
+// Whether a flight to one customer is within endurance and energy if nothing waits.
+inline bool can_serve(const VehicleType& type, NodeRows place, Int out, Int home) {
+    return can_last(type, out + service_duration(place) + home) &&
+           (!is_limited(type) || after_flight(type, place, out, home) >= 0);
+}
+
+// Whether energy lasts for a flight to one customer and so long a wait to be recovered.
+inline bool can_wait(const VehicleType& type, NodeRows place, Int out, Int home, Int waiting) {
+    if (!is_limited(type)) return true;
+    const Int left = after_flight(type, place, out, home);
+    return after_hovering(type, left, weight_taken(place), waiting) >= 0;
+}
+
+// From when on the launch may begin of a flight to one customer, at once if it can't be. The drone
+// is charged aboard since then, with what it has kept.
+inline Int charged_launch(const VehicleType& type, NodeRows place, Int kept, Int since, Int out,
+                          Int home) {
+    return charged_by(type, kept, since, after_flight(type, place, out, home));
+}
+
+// What a sortie to one customer, waiting included, leaves of a full battery; nothing where none
+// limits it.
+inline Int left_after(const VehicleType& type, NodeRows place, Int out, Int home, Int takeoff,
+                      Int served, Int recovery_start) {
+    if (!is_limited(type)) return 0;
+    Int left = after_flight(type, place, out, home);
+    if (hovers_at_customers(type)) {
+        const Int waited = served - service_duration(place) - takeoff - out;
+        left = after_hovering(type, left, weight_brought(place), waited);
+    }
+    return after_hovering(type, left, weight_taken(place), recovery_start - served - home);
+}
+
+// Until when the endurance counts: as a drone is back, or as its recovery begins.
+inline Int counted_until(const VehicleType& type, Int back, Int recovery_start) {
+    return type.waiting_counts != 0 ? recovery_start : back;
+}
+
+// Whether a sortie, back at `back` and recovered from then on, is short enough.
+inline bool within_endurance(const VehicleType& type, Int takeoff, Int back, Int recovery_start) {
+    return can_last(type, counted_until(type, back, recovery_start) - takeoff);
+}
+
+// How long `counted_until` may be from the take-off.
+inline Int endurance_of(const VehicleType& type) { return type.endurance; }
+
+// How long a drone may fly with nothing aboard, for those who only want an idea.
+inline Int longest_flight(const VehicleType& type) {
+    return std::min(type.endurance, longest_cruise(type));
+}
+
+// For which arrivals at a block's beginning it is at most `limit` from one pair to another, which is
+// never before it; `far` and `none` if there is none. With `time`, both are sums with d as soon as
+// that is past `begin_c - begin_d`, so that what lasts too long by d must begin before.
+inline Interval lasting_within(Int limit, Int begin_d, Int begin_c, Int d, Int c) {
+    if (d - begin_d <= limit) {
+        return {c - begin_c > limit ? c - limit - begin_d : none, far};
+    }
+    if (c - begin_c > limit) return {far, none};
+    return {none, limit + begin_c - d};
+}
+
+}  // namespace tandem
