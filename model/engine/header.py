@@ -68,6 +68,16 @@ def is_row(kind: Any) -> bool:
         for _, field in kind.fields)
 
 
+@cache
+def is_laid_out_as(rows: np.dtype[Any], others: np.dtype[Any]) -> bool:
+    """Tell whether two types of rows have the same fields, whatever has no place in memory."""
+    return rows.itemsize == others.itemsize and _places(rows) == _places(others)
+
+
+def _places(rows: np.dtype[Any]) -> dict[str, Any]:
+    return {name: field[:2] for name, field in (rows.fields or {}).items() if field[0].itemsize}
+
+
 def _field(name: str, kind: Any) -> tuple[Any, ...]:
     if kind.kind == "array":
         return name, dtype_of_type(kind.item), (kind.length,)

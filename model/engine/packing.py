@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.engine.header import dtype_of_type, interface, is_row
+from model.engine.header import dtype_of_type, interface, is_laid_out_as, is_row
 
 Encode = Callable[[Any, list[Any]], None]
 """Appends the numbers that stand for a value in memory. Raises a TypeError that names the field."""
@@ -87,7 +87,7 @@ def address_of(dtype: np.dtype[Any], path: str) -> Callable[[Any], Any]:
 
     def address(value: Any) -> Any:
         try:
-            if value.dtype == dtype:
+            if value.dtype == dtype or is_laid_out_as(value.dtype, dtype):
                 return from_buffer(value)
         except (AttributeError, ValueError):
             pass
@@ -165,7 +165,8 @@ def _array(dtype: np.dtype[Any], dimensions: int, path: str) -> Encode:
 
     def encode(value: Any, numbers: list[Any]) -> None:
         try:
-            if value.dtype == dtype and value.ndim == dimensions:
+            if value.ndim == dimensions and (
+                    value.dtype == dtype or is_laid_out_as(value.dtype, dtype)):
                 numbers.append(int(cast(integer, from_buffer(value))))
                 numbers.extend(value.shape)
                 return
