@@ -902,6 +902,49 @@ int tandem_finish(const tandem_instance *instance, const tandem_state *state, in
 
 /* Policy. */
 
+/* Problems as policies see them. */
+typedef struct tandem_scene {
+    tandem_instance instance;
+    tandem_scales scale;
+    tandem_f32_3d type_token;  /* (problem, type, NUM_TYPE_FEATURES) */
+} tandem_scene;
+
+/* Rollouts of one problem, each begun by actions that are given. */
+typedef struct tandem_rollouts {
+    tandem_i64_1d row;  /* (rollout,) of the state */
+    tandem_i64_1d view;  /* (rollout,) of the memory */
+    tandem_f64_1d temperature;  /* (rollout,) 0 for the likeliest action at each step */
+    tandem_u64_1d generator;  /* (rollout,) address of NumPy's `bitgen_t`, not looked at without heat */
+    tandem_i64_1d kept;  /* (rollout,) actions that are given */
+    tandem_i64_2d actions;  /* (rollout, action) codes */
+    tandem_i64_1d count;  /* (rollout,) actions in the end, -1 of one that was given up */
+} tandem_rollouts;
+
+/* Describe the drives, the launches and the return of the open vehicle of one rollout. */
+int tandem_describe_moves(const tandem_instance *instance, const tandem_scales *scale,
+                          const tandem_state *state, int64_t r, const tandem_observation *seen);
+/* List and describe the legal actions of the rollouts `first` to `behind`; `most` of any of them. */
+int tandem_observe(const tandem_scene *scene, const tandem_state *state, int64_t first,
+                   int64_t behind, int64_t scratch, const tandem_observation *seen, int64_t *most);
+/* Do the chosen candidate of each rollout. */
+int tandem_act(const tandem_instance *instance, const tandem_state *state, int64_t first,
+               int64_t behind, const tandem_i64_1d *choice, const tandem_observation *seen);
+/* Do what was chosen of what was seen, then observe. */
+int tandem_step(const tandem_scene *scene, const tandem_state *state, int64_t first,
+                int64_t behind, int64_t scratch, const tandem_i64_1d *choice,
+                const tandem_observation *seen, int64_t *most);
+/* Score the candidates of one rollout, before they are clipped. */
+int tandem_candidate_scores(const tandem_step_weights *weights, const tandem_f32_2d *memory,
+                            const tandem_observation *seen, int64_t r, const tandem_f32_1d *scores);
+/* Choose the likeliest candidate, or one drawn by probability if the temperature isn't 0. */
+int tandem_choose(const tandem_f32_1d *scores, double temperature, uint64_t generator,
+                  int64_t *choice);
+/* Plan by the policy, on so many threads, each with a row of the state behind all others' to try
+   actions on, until a flag tells to give up. */
+int tandem_roll_out(const tandem_step_weights *weights, const tandem_f32_3d *memory,
+                    const tandem_scene *scene, const tandem_state *state,
+                    const tandem_rollouts *rollouts, const tandem_i64_1d *stop, int64_t threads);
+
 /* Search: route. */
 
 /* Search: insertion. */
