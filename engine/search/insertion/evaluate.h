@@ -10,11 +10,12 @@ constexpr double infeasible = 1e300;
 // Writes the route that serves a customer alone at the least cost. False if none may.
 //
 // Where it begins and ends at one place, a drone leaves from the start, and comes back there.
-bool serve_alone(const World& world, Fleet& fleet, Int slot, Int k, Int node, bool by_drone,
+bool serve_alone(const World& world, const Fleet& fleet, Int slot, Int k, Int node, bool by_drone,
                  BlockSums& acc);
 
 // Returns what it costs to insert a customer as `move` says; `infeasible` if it can't be.
-double price_move(const World& world, Fleet& fleet, const Move& move, Int node, BlockSums& acc);
+double price_move(const World& world, const Fleet& fleet, const Move& move, Int node,
+                  BlockSums& acc);
 
 // Tells whether `price_stop` can price a customer behind stop `p`.
 //

@@ -5,13 +5,13 @@
 
 namespace tandem {
 
-// Give the routes touched this turn the cheapest vehicles left, or others'. In place.
+// Gives the routes touched this turn the cheapest vehicles left, or others'.
 void improve_types(const World& world, Searcher& searcher);
 
-// Give one of the routes touched this turn a vehicle of any type. In place.
+// Gives one of the routes touched this turn a vehicle of any type.
 void draw_type(const World& world, Searcher& searcher);
 
-// Give the routes touched this turn the types that drive them at the least cost. In place.
+// Gives the routes touched this turn the types that drive them at the least cost.
 void cheapen_types(const World& world, Searcher& searcher);
 
 }  // namespace tandem

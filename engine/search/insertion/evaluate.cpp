@@ -1,0 +1,332 @@
+#include "search/insertion/evaluate.h"
+
+#include <algorithm>
+
+#include "rules/drone_types.h"
+#include "rules/leg.h"
+#include "rules/load.h"
+#include "rules/start.h"
+#include "rules/window.h"
+#include "search/route/block.h"
+#include "search/route/edit.h"
+#include "search/route/ends.h"
+#include "search/route/halts.h"
+#include "search/route/rarer.h"
+#include "search/route/refresh.h"
+#include "search/route/routes.h"
+#include "search/route/vehicles.h"
+
+namespace tandem {
+namespace {
+
+// The first and the last of some stops.
+struct Part {
+    Int first;
+    Int last;
+};
+
+// Copies the sequence of stops `first` to `last` with their sorties to another slot; returns how
+// many sorties were skipped.
+Int copy_part(const Fleet& fleet, Int slot, Part part, Int to) {
+    const View<const Stop, 1> source = fleet.stop[slot];
+    const View<Stop, 1> target = fleet.stop[to];
+    for (Int p = part.first; p <= part.last; ++p) {
+        copy_sequence(source[p], target[p - part.first]);
+        target[p - part.first].hold = none;
+    }
+    Int skipped = 0, count = 0;
+    const Route& route = fleet.route[slot];
+    const View<const Sortie, 1> sorties = fleet.sortie[slot];
+    const View<Sortie, 1> copies = fleet.sortie[to];
+    for (Int s = 0; s < route.sorties; ++s) {
+        const Int launch = sorties[s].launch;
+        if (launch < part.first) {
+            ++skipped;
+        } else if (launch <= part.last) {
+            copies[count] = sorties[s];
+            copies[count].launch -= part.first;
+            copies[count].recovery -= part.first;
+            ++count;
+        }
+    }
+    fleet.route[to] = route;
+    fleet.route[to].length = part.last - part.first + 1;
+    fleet.route[to].sorties = count;
+    return skipped;
+}
+
+// Returns the stops of the blocks that a move changes.
+//
+// `held` tells that the trip will begin later, so that all from its beginning on changes.
+Part part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& move, bool held) {
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    Int p = move.first, q = p + 1;
+    if (move.kind == by_sortie) {
+        q = move.last;
+    } else if (move.kind == on_sortie) {
+        p = fleet.sortie(slot, move.sortie).launch;
+        q = fleet.sortie(slot, move.sortie).recovery;
+    }
+    p = std::max(p, Int{0});
+    q = std::min(q, fleet.route[slot].length - 1);
+    const Trip& trip = fleet.trip(slot, stops[p].trip);
+    if (move.kind == by_sortie || move.kind == trip_from || move.kind == trip_until) {
+        q = std::max(q, launch_changed(type, fleet.route[slot], fleet.sortie[slot], trip, p,
+                                       move.kind == by_sortie));
+    }
+    if (held) p = trip.first;
+    return {stops[p].block, stops[stops[q].block].last};
+}
+
+// Times the changed stops in slot `to`, which take the place of those from `first` on. False if a
+// rule is broken.
+//
+// Leaves the sums so far in `acc`.
+bool time_part(const World& world, const Fleet& fleet, Int slot, Int first, Int to,
+               BlockSums& acc) {
+    const Route& route = fleet.route[to];
+    const View<Stop, 1> stops = fleet.stop[to];
+    const View<Sortie, 1> sorties = fleet.sortie[to];
+    const View<const Stop, 1> old = fleet.stop[slot];
+    const Int k = route.type, length = route.length, count = route.sorties;
+    const VehicleType& type = world.type[k];
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    Int time = old[first].arrival, cum = old[first].before;
+    Int depart = first > 0 ? old[first - 1].depart : far;
+    make_ready(world, k, stops, sorties, count);
+    acc.launched = launches_before(type, fleet.route[slot], fleet.sortie[slot],
+                                   fleet.trip(slot, old[first].trip), first);
+    Int p = 0, s = 0, driven = 0;
+    while (p < length) {
+        Stop& stop = stops[p];
+        Int last = p;
+        if (stop.kind == start_stop) acc.launched = 0;
+        if (s < count && sorties[s].launch == p) {
+            last = time_block(world, k, stops, length, sorties, count, p, s, time, acc);
+            if (last < 0) return false;
+            while (s < count && sorties[s].launch <= last) ++s;
+            for (Int q = p; q < last; ++q) {
+                driven += leg(legs, stops[q].node, stops[q + 1].node).distance;
+            }
+        } else {
+            plain_block(world, k, stop, time);
+        }
+        if (time > stop.hi || time < stop.lo) return false;
+        depart = std::min(depart, stop.dep - cum);
+        cum += stop.d;
+        time = std::max(time + stop.d, stop.c);
+        p = last + 1;
+        if (p == length) break;
+        Int gap = type.reload_duration;
+        if (stops[last].kind != end_stop) {
+            const Leg way = leg(legs, stops[last].node, stops[p].node);
+            gap = way.duration;
+            driven += way.distance;
+        }
+        cum += gap;
+        time += gap;
+    }
+    acc.end = time;
+    acc.cum = cum;
+    acc.depart = depart;
+    acc.driven = driven;
+    return true;
+}
+
+// Returns what it costs to put the stops in slot `to` in the place of a part.
+double price_part(const World& world, const Fleet& fleet, Int slot, Part part, Int to,
+                  BlockSums& acc) {
+    if (!time_part(world, fleet, slot, part.first, to, acc)) return infeasible;
+    const Int time = acc.end;
+    Int cum = acc.cum, depart = acc.depart, driven = acc.driven;
+    const Route& route = fleet.route[slot];
+    const View<const Stop, 1> old = fleet.stop[slot];
+    const Int k = route.type;
+    const VehicleType& type = world.type[k];
+    Int finish = time;
+    if (part.last + 1 < route.length) {
+        const Int arrival = time + old[part.last].gap;
+        const Stop& behind = old[part.last + 1];
+        cum += old[part.last].gap;
+        if (arrival > behind.latest || arrival < behind.early) return infeasible;
+        depart = std::min(depart, behind.latest - cum);
+        cum += behind.rest;
+        finish = std::max(arrival + behind.rest, behind.end);
+    }
+    const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
+    if (working > type.max_working_duration) return infeasible;
+    for (Int p = part.first; p < part.last; ++p) driven -= old[p].leg;
+    double cost = double(driven) * world.rate[k].distance +
+                  longer_cost(type, world.rate[k], route, finish, working);
+    for (Int s = 0; s < fleet.route[to].sorties; ++s) {
+        cost += sortie_cost(world, k, fleet.stop[to], fleet.sortie(to, s));
+    }
+    for (Int s = 0; s < route.sorties; ++s) {
+        const Sortie& sortie = fleet.sortie(slot, s);
+        if (part.first <= sortie.launch && sortie.launch <= part.last) {
+            cost -= sortie_cost(world, k, old, sortie);
+        }
+    }
+    return cost;
+}
+
+// Lets the trips in slot `to` begin no earlier than their parcels are there.
+//
+// `alone` tells that the customer has a trip of its own.
+void give_releases(const Fleet& fleet, Int to, bool alone, const Trip& trip, Int release) {
+    for (Int p = 0; p < fleet.route[to].length; ++p) {
+        Stop& stop = fleet.stop(to, p);
+        if (stop.kind != start_stop) continue;
+        if (stop.release == none) {
+            stop.release = alone ? release : std::max(release, trip.release);
+        } else if (p == 0 && !alone) {
+            stop.release = std::max(stop.release, release);
+        }
+    }
+}
+
+// How a route ends whose last stops are reached later, and what lateness costs more.
+struct Ending {
+    double cost;
+    Int time;
+    Int cum;
+    Int depart;
+};
+
+// Follows a route on which no drone flies from stop `p` on, reached at `time`.
+//
+// `cum` and `depart` are the sum of all durations, and the latest departure that costs nothing, up
+// to stop `p`, and in what is returned those up to the end.
+Ending follow(const World& world, const Route& route, View<const Stop, 1> stops, Int p, Int time,
+              Int cum, Int depart) {
+    double cost = 0.0;
+    const Int last = route.length - 1;
+    const NodesRows places = places_of(world.place, world.type[route.type]);
+    for (Int q = p; q <= last; ++q) {
+        const Stop& stop = stops[q];
+        Int leave = time;
+        if (stop.kind == customer_stop) {
+            const NodeRows place = places[stop.node];
+            cost += window_cost(world, stop.node, time) - stop.window_cost;
+            depart = std::min(depart, as_late(place, time) - cum);
+            leave = end_of_service(place, time);
+            cum += service_duration(place);
+        } else if (stop.kind == start_stop) {
+            leave = std::max(time, stop.release);
+        }
+        time = leave;
+        if (q < last) {
+            time += stop.gap;
+            cum += stop.gap;
+        }
+    }
+    return {cost, time, cum, depart};
+}
+
+}  // namespace
+
+bool serve_alone(const World& world, const Fleet& fleet, Int slot, Int k, Int node, bool by_drone,
+                 BlockSums& acc) {
+    const Int first_stop = world.type[k].begins_at, last_stop = world.type[k].ends_at;
+    const Int first_way = by_drone ? from_start : by_truck;
+    const Int options = by_drone && first_stop != last_stop ? ways - from_start : 1;
+    const Int number = by_drone ? options * num_drone_rows(world.type, k) : 1;
+    double best = infeasible;
+    Int chosen = 0;
+    bool done = false;
+    // The last time, the best of them is written once more.
+    for (Int tried = 0; tried < (number == 1 ? number : number + 1); ++tried) {
+        const Int option = tried == number ? chosen : tried;
+        const Int row = drone_row_at(world.type, k, option / options);
+        done = !by_drone || world.can(row, 1, node);
+        if (done) {
+            begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k, first_stop,
+                        last_stop, node, first_way + option % options,
+                        first_drone(world.type, k, row));
+            done = refresh(world, fleet, slot, acc);
+        }
+        if (done && fleet.cost[slot] < best) {
+            best = fleet.cost[slot];
+            chosen = option;
+        }
+    }
+    return done;
+}
+
+double price_move(const World& world, const Fleet& fleet, const Move& move, Int node,
+                  BlockSums& acc) {
+    const Int slot = move.slot, to = fleet.route.size() - 1;
+    const Int k = fleet.route[slot].type, kind = move.kind;
+    const Int depot = world.type[k].depot;
+    if ((world.mode[k] & mode_priced) || (is_apart(world, k) && kind >= new_trip)) {
+        copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
+        apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0);
+        if (!refresh(world, fleet, to, acc)) return infeasible;
+        return fleet.cost[to] - fleet.cost[slot];
+    }
+    const Int there =
+        kind == on_sortie ? fleet.sortie(slot, move.sortie).launch : std::max(move.first, Int{0});
+    const Trip& trip = fleet.trip(slot, fleet.stop(slot, there).trip);
+    const Int release = release_of(world.place[0][node]);
+    const bool alone = kind == new_trip || kind == flight_trip;
+    const Part part = part_of(world.type[k], fleet, slot, move, !alone && release > trip.release);
+    const Int skipped = copy_part(fleet, slot, part, to);
+    apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, part.first,
+          skipped);
+    give_releases(fleet, to, alone, trip, release);
+    double cost = price_part(world, fleet, slot, part, to, acc);
+    if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {
+        cost += world.rate[k].stop;
+    }
+    return cost;
+}
+
+bool stands_alone(const World& world, const Fleet& fleet, Int slot, Int p, Int node) {
+    const Int mode = world.mode[fleet.route[slot].type];
+    const Stop& stop = fleet.stop(slot, p);
+    if ((mode & mode_priced) &&
+        ((mode & (mode_settled | mode_retimed)) || fleet.route[slot].sorties > 0)) {
+        return false;
+    }
+    return stop.flying == 0 &&
+           release_of(world.place[0][node]) <= fleet.trip(slot, stop.trip).release;
+}
+
+double price_stop(const World& world, const Fleet& fleet, Int slot, Int p, Int node) {
+    const Route& route = fleet.route[slot];
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const Stop &here = stops[p], &behind = stops[p + 1];
+    const Int k = route.type;
+    const VehicleType& type = world.type[k];
+    const NodeRows place = places_of(world.place, type)[node];
+    const Leg out = leg_from(legs_to(world.back, type.travel, node), here.node);
+    const Leg on = leg(legs_of(world.leg, type.travel), node, behind.node);
+    Int time = here.leave + out.duration, cum = here.cum + out.duration;
+    if (too_late(place, time)) return infeasible;
+    double cost = double(out.distance + on.distance - here.leg) * world.rate[k].distance;
+    if (loads_cost(world, k)) {
+        cost += load_more_behind(world, fleet, slot, p, node, out.distance, on.distance);
+    }
+    Int depart = std::min(here.depart, as_late(place, time) - cum);
+    const double late = window_cost(world, node, time);
+    time = end_of_service(place, time) + on.duration;
+    cum += service_duration(place) + on.duration;
+    if (time > behind.latest || time < behind.early) return infeasible;
+    Int finish;
+    if (world.mode[k] & mode_priced) {
+        const Ending ending = follow(world, route, stops, p + 1, time, cum, depart);
+        cost += late + ending.cost;
+        finish = ending.time;
+        cum = ending.cum;
+        depart = ending.depart;
+    } else {
+        depart = std::min(depart, behind.latest - cum);
+        finish = std::max(time + behind.rest, behind.end);
+        cum += behind.rest;
+    }
+    const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
+    if (working > type.max_working_duration) return infeasible;
+    return cost + world.rate[k].stop + longer_cost(type, world.rate[k], route, finish, working);
+}
+
+}  // namespace tandem

@@ -1,0 +1,178 @@
+#include "search/insertion/new_trips.h"
+
+#include <algorithm>
+
+#include "rules/leg.h"
+#include "rules/load.h"
+#include "rules/shift.h"
+#include "rules/window.h"
+#include "search/route/edit.h"
+#include "search/route/rarer.h"
+
+namespace tandem {
+namespace {
+
+// Stops of a trip that is split, from the first to the last, with the sorties launched there.
+struct Half {
+    Int first;
+    Int last;
+};
+
+// Calls `visit` with each customer whom drones serve that are launched in half of a trip.
+template <class Visit>
+void for_each_flown(const Fleet& fleet, Int slot, Half half, const Visit& visit) {
+    for (const Sortie& sortie : fleet.sortie[slot].first(fleet.route[slot].sorties)) {
+        if (half.first <= sortie.launch && sortie.launch <= half.last) {
+            for (Int index = 0; index < sortie.count; ++index) visit(sortie.nodes[index]);
+        }
+    }
+}
+
+// Tells whether a customer's goods may go with those of half of a trip.
+bool goods_may_join_half(const World& world, const Fleet& fleet, Int slot, Half half, Int node) {
+    if (!goods_count(world)) return true;
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    Int barred = 0;
+    for (Int q = half.first; q <= half.last; ++q) {
+        if (stops[q].kind == customer_stop) barred |= barred_on_trip(world.goods[stops[q].node]);
+    }
+    for_each_flown(fleet, slot, half,
+                   [&](Int other) { barred |= barred_on_trip(world.goods[other]); });
+    return go_together(world.goods[node], barred, fleet.route[slot].barred);
+}
+
+// Tells whether a trip split behind stop `p` may be two, a customer more at the split.
+//
+// `front`: at the end of the first.
+bool halves_fit(const World& world, const Fleet& fleet, Int slot, Int p, Int node, bool front,
+                Int tier) {
+    const View<const Halt, 1> halts = fleet.halt[slot][tier];
+    const VehicleType& type = world.type[fleet.route[slot].type];
+    const Trip& trip = fleet.trip(slot, fleet.stop(slot, p).trip);
+    const Cargo more = cargo_for(world.amount, node, tier);
+    Cargo one{}, other{};
+    for (Int q = trip.first; q <= p; ++q) one = followed(one, cargo_at(halts[q]));
+    for (Int q = p + 1; q <= trip.last; ++q) other = followed(other, cargo_at(halts[q]));
+    if (front) {
+        return may_follow(type, one, more) && may_be_all(type, followed(one, more), tier) &&
+               may_be_all(type, other, tier);
+    }
+    return may_follow(type, more, other) && may_be_all(type, followed(more, other), tier) &&
+           may_be_all(type, one, tier);
+}
+
+// Returns when a truck that arrives at a customer has served; `far` if it is too late.
+Int serve_at(NodesRows places, Int node, Int arrival) {
+    const NodeRows place = places[node];
+    return too_late(place, arrival) ? far : end_of_service(place, arrival);
+}
+
+// Returns when a truck that leaves stop `first` at `time` leaves stop `last`; `far`: too late.
+Int drive_to(NodesRows places, View<const Stop, 1> stops, Int first, Int last, Int time) {
+    for (Int p = first + 1; p <= last && time < far; ++p) {
+        time = serve_at(places, stops[p].node, time + stops[p - 1].gap);
+    }
+    return time;
+}
+
+// Tells whether a trip can be split behind stop `p`, a customer more before or behind the split.
+//
+// `until`: before. Loads are not looked at.
+bool split_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int node, bool until) {
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const VehicleType& type = world.type[fleet.route[slot].type];
+    const NodesRows places = places_of(world.place, type);
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const Int first = fleet.trip(slot, stops[p].trip).first;
+    const Int last = fleet.trip(slot, stops[p].trip).last;
+    Int front = 0, rear = 0, front_length = 0, rear_length = 0;
+    for (Int q = first; q < last; ++q) {
+        Int& half = q <= p ? front : rear;
+        if (q > first) half = std::max(half, release_of(places[stops[q].node]));
+        if (q < p) front_length += stops[q].leg;
+        if (q > p) rear_length += stops[q].leg;
+    }
+    Int& joined = until ? front : rear;
+    joined = std::max(joined, release_of(places[node]));
+    Int here = stops[p].node;
+    const Int there = stops[p + 1].node;
+    Int time = drive_to(places, stops, first, p, std::max(stops[first].arrival, front));
+    if (until) {
+        const Leg out = leg(legs, here, node);
+        time = serve_at(places, node, time + out.duration);
+        front_length += out.distance;
+        here = node;
+    }
+    const Leg home = leg(legs, here, type.depot);
+    time += home.duration;
+    front_length += home.distance;
+    if (time > type.shift_latest) return false;
+    time = std::max(time + type.reload_duration, rear);
+    here = type.depot;
+    if (!until) {
+        const Leg out = leg(legs, type.depot, node);
+        time = serve_at(places, node, time + out.duration);
+        rear_length += out.distance;
+        here = node;
+    }
+    const Leg on = leg(legs, here, there);
+    rear_length += on.distance;
+    return time + on.duration <= stops[p + 1].latest &&
+           std::max(front_length, rear_length) <= type.max_trip_distance;
+}
+
+// Tells whether a customer can be served by a trip of its own behind stop `p`, or -1.
+bool trip_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int node) {
+    const Route& route = fleet.route[slot];
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const VehicleType& type = world.type[route.type];
+    const NodesRows places = places_of(world.place, type);
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    Int time = p >= 0 ? stops[p].leave + type.reload_duration : type.shift_earliest;
+    time = std::max(time, release_of(places[node]));
+    const Leg out = leg(legs, type.depot, node), home = leg(legs, node, type.depot);
+    time = serve_at(places, node, time + out.duration) + home.duration;
+    if (p + 1 < route.length && time + type.reload_duration > stops[p + 1].latest) return false;
+    return time <= type.shift_latest && out.distance + home.distance <= type.max_trip_distance;
+}
+
+}  // namespace
+
+bool part_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int node, bool front) {
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const Trip& trip = fleet.trip(slot, stops[p].trip);
+    const Half half = front ? Half{trip.first, p} : Half{p + 1, trip.last};
+    if (!goods_may_join_half(world, fleet, slot, half, node)) return false;
+    Amount load = demand_of(world.place[0][node]);
+    Int count = 1;
+    for (Int q = half.first; q <= half.last; ++q) {
+        if (stops[q].kind != customer_stop) continue;
+        ++count;
+        load = plus(load, demand_of(world.place[0][stops[q].node]));
+    }
+    const VehicleType& type = world.type[fleet.route[slot].type];
+    if (!allows_stops(type, count)) return false;
+    if (tiers_aboard(fleet) > 0) {
+        for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
+            if (!halves_fit(world, fleet, slot, p, node, front, tier)) return false;
+        }
+        return true;
+    }
+    for_each_flown(fleet, slot, half,
+                   [&](Int other) { load = plus(load, demand_of(world.place[0][other])); });
+    return holds(type, load);
+}
+
+bool may_begin(const World& world, Int k, Int node) {
+    for (Int tier = 0; tier < tiers_of(world); ++tier) {
+        if (!may_be_all(world.type[k], cargo_for(world.amount, node, tier), tier)) return false;
+    }
+    return true;
+}
+
+bool more_trips_fit(const World& world, const Fleet& fleet, Int slot, Int p, Int node, Int kind) {
+    if (kind == new_trip) return trip_fits(world, fleet, slot, p, node);
+    return split_fits(world, fleet, slot, p, node, kind == trip_until);
+}
+
+}  // namespace tandem

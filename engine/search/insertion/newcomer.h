@@ -1,0 +1,44 @@
+// A customer who is to be inserted, as the vehicles of one route meet it.
+#pragma once
+
+#include "rules/leg.h"
+#include "rules/window.h"
+#include "search/route/halts.h"
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// The legs to a customer and from there, and how much further that is than from stop to stop.
+struct Detour {
+    Leg out;
+    Leg on;
+    Int distance;
+};
+
+struct Newcomer {
+    NodeRows place;
+    LegRow inward;  // legs to the customer
+    LegRow onward;  // and from there
+    Room room;
+
+    Detour behind(View<const Stop, 1> stops, Int p) const {
+        const Leg out = leg_from(inward, stops[p].node), on = leg_to(onward, stops[p + 1].node);
+        return {out, on, out.distance + on.distance - stops[p].leg};
+    }
+};
+
+// Returns a customer as trucks of type `k` meet it on a route, for one of type `by` to be served.
+inline Newcomer newcomer_on(const World& world, const Fleet& fleet, Int slot, Int by, Int node) {
+    const VehicleType& type = world.type[fleet.route[slot].type];
+    return {places_of(world.place, type)[node], legs_to(world.back, type.travel, node),
+            legs_from(world.leg, type.travel, node), room_on(world, fleet, slot, by, node)};
+}
+
+// Tells whether a truck that leaves at `leave` may serve a customer next, and then reach a stop.
+inline bool is_in_time(NodeRows place, const Detour& detour, Int leave, const Stop& behind) {
+    const Int arrival = leave + detour.out.duration;
+    return !too_late(place, arrival) &&
+           end_of_service(place, arrival) + detour.on.duration <= behind.latest;
+}
+
+}  // namespace tandem

@@ -1,0 +1,373 @@
+#include "search/insertion/offers.h"
+
+#include <algorithm>
+
+#include "rules/alarm.h"
+#include "rules/drone_types.h"
+#include "rules/energy.h"
+#include "rules/flight.h"
+#include "search/insertion/cheapest_stop.h"
+#include "search/insertion/evaluate.h"
+#include "search/insertion/new_trips.h"
+#include "search/insertion/newcomer.h"
+#include "search/route/edit.h"
+#include "search/route/ends.h"
+#include "search/route/goods.h"
+#include "search/route/randomness.h"
+#include "search/route/rarer.h"
+#include "search/route/refresh.h"
+#include "search/route/routes.h"
+#include "search/route/vehicles.h"
+
+namespace tandem {
+namespace {
+
+// Lists an insertion that costs at least `cost`; returns it, to complete it.
+Move& add_offer(const Searcher& searcher, double cost, Int kind, Int slot, Int first) {
+    const Int index = searcher.count->offers++;
+    searcher.least[index] = cost;
+    Move& offer = searcher.offer[index];
+    offer.kind = kind;
+    offer.slot = slot;
+    offer.first = first;
+    return offer;
+}
+
+// What a change of a route costs less, or lasts without costing anything.
+struct Slack {
+    Int spare;     // how long the route could work longer at no cost
+    double early;  // what its waiting costs, which may become less
+};
+
+// Returns what a customer behind stop `p` costs at least, or `best` if that is no less, or not
+// allowed.
+double stop_costs(const World& world, Int k, const Newcomer& newcomer, const Detour& detour,
+                  View<const Stop, 1> stops, Int p, Int node, const Slack& slack, double best) {
+    const Rate& rate = world.rate[k];
+    double cost = double(detour.distance) * rate.distance - slack.early;
+    cost += rate.stop;
+    const Int mode = world.mode[k];
+    const Stop &here = stops[p], &behind = stops[p + 1];
+    if (mode & mode_timed) {
+        // While drones fly, the truck may have time before they are back.
+        const Int longer =
+            detour.out.duration + detour.on.duration + service_duration(newcomer.place) - here.gap;
+        cost += double(std::max(Int{0}, longer - slack.spare - here.idle)) * rate.time;
+    }
+    if (cost >= best || !is_in_time(newcomer.place, detour, here.leave, behind)) return best;
+    if (mode & mode_priced) {
+        const Int arrival = here.leave + detour.out.duration;
+        const Int following = end_of_service(newcomer.place, arrival) + detour.on.duration;
+        cost += lateness_cost(world, node, arrival) + lateness_cost(world, behind.node, following) -
+                lateness_cost(world, behind.node, behind.arrival);
+    }
+    return cost;
+}
+
+// Returns a drone of a row that is aboard from stop `launch` to `recovery`; `nowhere`: there is
+// none.
+//
+// That which flies least from and to these stops, so that drones fly side by side; on the trip, if
+// drones are charged aboard.
+Int free_drone(const World& world, const Fleet& fleet, Int slot, Int launch, Int recovery,
+               Int row) {
+    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const bool charging = charges_aboard(world.type[row]);
+    Int chosen = nowhere, fewest = 0;
+    const Int number = first_drone(world.type, fleet.route[slot].type, row);
+    for (Int drone = number; drone < number + world.type[row].drones; ++drone) {
+        bool free = true;
+        Int beside = 0;
+        for (const Sortie& sortie : sorties) {
+            if (sortie.drone != drone) continue;
+            const Int first = sortie.launch, last = sortie.recovery;
+            const bool same_trip = charging && stops[first].trip == stops[launch].trip;
+            if (same_trip || (first <= recovery && launch <= last)) ++beside;
+            if ((first < recovery && launch < last) ||
+                (launch == recovery && first < launch && launch < last) ||
+                (first == last && launch < first && first < recovery) ||
+                (first == launch && recovery > launch && last > first)) {
+                free = false;
+            }
+        }
+        if (free && (chosen == nowhere || beside < fewest)) {
+            chosen = drone;
+            fewest = beside;
+        }
+    }
+    return chosen;
+}
+
+// Lists sorties to a customer from stop `launch` by drones of a row.
+void offer_flights(const World& world, const Searcher& searcher, Int slot, Int launch, Int node,
+                   Int row) {
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    const double best = searcher.bound->best;
+    const Int k = route.type;
+    const View<const Stop, 1> stops = now.stop[slot];
+    const VehicleType& type = world.type[row];
+    const Rate& rate = world.rate[row];
+    const LegRow onward = legs_from(world.leg, type.home_travel, node);
+    const Leg out = leg_from(legs_to(world.back, type.drone_travel, node), stops[launch].node);
+    const NodeRows place = places_by_air(world.place, type)[node];
+    const Int left = gone_by(type, stops[launch].leave);
+    Int begun = stops[launch].arrival;
+    if (launch > 0) begun = take_off(type, begun, 0);
+    const Int service = service_duration(place);
+    double late = 0.0;
+    if (world.mode[k] & mode_priced) late = lateness_cost(world, node, begun + out.duration);
+    begun = recovery_end(type, begun) - idle_time(route);
+    const Room room = room_on(world, now, slot, k, node);
+    Int last = launch;
+    if (world.crossings) {
+        last = std::min(launch + max_span, now.trip(slot, stops[launch].trip).last);
+    }
+    for (Int recovery = world.loops ? launch : launch + 1; recovery <= last; ++recovery) {
+        const Leg home = leg_to(onward, stops[recovery].node);
+        const Int met = stops[recovery].arrival;
+        const Int flight = out.duration + service + home.duration;
+        if (!within_endurance(type, left, left, met)) {
+            // Held back for the window, the truck leaves later and may wait less on its way.
+            if (earliest_back(place, left + out.duration, 0) <= left) break;
+            if (met > earliest_back(place, left + out.duration, home.duration)) continue;
+        }
+        // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
+        const Int longer = std::max(Int{0}, begun + flight - stops[recovery].leave);
+        double cost = double(out.distance + home.distance) * rate.drone_distance +
+                      double(longer) * rate.time + late - now.early[slot];
+        if (loads_cost(world, k)) cost += load_more(world, now, slot, launch, recovery, node);
+        if (cost < best && can_serve(type, place, out.duration, home.duration) &&
+            room_between(room, launch, recovery)) {
+            Move& offer = add_offer(searcher, cost, by_sortie, slot, launch);
+            offer.last = recovery;
+            offer.type = row;
+        }
+    }
+}
+
+// Returns what an insertion costs, at least `least`; `infeasible` if it can't be.
+//
+// In place: a sortie's drone.
+double price_offer(const World& world, const Searcher& searcher, Move& move, Int node,
+                   double least) {
+    const Fleet& now = searcher.now;
+    const Int kind = move.kind, slot = move.slot, p = move.first;
+    if (kind == by_sortie) {
+        move.drone = free_drone(world, now, slot, p, move.last, move.type);
+        if (move.drone < 0) return infeasible;
+    } else if (kind == at_stop) {
+        if (stands_alone(world, now, slot, p, node)) return price_stop(world, now, slot, p, node);
+    } else if ((kind == new_trip || kind == trip_from || kind == trip_until) &&
+               is_simple(world, now, slot) && !is_apart(world, now.route[slot].type)) {
+        return more_trips_fit(world, now, slot, p, node, kind) ? least : infeasible;
+    }
+    return price_move(world, now, move, node, *searcher.acc);
+}
+
+}  // namespace
+
+void offer_stops(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
+                 Int node) {
+    const Fleet& now = searcher.now;
+    const double best = searcher.bound->best;
+    const Int k = now.route[slot].type;
+    const View<const Stop, 1> stops = now.stop[slot];
+    const Newcomer newcomer = newcomer_on(world, now, slot, k, node);
+    const Slack slack{idle_time(now.route[slot]), now.early[slot]};
+    const Int most = world.type[k].max_trip_distance - now.trip(slot, stops[first].trip).distance;
+    for (Int p = first; p <= last; ++p) {
+        const Detour detour = newcomer.behind(stops, p);
+        double cost = stop_costs(world, k, newcomer, detour, stops, p, node, slack, best);
+        if (cost < best && loads_cost(world, k)) {
+            cost += load_more_behind(world, now, slot, p, node, detour.out.distance,
+                                     detour.on.distance);
+        }
+        if (cost < best && detour.distance <= most && room_behind(newcomer.room, p)) {
+            add_offer(searcher, cost, at_stop, slot, p);
+        }
+    }
+}
+
+void offer_sorties(const World& world, const Searcher& searcher, Int slot, Int launch, Int node) {
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    const Trip& trip = now.trip(slot, now.stop(slot, launch).trip);
+    for (Int row = first_drone_row(world.type, route.type); row >= 0;
+         row = next_drone_row(world.type, row)) {
+        if (world.can(row, 1, node) &&
+            has_battery(world.type, route, now.sortie[slot], trip, row)) {
+            offer_flights(world, searcher, slot, launch, node, row);
+        }
+    }
+}
+
+void offer_joining(const World& world, const Searcher& searcher, Int slot, Int node) {
+    const Fleet& now = searcher.now;
+    const Int k = now.route[slot].type;
+    const View<const Stop, 1> stops = now.stop[slot];
+    const View<const Sortie, 1> sorties = now.sortie[slot];
+    const double best = searcher.bound->best;
+    for (Int s = 0; s < now.route[slot].sorties; ++s) {
+        const Sortie& sortie = sorties[s];
+        const Int row = row_of_drone(world.type, k, sortie.drone);
+        const Int trip = stops[sortie.launch].trip;
+        if (sortie.count >= world.visits[row] || !world.can(row, 1, node) ||
+            !may_fit(world, now, slot, trip, k, node) ||
+            !goods_may_join(world, now, slot, trip, node) ||
+            !room_between(room_on(world, now, slot, k, node), sortie.launch, sortie.recovery)) {
+            continue;
+        }
+        bool may_carry = can_carry(world, row, sortie, 0, node);
+        if (!may_carry && tiers_of(world) == 0) continue;
+        const TravelLegs flights = legs_of(world.leg, world.type[row].drone_travel);
+        Int here = stops[sortie.launch].node;
+        for (Int place = 0; place <= sortie.count; ++place) {
+            const Int there =
+                place < sortie.count ? sortie.nodes[place] : stops[sortie.recovery].node;
+            const Int further = leg(flights, here, node).distance +
+                                leg(flights, node, there).distance -
+                                leg(flights, here, there).distance;
+            const double cost = double(further) * world.rate[row].drone_distance - now.early[slot];
+            here = there;
+            if (cost >= best) continue;
+            if (place > 0 && tiers_of(world) > 0) {
+                may_carry = can_carry(world, row, sortie, place, node);
+            }
+            if (may_carry) add_offer(searcher, cost, on_sortie, slot, place).sortie = s;
+        }
+    }
+}
+
+void offer_flight_trips(const World& world, const Searcher& searcher, Int slot, Int node) {
+    if (!world.loops) return;
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    const View<const Stop, 1> stops = now.stop[slot];
+    const Int k = route.type, depot = world.type[k].depot;
+    for (Int row = first_drone_row(world.type, k); row >= 0;
+         row = next_drone_row(world.type, row)) {
+        const TravelLegs flights = legs_of(world.leg, world.type[row].drone_travel);
+        const Leg out = leg(flights, depot, node), home = leg(flights, node, depot);
+        double cost = double(out.distance + home.distance) * world.rate[row].drone_distance;
+        cost -= now.early[slot];
+        if (unreachable(std::max(out.duration, home.duration)) || cost >= searcher.bound->best ||
+            !world.can(row, 1, node) || !may_begin(world, k, node)) {
+            continue;
+        }
+        for (Int p = -1; p < route.length; ++p) {
+            if (p < 0 || stops[p].kind == end_stop) {
+                add_offer(searcher, cost, flight_trip, slot, p).drone =
+                    first_drone(world.type, k, row);
+            }
+        }
+    }
+}
+
+void offer_trips(const World& world, const Searcher& searcher, Int slot, Int node) {
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    const View<const Stop, 1> stops = now.stop[slot];
+    const double best = searcher.bound->best;
+    const Int k = route.type, m = world.type[k].travel, depot = world.type[k].depot;
+    const double rate = world.rate[k].distance;
+    const TravelLegs legs = legs_of(world.leg, m);
+    const LegRow inward = legs_to(world.back, m, node);
+    const Int out = leg_from(inward, depot).distance, home = leg(legs, node, depot).distance;
+    for (Int p = -1; p < route.length; ++p) {
+        Int kind = new_trip;
+        double cost = double(out + home) * rate;
+        if (p >= 0 && stops[p].kind != end_stop) {
+            if (stops[p].flying > 0 || stops[p].kind == start_stop ||
+                stops[p + 1].kind == end_stop) {
+                continue;
+            }
+            const Int here = stops[p].node, there = stops[p + 1].node;
+            const double until = double(-stops[p].leg + leg_from(inward, here).distance + home +
+                                        leg(legs, depot, there).distance) *
+                                 rate;
+            cost = double(-stops[p].leg + leg(legs, here, depot).distance + out +
+                          leg(legs, node, there).distance) *
+                   rate;
+            kind = trip_from;
+            if (until < cost) {
+                kind = trip_until;
+                cost = until;
+            }
+            if (cost < best && !part_fits(world, now, slot, p, node, kind == trip_until)) continue;
+        }
+        cost += world.rate[k].stop - now.early[slot];
+        // Each of two trips carries less, at best next to nothing.
+        if (kind != new_trip && loads_cost(world, k)) cost -= load_cost(world, now, slot);
+        if (kind == new_trip && !may_begin(world, k, node)) continue;
+        if (cost < best && (p < 0 || !too_late(world.place[0][node], stops[p].leave))) {
+            add_offer(searcher, cost, kind, slot, p);
+        }
+    }
+}
+
+void offer_trips_apart(const World& world, const Searcher& searcher, Int slot, Int node) {
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    const View<const Stop, 1> stops = now.stop[slot];
+    const double best = searcher.bound->best;
+    const Int k = route.type, last = route.length - 1;
+    const double rate = world.rate[k].distance;
+    for (Int p = -1; p <= last; ++p) {
+        Int kind = new_trip, here, there;
+        if (p < 0) {
+            here = stops[0].node;
+            there = stops[1].node;
+        } else if (p == last) {
+            here = stops[p - 1].node;
+            there = stops[p].node;
+        } else if (stops[p].kind == end_stop) {
+            here = stops[p].node;
+            there = stops[p + 2].node;
+        } else if (stops[p].flying > 0 || stops[p].kind == start_stop ||
+                   stops[p + 1].kind == end_stop) {
+            continue;
+        } else {
+            here = stops[p].node;
+            there = stops[p + 1].node;
+            kind = trip_until;
+        }
+        double cost = double(detour_by_reload(world, k, here, node, there, p != last)) * rate;
+        if (kind == trip_until) {
+            const double behind =
+                double(detour_by_reload(world, k, here, node, there, false)) * rate;
+            if (behind < cost) {
+                kind = trip_from;
+                cost = behind;
+            }
+        }
+        cost += world.rate[k].stop - now.early[slot];
+        // Whoever was served may be carried less far, at best next to nowhere.
+        if (loads_cost(world, k)) cost -= load_cost(world, now, slot);
+        if (kind == new_trip && !may_begin(world, k, node)) continue;
+        if (cost < best) add_offer(searcher, cost, kind, slot, p);
+    }
+}
+
+void take_cheapest(const World& world, const Searcher& searcher, Int node) {
+    Bound& bound = *searcher.bound;
+    const View<Move, 1> offer = searcher.offer;
+    const View<double, 1> least = searcher.least;
+    Int left = searcher.count->offers;
+    while (left > 0 && !rung(world.stop)) {
+        const Int first = std::min_element(least.begin(), least.begin() + left) - least.begin();
+        if (least[first] >= bound.best) break;
+        const double cost = price_offer(world, searcher, offer[first], node, least[first]);
+        if (cost < bound.best && uniform(searcher.rng) >= bound.blink) {
+            bound.best = cost;
+            *searcher.move = offer[first];
+        }
+        --left;
+        least[first] = least[left];
+        offer[first] = offer[left];
+    }
+    searcher.count->offers = 0;
+}
+
+}  // namespace tandem

@@ -1,0 +1,181 @@
+#include "search/moves/recreate.h"
+
+#include <algorithm>
+#include <array>
+
+#include "rules/alarm.h"
+#include "rules/leg.h"
+#include "rules/load.h"
+#include "rules/window.h"
+#include "search/insertion/evaluate.h"
+#include "search/insertion/places.h"
+#include "search/route/edit.h"
+#include "search/route/lean.h"
+#include "search/route/randomness.h"
+#include "search/route/rarer.h"
+#include "search/route/refresh.h"
+#include "search/route/state.h"
+#include "search/route/vehicles.h"
+
+namespace tandem {
+namespace {
+
+constexpr std::array orders{by_chance, by_chance, by_chance, by_chance, by_demand,
+                            by_demand, by_demand, by_demand, by_far,    by_far,
+                            by_close,  by_width,  by_width,  by_latest};
+
+// Up to how many customers are sorted by insertion alone; where all are, that takes too long.
+constexpr Int few_to_sort = 64;
+
+// How often those come first whom it costs most to leave out, where that differs.
+constexpr double dearest_first = 0.5;
+
+// Returns where a customer comes in an order; least first.
+double order_key(const World& world, Int order, Int node, View<std::uint64_t, 1> rng) {
+    const NodeRows place = world.place[0][node];
+    switch (order) {
+        case by_cost:
+            return -world.unassigned_more[node];
+        case by_demand:
+            if (tiers_of(world) > 0) {
+                return -double(total_delivered(world.amount, node) +
+                               total_picked(world.amount, node));
+            }
+            return -double(total(demand_of(place)));
+        case by_far:
+        case by_close: {
+            const VehicleType& type = world.type[0];
+            const double distance =
+                double(leg(legs_of(world.leg, type.travel), type.begins_at, node).distance);
+            return order == by_far ? -distance : distance;
+        }
+        case by_width:
+            return double(width(place));
+        case by_latest:
+            return double(closing(place));
+        default:
+            return uniform(rng);
+    }
+}
+
+// Serves a customer by a route of its own. False if no slot is free.
+bool open_route(const World& world, const Searcher& searcher, Int node, Int k, bool by_drone) {
+    const Fleet& now = searcher.now;
+    const Int slot = free_slot(world, searcher, k);
+    if (slot < 0) return false;
+    touch(searcher, slot);
+    if (!serve_alone(world, now, slot, k, node, by_drone, *searcher.acc)) {
+        now.route[slot].length = 0;
+        now.cost[slot] = 0.0;
+        return false;
+    }
+    now.used[k] += 1;
+    locate(now, slot);
+    list_anew(searcher, slot, true);
+    return true;
+}
+
+// Inserts a customer where the move says. False if that breaks a rule.
+bool insert(const World& world, const Searcher& searcher, Int node) {
+    const Move& move = *searcher.move;
+    const Fleet& now = searcher.now;
+    if (opens_route(move)) {
+        return open_route(world, searcher, node, move.type, move.kind == new_flight);
+    }
+    const Int slot = move.slot;
+    touch(searcher, slot);
+    Route& route = now.route[slot];
+    if (world.mode[route.type] & mode_lean) {
+        if (move.type != route.type) change_type(world, now, slot, move.type);
+        insert_lean(world, now, slot, move.first, node);
+        return true;
+    }
+    const Int spare = now.route.size() - 2;
+    keep_aside(now, slot, spare);
+    apply(world.type[route.type].depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0);
+    const bool allowed = refresh(world, now, slot, *searcher.acc);
+    if (!allowed) {
+        keep_aside(now, spare, slot);
+        refresh(world, now, slot, *searcher.acc);
+    }
+    locate(now, slot);
+    return allowed;
+}
+
+// Tells whether there is room for several trips of a vehicle.
+bool several_trips(const Searcher& searcher) { return searcher.now.trip.shape(1) > 2; }
+
+}  // namespace
+
+Int draw_order(const World& world, View<std::uint64_t, 1> rng) {
+    if (is_dearer_to_some(world) && uniform(rng) < dearest_first) return by_cost;
+    return orders[static_cast<std::size_t>(below(rng, orders.size()))];
+}
+
+void sort_absent(const World& world, const Searcher& searcher, Int first, Int order) {
+    const View<Int, 1> absent = searcher.absent;
+    const View<double, 1> key = searcher.key;
+    const Int last = searcher.count->absent;
+    for (Int index = first; index < last; ++index) {
+        key[absent[index]] = order_key(world, order, absent[index], searcher.rng);
+    }
+    Int gap = 1;
+    while (few_to_sort * gap < last - first) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3) {
+        for (Int index = first + gap; index < last; ++index) {
+            const Int node = absent[index];
+            Int place = index;
+            while (place >= first + gap && key[absent[place - gap]] > key[node]) {
+                absent[place] = absent[place - gap];
+                place -= gap;
+            }
+            absent[place] = node;
+        }
+    }
+}
+
+bool recreate(const World& world, const Searcher& searcher, Int first, bool scan_all,
+              double spare) {
+    const View<Int, 1> absent = searcher.absent;
+    SearchCounts& count = *searcher.count;
+    const bool enlarge = world.traded && uniform(searcher.rng) < enlarged;
+    const bool opens_first = uniform(searcher.rng) < opening_share;
+    Int left = first;
+    for (Int index = first; index < count.absent; ++index) {
+        const Int node = absent[index];
+        if (rung(world.stop)) {
+            absent[left++] = node;
+            continue;
+        }
+        const bool opens = opens_first && index == first;
+        double cost = infeasible;
+        Int tried = 0;
+        if (opens) {
+            cost = try_new_route(world, searcher, node);
+        } else if (!scan_all) {
+            cost = find_beside(world, searcher, node, enlarge);
+            if (several_trips(searcher) &&
+                (opens_route(*searcher.move) || uniform(searcher.rng) < more_trips)) {
+                tried = drawn_for_trips;
+            }
+        }
+        if (cost == infeasible) {
+            cost = find_place(world, searcher, node, enlarge);
+            if (world.general && (cost == infeasible || uniform(searcher.rng) < more_trips)) {
+                tried = count.active;
+            }
+        }
+        if (tried > 0) cost = try_trips(world, searcher, node, tried);
+        const double left_out = world.unassigned_cost + world.unassigned_more[node];
+        const bool wanted = cost < left_out || opens;
+        if (cost == infeasible || !wanted || !insert(world, searcher, node)) {
+            absent[left++] = node;
+        }
+        spare -= std::min(cost, left_out);
+        if (spare < 0.0) return false;
+    }
+    count.absent = left;
+    return true;
+}
+
+}  // namespace tandem
