@@ -8,9 +8,10 @@
 
 namespace tandem {
 
-// Plans part of a trip with one drone, or two routes, anew from a changed order of customers. Tells
-// whether routes were changed and keep all rules; if not, they may be broken. Nothing is changed
-// that would cost more than `limit`.
+// Plan part of a trip with one drone, or two routes, anew from a changed order of customers.
+//
+// In place; tells whether routes were changed and keep all rules; if not, they may be broken.
+// Nothing is changed that would cost more than `limit`.
 bool resplit(const World& world, Searcher& searcher, double limit);
 
 }  // namespace tandem

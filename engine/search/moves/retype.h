@@ -5,13 +5,13 @@
 
 namespace tandem {
 
-// Gives the routes touched this turn the cheapest vehicles left, or others'.
+// Give the routes touched this turn the cheapest vehicles left, or others'. In place.
 void improve_types(const World& world, Searcher& searcher);
 
-// Gives one of the routes touched this turn a vehicle of any type.
+// Give one of the routes touched this turn a vehicle of any type. In place.
 void draw_type(const World& world, Searcher& searcher);
 
-// Gives the routes touched this turn the types that drive them at the least cost.
+// Give the routes touched this turn the types that drive them at the least cost. In place.
 void cheapen_types(const World& world, Searcher& searcher);
 
 }  // namespace tandem

@@ -6,17 +6,18 @@
 namespace tandem {
 
 constexpr double longest_usual_string = 10;  // stops, but where `SearchValues::longest` allows more
-constexpr double split_share = 0.5;  // how often a string spares some within
-constexpr double split_more_share = 0.01;  // and each time one more of them
-constexpr double whole_trip_share = 0.05;  // how often a trip is removed whole
-constexpr Int longest_whole_trip = 25;  // if it has no more stops than this
-constexpr double make_room_share = 0.5;  // how often strings are removed around one left out
+constexpr double split_share = 0.5;          // how often a string spares some within
+constexpr double split_more_share = 0.01;    // and each time one more of them
+constexpr double whole_trip_share = 0.05;    // how often a trip is removed whole
+constexpr Int longest_whole_trip = 25;       // if it has no more stops than this
+constexpr double make_room_share = 0.5;      // how often strings are removed around one left out
 
-// How many stops a string has at most: as many as a trip has on average, or less. Up to
-// `longest_usual_string`, and on long routes up to what `Searcher::value` says.
+// Return how many stops a string has at most: as many as a trip has on average, or less.
+//
+// Up to `longest_usual_string`, and on long routes up to what `Searcher::value` says.
 double longest_string(const Searcher& searcher);
 
-// Draws how many strings are removed: fewer if they are long.
+// Draw how many strings are removed: fewer if they are long.
 Int draw_strings(double longest, View<std::uint64_t, 1> rng);
 
 // How many customers are marked, how many routes they are on, and near whom they are.
@@ -26,12 +27,13 @@ struct Chosen {
     Int seed;
 };
 
-// Marks strings near a random customer, at most one a trip, and lists their routes in `touched`.
+// Mark strings near a random customer, at most one a trip, and list their routes in `touched`. In
+// place.
 Chosen choose(const World& world, Searcher& searcher, double longest, View<Int, 1> absent,
               Int num_absent, View<Int, 1> touched);
 
-// Takes the marked customers out of a route; all, if the rest breaks a rule. Returns how many are
-// absent then.
+// Take the marked customers out of a route; all, if the rest breaks a rule. In place; return how
+// many are absent then.
 Int remove_marked(const World& world, Fleet& fleet, Int slot, View<bool, 1> marked,
                   View<Int, 1> absent, Int num_absent, View<Int, 1> moved, BlockSums& acc);
 

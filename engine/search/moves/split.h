@@ -14,19 +14,19 @@ namespace tandem {
 constexpr Int no_flight = 0;
 constexpr Int near_places = 8;  // among how many nearest neighbours of a place one is drawn
 
-// Moves what is at place `one` to place `to`.
+// Move what is at place `one` to place `to`. In place.
 void shift(View<Line, 1> line, Int one, Int to);
 
-// Changes the order of the customers in the line a little.
+// Change the order of the customers in the line a little. In place.
 void shuffle(const World& world, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng);
 
-// Writes what a truck that served the whole line would drive.
+// Write what a truck that served the whole line would drive. In place.
 void measure(const World& world, Int k, View<Line, 1> line, Int length);
 
-// Cuts the line into operations at least cost; false if it can't be cut.
+// Cut the line into operations at least cost. In place; false if it can't be cut.
 bool split(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int length);
 
-// What the operations that are noted in the line cost.
-double present_cost(const World& world, Int k, View<Line, 1> line, Int length);
+// Return what the operations that are noted in the line cost.
+double present_cost(const World& world, Int k, View<const Line, 1> line, Int length);
 
 }  // namespace tandem

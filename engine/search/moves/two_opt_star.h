@@ -7,11 +7,12 @@ namespace tandem {
 
 constexpr Int tail_neighbours = 16;  // with how many neighbours' routes a tail is tried
 
-// Appends stops `first` to `behind - 1` of a route, and sorties from there, to another.
+// Append stops `first` to `behind - 1` of a route, and sorties from there, to another. In place.
 void append(const Fleet& source, Int slot, Int first, Int behind, Int to);
 
-// Swaps the tail behind a random stop if that may cost less than `limit`. Tells whether routes were
-// changed and keep all rules; if not, they may be broken.
+// Swap the tail behind a random stop if that may cost less than `limit`.
+//
+// In place; tells whether routes were changed and keep all rules; if not, they may be broken.
 bool exchange_tails(const World& world, Searcher& searcher, double limit);
 
 }  // namespace tandem

@@ -1,0 +1,236 @@
+#include "search/moves/split.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "rules/flight.h"
+#include "rules/leg.h"
+#include "rules/window.h"
+#include "search/route/randomness.h"
+
+namespace tandem {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+constexpr Int longest_operation = 12;  // stops from its beginning to its end at most
+
+// How often a place is brought beside a near neighbour, not just anywhere.
+constexpr double neighbourly_share = 0.8;
+
+// Changes of the order.
+enum class Change { swap, move, reverse, keep };
+
+// Those that pay come more often.
+constexpr std::array changes{Change::swap, Change::swap,    Change::move,    Change::move,
+                             Change::move, Change::reverse, Change::reverse, Change::keep};
+
+double cost_of(Int amount, double rate) { return static_cast<double>(amount) * rate; }
+
+// Return a random place in the line, most often that of a near neighbour of place `one`.
+Int place_near(const World& world, View<const Line, 1> line, Int count, Int one,
+               View<std::uint64_t, 1> rng) {
+    if (uniform(rng) < neighbourly_share) {
+        const View<const std::int32_t, 1> near = world.near[line[one].node];
+        const Int wanted = near[below(rng, std::min(near_places, near.size()))];
+        for (Int place = 1; place <= count; ++place) {
+            if (line[place].node == wanted) return place;
+        }
+    }
+    return 1 + below(rng, count);
+}
+
+// A drone's way to a customer, the service there and the way back to the truck.
+struct WayByAir {
+    Leg out;
+    Leg home;
+    Int duration;
+
+    WayByAir(const World& world, const VehicleType& type, NodeRows place, Int from, Int customer,
+             Int to)
+        : out(leg(legs_of(world.leg, type.drone_travel), from, customer)),
+          home(leg(legs_of(world.leg, type.home_travel), customer, to)),
+          duration(out.duration + service_duration(place) + home.duration) {}
+
+    double distance_cost(const Rate& rate) const {
+        return cost_of(out.distance + home.distance, rate.drone_distance);
+    }
+};
+
+// Return what it costs to go from place `i` to `j` while the drone serves place `flown`.
+//
+// Infinite if that can't be, or if what the truck does alone costs `most` or more.
+double operation_cost(const World& world, Int k, View<const Line, 1> line, Int i, Int j, Int flown,
+                      double most) {
+    const VehicleType& type = world.type[k];
+    const Rate& rate = world.rate[k];
+    const Int node = line[i].node;
+    const Int customer = line[flown].node;
+    const Int drive = line[j].drive - line[i].drive - line[flown].spared_drive;
+    const Int distance = line[j].distance - line[i].distance - line[flown].spared_distance;
+    const Int here = service_duration(places_of(world.place, type)[node]);
+    const Int handled = handling_duration(type);
+    const Int driven = drive - here + std::max(Int{0}, here - launch_duration(type, 1));
+    const double ground = cost_of(distance, rate.distance) + cost_of(j - i - 1, rate.stop);
+    if (cost_of(handled + driven, rate.time) + ground >= most) return infinite;
+    const NodeRows place = places_by_air(world.place, type)[customer];
+    const WayByAir flight(world, type, place, node, customer, line[j].node);
+    const Int airborne = std::max(flight.duration, driven);
+    if (!within_endurance(type, 0, flight.duration, airborne) ||
+        !can_wait(type, place, flight.out.duration, flight.home.duration,
+                  airborne - flight.duration)) {
+        return infinite;
+    }
+    return cost_of(handled + airborne, rate.time) + ground + cost_of(airborne, rate.drone_time) +
+           flight.distance_cost(rate);
+}
+
+// Return what a flight costs for which the truck waits at a stop.
+double loop_cost(const World& world, Int k, Int node, Int customer) {
+    const VehicleType& type = world.type[k];
+    const Rate& rate = world.rate[k];
+    const NodeRows place = places_by_air(world.place, type)[customer];
+    const WayByAir flight(world, type, place, node, customer, node);
+    if (!world.loops || !can_serve(type, place, flight.out.duration, flight.home.duration)) {
+        return infinite;
+    }
+    return cost_of(flight.duration + handling_duration(type), rate.time) +
+           cost_of(flight.duration, rate.drone_time) + flight.distance_cost(rate);
+}
+
+// Return what the drive from a node to the next stop costs, with the service before.
+double drive_cost(const Rate& rate, double before, const Leg& way, Int service) {
+    return before + cost_of(way.duration + service, rate.time) +
+           cost_of(way.distance, rate.distance) + rate.stop;
+}
+
+// Try all operations from place `i` to `j` with one flight across. In place.
+void cross(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int i, Int j) {
+    const Int grounded = line[j - 1].grounded - line[i].grounded;
+    if (grounded > 1 || !world.crossings) return;
+    for (Int flown = i + 1; flown < j; ++flown) {
+        const Int customer = line[flown].node;
+        if (!world.can(k, 1, customer) || (grounded == 1 && world.can(k, 0, customer))) continue;
+        const double total =
+            cost[i] + operation_cost(world, k, line, i, j, flown, cost[j] - cost[i]);
+        if (total < cost[j]) {
+            cost[j] = total;
+            line[j].before = i;
+            line[j].flight = flown;
+        }
+    }
+}
+
+// Try all operations that begin at place `i`. In place.
+void extend(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int length,
+            Int i) {
+    const Rate& rate = world.rate[k];
+    const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
+    const Int here = line[i].node;
+    const Int service = service_duration(places_of(world.place, world.type[k])[here]);
+    double loops = 0.0;
+    for (Int j = i + 1; j < std::min(length, i + longest_operation + 1); ++j) {
+        const Int to = line[j].node;
+        if (j == length - 1 || world.can(k, 0, to)) {
+            const double total = drive_cost(rate, cost[i] + loops, leg(legs, here, to), service);
+            if (total < cost[j]) {
+                cost[j] = total;
+                line[j].before = i;
+                line[j].flight = no_flight;
+            }
+            cross(world, k, line, cost, i, j);
+        }
+        if (loops < infinite) {
+            loops = world.can(k, 1, to) ? loops + loop_cost(world, k, here, to) : infinite;
+        }
+    }
+}
+
+}  // namespace
+
+void shift(View<Line, 1> line, Int one, Int to) {
+    const Int node = line[one].node;
+    const Int step = to > one ? 1 : -1;
+    for (Int place = one; place != to; place += step) line[place].node = line[place + step].node;
+    line[to].node = node;
+}
+
+void shuffle(const World& world, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng) {
+    const Int count = length - 2;
+    const Change change =
+        changes[static_cast<std::size_t>(below(rng, static_cast<Int>(changes.size())))];
+    const Int one = 1 + below(rng, count);
+    const Int other = place_near(world, line, count, one, rng);
+    if (change == Change::keep || other == one) return;
+    if (change == Change::move) {
+        shift(line, one, other);
+        return;
+    }
+    // Either way the neighbour comes beside place `one`, or the other way round.
+    Int low = other > one ? one + 1 : other;
+    Int high = other > one ? other : one - 1;
+    if (change == Change::swap) {
+        std::swap(line[low].node, line[high].node);
+        return;
+    }
+    for (; low < high; ++low, --high) std::swap(line[low].node, line[high].node);
+}
+
+void measure(const World& world, Int k, View<Line, 1> line, Int length) {
+    const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
+    const NodesRows places = places_of(world.place, world.type[k]);
+    line[0].drive = line[0].distance = line[0].grounded = 0;
+    for (Int j = 1; j < length; ++j) {
+        const Line& last = line[j - 1];
+        Line& next = line[j];
+        const Leg way = leg(legs, last.node, next.node);
+        next.drive = last.drive + service_duration(places[last.node]) + way.duration;
+        next.distance = last.distance + way.distance;
+        next.grounded = last.grounded;
+        if (j < length - 1 && !world.can(k, 0, next.node)) ++next.grounded;
+    }
+    for (Int j = 1; j < length - 1; ++j) {
+        const Line& last = line[j - 1];
+        const Line& next = line[j + 1];
+        const Leg direct = leg(legs, last.node, next.node);
+        line[j].spared_drive =
+            next.drive - last.drive - direct.duration - service_duration(places[last.node]);
+        line[j].spared_distance = next.distance - last.distance - direct.distance;
+    }
+}
+
+bool split(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int length) {
+    std::fill_n(cost.begin(), length, infinite);
+    cost[0] = 0.0;
+    for (Int i = 0; i < length - 1; ++i) {
+        if (cost[i] < infinite) extend(world, k, line, cost, length, i);
+    }
+    return cost[length - 1] < infinite;
+}
+
+double present_cost(const World& world, Int k, View<const Line, 1> line, Int length) {
+    const Rate& rate = world.rate[k];
+    const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
+    const NodesRows places = places_of(world.place, world.type[k]);
+    double cost = 0.0;
+    for (Int j = length - 1; j > 0; j = line[j].before) {
+        const Int i = line[j].before;
+        if (line[j].flight != no_flight) {
+            cost += operation_cost(world, k, line, i, j, line[j].flight, infinite);
+            continue;
+        }
+        const Int here = line[i].node;
+        const Leg way = leg(legs, here, line[j].node);
+        cost += cost_of(way.duration + service_duration(places[here]), rate.time) +
+                cost_of(way.distance, rate.distance);
+        cost += rate.stop;
+        for (Int place = i + 1; place < j; ++place) {
+            cost += loop_cost(world, k, here, line[place].node);
+        }
+    }
+    return cost;
+}
+
+}  // namespace tandem

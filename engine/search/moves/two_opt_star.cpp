@@ -1,0 +1,293 @@
+#include "search/moves/two_opt_star.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "rules/leg.h"
+#include "rules/load.h"
+#include "rules/shift.h"
+#include "search/route/edit.h"
+#include "search/route/refresh.h"
+#include "search/route/state.h"
+
+namespace tandem {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Where a route is cut: behind a stop.
+struct Cut {
+    Int slot;
+    Int stop;
+};
+
+// Return how far a route goes on from stop `p`.
+Int rest_distance(const Fleet& fleet, Int slot, Int p) {
+    Int distance = 0;
+    for (Int q = p; q < fleet.route[slot].length; ++q) distance += fleet.stop(slot, q).leg;
+    return distance;
+}
+
+// Return how much longer a route's last leg is to another end.
+Int longer_home(const TravelLegs& legs, const Fleet& fleet, Int slot, Int home) {
+    const Stop& last = fleet.stop(slot, fleet.route[slot].length - 2);
+    return leg(legs, last.node, home).distance - last.leg;
+}
+
+// Tell whether type `k` may serve all customers of a route of one trip behind a cut.
+bool may_serve_tail(const World& world, const Fleet& fleet, Int k, Cut cut) {
+    for (Int p = cut.stop + 1; p < fleet.route[cut.slot].length - 1; ++p) {
+        if (!world.can(k, 0, fleet.stop(cut.slot, p).node)) return false;
+    }
+    return true;
+}
+
+// Return what it costs to swap the tails behind two cuts.
+//
+// By distance alone; infinite where a tail would be reached too late.
+double tail_saving(const World& world, const Fleet& fleet, Cut a, Cut b) {
+    const Int k = fleet.route[a.slot].type;
+    const Int by = fleet.route[b.slot].type;
+    const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
+    const Stop& here = fleet.stop(a.slot, a.stop);
+    const Stop& there = fleet.stop(b.slot, b.stop);
+    const Stop& behind_here = fleet.stop(a.slot, a.stop + 1);
+    const Stop& behind_there = fleet.stop(b.slot, b.stop + 1);
+    Int after_here = behind_here.node;
+    Int after_there = behind_there.node;
+    const Int home = world.type[k].ends_at;
+    const Int home_by = world.type[by].ends_at;
+    if (home != home_by) {
+        if (behind_here.kind == end_stop) after_here = home_by;
+        if (behind_there.kind == end_stop) after_there = home;
+    }
+    const Leg to_other = leg(legs, here.node, after_there);
+    const Leg to_one = leg(legs, there.node, after_here);
+    if (here.leave + to_other.duration > behind_there.latest ||
+        there.leave + to_one.duration > behind_here.latest) {
+        return infinite;
+    }
+    const Rate& rate = world.rate[k];
+    const Rate& rate_by = world.rate[by];
+    double cost = static_cast<double>(to_other.distance - here.leg) * rate.distance +
+                  static_cast<double>(to_one.distance - there.leg) * rate_by.distance;
+    if (home != home_by) {
+        if (behind_there.kind != end_stop) {
+            cost += static_cast<double>(longer_home(legs, fleet, b.slot, home)) * rate.distance;
+        }
+        if (behind_here.kind != end_stop) {
+            cost +=
+                static_cast<double>(longer_home(legs, fleet, a.slot, home_by)) * rate_by.distance;
+        }
+    }
+    if (rate.distance != rate_by.distance) {
+        const Int longer =
+            rest_distance(fleet, b.slot, b.stop + 1) - rest_distance(fleet, a.slot, a.stop + 1);
+        cost += static_cast<double>(longer) * (rate.distance - rate_by.distance);
+    }
+    const Int more = (fleet.route[b.slot].length - b.stop) - (fleet.route[a.slot].length - a.stop);
+    return cost + static_cast<double>(more) * (rate.stop - rate_by.stop);
+}
+
+// Tell whether a trip up to cut `a`, which goes on behind cut `b`, may carry all.
+bool is_cargo(const World& world, const Fleet& fleet, Cut a, Cut b, Int tier) {
+    const VehicleType& type = world.type[fleet.route[a.slot].type];
+    Cargo front{};
+    for (Int p = fleet.trip(a.slot, fleet.stop(a.slot, a.stop).trip).first; p <= a.stop; ++p) {
+        front = followed(front, cargo_at(fleet.halt(a.slot, tier, p)));
+    }
+    Cargo rest{};
+    for (Int p = b.stop + 1;
+         p < fleet.route[b.slot].length && fleet.stop(b.slot, p).kind != start_stop; ++p) {
+        rest = followed(rest, cargo_at(fleet.halt(b.slot, tier, p)));
+    }
+    return may_follow(type, front, rest) && may_be_all(type, followed(front, rest), tier);
+}
+
+// Tell whether the trip that begins before cut `a` and goes on behind cut `b` carries too much.
+// Stops of the truck alone are counted, but where more than loads tells.
+bool overloads(const World& world, const Fleet& fleet, Cut a, Cut b) {
+    Amount load{};
+    Int count = 0;
+    const auto add = [&](const Stop& stop) {
+        load = plus(load, demand_of(world.place[0][stop.node]));
+        ++count;
+    };
+    for (Int p = a.stop; fleet.stop(a.slot, p).kind == customer_stop; --p)
+        add(fleet.stop(a.slot, p));
+    for (Int p = b.stop + 1; fleet.stop(b.slot, p).kind == customer_stop; ++p) {
+        add(fleet.stop(b.slot, p));
+    }
+    const VehicleType& type = world.type[fleet.route[a.slot].type];
+    if (!holds(type, load) || !allows_stops(type, count)) return true;
+    for (Int tier = 0; tier < fleet.halt.shape(1); ++tier) {
+        if (!is_cargo(world, fleet, a, b, tier)) return true;
+    }
+    return false;
+}
+
+// Tell whether goods clash on the trip that `overloads` is asked of.
+bool clashes(const World& world, const Fleet& fleet, Cut a, Cut b) {
+    if (world.goods.empty()) return false;
+    Int barred = 0;
+    for (Int p = a.stop; fleet.stop(a.slot, p).kind == customer_stop; --p) {
+        barred |= barred_on_trip(world.goods[fleet.stop(a.slot, p).node]);
+    }
+    for (Int p = b.stop + 1; fleet.stop(b.slot, p).kind == customer_stop; ++p) {
+        if (!go_together(world.goods[fleet.stop(b.slot, p).node], barred, 0)) return true;
+    }
+    return false;
+}
+
+// Tell whether the route up to cut `a`, then on behind cut `b`, has too many trips.
+bool too_long(const World& world, const Fleet& fleet, Cut a, Cut b) {
+    const Route& front = fleet.route[a.slot];
+    const Route& rest = fleet.route[b.slot];
+    const Int trips =
+        fleet.stop(a.slot, a.stop).trip + rest.trips - fleet.stop(b.slot, b.stop).trip;
+    return trips > world.type[front.type].max_trips ||
+           front.sorties + rest.sorties > fleet.sortie.shape(1);
+}
+
+// Tell whether the route up to cut `b`, then on behind cut `a`, has a trip to nobody.
+bool leaves_nothing(const Fleet& fleet, Cut a, Cut b) {
+    const bool nobody = fleet.stop(b.slot, b.stop).kind == start_stop &&
+                        fleet.stop(a.slot, a.stop + 1).kind == end_stop;
+    return nobody && !(b.stop == 0 && a.stop + 2 == fleet.route[a.slot].length);
+}
+
+// Tell whether tails may be swapped, by what trips carry, how many there are, and to whom.
+bool may_swap(const World& world, const Fleet& fleet, Cut a, Cut b) {
+    return !(leaves_nothing(fleet, a, b) || overloads(world, fleet, a, b) ||
+             overloads(world, fleet, b, a) || clashes(world, fleet, a, b) ||
+             clashes(world, fleet, b, a) || too_long(world, fleet, a, b) ||
+             too_long(world, fleet, b, a));
+}
+
+// Return what it costs to serve a tail by a new route.
+double cost_apart(const World& world, const Fleet& fleet, Cut a) {
+    const Int k = fleet.route[a.slot].type;
+    const VehicleType& type = world.type[k];
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const Stop& stop = fleet.stop(a.slot, a.stop);
+    const Int detour = leg(legs, stop.node, type.ends_at).distance - stop.leg +
+                       leg(legs, type.begins_at, fleet.stop(a.slot, a.stop + 1).node).distance;
+    return world.rate[k].fixed + static_cast<double>(detour) * world.rate[k].distance;
+}
+
+// Return the cut behind which a tail is best swapped with that behind `a`.
+//
+// Its route is `nowhere` if none is worth less than `limit`, or an empty slot for a new route.
+Cut find_tail(const World& world, const Searcher& searcher, Cut a, double limit) {
+    const Fleet& now = searcher.now;
+    const Int k = now.route[a.slot].type;
+    const View<const std::int32_t, 1> near = world.near[now.stop(a.slot, a.stop).node];
+    Cut chosen{nowhere, 0};
+    double best = limit;
+    for (Int node : near.first(std::min(tail_neighbours, near.size()))) {
+        if (node < 0) break;
+        const Cut b{now.where[node].slot, now.where[node].position - 1};
+        if (b.slot < 0 || b.stop < 0 || b.slot == a.slot || now.stop(b.slot, b.stop).flying > 0) {
+            continue;
+        }
+        const Int by = now.route[b.slot].type;
+        if (by != k && !world.splice(k, by)) continue;
+        const double cost = tail_saving(world, now, a, b);
+        if (cost >= best) continue;
+        if (by != k && !world.swap(k, by) &&
+            !(may_serve_tail(world, now, k, b) && may_serve_tail(world, now, by, a))) {
+            continue;
+        }
+        // Where it matters who comes when, few tails fit: look for one that does.
+        if (now.halt.shape(1) > 0 && !may_swap(world, now, a, b)) continue;
+        chosen = b;
+        best = cost;
+    }
+    if (now.stop(a.slot, a.stop + 1).kind == customer_stop && cost_apart(world, now, a) < best) {
+        const Int slot = free_slot(world, searcher, k);
+        if (slot >= 0) return {slot, 0};
+    }
+    return chosen;
+}
+
+// Write a route up to cut `a`, then another's rest behind cut `b`, both kept aside, into a slot. In
+// place.
+void join(const World& world, Fleet& now, Int slot, Cut a, Cut b) {
+    Route& route = now.route[slot];
+    route.length = route.sorties = 0;
+    append(now, a.slot, 0, a.stop + 1, slot);
+    append(now, b.slot, b.stop + 1, now.route[b.slot].length, slot);
+    // Whoever ends another's route still ends where its own type does.
+    if (world.splice(route.type, route.type)) {
+        now.stop(slot, route.length - 1).node = world.type[route.type].ends_at;
+    }
+}
+
+// Swap tails; `b` may be in an empty slot. In place; false if that breaks a rule.
+bool swap_tails(const World& world, Searcher& searcher, Cut a, Cut b) {
+    Fleet& now = searcher.now;
+    touch(searcher, a.slot);
+    touch(searcher, b.slot);
+    const Int k = now.route[a.slot].type;
+    Route& other = now.route[b.slot];
+    if (other.length == 0) {
+        other.type = k;
+        other.length = 2;
+        other.sorties = 0;
+        put(now.stop[b.slot], 0, world.type[k].begins_at, start_stop);
+        put(now.stop[b.slot], 1, world.type[k].ends_at, end_stop);
+        ++now.used[k];
+    }
+    const Cut one{now.route.size() - 2, a.stop};
+    const Cut two{now.route.size() - 1, b.stop};
+    keep_aside(now, a.slot, one.slot);
+    keep_aside(now, b.slot, two.slot);
+    join(world, now, a.slot, one, two);
+    join(world, now, b.slot, two, one);
+    bool done = true;
+    for (Int slot : {a.slot, b.slot}) {
+        Route& route = now.route[slot];
+        if (route.length == 2 && route.sorties == 0) {
+            route.length = route.trips = 0;
+            now.cost[slot] = 0.0;
+            --now.used[route.type];
+        } else if (done) {
+            done = refresh(world, now, slot, *searcher.acc);
+            locate(now, slot);
+        }
+    }
+    return done;
+}
+
+}  // namespace
+
+void append(const Fleet& source, Int slot, Int first, Int behind, Int to) {
+    Route& route = source.route[to];
+    const View<Stop, 1> stops = source.stop[to];
+    const Int shift = route.length - first;
+    for (Int p = first; p < behind; ++p) {
+        const Stop& stop = source.stop(slot, p);
+        put(stops, p + shift, stop.node, stop.kind);
+    }
+    route.length += behind - first;
+    for (const Sortie& sortie : source.sortie[slot].first(source.route[slot].sorties)) {
+        if (sortie.launch < first || sortie.launch >= behind) continue;
+        Sortie& copy = source.sortie(to, route.sorties++);
+        copy = sortie;
+        copy.launch += shift;
+        copy.recovery += shift;
+    }
+}
+
+bool exchange_tails(const World& world, Searcher& searcher, double limit) {
+    const Fleet& now = searcher.now;
+    const Int node = draw_customer(world, now, searcher.count->focus, searcher.rng);
+    const Cut a{now.where[node].slot, now.where[node].position};
+    if (a.slot < 0 || a.stop < 0 || now.stop(a.slot, a.stop).flying > 0) return false;
+    const Cut b = find_tail(world, searcher, a, limit);
+    if (b.slot < 0) return false;
+    if (now.route[b.slot].length > 0 && !may_swap(world, now, a, b)) return false;
+    return swap_tails(world, searcher, a, b);
+}
+
+}  // namespace tandem
