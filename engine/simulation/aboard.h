@@ -11,10 +11,7 @@
 namespace tandem {
 
 // An amount of one tier.
-inline Amount part_of(const Int* row, Int tier_number) {
-    const Int* part = row + tier_number * tier;
-    return {part[0], part[1], part[2]};
-}
+inline Amount part_of(const Int* row, Int number) { return amount_of(row + number * tier); }
 
 // Let nothing be aboard of what a vehicle of a type holds.
 void empty(const VehicleType& type, Vehicle& vehicle);

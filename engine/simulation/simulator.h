@@ -1,12 +1,12 @@
 // The decision process: begin, list the legal actions, act, over a batch of rollouts.
 //
 // One action per step, vehicle after vehicle: drive to a customer, launch a drone to a customer,
-// return to a depot, open a vehicle of a type. A sortie is recovered at the next stop, or at the stop
-// that launched it when it could not be met at the next within endurance. An action is legal exactly
-// when the plan so far, that action and a direct return to the depot make a legal plan, all as soon
-// as possible but the first departure, which is as late as costs nothing: a working duration is not
-// kept by being late. So no legal action leads into an illegal plan. Where a route may not end at a
-// depot, a trip may only if a further one can follow.
+// return to a depot, open a vehicle of a type. A sortie is recovered at the next stop, or at the
+// stop that launched it when it could not be met at the next within endurance. An action is legal
+// exactly when the plan so far, that action and a direct return to the depot make a legal plan, all
+// as soon as possible but the first departure, which is as late as costs nothing: a working
+// duration is not kept by being late. So no legal action leads into an illegal plan. Where a route
+// may not end at a depot, a trip may only if a further one can follow.
 #pragma once
 
 #include "simulation/meeting.h"
@@ -51,8 +51,8 @@ void price_routes(const Instance& instance, State& state, Int r, View<const Int,
 // End a rollout that has no legal action left: close its vehicle, count who is left.
 void finish(const Instance& instance, State& state, Int r);
 
-// Find who could be served alone by a fresh vehicle of each type. `scratch` and the row before it are
-// scratch rows.
+// Find who could be served alone by a fresh vehicle of each type. `scratch` and the row before it
+// are scratch rows.
 void mark_fresh(const Instance& instance, State& state, Int scratch);
 
 }  // namespace tandem

@@ -9,8 +9,8 @@ namespace tandem {
 void board(const Setting& setting, Vehicle& vehicle, Drone& drone, Int sortie, Int node,
            Int takeoff);
 
-// Launch a drone to a customer; false if a window or a distance forbids it, or no drone aboard lifts
-// the parcel. Whether the vehicle could have left later is for `improve_departure`.
+// Launch a drone to a customer; false if a window or a distance forbids it, or no drone aboard
+// lifts the parcel. Whether the vehicle could have left later is for `improve_departure`.
 bool launch(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
             View<Drone, 1> drones, Int node);
 

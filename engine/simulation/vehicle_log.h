@@ -1,8 +1,8 @@
 // When one vehicle's route happens: as soon as possible, and how late it may depart.
 //
 // A vehicle log lists what one vehicle does: trips, their stops, its sorties, and the launches and
-// recoveries at each stop in order. `replay` times it; `latest_start` finds the latest beginning of a
-// trip that costs nothing elsewhere.
+// recoveries at each stop in order. `replay` times it; `latest_start` finds the latest beginning of
+// a trip that costs nothing elsewhere.
 #pragma once
 
 #include "rules/clock.h"
@@ -69,8 +69,8 @@ Int most_excess(const Setting& setting, Int num_depots, const VehicleLog& log);
 // The latest start of a trip that costs nothing; `known` is one that costs nothing.
 Int latest_start(const Setting& setting, Int num_depots, VehicleLog& log, Int trip, Int known);
 
-// When truck or drone first leaves the depot if the first trip begins at `start`; if its work counts
-// from an instant, however late it leaves: that instant.
+// When truck or drone first leaves the depot if the first trip begins at `start`; if its work
+// counts from an instant, however late it leaves: that instant.
 Int first_departure(const Setting& setting, const VehicleLog& log, Int start);
 
 // The start of the first trip by which none leaves the depot before `departure`.

@@ -1,0 +1,165 @@
+#include "simulation/aboard.h"
+
+#include "simulation/meeting.h"
+
+namespace tandem {
+namespace {
+
+void write_part(const Amount& amount, Int* row, Int number) {
+    write_amount(amount, row + number * tier);
+}
+
+// What drones in flight have picked up that are recovered at a place.
+Amount brought(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
+               Recovery place, Int number) {
+    Amount amount = nothing;
+    if (vehicle.flying == 0) return amount;
+    for (const Drone& drone : drones) {
+        if (is_recovered(drone, place)) {
+            amount = plus(amount, picked_of(setting.amount, drone.node, number));
+        }
+    }
+    return amount;
+}
+
+// The sum over all dimensions of what is `brought`.
+Int total_brought(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
+                  Recovery place) {
+    Int amount = 0;
+    if (vehicle.flying == 0) return amount;
+    for (const Drone& drone : drones) {
+        if (is_recovered(drone, place)) amount += total_picked(setting.amount, drone.node);
+    }
+    return amount;
+}
+
+// Of one tier, what a next stop takes, and what of pickups is aboard on leaving this stop and when
+// the truck is done at the next.
+struct Burden {
+    Amount demand;
+    Amount here;
+    Amount there;
+};
+
+Burden burden_of(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
+                 Int node, bool is_customer, Int number) {
+    Burden burden{};
+    burden.here = plus(part_of(vehicle.aboard, number),
+                       brought(setting, vehicle, drones, Recovery::loop, number));
+    burden.there = plus(burden.here, brought(setting, vehicle, drones, Recovery::meet, number));
+    if (is_customer) {
+        burden.demand = delivered_of(setting.amount, node, number);
+        burden.there = plus(burden.there, picked_of(setting.amount, node, number));
+    }
+    return burden;
+}
+
+// The sums over all dimensions of what was picked up before and at the next stop.
+struct Taken {
+    Int before;
+    Int there;
+};
+
+Taken total_there(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
+                  Int node, bool is_customer) {
+    const Int before = vehicle.taken + total_brought(setting, vehicle, drones, Recovery::loop);
+    const Int there = before + total_brought(setting, vehicle, drones, Recovery::meet);
+    return {before, there + (is_customer ? total_picked(setting.amount, node) : 0)};
+}
+
+// Bar what a customer's goods must not go with.
+void bar_goods(const Setting& setting, Vehicle& vehicle, Int node) {
+    if (!some_apart(setting.goods)) return;
+    vehicle.barred_on_trip |= barred_on_trip(setting.goods[node]);
+    vehicle.barred_on_vehicle |= barred_on_vehicle(setting.goods[node]);
+}
+
+// Tell whether a customer's parcel is within the load left.
+bool is_within(const Setting& setting, const Vehicle& vehicle, Int node) {
+    for (Int number = 1; number < num_tiers(setting.amount); ++number) {
+        if (!within(delivered_of(setting.amount, node, number), part_of(vehicle.load, number))) {
+            return false;
+        }
+    }
+    return within(demand_of(setting.node[node]), part_of(vehicle.load, 0));
+}
+
+// Take a parcel from the load left, where no tiers are looked at.
+void take_demand(const Setting& setting, Vehicle& vehicle, Int node) {
+    write_part(minus(part_of(vehicle.load, 0), demand_of(setting.node[node])), vehicle.load, 0);
+}
+
+}  // namespace
+
+void empty(const VehicleType& type, Vehicle& vehicle) {
+    vehicle.given = vehicle.picked = vehicle.taken = 0;
+    for (Int number = 0; number < max_tiers; ++number) {
+        write_part(capacity_in(type, number), vehicle.load, number);
+        write_part(nothing, vehicle.aboard, number);
+    }
+}
+
+bool holds_all(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
+               Int node, bool is_customer) {
+    if (num_tiers(setting.amount) == 0) return true;
+    for (Int number = 0; number < num_tiers(setting.amount); ++number) {
+        const auto [demand, here, there] =
+            burden_of(setting, vehicle, drones, node, is_customer, number);
+        if (!holds_in(setting.type, plus(here, demand), number) ||
+            !holds_in(setting.type, there, number)) {
+            return false;
+        }
+    }
+    const Int delivered = is_customer ? total_delivered(setting.amount, node) : 0;
+    const auto [before, taken] = total_there(setting, vehicle, drones, node, is_customer);
+    return !out_of_order(setting.type, before, delivered) &&
+           !comes_first(setting.type, taken, vehicle.given + delivered);
+}
+
+void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> drones, Int node,
+               bool is_customer) {
+    if (is_customer) bar_goods(setting, vehicle, node);
+    if (num_tiers(setting.amount) == 0) {
+        if (is_customer) take_demand(setting, vehicle, node);
+        return;
+    }
+    const auto [before, taken] = total_there(setting, vehicle, drones, node, is_customer);
+    for (Int number = 0; number < num_tiers(setting.amount); ++number) {
+        const auto [demand, here, there] =
+            burden_of(setting, vehicle, drones, node, is_customer, number);
+        const Amount left =
+            smaller(part_of(vehicle.load, number), minus(capacity_in(setting.type, number), here));
+        write_part(minus(left, demand), vehicle.load, number);
+        write_part(there, vehicle.aboard, number);
+    }
+    vehicle.picked = before;
+    vehicle.taken = taken;
+    if (is_customer) vehicle.given += total_delivered(setting.amount, node);
+}
+
+bool may_carry(const Setting& setting, const Vehicle& vehicle, Int node) {
+    return is_within(setting, vehicle, node) &&
+           (!some_apart(setting.goods) ||
+            go_together(setting.goods[node], vehicle.barred_on_trip, vehicle.barred_on_vehicle));
+}
+
+bool may_launch(const Setting& setting, const Vehicle& vehicle, Int node) {
+    return num_tiers(setting.amount) == 0 ||
+           !out_of_order(setting.type, vehicle.picked, total_delivered(setting.amount, node));
+}
+
+Int given_by_flight(const Setting& setting, Int node) {
+    return num_tiers(setting.amount) > 0 ? total_delivered(setting.amount, node) : 0;
+}
+
+void load_flight(const Setting& setting, Vehicle& vehicle, Int node) {
+    bar_goods(setting, vehicle, node);
+    vehicle.given += given_by_flight(setting, node);
+    if (num_tiers(setting.amount) == 0) take_demand(setting, vehicle, node);
+    for (Int number = 0; number < num_tiers(setting.amount); ++number) {
+        const Amount delivered = delivered_of(setting.amount, node, number);
+        write_part(minus(part_of(vehicle.load, number), delivered), vehicle.load, number);
+    }
+}
+
+}  // namespace tandem

@@ -1,0 +1,243 @@
+#include "simulation/meeting.h"
+
+#include <algorithm>
+
+#include "rules/drone_types.h"
+#include "rules/energy.h"
+#include "rules/flight.h"
+#include "rules/shift.h"
+#include "simulation/vehicle_log.h"
+
+namespace tandem {
+namespace {
+
+constexpr Int not_yet = -1;  // take-off and recovery that have no time yet
+
+// Mark where a drone is recovered: at `to` if it can fly there, else at `here`.
+void mark_place(const Setting& setting, Drone& drone, Int here, Int to) {
+    Recovery place = Recovery::aboard;
+    if (drone.sortie != in_flight) {
+        const Craft craft = craft_of(setting, drone.row);
+        const bool meets = can_serve(craft.type, craft.node[drone.node],
+                                     craft.out(here, drone.node), craft.home(drone.node, to));
+        place = meets ? Recovery::meet : Recovery::loop;
+    }
+    drone.place = static_cast<Int>(place);
+}
+
+// Tell whether there is a battery for one more sortie by drones of a row on the last trip.
+bool has_battery(const Setting& setting, const VehicleLog& log, Int row) {
+    const Int first = log.trip[log.count.trips - 1].first_stop;
+    Int flown = 1;
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        if (sortie.row == row && sortie.launch_stop >= first) ++flown;
+    }
+    return allows_sorties(setting.types[row], flown);
+}
+
+struct NextLaunch {
+    Int drone;  // -1: none
+    Int takeoff;
+};
+
+// The drone that can be launched first from `free` on; `launched` is how many launches of the trip
+// come before.
+NextLaunch next_launch(const Setting& setting, View<const Drone, 1> drones, Int here, Int to,
+                       Int free, Int launched) {
+    NextLaunch next{-1, 0};
+    for (Int d = 0; d < drones.size(); ++d) {
+        const Drone& drone = drones[d];
+        if (is_aboard(drone) || drone.takeoff != not_yet) continue;
+        const Craft craft = craft_of(setting, drone.row);
+        const NodeRows place = craft.node[drone.node];
+        const Int out = craft.out(here, drone.node);
+        const Int home = craft.home(drone.node, is_recovered(drone, Recovery::meet) ? to : here);
+        Int begin = free;
+        if (charges_aboard(craft.type)) {
+            begin = std::max(free,
+                             charged_launch(craft.type, place, drone.kept, drone.since, out, home));
+        }
+        const Int soonest =
+            held_takeoff(craft.type, place, take_off(craft.type, begin, launched), out, home);
+        if (next.drone < 0 || soonest < next.takeoff) next = {d, soonest};
+    }
+    return next;
+}
+
+// Time the flight of a drone that takes off at `here`.
+void fly(const Setting& setting, Drone& drone, Int here, Int to, Int takeoff) {
+    const Craft craft = craft_of(setting, drone.row);
+    const Int arrival = takeoff + craft.out(here, drone.node);
+    const Int end = is_recovered(drone, Recovery::meet) ? to : here;
+    drone.takeoff = takeoff;
+    drone.ready = end_of_service(craft.node[drone.node], arrival);
+    drone.back = drone.ready + craft.home(drone.node, end);
+    drone.lacking = 0;
+    if (charges_aboard(craft.type)) {
+        drone.lacking = battery_of(craft.type) - charged(craft.type, drone.kept, drone.since,
+                                                         launch_begin(craft.type, takeoff, 1));
+    }
+}
+
+// The drone in the air that is first back at `place`; -1 if there is none.
+Int next_back(View<const Drone, 1> drones, Recovery place) {
+    Int chosen = -1;
+    for (Int d = 0; d < drones.size(); ++d) {
+        const Drone& drone = drones[d];
+        if (is_recovered(drone, place) && drone.takeoff != not_yet && drone.recovery == not_yet &&
+            (chosen < 0 || drone.back < drones[chosen].back)) {
+            chosen = d;
+        }
+    }
+    return chosen;
+}
+
+// Recover a drone launched at `here` from `free` on; return the end, -1 if it can't last.
+Int bring_aboard(const Setting& setting, Drone& drone, Int here, Int free) {
+    const Craft craft = craft_of(setting, drone.row);
+    const Int begin = std::max(free, drone.back);
+    if (unreachable(drone.back) ||
+        !within_endurance(craft.type, drone.takeoff, drone.back, begin)) {
+        return -1;
+    }
+    const Int left = left_after(craft.type, craft.node[drone.node], craft.out(here, drone.node),
+                                drone.back - drone.ready, drone.takeoff, drone.ready, begin);
+    if (left < drone.lacking) return -1;
+    drone.left = left - drone.lacking;
+    drone.recovery = begin;
+    return recovery_end(craft.type, begin);
+}
+
+// Launch all drones in flight from this stop, and recover those that loop.
+//
+// Returns when all is done, -1 if a loop can't be recovered within its endurance. What can be
+// launched first is; loops are recovered behind, or while a launch is held back.
+Int operate(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int to) {
+    const Int here = vehicle.node;
+    Int free = vehicle.crew;
+    Int waiting = vehicle.flying;
+    Int looping = 0;
+    Int before = vehicle.launched;
+    for (Drone& drone : drones) drone.takeoff = drone.recovery = not_yet;
+    while (waiting + looping > 0) {
+        const auto [launched, takeoff] = next_launch(setting, drones, here, to, free, before);
+        Int begin = takeoff;
+        if (launched >= 0) {
+            begin = launch_begin(setting.types[drones[launched].row], takeoff, before);
+        }
+        const Int landed = looping > 0 ? next_back(drones, Recovery::loop) : -1;
+        if (landed >= 0 &&
+            (launched < 0 || (begin > free && std::max(free, drones[landed].back) <= begin))) {
+            free = bring_aboard(setting, drones[landed], here, free);
+            if (free < 0) return -1;
+            --looping;
+        } else {
+            fly(setting, drones[launched], here, to, takeoff);
+            free = takeoff;
+            --waiting;
+            ++before;
+            if (is_recovered(drones[launched], Recovery::loop)) ++looping;
+        }
+    }
+    return free;
+}
+
+// Recover the drones, launched at `here`, that the truck meets where it arrives.
+//
+// Returns when all are recovered. Where one can't be within its endurance: -1, and it is marked to
+// loop instead.
+Int meet(const Setting& setting, View<Drone, 1> drones, Int here, Int arrival) {
+    Int free = arrival;
+    for (Int landed = next_back(drones, Recovery::meet); landed >= 0;
+         landed = next_back(drones, Recovery::meet)) {
+        free = bring_aboard(setting, drones[landed], here, free);
+        if (free < 0) {
+            drones[landed].place = static_cast<Int>(Recovery::loop);
+            return -1;
+        }
+    }
+    return free;
+}
+
+// Tell whether a drone in flight reaches its customer too late for a hard window.
+bool any_late(const Setting& setting, Int here, View<const Drone, 1> drones) {
+    return std::any_of(drones.begin(), drones.end(), [&](const Drone& drone) {
+        if (is_aboard(drone)) return false;
+        const Craft craft = craft_of(setting, drone.row);
+        return too_late(craft.node[drone.node], drone.takeoff + craft.out(here, drone.node));
+    });
+}
+
+}  // namespace
+
+void note_charges(const Setting& setting, const VehicleLog& log, View<Drone, 1> drones) {
+    bool charging = false;
+    for (Int d = 0; d < drones.size(); ++d) {
+        const VehicleType& type = setting.types[drones[d].row];
+        if (!charges_aboard(type)) continue;
+        charging = true;
+        const auto [kept, since] = first_charge(type, d);
+        drones[d].kept = kept;
+        drones[d].since = since;
+    }
+    if (!charging) return;
+    const Int first = log.trip[log.count.trips - 1].first_stop;
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        if (sortie.launch_stop >= first && sortie.recovery_stop != in_flight) {
+            drones[sortie.drone].kept = sortie.left;
+            drones[sortie.drone].since = sortie.recovery_end;
+        }
+    }
+}
+
+Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
+               View<const Drone, 1> drones, Int node) {
+    Int chosen = -1;
+    for (Int d = 0; d < drones.size(); ++d) {
+        if (drones[d].sortie != in_flight) continue;
+        if (!are_several(setting.type)) return d;
+        const Int row = drones[d].row;
+        if (!setting.can_fly(row, node) || !has_battery(setting, log, row)) continue;
+        const Craft craft = craft_of(setting, row);
+        if (can_serve(craft.type, craft.node[node], craft.out(vehicle.node, node),
+                      craft.home(node, vehicle.node))) {
+            return d;
+        }
+        if (chosen < 0) chosen = d;
+    }
+    return chosen;
+}
+
+bool order_is_open(const Setting& setting, const Vehicle& vehicle) {
+    return are_several(setting.type) && vehicle.flying > 0 &&
+           setting.type.max_working_duration < unlimited;
+}
+
+Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
+                    Int takeoff) {
+    if (!are_several(setting.type)) return takeoff;
+    return take_off(type, vehicle.crew, vehicle.launched);
+}
+
+Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int to) {
+    constexpr Leaving impossible{-1, -1, -1};
+    const Int here = vehicle.node;
+    for (Drone& drone : drones) mark_place(setting, drone, here, to);
+    if (vehicle.flying == 0) {
+        const Int leave = std::max(vehicle.service_end, vehicle.free);
+        const Int arrival = travel_arrival(setting, here, to, leave);
+        return {vehicle.free, arrival, arrival};
+    }
+    // Who can't be met loops, of which the others may be launched later, and so on.
+    while (true) {
+        const Int left = operate(setting, vehicle, drones, to);
+        if (left < 0) return impossible;
+        const Int leave = std::max(vehicle.service_end, left);
+        const Int arrival = travel_arrival(setting, here, to, leave);
+        const Int free = meet(setting, drones, here, arrival);
+        if (free < 0) continue;
+        return any_late(setting, here, drones) ? impossible : Leaving{left, arrival, free};
+    }
+}
+
+}  // namespace tandem

@@ -1,0 +1,370 @@
+#include "simulation/simulator.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "guard.h"
+#include "rules/clock.h"
+#include "rules/flight.h"
+#include "rules/load.h"
+#include "rules/shift.h"
+#include "rules/start.h"
+#include "simulation/aboard.h"
+#include "simulation/transition.h"
+#include "simulation/trial.h"
+#include "simulation/vehicle_log.h"
+
+namespace tandem {
+namespace {
+
+enum class Verdict { no, yes, unsure };
+
+// The open vehicle of a rollout and what it meets.
+struct Open {
+    Int b;  // problem
+    Int k;  // type
+    Setting setting;
+    Vehicle& vehicle;
+    VehicleLog log;
+    View<Drone, 1> drones;
+};
+
+Open open_of(const Instance& instance, State& state, Int r) {
+    const Int b = state.problem[r];
+    Vehicle& vehicle = state.vehicle[r];
+    const Setting setting = setting_of(instance, b, vehicle.type);
+    return {b,       vehicle.type,         setting,
+            vehicle, log_of(state.log, r), state.drone[r].first(setting.type.drones)};
+}
+
+// Judge the return home: within the shift and, leaving at `departure`, the working duration.
+//
+// `rigid` tells that the vehicle could not leave later than `departure` without ending later.
+Verdict judge_end(const Setting& setting, Int end, Int departure, bool rigid) {
+    if (end > setting.type.shift_latest) return Verdict::no;
+    const Int working = end - counted_from(setting.type, departure);
+    if (working <= setting.type.max_working_duration) return Verdict::yes;
+    return rigid || has_begun(setting.type) ? Verdict::no : Verdict::unsure;
+}
+
+// Judge driving to a customer whose parcel the trip carries already. Writes `outlook`.
+//
+// `earliest` is the vehicle's earliest departure, none if it has none yet.
+Verdict judge_drive(const Open& open, std::optional<Int> earliest, Int node, Outlook& outlook) {
+    const auto& [b, k, setting, vehicle, log, drones] = open;
+    const NodeRows place = setting.node[node];
+    Int leave = vehicle.next_start;
+    Int arrival = 0;
+    Int free = 0;
+    if (vehicle.idle != 0) {
+        leave = std::max(leave, release_of(place));
+        arrival = travel_arrival(setting, vehicle.node, node, leaves_first(setting.type, leave));
+        free = arrival;
+    } else {
+        const Leaving leaving = leave_for(setting, vehicle, drones, node);
+        if (leaving.arrival < 0) return Verdict::no;
+        arrival = leaving.arrival;
+        free = leaving.free;
+    }
+    if (!holds_all(setting, vehicle, drones, node, true)) return Verdict::no;
+    if (too_late(place, arrival)) return Verdict::no;
+    const Int start = start_of_service(place, arrival);
+    const Int served = std::max(free, end_of_service(place, arrival));
+    const Int end = travel_arrival(setting, node, setting.type.ends_at, served);
+    outlook = {arrival, start, end};
+    Int departure = leaves_first(setting.type, leave);
+    if (earliest) departure = vehicle.flying == 0 ? vehicle.departure_best : *earliest;
+    const bool rigid = start == arrival && vehicle.flying == 0 && leave == vehicle.next_start &&
+                       is_steady(setting.type);
+    return judge_end(setting, end, departure, rigid);
+}
+
+// Judge a launch during a trip that carries the parcel already. Writes `outlook`.
+//
+// `departure` is the vehicle's earliest.
+Verdict judge_launch(const Open& open, Int departure, Int node, Outlook& outlook) {
+    const auto& [b, k, setting, vehicle, log, drones] = open;
+    const Int chosen = next_drone(setting, log, vehicle, drones, node);
+    if (chosen < 0) return Verdict::no;
+    Drone& drone = drones[chosen];
+    const NodeRows place = setting.node[node];
+    const Craft craft = craft_of(setting, drone.row);
+    const Int flight = craft.out(vehicle.node, node);
+    const Int takeoff = take_off(craft.type, vehicle.free, vehicle.launched + vehicle.flying);
+    const Int soonest = soonest_takeoff(setting, vehicle, craft.type, takeoff);
+    if (unreachable(flight) || too_late(place, soonest + flight)) return Verdict::no;
+
+    // As if it flew and the vehicle went home.
+    const Int home = setting.type.ends_at;
+    const Int free = vehicle.free;
+    const Int delivered = given_by_flight(setting, node);
+    board(setting, vehicle, drone, 0, node, takeoff);
+    vehicle.given += delivered;
+    const Leaving leaving = leave_for(setting, vehicle, drones, home);
+    const bool is_held = leaving.arrival >= 0 && holds_all(setting, vehicle, drones, home, false);
+    drone.sortie = in_flight;
+    vehicle.given -= delivered;
+    --vehicle.flying;
+    vehicle.free = free;
+    if (!is_held) return Verdict::no;
+    const Int arrival = drone.takeoff + flight;
+    outlook = {arrival, start_of_service(place, arrival), leaving.free};
+    return judge_end(setting, leaving.free, departure, false);
+}
+
+// Which services may be added to a trip, or the next one, by their number.
+struct Room {
+    bool stop;
+    bool sortie;
+};
+
+Room room_of(const Open& open) {
+    const auto& [b, k, setting, vehicle, log, drones] = open;
+    Int served = 0;
+    if (vehicle.idle == 0) {
+        served = log.count.stops - log.trip[log.count.trips - 1].first_stop - 1;
+    }
+    const Int flown = vehicle.launched + vehicle.flying;
+    return {allows_stops(setting.type, served + 1),
+            vehicle.flying < setting.type.drones && allows_sorties(setting.type, flown + 1)};
+}
+
+// Write the legal drives and launches of one rollout with an open vehicle; return how many.
+Int legal_services(const Instance& instance, State& state, Int r, Int scratch, View<Int, 1> actions,
+                   View<Outlook, 1> outlooks) {
+    const Open open = open_of(instance, state, r);
+    const auto& [b, k, setting, vehicle, log, drones] = open;
+    const bool is_idle = vehicle.idle != 0;
+    const Int trips = log.count.trips;
+    if (is_idle && trips > 0 &&
+        !(trips < setting.type.max_trips && instance.reload(b, k, vehicle.node))) {
+        return 0;
+    }
+    const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
+    const Int here = vehicle.node;
+    const Int home = setting.type.ends_at;
+    const Int reach = setting.type.max_trip_distance - vehicle.distance;
+    const Int began = is_idle ? 0 : log.trip[trips - 1].start;
+    const Room room = room_of(open);
+    std::optional<Int> earliest;
+    if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
+    const bool trying = some_limited(setting.fresh_for) || order_is_open(setting, vehicle);
+    const Size& size = instance.size[b];
+    Int found = 0;
+    for (Int node = size.depots; node < size.depots + size.customers; ++node) {
+        if (state.served(r, node) || !may_carry(setting, vehicle, node)) continue;
+        const bool is_held = trying || (!is_idle && began < release_of(setting.node[node]));
+        const auto is_legal = [&](Verdict verdict, bool by_drone) {
+            return verdict == Verdict::yes ||
+                   (verdict == Verdict::unsure &&
+                    legal_by_trial(instance, state, r, scratch, no_reload, by_drone, node,
+                                   outlooks[found]));
+        };
+        if (room.stop && instance.can_drive(b, k, node) &&
+            legs(here, node) + legs(node, home) <= reach) {
+            const Verdict verdict =
+                is_held ? Verdict::unsure : judge_drive(open, earliest, node, outlooks[found]);
+            if (is_legal(verdict, false)) actions[found++] = encode_action(ActionKind::drive, node);
+        }
+        if (room.sortie && instance.can_fly(b, k, node) && may_launch(setting, vehicle, node)) {
+            const Verdict verdict = is_held || is_idle
+                                        ? Verdict::unsure
+                                        : judge_launch(open, *earliest, node, outlooks[found]);
+            if (is_legal(verdict, true)) actions[found++] = encode_action(ActionKind::launch, node);
+        }
+    }
+    return found;
+}
+
+// Write, behind those found, where the vehicle's trip may end; return how many there are.
+Int legal_returns(const Instance& instance, State& state, Int r, Int scratch, View<Int, 1> actions,
+                  View<Outlook, 1> outlooks, Int found) {
+    const Int b = state.problem[r];
+    const Int k = state.vehicle[r].type;
+    const VehicleType& type = instance.type(b, k);
+    actions[found++] = encode_action(ActionKind::end_trip, type.ends_at);
+    if (type.changes_ends == 0 || state.log.count[r].trips >= type.max_trips) return found;
+    for (Int place = 0; place < instance.size[b].depots; ++place) {
+        if (place != type.ends_at && instance.reload(b, k, place) &&
+            may_reload(instance, state, r, scratch, place, outlooks[found])) {
+            actions[found++] = encode_action(ActionKind::end_trip, place);
+        }
+    }
+    return found;
+}
+
+// Tell whether a vehicle of type `k` may open: one is left and has a customer to serve.
+bool open_legal(const Instance& instance, const State& state, Int r, Int k) {
+    const Int b = state.problem[r];
+    if (state.used(r, k) >= instance.type(b, k).count) return false;
+    const Size& size = instance.size[b];
+    for (Int node = size.depots; node < size.depots + size.customers; ++node) {
+        if (state.fresh(b, k, node) && !state.served(r, node)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Int legal_actions(const Instance& instance, State& state, Int r, Int scratch, View<Int, 1> actions,
+                  View<Outlook, 1> outlooks) {
+    if (state.done[r]) return 0;
+    const Int b = state.problem[r];
+    const Vehicle& vehicle = state.vehicle[r];
+    Int found = 0;
+    if (vehicle.type != no_vehicle) {
+        found = legal_services(instance, state, r, scratch, actions, outlooks);
+        if (vehicle.idle == 0) {
+            return legal_returns(instance, state, r, scratch, actions, outlooks, found);
+        }
+        if (state.log.count[r].trips == 0 ||
+            vehicle.node != instance.type(b, vehicle.type).ends_at) {
+            return found;
+        }
+    }
+    for (Int k = 0; k < instance.size[b].types; ++k) {
+        if (open_legal(instance, state, r, k)) {
+            actions[found++] = encode_action(ActionKind::open, k);
+        }
+    }
+    return found;
+}
+
+void apply(const Instance& instance, State& state, Int r, Int action) {
+    const ActionKind kind = kind_of(action);
+    const Int target = target_of(action);
+    if (kind == ActionKind::open) {
+        if (state.vehicle[r].type != no_vehicle) close_vehicle(instance, state, r);
+        open_vehicle(instance, state, r, target);
+        return;
+    }
+    Open open = open_of(instance, state, r);
+    auto& [b, k, setting, vehicle, log, drones] = open;
+    const Int num_depots = instance.size[b].depots;
+    if (kind == ActionKind::launch) {
+        launch(setting, num_depots, log, vehicle, drones, target);
+    } else {
+        vehicle.distance += instance.distance(b, setting.type.travel, vehicle.node, target);
+        drive(setting, num_depots, log, vehicle, drones, target);
+    }
+    improve_departure(setting, num_depots, log, vehicle);
+    if (kind != ActionKind::end_trip) {
+        state.served(r, target) = true;
+        --state.num_unserved[r];
+    }
+}
+
+Int apply_route(const Instance& instance, State& state, Int r, View<const Int, 1> actions,
+                Int first) {
+    Int index = first;
+    do {
+        apply(instance, state, r, actions[index++]);
+    } while (index < actions.size() && kind_of(actions[index]) != ActionKind::open);
+    return index;
+}
+
+void price_routes(const Instance& instance, State& state, Int r, View<const Int, 1> actions,
+                  View<Cost, 1> price) {
+    Int vehicle = 0;
+    for (Int done = 0; done < actions.size(); ++vehicle) {
+        state.cost[r] = {};
+        std::ranges::fill(state.used[r], 0);
+        done = apply_route(instance, state, r, actions, done);
+        close_vehicle(instance, state, r);
+        clear_vehicle(state.vehicle[r]);
+        price[vehicle] = state.cost[r];
+    }
+}
+
+void finish(const Instance& instance, State& state, Int r) {
+    if (state.vehicle[r].type != no_vehicle) close_vehicle(instance, state, r);
+    const Int b = state.problem[r];
+    double& unassigned = state.cost[r].unassigned;
+    unassigned += static_cast<double>(state.num_unserved[r]) * instance.unassigned_cost[b];
+    if (state.num_unserved[r] > 0) {
+        const Size& size = instance.size[b];
+        for (Int node = size.depots; node < size.depots + size.customers; ++node) {
+            if (!state.served(r, node)) unassigned += instance.unassigned_more(b, node);
+        }
+    }
+    state.done[r] = true;
+}
+
+void mark_fresh(const Instance& instance, State& state, Int scratch) {
+    const Int row = scratch - 1;
+    std::vector<Int> actions;
+    std::vector<Outlook> outlooks;
+    for (Int b = 0; b < instance.size.size(); ++b) {
+        state.problem[row] = b;
+        const Int most = 2 * instance.size[b].customers + 1;
+        actions.resize(static_cast<std::size_t>(most));
+        outlooks.resize(static_cast<std::size_t>(most));
+        for (Int k = 0; k < instance.size[b].types; ++k) {
+            open_vehicle(instance, state, row, k);
+            const Int found = legal_services(instance, state, row, scratch,
+                                             {actions.data(), {most}}, {outlooks.data(), {most}});
+            for (Int index = 0; index < found; ++index) {
+                state.fresh(b, k, target_of(actions[static_cast<std::size_t>(index)])) = true;
+            }
+        }
+    }
+    std::ranges::fill(state.used[row], 0);
+    clear_vehicle(state.vehicle[row]);
+}
+
+}  // namespace tandem
+
+using namespace tandem;
+
+extern "C" {
+
+int tandem_mark_fresh(const tandem_instance* instance, const tandem_state* state,
+                      std::int64_t scratch) {
+    return guarded([&] {
+        State rows = state_of(*state);
+        mark_fresh(instance_of(*instance), rows, scratch);
+    });
+}
+
+int tandem_legal_actions(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
+                         std::int64_t scratch, const tandem_i64_1d* actions,
+                         const tandem_outlook_1d* outlooks, std::int64_t* found) {
+    return guarded([&] {
+        State rows = state_of(*state);
+        *found = legal_actions(instance_of(*instance), rows, r, scratch, *actions, *outlooks);
+    });
+}
+
+int tandem_apply(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
+                 std::int64_t action) {
+    return guarded([&] {
+        State rows = state_of(*state);
+        apply(instance_of(*instance), rows, r, action);
+    });
+}
+
+int tandem_apply_route(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
+                       const tandem_i64_1d* actions, std::int64_t first, std::int64_t* behind) {
+    return guarded([&] {
+        State rows = state_of(*state);
+        *behind = apply_route(instance_of(*instance), rows, r, *actions, first);
+    });
+}
+
+int tandem_price_routes(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
+                        const tandem_i64_1d* actions, const tandem_cost_1d* price) {
+    return guarded([&] {
+        State rows = state_of(*state);
+        price_routes(instance_of(*instance), rows, r, *actions, *price);
+    });
+}
+
+int tandem_finish(const tandem_instance* instance, const tandem_state* state, std::int64_t r) {
+    return guarded([&] {
+        State rows = state_of(*state);
+        finish(instance_of(*instance), rows, r);
+    });
+}
+
+}  // extern "C"

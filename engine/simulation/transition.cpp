@@ -1,0 +1,299 @@
+#include "simulation/transition.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "rules/drone_types.h"
+#include "rules/flight.h"
+#include "rules/load.h"
+#include "rules/start.h"
+#include "simulation/aboard.h"
+#include "simulation/cost.h"
+#include "simulation/meeting.h"
+#include "simulation/vehicle_log.h"
+
+namespace tandem {
+namespace {
+
+void log_op(VehicleLog& log, Int stop, Int sortie, bool is_recovery) {
+    log.op[log.count.ops++] = {stop, sortie, is_recovery};
+}
+
+void log_stop(VehicleLog& log, Int node, Int arrival, Int start, Int leave) {
+    log.stop[log.count.stops++] = {node, arrival, start, leave};
+}
+
+// Append the recoveries decided by `leave_for`, in order.
+void log_recoveries(const Setting& setting, VehicleLog& log, View<Drone, 1> drones, Recovery place,
+                    Int stop) {
+    const auto is_sooner = [](const Drone& one, const Drone& other) {
+        return std::pair(one.recovery, one.back) < std::pair(other.recovery, other.back);
+    };
+    while (true) {
+        Drone* chosen = nullptr;
+        for (Drone& drone : drones) {
+            if (is_recovered(drone, place) && (chosen == nullptr || is_sooner(drone, *chosen))) {
+                chosen = &drone;
+            }
+        }
+        if (chosen == nullptr) return;
+        LoggedSortie& sortie = log.sortie[chosen->sortie];
+        sortie.recovery_stop = stop;
+        sortie.recovery_start = chosen->recovery;
+        sortie.recovery_end = recovery_end(setting.types[chosen->row], chosen->recovery);
+        sortie.left = chosen->left;
+        log_op(log, stop, chosen->sortie, true);
+        chosen->place = static_cast<Int>(Recovery::aboard);
+        chosen->sortie = in_flight;
+    }
+}
+
+// When a launch or recovery begins and ends, as if each launch were the trip's first: later than
+// that none begins, so that the order is the same.
+std::pair<Int, Int> op_times(const Setting& setting, const VehicleLog& log, const Operation& op) {
+    const LoggedSortie& sortie = log.sortie[op.sortie];
+    if (op.is_recovery != 0) return {sortie.recovery_start, sortie.recovery_end};
+    return {launch_begin(setting.types[sortie.row], sortie.takeoff, 0), sortie.takeoff};
+}
+
+// Put the launches and recoveries from row `first` on, all at one stop, in order.
+void sort_ops(const Setting& setting, VehicleLog& log, Int first) {
+    for (Int last = first + 1; last < log.count.ops; ++last) {
+        for (Int row = last; row > first && op_times(setting, log, log.op[row]) <
+                                                op_times(setting, log, log.op[row - 1]);
+             --row) {
+            std::swap(log.op[row], log.op[row - 1]);
+        }
+    }
+}
+
+// Write what `leave_for` decided of the sorties in flight.
+void log_sorties(const Setting& setting, VehicleLog& log, const Vehicle& vehicle,
+                 View<Drone, 1> drones) {
+    const Int here = log.count.stops - 1;
+    const Int first = log.count.ops - vehicle.flying;
+    for (const Drone& drone : drones) {
+        if (is_aboard(drone)) continue;
+        LoggedSortie& sortie = log.sortie[drone.sortie];
+        const Craft craft = craft_of(setting, drone.row);
+        sortie.takeoff = drone.takeoff;
+        sortie.arrival = drone.takeoff + craft.out(vehicle.node, drone.node);
+        sortie.start = start_of_service(setting.node[drone.node], sortie.arrival);
+        sortie.ready = drone.ready;
+    }
+    log_recoveries(setting, log, drones, Recovery::loop, here);
+    sort_ops(setting, log, first);
+    log_recoveries(setting, log, drones, Recovery::meet, here + 1);
+}
+
+// Begin a trip of the idle vehicle as soon as the parcel is released.
+void begin_trip(const Setting& setting, VehicleLog& log, Vehicle& vehicle, Int release) {
+    const Int start = std::max(vehicle.next_start, release);
+    const Int leave = leaves_first(setting.type, start);
+    log.trip[log.count.trips++] = {log.count.stops, log.count.ops, release, start};
+    log_stop(log, vehicle.node, start, start, leave);
+    if (log.count.trips == 1) {
+        vehicle.start_best = start;
+        vehicle.departure_best = first_departure(setting, log, start);
+    }
+    vehicle.idle = 0;
+    vehicle.service_end = leave;
+    vehicle.free = vehicle.crew = start;
+}
+
+// Write until when the vehicle is busy at its last stop, by the log.
+void note_times(const Setting& setting, Int num_depots, const VehicleLog& log, Vehicle& vehicle) {
+    const Int here = log.count.stops - 1;
+    const LoggedStop& stop = log.stop[here];
+    vehicle.service_end = stop.node < num_depots
+                              ? leaves_first(setting.type, stop.start)
+                              : stop.start + service_duration(setting.node[stop.node]);
+    vehicle.free = vehicle.crew = stop.arrival;
+    for (Int last = log.count.ops - 1; last >= 0 && log.op[last].stop == here; --last) {
+        const LoggedSortie& sortie = log.sortie[log.op[last].sortie];
+        if (log.op[last].is_recovery != 0) {
+            vehicle.crew = std::max(vehicle.crew, sortie.recovery_end);
+            vehicle.free = std::max(vehicle.free, sortie.recovery_end);
+        } else {
+            vehicle.free = std::max(vehicle.free, sortie.takeoff);
+        }
+    }
+}
+
+// Let the trip begin no earlier than `release`; false if it can't be held so long.
+bool hold_trip(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
+               View<Drone, 1> drones, Int release) {
+    LoggedTrip& trip = log.trip[log.count.trips - 1];
+    trip.release = std::max(trip.release, release);
+    if (trip.start >= release) return true;
+    if (!retime(setting, num_depots, log, log.count.trips - 1, release)) return false;
+    note_charges(setting, log, drones);
+    note_times(setting, num_depots, log, vehicle);
+    for (Drone& drone : drones) {
+        if (drone.sortie == in_flight) continue;
+        drone.takeoff = log.sortie[drone.sortie].takeoff;
+        drone.ready = log.sortie[drone.sortie].ready;
+    }
+    if (log.count.trips == 1) vehicle.start_best = std::max(vehicle.start_best, release);
+    return true;
+}
+
+// Hold the trip until no parcel is too long aboard; false if that can't be.
+bool keep_fresh(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
+                View<Drone, 1> drones) {
+    if (!some_limited(setting.fresh_for)) return true;
+    bool held = true;
+    Int excess = most_excess(setting, num_depots, log);
+    while (excess > 0) {
+        const Int start = log.trip[log.count.trips - 1].start + excess;
+        // Drones that don't last then may do if the trip is held even longer.
+        held = hold_trip(setting, num_depots, log, vehicle, drones, start);
+        const Int left = most_excess(setting, num_depots, log);
+        if (left >= excess) return false;
+        excess = left;
+    }
+    return held;
+}
+
+// End the trip at a depot.
+void come_home(const Setting& setting, Vehicle& vehicle) {
+    vehicle.idle = 1;
+    vehicle.distance = vehicle.launched = 0;
+    vehicle.next_start = vehicle.free + setting.type.reload_duration;
+    vehicle.barred_on_trip = 0;
+    empty(setting.type, vehicle);
+}
+
+}  // namespace
+
+void improve_departure(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle) {
+    if (setting.type.max_working_duration < unlimited) {
+        vehicle.start_best = latest_start(setting, num_depots, log, 0, vehicle.start_best);
+    }
+    vehicle.departure_best = first_departure(setting, log, vehicle.start_best);
+}
+
+void board(const Setting& setting, Vehicle& vehicle, Drone& drone, Int sortie, Int node,
+           Int takeoff) {
+    const Craft craft = craft_of(setting, drone.row);
+    drone.sortie = sortie;
+    drone.node = node;
+    drone.takeoff = takeoff;
+    drone.ready = end_of_service(craft.node[node], takeoff + craft.out(vehicle.node, node));
+    ++vehicle.flying;
+    vehicle.free = takeoff;
+}
+
+bool launch(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
+            View<Drone, 1> drones, Int node) {
+    const NodeRows place = setting.node[node];
+    const Int release = release_of(place);
+    if (vehicle.idle != 0) {
+        begin_trip(setting, log, vehicle, release);
+        note_charges(setting, log, drones);
+    } else if (!hold_trip(setting, num_depots, log, vehicle, drones, release)) {
+        return false;
+    }
+    const Int chosen = next_drone(setting, log, vehicle, drones, node);
+    if (chosen < 0) return false;
+    Drone& drone = drones[chosen];
+    const Craft craft = craft_of(setting, drone.row);
+    const Int takeoff = take_off(craft.type, vehicle.free, vehicle.launched + vehicle.flying);
+    const Int flight = craft.out(vehicle.node, node);
+    const Int soonest = soonest_takeoff(setting, vehicle, craft.type, takeoff);
+    if (unreachable(flight) || too_late(place, soonest + flight)) return false;
+    const Int here = log.count.stops - 1;
+    const Int index = log.count.sorties++;
+    board(setting, vehicle, drone, index, node, takeoff);
+    LoggedSortie& sortie = log.sortie[index];
+    sortie.drone = chosen;
+    sortie.row = drone.row;
+    sortie.node = node;
+    sortie.launch_stop = here;
+    sortie.recovery_stop = in_flight;
+    sortie.takeoff = takeoff;
+    sortie.arrival = takeoff + flight;
+    sortie.start = start_of_service(place, sortie.arrival);
+    sortie.ready = drone.ready;
+    log_op(log, here, index, false);
+    log.stop[here].leave = std::max(vehicle.service_end, takeoff);
+    load_flight(setting, vehicle, node);
+    // The start known so far kept the end of service here, not the arrival, on which launches hang.
+    vehicle.start_best = log.trip[0].start;
+    return true;
+}
+
+bool drive(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
+           View<Drone, 1> drones, Int node) {
+    const bool is_customer = node >= num_depots;
+    const NodeRows place = setting.node[node];
+    if (vehicle.idle != 0) {
+        begin_trip(setting, log, vehicle, release_of(place));
+    } else if (is_customer &&
+               !hold_trip(setting, num_depots, log, vehicle, drones, release_of(place))) {
+        return false;
+    }
+    const auto [left, arrival, free] = leave_for(setting, vehicle, drones, node);
+    if (arrival < 0 || (is_customer && too_late(place, arrival))) return false;
+    if (!holds_all(setting, vehicle, drones, node, is_customer)) return false;
+    load_stop(setting, vehicle, drones, node, is_customer);
+    if (vehicle.flying > 0) {
+        log.stop[log.count.stops - 1].leave = std::max(vehicle.service_end, left);
+        log_sorties(setting, log, vehicle, drones);
+        vehicle.launched += std::exchange(vehicle.flying, 0);
+        // The start known so far kept the drones' return, not the last take-off before recoveries.
+        vehicle.start_best = log.trip[0].start;
+    }
+    const Int start = is_customer ? start_of_service(place, arrival) : arrival;
+    const Int service_end = is_customer ? end_of_service(place, arrival) : arrival;
+    log_stop(log, node, arrival, start, std::max(service_end, free));
+    vehicle.node = node;
+    vehicle.service_end = service_end;
+    vehicle.free = vehicle.crew = free;
+    if (!keep_fresh(setting, num_depots, log, vehicle, drones)) return false;
+    note_charges(setting, log, drones);
+    if (!is_customer) come_home(setting, vehicle);
+    return true;
+}
+
+void clear_vehicle(Vehicle& vehicle) {
+    vehicle = {};
+    vehicle.type = no_vehicle;
+}
+
+void open_vehicle(const Instance& instance, State& state, Int r, Int k) {
+    const View<const VehicleType, 1> types = instance.type[state.problem[r]];
+    const VehicleType& type = types[k];
+    Vehicle& vehicle = state.vehicle[r];
+    clear_vehicle(vehicle);
+    vehicle.type = k;
+    vehicle.index = state.used(r, k)++;
+    vehicle.node = type.begins_at;
+    vehicle.idle = 1;
+    vehicle.next_start = type.shift_earliest;
+    empty(type, vehicle);
+    const View<Drone, 1> drones = state.drone[r];
+    for (Int d = 0; d < drones.size(); ++d) {
+        drones[d].sortie = in_flight;
+        drones[d].row = row_of_drone(types, k, d);
+    }
+    state.log.count[r] = {};
+}
+
+void close_vehicle(const Instance& instance, State& state, Int r) {
+    const Int b = state.problem[r];
+    const Vehicle& vehicle = state.vehicle[r];
+    const Setting setting = setting_of(instance, b, vehicle.type);
+    const Int num_depots = instance.size[b].depots;
+    VehicleLog log = log_of(state.log, r);
+    for (Int trip = 0; trip < log.count.trips; ++trip) {
+        Int known = log.trip[trip].start;
+        if (trip == 0) known = std::max(known, vehicle.start_best);
+        Int start = latest_start(setting, num_depots, log, trip, known);
+        if (trip == 0) start = start_within_work(setting, num_depots, log, start);
+        if (start > log.trip[trip].start) retime(setting, num_depots, log, trip, start);
+    }
+    if (log.count.trips > 0) add_cost(instance, setting, log, b, vehicle.type, state.cost[r]);
+}
+
+}  // namespace tandem

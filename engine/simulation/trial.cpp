@@ -1,0 +1,94 @@
+#include "simulation/trial.h"
+
+#include <algorithm>
+
+#include "rules/load.h"
+#include "simulation/transition.h"
+#include "simulation/vehicle_log.h"
+
+namespace tandem {
+namespace {
+
+template <class T>
+void copy_rows(View<const T, 1> from, View<T, 1> to, Int count) {
+    std::copy_n(from.begin(), count, to.begin());
+}
+
+// Copy the open vehicle of one row to another.
+void copy_vehicle(State& state, Int r, Int to) {
+    const VehicleLogs& logs = state.log;
+    const LogLengths& count = logs.count[r];
+    state.vehicle[to] = state.vehicle[r];
+    logs.count[to] = count;
+    copy_rows<Drone>(state.drone[r], state.drone[to], state.drone.shape(1));
+    copy_rows<LoggedTrip>(logs.trip[r], logs.trip[to], count.trips);
+    copy_rows<LoggedStop>(logs.stop[r], logs.stop[to], count.stops);
+    copy_rows<Operation>(logs.op[r], logs.op[to], count.ops);
+    copy_rows<LoggedSortie>(logs.sortie[r], logs.sortie[to], count.sorties);
+}
+
+// Tell whether a vehicle come home could have left so late as to keep its working duration. Cheaper
+// than `improve_departure`.
+bool works_within(const Setting& setting, Int num_depots, VehicleLog& log, const Vehicle& vehicle) {
+    const Int start = start_within_work(setting, num_depots, log, vehicle.start_best);
+    return vehicle.free - first_departure(setting, log, start) <= setting.type.max_working_duration;
+}
+
+}  // namespace
+
+bool legal_by_trial(const Instance& instance, State& state, Int r, Int scratch, Int reload,
+                    bool by_drone, Int node, Outlook& outlook) {
+    const Int b = state.problem[r];
+    const Setting setting = setting_of(instance, b, state.vehicle[r].type);
+    const Int num_depots = instance.size[b].depots;
+    copy_vehicle(state, r, scratch);
+    Vehicle& vehicle = state.vehicle[scratch];
+    VehicleLog log = log_of(state.log, scratch);
+    const View<Drone, 1> drones = state.drone[scratch].first(setting.type.drones);
+    const auto drive_to = [&](Int to) {
+        return drive(setting, num_depots, log, vehicle, drones, to);
+    };
+    if (reload != no_reload && !drive_to(reload)) return false;
+    if (by_drone ? !launch(setting, num_depots, log, vehicle, drones, node) : !drive_to(node)) {
+        return false;
+    }
+    const Int here = log.count.stops - 1;
+    if (!drive_to(setting.type.ends_at)) return false;
+    if (by_drone) {
+        const LoggedSortie& sortie = log.sortie[log.count.sorties - 1];
+        outlook = {sortie.arrival, sortie.start, vehicle.free};
+    } else {
+        outlook = {log.stop[here].arrival, log.stop[here].start, vehicle.free};
+    }
+    return vehicle.free <= setting.type.shift_latest &&
+           works_within(setting, num_depots, log, vehicle);
+}
+
+bool may_reload(const Instance& instance, State& state, Int r, Int scratch, Int place,
+                Outlook& outlook) {
+    const Int b = state.problem[r];
+    const Vehicle& vehicle = state.vehicle[r];
+    const Int k = vehicle.type;
+    const VehicleType& type = instance.type(b, k);
+    const View<const Int, 2> legs = instance.distance[b][type.travel];
+    const Int home = type.ends_at;
+    const Int reach = type.max_trip_distance;
+    if (vehicle.distance + legs(vehicle.node, place) > reach) return false;
+    const Size& size = instance.size[b];
+    const View<const Goods, 1> goods = instance.goods[b];
+    for (Int node = size.depots; node < size.depots + size.customers; ++node) {
+        if (state.served(r, node)) continue;
+        if (some_apart(goods) && !go_together(goods[node], 0, vehicle.barred_on_vehicle)) continue;
+        if (instance.can_drive(b, k, node) && legs(place, node) + legs(node, home) <= reach &&
+            legal_by_trial(instance, state, r, scratch, place, false, node, outlook)) {
+            return true;
+        }
+        if (instance.can_fly(b, k, node) && legs(place, home) <= reach &&
+            legal_by_trial(instance, state, r, scratch, place, true, node, outlook)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace tandem

@@ -1,0 +1,294 @@
+#include "simulation/vehicle_log.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "rules/drone_types.h"
+#include "rules/energy.h"
+#include "rules/flight.h"
+#include "rules/load.h"
+#include "rules/start.h"
+
+namespace tandem {
+namespace {
+
+// When a sortie takes off whose launch may begin at `free`; `launched` counts the launches of the
+// trip before it. It is held back for the customer's window once it is known where it is recovered.
+Int sortie_takeoff(const Setting& setting, const VehicleLog& log, const LoggedSortie& sortie,
+                   Int free, Int launched) {
+    const Craft craft = craft_of(setting, sortie.row);
+    const Int takeoff = take_off(craft.type, free, launched);
+    if (sortie.recovery_stop == in_flight) return takeoff;
+    const Int here = log.stop[sortie.launch_stop].node;
+    const Int to = log.stop[sortie.recovery_stop].node;
+    return held_takeoff(craft.type, craft.node[sortie.node], takeoff, craft.out(here, sortie.node),
+                        craft.home(sortie.node, to));
+}
+
+// As `sortie_takeoff`, of a sortie by its index, where drones are charged aboard; notes what it has
+// then. The trip begins at stop `first`.
+Int charged_takeoff(const Setting& setting, const VehicleLog& log, Int index, Int first, Int free,
+                    Int launched) {
+    LoggedSortie& sortie = log.sortie[index];
+    const Craft craft = craft_of(setting, sortie.row);
+    auto [kept, since] = first_charge(craft.type, sortie.drone);
+    for (const LoggedSortie& other : log.sortie.first(index)) {
+        if (other.drone == sortie.drone && other.launch_stop >= first) {
+            kept = other.trial_left;
+            since = other.trial_end;
+        }
+    }
+    if (sortie.recovery_stop != in_flight) {
+        const Int here = log.stop[sortie.launch_stop].node;
+        const Int to = log.stop[sortie.recovery_stop].node;
+        free = std::max(free,
+                        charged_launch(craft.type, craft.node[sortie.node], kept, since,
+                                       craft.out(here, sortie.node), craft.home(sortie.node, to)));
+    }
+    const Int takeoff = sortie_takeoff(setting, log, sortie, free, launched);
+    sortie.trial_left =
+        charged(craft.type, kept, since, launch_begin(craft.type, takeoff, launched));
+    return takeoff;
+}
+
+// Times trips anew, as `retime` says if it writes, else as `costs_nothing` does.
+template <bool writes>
+class Replay {
+public:
+    Replay(const Setting& setting, Int num_depots, const VehicleLog& log)
+        : setting_(setting), num_depots_(num_depots), log_(log) {}
+
+    bool run(Int first_trip, Int start) {
+        op_ = log_.trip[first_trip].first_op;
+        leave_ = start;
+        for (Int trip = first_trip; trip < log_.count.trips; ++trip) {
+            if (trip > first_trip) {
+                start = std::max(log_.trip[trip].release, leave_ + setting_.type.reload_duration);
+            }
+            if (!run_trip(trip, start)) return false;
+        }
+        return lasting_ && (writes || leave_ <= log_.stop[log_.count.stops - 1].leave);
+    }
+
+private:
+    bool run_trip(Int trip, Int start) {
+        first_ = log_.trip[trip].first_stop;
+        launched_ = 0;
+        departure_ = far;
+        if constexpr (writes) log_.trip[trip].start = start;
+        const bool is_last = trip + 1 == log_.count.trips;
+        const Int behind = is_last ? log_.count.stops : log_.trip[trip + 1].first_stop;
+        for (Int index = first_; index < behind; ++index) {
+            const Int node = log_.stop[index].node;
+            const Int arrival =
+                index == first_ ? start
+                                : travel_arrival(setting_, log_.stop[index - 1].node, node, leave_);
+            if (!run_stop(index, arrival)) return false;
+        }
+        return true;
+    }
+
+    bool run_stop(Int index, Int arrival) {
+        LoggedStop& stop = log_.stop[index];
+        Int service_start = arrival;
+        leave_ = index == first_ ? leaves_first(setting_.type, arrival) : arrival;
+        if (stop.node >= num_depots_) {
+            const NodeRows place = setting_.node[stop.node];
+            service_start = start_of_service(place, arrival);
+            if (!is_allowed(place, arrival, stop.arrival)) return false;
+            if (!writes && aboard_too_long(stop.node, departure_, service_start)) return false;
+            leave_ = end_of_service(place, arrival);
+        }
+        free_ = busy_ = arrival;
+        for (; op_ < log_.count.ops && log_.op[op_].stop == index; ++op_) {
+            if (!run_operation(log_.op[op_], stop.node)) return false;
+        }
+        leave_ = std::max(leave_, free_);
+        departure_ = std::min(departure_, leave_);
+        if constexpr (writes) {
+            stop.arrival = arrival;
+            stop.start = service_start;
+            stop.leave = leave_;
+        }
+        return true;
+    }
+
+    bool run_operation(const Operation& operation, Int node) {
+        const VehicleType& type = setting_.types[log_.sortie[operation.sortie].row];
+        const bool instant = takes_no_time(type, operation.is_recovery != 0, launched_);
+        std::optional<Int> end;
+        if (operation.is_recovery != 0) {
+            end = recover(operation.sortie, node);
+        } else {
+            end = launch(operation.sortie, node);
+            if (end) departure_ = std::min(departure_, *end);
+            ++launched_;
+        }
+        if (!end) return false;
+        free_ = std::max(free_, *end);
+        if (!instant) busy_ = free_;
+        return true;
+    }
+
+    // Time one launch begun once the crew is free; return the take-off, if it is allowed.
+    std::optional<Int> launch(Int index, Int node) {
+        LoggedSortie& sortie = log_.sortie[index];
+        const Int customer = sortie.node;
+        const Craft craft = craft_of(setting_, sortie.row);
+        const NodeRows place = craft.node[customer];
+        const bool is_flying = sortie.recovery_stop == in_flight;
+        const Int takeoff = charges_aboard(craft.type)
+                                ? charged_takeoff(setting_, log_, index, first_, free_, launched_)
+                                : sortie_takeoff(setting_, log_, sortie, free_, launched_);
+        const Int arrival = takeoff + craft.out(node, customer);
+        // Who is still in flight may be launched before those of other types.
+        const bool may_be_sooner = writes && is_flying && are_several(setting_.type);
+        if (!is_allowed(place, arrival, sortie.arrival) && !may_be_sooner) return std::nullopt;
+        const Int start = start_of_service(place, arrival);
+        const Int served = end_of_service(place, arrival);
+        sortie.trial_takeoff = takeoff;
+        sortie.trial_ready = served;
+        if constexpr (writes) {
+            sortie.takeoff = takeoff;
+            sortie.arrival = arrival;
+            sortie.start = start;
+            sortie.ready = served;
+        } else {
+            if (is_flying && served > sortie.ready) return std::nullopt;
+            if (aboard_too_long(customer, std::min(departure_, takeoff), start)) {
+                return std::nullopt;
+            }
+        }
+        return takeoff;
+    }
+
+    // Time one recovery begun once the crew is free, or later; return its end. One that takes no
+    // time is held up by what takes time alone.
+    //
+    // If nothing is written, there is none where the drone doesn't last, or is in the air longer
+    // than logged.
+    std::optional<Int> recover(Int index, Int node) {
+        LoggedSortie& sortie = log_.sortie[index];
+        const Int takeoff = sortie.trial_takeoff;
+        const Craft craft = craft_of(setting_, sortie.row);
+        const Int out = craft.out(log_.stop[sortie.launch_stop].node, sortie.node);
+        const Int home = craft.home(sortie.node, node);
+        const Int back = sortie.trial_ready + home;
+        const Int begin = std::max(takes_no_time(craft.type, true, 0) ? busy_ : free_, back);
+        const Int end = recovery_end(craft.type, begin);
+        // A sortie as long as before may wait where that takes more.
+        Int left = left_after(craft.type, craft.node[sortie.node], out, home, takeoff,
+                              sortie.trial_ready, begin);
+        if (charges_aboard(craft.type)) {
+            left -= battery_of(craft.type) - sortie.trial_left;
+            sortie.trial_left = left;
+            sortie.trial_end = end;
+        }
+        if constexpr (writes) {
+            sortie.left = left;
+            sortie.recovery_start = begin;
+            sortie.recovery_end = end;
+            if (left < 0 || !within_endurance(craft.type, takeoff, back, begin)) lasting_ = false;
+        } else {
+            const bool lasts = begin - takeoff <= sortie.recovery_start - sortie.takeoff;
+            if (left < 0 || !lasts) return std::nullopt;
+        }
+        return end;
+    }
+
+    // Check a window: when writing, that a hard one holds; else, that no lateness is added.
+    //
+    // With drones, also that it is the same window: who has to wait for another may then be met
+    // sooner, so that a start might cost nothing though an earlier one does.
+    bool is_allowed(NodeRows place, Int arrival, Int before) const {
+        if constexpr (writes) return !too_late(place, arrival);
+        if (log_.count.sorties > 0) return arrival <= in_same_window(place, before);
+        return arrival <= as_late(place, before);
+    }
+
+    // Tell whether a parcel is too long aboard on a trip that has left at `departure`.
+    bool aboard_too_long(Int node, Int departure, Int start) const {
+        return some_limited(setting_.fresh_for) &&
+               excess_aboard(setting_.fresh_for, node, departure, start) > 0;
+    }
+
+    const Setting& setting_;
+    const Int num_depots_;
+    const VehicleLog& log_;
+    Int op_ = 0;
+    Int leave_ = 0;
+    bool lasting_ = true;
+    // Of the trip: its first stop, the launches so far, the first instant at which any has left.
+    Int first_ = 0;
+    Int launched_ = 0;
+    Int departure_ = far;
+    // At the stop: when the crew is free, and when it is from what takes time.
+    Int free_ = 0;
+    Int busy_ = 0;
+};
+
+}  // namespace
+
+bool retime(const Setting& setting, Int num_depots, VehicleLog& log, Int first_trip, Int start) {
+    return Replay<true>(setting, num_depots, log).run(first_trip, start);
+}
+
+bool costs_nothing(const Setting& setting, Int num_depots, VehicleLog& log, Int first_trip,
+                   Int start) {
+    return Replay<false>(setting, num_depots, log).run(first_trip, start);
+}
+
+Int most_excess(const Setting& setting, Int num_depots, const VehicleLog& log) {
+    const Int first = log.trip[log.count.trips - 1].first_stop;
+    const View<LoggedSortie, 1> sorties = log.sortie.first(log.count.sorties);
+    Int departure = log.stop[first].leave;
+    for (const LoggedSortie& sortie : sorties) {
+        if (sortie.launch_stop == first) departure = std::min(departure, sortie.takeoff);
+    }
+    Int most = -far;
+    const auto look_at = [&](Int node, Int start) {
+        most = std::max(most, excess_aboard(setting.fresh_for, node, departure, start));
+    };
+    for (Int index = first; index < log.count.stops; ++index) {
+        const LoggedStop& stop = log.stop[index];
+        if (stop.node >= num_depots) look_at(stop.node, stop.start);
+    }
+    for (const LoggedSortie& sortie : sorties) {
+        if (sortie.launch_stop >= first) look_at(sortie.node, sortie.start);
+    }
+    return most;
+}
+
+Int latest_start(const Setting& setting, Int num_depots, VehicleLog& log, Int trip, Int known) {
+    Int low = known + 1;
+    if (!costs_nothing(setting, num_depots, log, trip, low)) return known;
+    Int high = log.stop[log.count.stops - 1].leave + 1;
+    while (high - low > 1) {
+        const Int middle = (low + high) / 2;
+        (costs_nothing(setting, num_depots, log, trip, middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+Int first_departure(const Setting& setting, const VehicleLog& log, Int start) {
+    Int departure = leaves_first(setting.type, start);
+    if (log.count.ops > 0 && log.op[0].stop == 0) {
+        departure = sortie_takeoff(setting, log, log.sortie[log.op[0].sortie], start, 0);
+    }
+    return counted_from(setting.type, departure);
+}
+
+Int start_to_depart(const Setting& setting, const VehicleLog& log, Int departure) {
+    if (log.count.ops == 0 || log.op[0].stop != 0) return departure;
+    return launch_begin(setting.types[log.sortie[log.op[0].sortie].row], departure, 0);
+}
+
+Int start_within_work(const Setting& setting, Int num_depots, VehicleLog& log, Int known) {
+    if (has_begun(setting.type)) return known;
+    const Int needed = log.stop[log.count.stops - 1].leave - setting.type.max_working_duration;
+    if (first_departure(setting, log, known) >= needed) return known;
+    const Int later = start_to_depart(setting, log, needed);
+    return costs_nothing(setting, num_depots, log, 0, later) ? later : known;
+}
+
+}  // namespace tandem
