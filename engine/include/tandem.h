@@ -947,6 +947,11 @@ int tandem_roll_out(const tandem_step_weights *weights, const tandem_f32_3d *mem
 
 /* Search: route. */
 
+/* Tell what the customers left out cost. */
+int tandem_missing_cost(const tandem_world *world, const tandem_searcher *searcher, double *cost);
+/* Go on from the best routes. */
+int tandem_go_back(const tandem_searcher *searcher);
+
 /* Search: insertion. */
 
 /* Search: moves. */

@@ -68,8 +68,7 @@ void make_ready(const World& world, Int k, View<const Stop, 1> stops, View<Sorti
 // Write the block from stop `first`, which the truck reaches at `time`. In place.
 //
 // `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
-Int time_block(const World& world, Int k, View<Stop, 1> stops, Int length,
-               View<Sortie, 1> sorties, Int count, Int first, Int oldest, Int time,
-               BlockSums& acc);
+Int time_block(const World& world, Int k, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
+               Int count, Int first, Int oldest, Int time, BlockSums& acc);
 
 }  // namespace tandem

@@ -47,8 +47,8 @@ void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery,
 void join_sortie(Sortie& sortie, Int place, Int node);
 
 // Insert a customer, in a part that begins `offset` stops and `skipped` sorties later. In place.
-void apply(Int depot, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
-           const Move& move, Int node, Int offset, Int skipped);
+void apply(Int depot, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties, const Move& move,
+           Int node, Int offset, Int skipped);
 
 // Write a route that serves one customer in one of the `ways`, by a `drone`. In place.
 void begin_route(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties, Int k, Int start,

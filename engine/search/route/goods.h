@@ -13,8 +13,8 @@ bool take_goods(View<const Goods, 1> goods, Route& route, View<const Stop, 1> st
 
 // Tell whether a customer's goods may go on a trip.
 inline bool goods_may_join(const World& world, const Fleet& fleet, Int slot, Int trip, Int node) {
-    return !goods_count(world) || go_together(world.goods[node], fleet.trip(slot, trip).barred,
-                                              fleet.route[slot].barred);
+    return !goods_count(world) ||
+           go_together(world.goods[node], fleet.trip(slot, trip).barred, fleet.route[slot].barred);
 }
 
 // Tell whether a customer's goods may go on another trip of a route.

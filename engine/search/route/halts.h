@@ -23,8 +23,8 @@ double load_cost(const World& world, const Fleet& fleet, Int slot);
 double load_more(const World& world, const Fleet& fleet, Int slot, Int left, Int came, Int node);
 
 // Return what driving loads costs more with a customer behind stop `p`, `out` and `on` away.
-double load_more_behind(const World& world, const Fleet& fleet, Int slot, Int p, Int node,
-                        Int out, Int on);
+double load_more_behind(const World& world, const Fleet& fleet, Int slot, Int p, Int node, Int out,
+                        Int on);
 
 // Where a customer may be served on a route by a vehicle of a type.
 struct Room {

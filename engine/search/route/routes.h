@@ -23,8 +23,8 @@ bool load_trips(const World& world, Route& route, View<Stop, 1> stops, View<Trip
                 View<const Sortie, 1> sorties);
 
 // Write times as soon as possible, stop after stop. In place; false if a rule is broken.
-bool drive_forward(const World& world, Route& route, View<Stop, 1> stops,
-                   View<Sortie, 1> sorties, BlockSums& acc);
+bool drive_forward(const World& world, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
+                   BlockSums& acc);
 
 // Write how late, and how early, each block may be reached, and what follows it. In place.
 //

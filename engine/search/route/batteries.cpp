@@ -1,0 +1,71 @@
+#include "search/route/batteries.h"
+
+#include <algorithm>
+
+#include "rules/clock.h"
+#include "rules/energy.h"
+#include "rules/flight.h"
+#include "rules/load.h"
+
+namespace tandem {
+
+void charge(NodesRows places, const TravelLegs& legs, const TravelLegs& homeward,
+            const VehicleType& type, Sortie& sortie, Int node) {
+    sortie.taken = 0;
+    for (Int index = 0; index < sortie.count; ++index) {
+        sortie.taken += weight_taken(places[sortie.nodes[index]]);
+    }
+    Int left = battery_of(type), aboard = sortie.taken, most = aboard, flown = 0;
+    Int here = sortie.home;
+    for (Int index = sortie.count - 1; index >= 0; --index) {
+        const Int before = sortie.nodes[index];
+        const NodeRows place = places[before];
+        const TravelLegs& way = index == sortie.count - 1 ? homeward : legs;
+        const Int flight = leg(way, before, here).duration, service = service_duration(place);
+        left = after_leg(type, left, aboard, flight);
+        aboard += weight_brought(place) - weight_taken(place);
+        most = std::max(most, aboard);
+        if (hovers_at_customers(type)) left = after_hovering(type, left, aboard, service);
+        flown += flight + service;
+        here = before;
+    }
+    const Int flight = leg(legs, node, here).duration;
+    sortie.left = after_leg(type, left, aboard, flight);
+    sortie.limit = longest_hold(type, flown + flight, sortie.left, most);
+}
+
+void hover(NodesRows places, const VehicleType& type, Sortie& sortie, BlockSums& acc) {
+    Int aboard = sortie.taken;
+    for (Int index = sortie.count - 1; index >= 0; --index) {
+        const NodeRows place = places[sortie.nodes[index]];
+        aboard += weight_brought(place) - weight_taken(place);
+        const Int waited = waiting(place, sortie.arrivals[index]);
+        if (waited > 0) {
+            sortie.left = after_hovering(type, sortie.left, aboard, waited);
+            acc.lo = std::max(acc.lo, acc.time);
+        }
+    }
+}
+
+void note_charge(const VehicleType& type, View<Sortie, 1> sorties, Int index, Int first) {
+    Sortie& sortie = sorties[index];
+    const auto [kept, since] = first_charge(type, sortie.drone);
+    sortie.kept = kept;
+    sortie.since = since;
+    sortie.follows = 0;
+    for (Int other = first; other < index; ++other) {
+        if (sorties[other].drone != sortie.drone) continue;
+        sortie.kept = sorties[other].left;
+        sortie.since = recovery_end(type, sorties[other].begin);
+        sortie.follows = 1;
+    }
+    sortie.charged = take_off(type, charged_by(type, sortie.kept, sortie.since, sortie.left), 1);
+}
+
+Int await_charge(const VehicleType& type, Sortie& sortie, Int takeoff, Int time) {
+    const Int there = charged(type, sortie.kept, sortie.since, launch_begin(type, takeoff, 1));
+    sortie.left -= battery_of(type) - there;
+    return is_steady(type) && sortie.follows == 1 ? sortie.charged - time : none;
+}
+
+}  // namespace tandem

@@ -1,0 +1,290 @@
+#include "search/route/block.h"
+
+#include <algorithm>
+
+#include "rules/energy.h"
+#include "rules/flight.h"
+#include "search/route/batteries.h"
+#include "search/route/craft.h"
+
+namespace tandem {
+namespace {
+
+// Return until when the windows hold a sortie back that it meets if it leaves at `takeoff`.
+Int held_by_windows(const SortieCraft& craft, const Sortie& sortie, Int node, Int takeoff) {
+    Int time = takeoff, back = none, here = node;
+    for (Int index = 0; index < sortie.count; ++index) {
+        const Int next = sortie.nodes[index];
+        const NodeRows place = craft.places[next];
+        const Int flight = leg(craft.legs, here, next).duration;
+        back = std::max(back + flight + service_duration(place),
+                        earliest_back(place, time + flight, 0));
+        time = end_of_service(place, time + flight);
+        here = next;
+    }
+    return held_until(back + leg(craft.homeward, here, sortie.home).duration, sortie.limit);
+}
+
+// Return when a sortie takes off at `node` that can at `takeoff`: then, or held back.
+Int soonest_takeoff(const SortieCraft& craft, const Sortie& sortie, Int node, Int takeoff) {
+    takeoff = std::max(takeoff, sortie.held);
+    if (charges_aboard(craft.type)) takeoff = std::max(takeoff, sortie.charged);
+    if (are_single(craft.places[0])) return takeoff;
+    Int held = held_by_windows(craft, sortie, node, takeoff);
+    while (held > takeoff) {
+        takeoff = held;
+        held = held_by_windows(craft, sortie, node, takeoff);
+    }
+    return takeoff;
+}
+
+// Let the truck arrive at the block from `first` to `last`. In place.
+void bound_arrival(BlockSums& acc, Interval within) {
+    acc.lo = std::max(acc.lo, within.first);
+    acc.hi = std::min(acc.hi, within.last);
+}
+
+// Bound the truck's arrival by the window of a customer reached at (d, c), at `arrival`.
+//
+// In place; false if that is too late however soon the truck arrives.
+bool reach(NodeRows place, Int arrival, Int d, Int c, BlockSums& acc) {
+    if (too_late(place, c)) return false;
+    bound_arrival(acc, allowed_within(place, acc.time, d, c));
+    acc.dep = std::min(acc.dep, in_same_window(place, arrival) - d);
+    return true;
+}
+
+// Launch a sortie from `node` once the truck's crew is free. In place; false if not allowed.
+bool fly_out(const SortieCraft& craft, Sortie& sortie, Int node, BlockSums& acc) {
+    const VehicleType& type = craft.type;
+    Int d = take_off(type, acc.free_d, acc.launched);
+    Int c = take_off(type, acc.free_c, acc.launched);
+    const Int takeoff = std::max(acc.time + d, c);
+    const Int held = soonest_takeoff(craft, sortie, node, takeoff);
+    if (held > takeoff) c = held;
+    if (charges_aboard(type)) {
+        const Int free = d;
+        d = std::max(d, await_charge(type, sortie, std::max(acc.time + d, c), acc.time));
+        acc.awaited += d - free;
+    }
+    acc.free_d = sortie.takeoff_d = d;
+    acc.free_c = sortie.takeoff_c = c;
+    sortie.takeoff = std::max(acc.time + d, c);
+    Int here = node;
+    for (Int index = 0; index < sortie.count; ++index) {
+        const Int next = sortie.nodes[index];
+        const NodeRows place = craft.places[next];
+        const Int flight = leg(craft.legs, here, next).duration;
+        d += flight;
+        c += flight;
+        const Int arrival = std::max(acc.time + d, c);
+        if (unreachable(flight) || !reach(place, arrival, d, c, acc)) return false;
+        sortie.arrivals[index] = arrival;
+        const auto [start_d, start_c] = start_within(place, acc.time, d, c);
+        d = start_d + service_duration(place);
+        c = start_c + service_duration(place);
+        here = next;
+    }
+    sortie.ready_d = d;
+    sortie.ready_c = c;
+    sortie.state = sortie_flies;
+    ++acc.flying;
+    ++acc.launched;
+    if (hovers_at_customers(type)) hover(craft.places, type, sortie, acc);
+    return !is_limited(type) || sortie.left >= 0;
+}
+
+// Recover a sortie at `node`. In place; false if endurance or energy forbids it.
+bool bring_home(const SortieCraft& craft, Sortie& sortie, Int node, BlockSums& acc) {
+    const VehicleType& type = craft.type;
+    const Int flight = leg(craft.homeward, sortie.nodes[sortie.count - 1], node).duration;
+    const Int back_d = sortie.ready_d + flight, back_c = sortie.ready_c + flight;
+    const Int begin_d = std::max(acc.free_d, back_d), begin_c = std::max(acc.free_c, back_c);
+    if (unreachable(flight)) return false;
+    bound_arrival(acc, lasting_within(endurance_of(type), sortie.takeoff_d, sortie.takeoff_c,
+                                      counted_until(type, back_d, begin_d),
+                                      counted_until(type, back_c, begin_c)));
+    if (is_limited(type)) {
+        const Interval hovering = lasting_within(longest_hover(type, sortie.left, sortie.taken),
+                                                 back_d, back_c, begin_d, begin_c);
+        bound_arrival(acc, hovering);
+        // A sortie as long as before may wait where that takes more.
+        acc.dep = std::min(acc.dep, hovering.last);
+    }
+    const Int begin = std::max(acc.time + begin_d, begin_c);
+    sortie.begin = begin;
+    if (charges_aboard(type)) {
+        sortie.left = after_hovering(type, sortie.left, sortie.taken,
+                                     begin - std::max(acc.time + back_d, back_c));
+    }
+    const Int slack = begin - begin_d;
+    if (sortie.takeoff - sortie.takeoff_d > slack) acc.dep = std::min(acc.dep, slack);
+    acc.free_d = recovery_end(type, begin_d);
+    acc.free_c = recovery_end(type, begin_c);
+    sortie.state = sortie_done;
+    --acc.flying;
+    return acc.lo <= acc.hi;
+}
+
+// Tell whether the drone of a sortie has ended all sorties before it.
+bool is_aboard(View<const Sortie, 1> sorties, Int index, Int oldest) {
+    for (Int other = oldest; other < index; ++other) {
+        if (sorties[other].drone == sorties[index].drone && sorties[other].state != sortie_done) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
+//
+// A drone that is there is recovered before another is launched.
+Int next_operation(const Skies& skies, View<Sortie, 1> sorties, Int count, Int p, Int node,
+                   const BlockSums& acc) {
+    Int chosen = -1, earliest = far;
+    const Int free = std::max(acc.time + acc.free_d, acc.free_c);
+    for (Int index = acc.oldest; index < count && sorties[index].launch <= p; ++index) {
+        const Sortie& sortie = sorties[index];
+        Int begin = far;
+        if (sortie.state == sortie_flies) {
+            if (sortie.recovery == p) {
+                const SortieCraft craft = craft_of(skies, sortie);
+                const Int last = sortie.nodes[sortie.count - 1];
+                const Int flight = leg(craft.homeward, last, node).duration;
+                const Int ready = std::max(acc.time + sortie.ready_d, sortie.ready_c);
+                begin = std::max(2 * free, 2 * (ready + flight));
+            }
+        } else if (sortie.state == sortie_waits && sortie.launch == p &&
+                   is_aboard(sorties, index, acc.oldest)) {
+            const SortieCraft craft = craft_of(skies, sortie);
+            if (charges_aboard(craft.type)) {
+                note_charge(craft.type, sorties, index, acc.first_sortie);
+            }
+            const Int takeoff =
+                soonest_takeoff(craft, sortie, node, take_off(craft.type, free, acc.launched));
+            begin = 2 * launch_begin(craft.type, takeoff, acc.launched) + 1;
+        }
+        if (begin < earliest) {
+            chosen = index;
+            earliest = begin;
+        }
+    }
+    return chosen;
+}
+
+// Launch and recover all that stop `p` asks for. In place; false if not allowed.
+bool operate(const Skies& skies, View<Sortie, 1> sorties, Int count, Int p, Int node,
+             BlockSums& acc) {
+    while (true) {
+        const Int index = next_operation(skies, sorties, count, p, node, acc);
+        if (index < 0) break;
+        Sortie& sortie = sorties[index];
+        const SortieCraft craft = craft_of(skies, sortie);
+        const bool allowed = sortie.state == sortie_flies ? bring_home(craft, sortie, node, acc)
+                                                          : fly_out(craft, sortie, node, acc);
+        if (!allowed) return false;
+    }
+    for (Int index = acc.oldest; index < count && sorties[index].launch <= p; ++index) {
+        if (sorties[index].state == sortie_waits) return false;
+    }
+    while (acc.oldest < count && sorties[acc.oldest].state == sortie_done) ++acc.oldest;
+    return true;
+}
+
+// Write how long the truck waits for drones in a block, at all stops but the last. In place.
+void note_idle(NodesRows places, View<Stop, 1> stops, Int first, Int last) {
+    Int idle = stops[first].d;
+    for (Int p = first; p <= last; ++p) {
+        if (stops[p].kind == customer_stop) idle -= service_duration(places[stops[p].node]);
+        if (p < last) idle -= stops[p].gap;
+    }
+    for (Int p = first; p < last; ++p) stops[p].idle = idle;
+    stops[last].idle = 0;
+}
+
+}  // namespace
+
+void make_ready(const World& world, Int k, View<const Stop, 1> stops, View<Sortie, 1> sorties,
+                Int count) {
+    const Skies skies = skies_of(world, k);
+    const bool single = are_single(world.place[0][0]);
+    for (Sortie& sortie : sorties.first(count)) {
+        const SortieCraft craft = craft_of(skies, sortie);
+        const Int node = sortie.home = stops[sortie.recovery].node;
+        sortie.state = sortie_waits;
+        sortie.held = none;
+        sortie.limit = endurance_of(craft.type);
+        if (is_limited(craft.type)) {
+            charge(craft.places, craft.legs, craft.homeward, craft.type, sortie,
+                   stops[sortie.launch].node);
+        }
+        if (!single) continue;
+        Int back = 0;
+        Int home = leg(craft.homeward, sortie.nodes[sortie.count - 1], node).duration;
+        for (Int index = sortie.count - 1; index >= 0; --index) {
+            const Int here = sortie.nodes[index];
+            const NodeRows place = craft.places[here];
+            back = std::max(back, earliest_back(place, none, home));
+            home += service_duration(place);
+            if (index > 0) home += leg(craft.legs, sortie.nodes[index - 1], here).duration;
+        }
+        sortie.held = held_until(back, sortie.limit);
+    }
+}
+
+Int time_block(const World& world, Int k, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
+               Int count, Int first, Int oldest, Int time, BlockSums& acc) {
+    const VehicleType& type = world.type[k];
+    const NodesRows places = places_of(world.place, type);
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const Skies skies = skies_of(world, k);
+    auto [d, c] = origin(world, k, time);
+    acc.time = time;
+    acc.hi = acc.dep = far;
+    acc.lo = none;
+    acc.oldest = oldest;
+    acc.flying = 0;
+    Int p = first;
+    while (true) {
+        Stop& stop = stops[p];
+        stop.arrival = std::max(time + d, c);
+        stop.block = first;
+        if (stop.kind == customer_stop) {
+            if (!reach(places[stop.node], stop.arrival, d, c, acc)) return -1;
+        } else if (stop.kind == start_stop) {
+            c = std::max(c, std::max(stop.release, stop.hold));
+        }
+        acc.free_d = d;
+        acc.free_c = c;
+        const auto [served_d, served_c] = serve(world, k, stop, time, d, c);
+        if (!operate(skies, sorties, count, p, stop.node, acc)) return -1;
+        d = std::max(served_d, acc.free_d);
+        c = std::max(served_c, acc.free_c);
+        stop.leave = std::max(time + d, c);
+        stop.flying = acc.flying;
+        stop.latest = far;
+        stop.early = none;
+        if (stop.kind == end_stop) {
+            if (c > type.shift_latest) return -1;
+            acc.hi = std::min(acc.hi, type.shift_latest - d);
+        }
+        if (acc.flying == 0) break;
+        if (stop.kind == end_stop || p + 1 >= length) return -1;
+        const Int next = stops[p + 1].node;
+        stop.gap = leg(legs, stop.node, next).duration;
+        const Pair there = travel(world, k, stop.node, next, stop.gap, d, c);
+        d = there.d;
+        c = there.c;
+        ++p;
+    }
+    Stop& begun = stops[first];
+    begun.d = d;
+    begun.c = c;
+    begun.hi = acc.hi;
+    begun.lo = acc.lo;
+    begun.dep = acc.dep;
+    note_idle(places, stops, first, p);
+    return p;
+}
+
+}  // namespace tandem

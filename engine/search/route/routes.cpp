@@ -1,0 +1,221 @@
+#include "search/route/routes.h"
+
+#include <algorithm>
+
+#include "rules/drone_types.h"
+#include "rules/flight.h"
+#include "rules/leg.h"
+#include "rules/start.h"
+#include "search/route/block.h"
+#include "search/route/ends.h"
+
+namespace tandem {
+
+bool load_trips(const World& world, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
+                View<const Sortie, 1> sorties) {
+    const Int k = route.type;
+    const VehicleType& type = world.type[k];
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const Int most_trips = std::min(type.max_trips, trips.size());
+    if (is_apart(world, k)) place_ends(world, k, route, stops);
+    Int index = -1, s = 0, flown = 0;
+    for (Int p = 0; p < route.length; ++p) {
+        Stop& stop = stops[p];
+        if (stop.kind == start_stop) {
+            if (++index >= most_trips) return false;
+            clear_trip(trips[index]);
+            trips[index].first = p;
+            flown = s;
+        }
+        Trip& trip = trips[index];
+        stop.trip = index;
+        if (stop.kind == customer_stop) carry(world, trip, stop.node);
+        for (; s < route.sorties && sorties[s].launch == p; ++s) {
+            for (Int visit = 0; visit < sorties[s].count; ++visit) {
+                carry(world, trip, sorties[s].nodes[visit]);
+            }
+        }
+        if (stop.kind == end_stop) {
+            trip.last = p;
+            stops[trip.first].release = trip.release;
+            if (trip.distance > type.max_trip_distance || !may_make(type, trip) ||
+                !allows_sorties(type, s - flown) ||
+                !have_batteries(world.type, k, sorties, flown, s)) {
+                return false;
+            }
+            stop.leg = 0;
+            stop.gap = type.reload_duration;
+        } else {
+            const Leg way = leg(legs, stop.node, stops[p + 1].node);
+            stop.gap = way.duration;
+            stop.leg = way.distance;
+            trip.distance += way.distance;
+        }
+    }
+    route.trips = index + 1;
+    return true;
+}
+
+bool drive_forward(const World& world, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
+                   BlockSums& acc) {
+    const Int k = route.type, length = route.length, count = route.sorties;
+    Int time = world.type[k].shift_earliest, cum = 0, depart = far;
+    acc.awaited = 0;
+    make_ready(world, k, stops, sorties, count);
+    Int p = 0, s = 0;
+    while (p < length) {
+        Stop& stop = stops[p];
+        Int last = p;
+        if (stop.kind == start_stop) {
+            acc.launched = 0;
+            acc.first_sortie = s;
+        }
+        if (s < count && sorties[s].launch == p) {
+            last = time_block(world, k, stops, length, sorties, count, p, s, time, acc);
+            if (last < 0) return false;
+            while (s < count && sorties[s].launch <= last) ++s;
+        } else {
+            plain_block(world, k, stop, time);
+            stop.flying = stop.idle = 0;
+            stop.block = p;
+        }
+        if (time > stop.hi || time < stop.lo) return false;
+        stop.arrival = time;
+        stop.before = cum;
+        stop.last = last;
+        depart = std::min(depart, stop.dep - cum);
+        cum += stop.d;
+        const Int leave = std::max(time + stop.d, stop.c);
+        Stop& behind = stops[last];
+        behind.leave = leave;
+        behind.cum = cum;
+        behind.depart = depart;
+        if (behind.kind == end_stop) {
+            time = leave + behind.gap;
+        } else {
+            time = travel(world, k, behind.node, stops[last + 1].node, behind.gap, none, leave).c;
+        }
+        cum += behind.gap;
+        p = last + 1;
+    }
+    route.end = stops[length - 1].leave;
+    route.cum = stops[length - 1].cum;
+    route.awaited = acc.awaited;
+    return true;
+}
+
+void look_back(const World& world, const Route& route, View<Stop, 1> stops) {
+    const NodesRows places = places_of(world.place, world.type[route.type]);
+    const bool single = are_single(places[0]);
+    Int latest = far, earliest = none, rest = 0, end = none, gap = 0;
+    for (Int q = route.length - 1; q >= 0;) {
+        if (q < route.length - 1) gap = stops[q].gap;
+        const Int p = stops[q].block;
+        Stop& stop = stops[p];
+        const Int leave = latest - gap;
+        latest = std::min(stop.hi, leave - stop.d);
+        if (stop.kind == customer_stop && !single) {
+            // No drone flies, or the route would be retimed.
+            latest = latest_arrival(places[stop.node], leave);
+        }
+        const bool is_held = stop.c < earliest - gap;
+        earliest = is_held ? std::max(stop.lo, earliest - gap - stop.d) : stop.lo;
+        end = std::max(stop.c + gap + rest, end);
+        rest += stop.d + gap;
+        stop.latest = latest;
+        stop.early = earliest;
+        stop.rest = rest;
+        stop.end = end;
+        q = p - 1;
+    }
+}
+
+void open_up(const Route& route, View<Stop, 1> stops) {
+    for (Stop& stop : stops.first(route.length)) {
+        stop.latest = far;
+        stop.early = none;
+    }
+}
+
+WindowCosts price_windows(const World& world, const Route& route, View<Stop, 1> stops,
+                          View<const Sortie, 1> sorties) {
+    WindowCosts costs{0.0, 0.0};
+    for (Stop& stop : stops.first(route.length)) {
+        if (stop.kind != customer_stop) continue;
+        const double late = lateness_cost(world, stop.node, stop.arrival);
+        const double early = waiting_cost(world, stop.node, stop.arrival);
+        stop.window_cost = late + early;
+        costs.late += late;
+        costs.early += early;
+    }
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        for (Int visit = 0; visit < sortie.count; ++visit) {
+            const Int node = sortie.nodes[visit], arrival = sortie.arrivals[visit];
+            costs.late += lateness_cost(world, node, arrival);
+            costs.early += waiting_cost(world, node, arrival);
+        }
+    }
+    return costs;
+}
+
+double sortie_cost(const World& world, Int k, View<const Stop, 1> stops, const Sortie& sortie) {
+    const Int row = row_of_drone(world.type, k, sortie.drone);
+    const TravelLegs flights = legs_of(world.leg, world.type[row].drone_travel);
+    Int node = stops[sortie.launch].node, flown = 0;
+    for (Int visit = 0; visit < sortie.count; ++visit) {
+        const Int following = sortie.nodes[visit];
+        flown += leg(flights, node, following).distance;
+        node = following;
+    }
+    flown += leg(flights, node, stops[sortie.recovery].node).distance;
+    const Int airborne = recovery_end(world.type[row], sortie.begin) - sortie.takeoff;
+    return static_cast<double>(flown) * world.rate[row].drone_distance +
+           static_cast<double>(airborne) * world.rate[row].drone_time;
+}
+
+Int first_departure(const World& world, Route& route, View<const Stop, 1> stops,
+                    View<const Sortie, 1> sorties) {
+    const VehicleType& type = world.type[route.type];
+    const Int depart = std::min(stops[route.length - 1].depart, route.end - route.cum);
+    route.offset = 0;
+    if (route.sorties > 0 && sorties[0].launch == 0 && !has_begun(type)) {
+        Int first = 0;
+        if (are_several(type)) {
+            for (Int s = 1; s < route.sorties; ++s) {
+                if (sorties[s].launch == 0 && sorties[s].takeoff < sorties[first].takeoff) {
+                    first = s;
+                }
+            }
+        }
+        const Int row = row_of_drone(world.type, route.type, sorties[first].drone);
+        route.offset = launch_duration(world.type[row], 0);
+    }
+    return counted_from(type, depart + route.offset);
+}
+
+RoutePrice price_route(const World& world, const Route& route, View<Stop, 1> stops,
+                       View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
+    const Int k = route.type;
+    const Rate& rate = world.rate[k];
+    RoutePrice price{rate.fixed, 0.0};
+    for (const Trip& trip : trips.first(route.trips)) {
+        price.cost += static_cast<double>(trip.distance) * rate.distance;
+    }
+    price.cost += static_cast<double>(route.length - 2 * route.trips) * rate.stop;
+    price.cost += static_cast<double>(route.working) * rate.time;
+    if (rate.overtime > 0.0) {
+        price.cost +=
+            static_cast<double>(overtime(world.type[k], route.end, route.working)) * rate.overtime;
+    }
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        price.cost += sortie_cost(world, k, stops, sortie);
+    }
+    if ((world.mode[k] & mode_priced) != 0) {
+        const auto [late, early] = price_windows(world, route, stops, sorties);
+        price.cost += late + early;
+        price.early = early;
+    }
+    return price;
+}
+
+}  // namespace tandem

@@ -1,0 +1,99 @@
+#include "search/route/vehicles.h"
+
+#include <limits>
+
+namespace tandem {
+
+bool may_launch(const VehicleType& type, const Route& route, View<const Sortie, 1> sorties,
+                const Trip& trip) {
+    if (allows_sorties(type, route.sorties + 1)) return true;
+    Int count = 1;
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        if (trip.first <= sortie.launch && sortie.launch <= trip.last) ++count;
+    }
+    return allows_sorties(type, count);
+}
+
+Int num_flown(View<const VehicleType, 1> types, Int k, View<const Sortie, 1> sorties, Int first,
+              Int behind, Int row) {
+    Int count = 0;
+    for (Int s = first; s < behind; ++s) {
+        if (row_of_drone(types, k, sorties[s].drone) == row) ++count;
+    }
+    return count;
+}
+
+bool have_batteries(View<const VehicleType, 1> types, Int k, View<const Sortie, 1> sorties,
+                    Int first, Int behind) {
+    if (!are_several(types[k])) return true;
+    for (Int row = first_drone_row(types, k); row >= 0; row = next_drone_row(types, row)) {
+        if (!allows_sorties(types[row], num_flown(types, k, sorties, first, behind, row))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool has_battery(View<const VehicleType, 1> types, const Route& route,
+                 View<const Sortie, 1> sorties, const Trip& trip, Int row) {
+    if (!are_several(types[route.type])) return true;
+    Int first = 0;
+    while (first < route.sorties && sorties[first].launch < trip.first) ++first;
+    Int behind = first;
+    while (behind < route.sorties && sorties[behind].launch <= trip.last) ++behind;
+    const Int flown = num_flown(types, route.type, sorties, first, behind, row);
+    return allows_sorties(types[row], flown + 1);
+}
+
+Int launch_changed(const VehicleType& type, const Route& route, View<const Sortie, 1> sorties,
+                   const Trip& trip, Int p, bool is_sortie) {
+    if (!launches_differ(type)) return nowhere;
+    const Int first = is_sortie ? trip.first : p + 1;
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        if (first <= sortie.launch && sortie.launch <= trip.last) return sortie.launch;
+    }
+    return nowhere;
+}
+
+bool may_fit(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node) {
+    const VehicleType& type = world.type[k];
+    const Trip& trip = fleet.trip(slot, index);
+    if (!fits(type, load_of(trip), world.place[0][node])) return false;
+    for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
+        const View<const Halt, 1> halts = fleet.halt[slot][tier];
+        const Amount taken =
+            plus(amount_of(halts[trip.last].behind), picked_of(world.amount, node, tier));
+        if (!holds_in(type, taken, tier) || !holds_in(type, most_of(halts[trip.first]), tier)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Int larger_type(const World& world, const Fleet& fleet, Int slot, Int node) {
+    const Int k = fleet.route[slot].type;
+    const Trip& trip = fleet.trip(slot, 0);
+    Int chosen = nowhere;
+    double best = std::numeric_limits<double>::infinity();
+    for (Int other = 0; other < world.num_types; ++other) {
+        if (!world.swap(k, other) || other == k || !world.can(other, 0, node) ||
+            fleet.used[other] >= world.type[other].count) {
+            continue;
+        }
+        const double cost = route_cost(world, other, trip) + world.rate[other].stop;
+        if (cost < best && takes(world, fleet, slot, 0, other, node)) {
+            chosen = other;
+            best = cost;
+        }
+    }
+    return chosen;
+}
+
+void change_type(const World& world, const Fleet& fleet, Int slot, Int k) {
+    --fleet.used[fleet.route[slot].type];
+    ++fleet.used[k];
+    fleet.route[slot].type = k;
+    fleet.cost[slot] = route_cost(world, k, fleet.trip(slot, 0));
+}
+
+}  // namespace tandem
