@@ -584,6 +584,8 @@ typedef struct tandem_action_features_2d { tandem_action_features *data; int64_t
 typedef struct tandem_bool_1d { bool *data; int64_t shape[1]; } tandem_bool_1d;
 typedef struct tandem_bool_2d { bool *data; int64_t shape[2]; } tandem_bool_2d;
 typedef struct tandem_bool_3d { bool *data; int64_t shape[3]; } tandem_bool_3d;
+typedef struct tandem_chain_1d { tandem_chain *data; int64_t shape[1]; } tandem_chain_1d;
+typedef struct tandem_chain_cargo_2d { tandem_chain_cargo *data; int64_t shape[2]; } tandem_chain_cargo_2d;
 typedef struct tandem_cost_1d { tandem_cost *data; int64_t shape[1]; } tandem_cost_1d;
 typedef struct tandem_drone_2d { tandem_drone *data; int64_t shape[2]; } tandem_drone_2d;
 typedef struct tandem_entry_1d { tandem_entry *data; int64_t shape[1]; } tandem_entry_1d;
@@ -616,6 +618,7 @@ typedef struct tandem_logged_trip_2d { tandem_logged_trip *data; int64_t shape[2
 typedef struct tandem_moment_1d { tandem_moment *data; int64_t shape[1]; } tandem_moment_1d;
 typedef struct tandem_move_1d { tandem_move *data; int64_t shape[1]; } tandem_move_1d;
 typedef struct tandem_move_2d { tandem_move *data; int64_t shape[2]; } tandem_move_2d;
+typedef struct tandem_node_2d { tandem_node *data; int64_t shape[2]; } tandem_node_2d;
 typedef struct tandem_node_3d { tandem_node *data; int64_t shape[3]; } tandem_node_3d;
 typedef struct tandem_node_4d { tandem_node *data; int64_t shape[4]; } tandem_node_4d;
 typedef struct tandem_operation_2d { tandem_operation *data; int64_t shape[2]; } tandem_operation_2d;
@@ -962,9 +965,71 @@ int tandem_anneal(const tandem_world *world, const tandem_searcher *searcher, in
 
 /* Search: linked. */
 
+/* Write how near neighbours are. */
+int tandem_measure_near(const tandem_world *world, const tandem_linked *linked);
+/* Link the routes of a search as they are, and of its best plan. */
+int tandem_tie(const tandem_world *world, const tandem_searcher *searcher,
+               const tandem_linked *linked);
+/* Ruin and recreate so many times among linked stops. */
+int tandem_anneal_linked(const tandem_world *world, const tandem_searcher *searcher,
+                         const tandem_linked *linked, int64_t turns);
+/* Let the routes of a search, and of its best plan, be those that are linked. */
+int tandem_write_back(const tandem_world *world, const tandem_searcher *searcher,
+                      const tandem_linked *linked);
+
 /* Search: beginning. */
 
+/* Take all routes apart. */
+int tandem_disband(const tandem_searcher *searcher);
+/* Write which type's trucks drive least for each customer alone. */
+int tandem_write_nearest_types(const tandem_world *world, const tandem_i64_1d *nearest);
+/* Write how much more is driven by a type if neighbours follow one another. */
+int tandem_write_excess(const tandem_world *world, int64_t k, int64_t ranks,
+                        const tandem_i64_1d *excess);
+/* Make keys of what pairs cost, but for its last bits, and of their numbers. */
+int tandem_number_pairs(const tandem_i64_1d *excess, int64_t coarse);
+/* Join routes end to end, pair after pair. */
+int tandem_join(const tandem_world *world, int64_t k, int64_t ranks, const tandem_i64_1d *keys,
+                const tandem_chain_1d *chain, const tandem_chain_cargo_2d *cargo);
+/* Join routes at either end, pair after pair. */
+int tandem_join_either_way(const tandem_world *world, int64_t k, int64_t ranks,
+                           const tandem_i64_1d *keys, const tandem_chain_1d *chain,
+                           const tandem_chain_cargo_2d *cargo);
+/* Tell how far the routes of all are whom a type may serve. */
+int tandem_length_of(const tandem_world *world, int64_t k, const tandem_chain_1d *chain,
+                     int64_t *length);
+/* Write the cost of a route that serves one customer alone, (type, 2, node). */
+int tandem_alone_costs(const tandem_world *world, const tandem_fleet *fleet, tandem_block_sums *acc,
+                       const tandem_f64_3d *alone);
+/* Time the routes written; those that break a rule are left to be planned anew. */
+int tandem_begin(const tandem_world *world, const tandem_searcher *searcher, int64_t num_routes);
+/* Tell what the truck's legs between customers cost on average. */
+int tandem_leg_cost(const tandem_world *world, const tandem_searcher *searcher, double *cost);
+/* Write the times of a route whose trips begin as late as costs nothing; fails if nobody can drive
+   it. */
+int tandem_finish_route(const tandem_world *world, const tandem_fleet *fleet, int64_t slot,
+                        tandem_block_sums *acc);
+/* Write when service begins at customers, by the rows of all nodes. */
+int tandem_service_starts(const tandem_node_2d *place, const tandem_i64_1d *nodes,
+                          const tandem_i64_1d *arrivals, const tandem_i64_1d *starts);
+/* Write when a truck's drone has served its customers, and tell when it is aboard, whose recovery
+   begins at `begin`. */
+int tandem_sortie_ends(const tandem_node_3d *places, const tandem_vehicle_type_1d *types, int64_t k,
+                       int64_t drone, const tandem_i64_1d *nodes, const tandem_i64_1d *arrivals,
+                       int64_t begin, const tandem_i64_1d *ends, int64_t *aboard);
+
 /* Search: sharing. */
+
+/* Go on from the routes that a thread owns, and the customers missing. */
+int tandem_take_part(const tandem_world *world, const tandem_searcher *whole,
+                     const tandem_searcher *part, const tandem_i64_1d *owner, int64_t number,
+                     const tandem_i64_1d *missing, const tandem_i64_1d *spare);
+/* Copy a part's routes behind the slots filled, and who is missing; tell how many are filled. */
+int tandem_add_routes(const tandem_searcher *whole, const tandem_searcher *part, int64_t filled,
+                      int64_t *slots);
+/* Likewise its best routes. */
+int tandem_add_best(const tandem_searcher *whole, const tandem_searcher *part, int64_t filled,
+                    int64_t *slots);
 
 /* End of sections. */
 

@@ -14,27 +14,32 @@ using Noted = tandem_noted;
 using Least = tandem_least;
 
 struct Linked {
-    View<Link, 1> link;  // (node,) LINK
-    View<Run, 1> run;  // (slot,) RUN
-    View<Piece, 1> piece;  // (piece,) PIECE
-    View<Link, 1> removed;  // (customer,) LINK, of the pieces one after another
+    View<Link, 1> link;                  // (node,) LINK
+    View<Run, 1> run;                    // (slot,) RUN
+    View<Piece, 1> piece;                // (piece,) PIECE
+    View<Link, 1> removed;               // (customer,) LINK, of the pieces one after another
     View<std::int64_t, 1> removed_node;  // (customer,) who that is
-    View<Entry, 1> entry;  // (customer,) ENTRY
-    View<Moment, 1> moment;  // (moment,) MOMENT
-    View<std::int64_t, 1> retyped;  // (slot,) routes that another type drives since this turn
-    View<std::int64_t, 1> former;  // (slot,) the type that did before, else NOWHERE
-    Noted* noted;  // NOTED
-    View<std::int64_t, 1> hit;  // (slot,) turn of the last string
-    View<std::int32_t, 2> near;  // (node, rank) mm to or from those that `World.fit` lists, or what fits
-    View<std::int64_t, 1> best_first;  // (slot,) first customer of the best plan's route, else NOWHERE
-    View<std::int64_t, 1> best_type;  // (slot,)
+    View<Entry, 1> entry;                // (customer,) ENTRY
+    View<Moment, 1> moment;              // (moment,) MOMENT
+    View<std::int64_t, 1> retyped;       // (slot,) routes that another type drives since this turn
+    View<std::int64_t, 1> former;        // (slot,) the type that did before, else NOWHERE
+    Noted* noted;                        // NOTED
+    View<std::int64_t, 1> hit;           // (slot,) turn of the last string
+    View<std::int32_t, 2>
+        near;  // (node, rank) mm to or from those that `World.fit` lists, or what fits
+    View<std::int64_t, 1>
+        best_first;  // (slot,) first customer of the best plan's route, else NOWHERE
+    View<std::int64_t, 1> best_type;    // (slot,)
     View<std::int64_t, 1> best_behind;  // (node,)
-    Least* cheapest;  // LEAST, of all types
-    bool timed;  // something limits when customers are served
+    Least* cheapest;                    // LEAST, of all types
+    bool timed;                         // something limits when customers are served
 };
 
 inline Linked linked_of(const tandem_linked& from) {
-    return {from.link, from.run, from.piece, from.removed, from.removed_node, from.entry, from.moment, from.retyped, from.former, from.noted, from.hit, from.near, from.best_first, from.best_type, from.best_behind, from.cheapest, from.timed};
+    return {from.link,     from.run,    from.piece,      from.removed,   from.removed_node,
+            from.entry,    from.moment, from.retyped,    from.former,    from.noted,
+            from.hit,      from.near,   from.best_first, from.best_type, from.best_behind,
+            from.cheapest, from.timed};
 }
 
 }  // namespace tandem

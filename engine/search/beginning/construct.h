@@ -1,0 +1,11 @@
+// Plans by insertion alone, for the search to begin with.
+#pragma once
+
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// Takes all routes apart.
+void disband(Searcher& searcher);
+
+}  // namespace tandem

@@ -1,0 +1,155 @@
+#include "search/beginning/translate.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "guard.h"
+#include "rules/alarm.h"
+#include "rules/drone_types.h"
+#include "rules/flight.h"
+#include "rules/window.h"
+#include "search/insertion/evaluate.h"
+#include "search/route/freshness.h"
+#include "search/route/rarer.h"
+#include "search/route/refresh.h"
+#include "search/route/routes.h"
+#include "search/route/state.h"
+
+namespace tandem {
+
+void alone_costs(const World& world, Fleet& fleet, BlockSums& acc, const View<double, 3>& alone) {
+    const Int slot = fleet.route.size() - 1;
+    for (Int k = 0; k < world.num_types; ++k) {
+        for (Int by_drone = 0; by_drone < 2; ++by_drone) {
+            for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+                if (world.can(k, by_drone, node) && !rung(world.stop) &&
+                    serve_alone(world, fleet, slot, k, node, by_drone == 1, acc)) {
+                    alone(k, by_drone, node) = fleet.cost[slot];
+                }
+            }
+        }
+    }
+}
+
+void begin(const World& world, Searcher& searcher, Int num_routes) {
+    const Fleet& now = searcher.now;
+    SearchCounts& count = *searcher.count;
+    for (Int node = 0; node < world.num_nodes; ++node) now.where[node].slot = nowhere;
+    double cost = 0.0;
+    for (Int slot = 0; slot < num_routes; ++slot) {
+        Route& route = now.route[slot];
+        if (refresh(world, now, slot, *searcher.acc)) {
+            ++now.used[route.type];
+            cost += now.cost[slot];
+            locate(now, slot);
+        } else {
+            route.length = route.sorties = route.trips = 0;
+            now.cost[slot] = 0.0;
+        }
+    }
+    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+        if (now.where[node].slot == nowhere) searcher.missing[count.missing++] = node;
+    }
+    for (Int slot = 0; slot < searcher.active.size(); ++slot) now.route[slot].stamp = 1;
+    count.stamp = 1;
+    count.customers = world.num_nodes - world.num_depots;
+    count.changed = all_slots;
+    searcher.value->cost = cost + left_out_cost(world, searcher.missing, count.missing);
+    list_active(searcher);
+    keep_best(searcher);
+}
+
+double leg_cost(const World& world, const Searcher& searcher) {
+    const Fleet& now = searcher.now;
+    double cost = 0.0;
+    Int legs = 0;
+    for (Int slot = 0; slot < searcher.active.size(); ++slot) {
+        const Rate& rate = world.rate[now.route[slot].type];
+        const View<Stop, 1> stops = now.stop[slot];
+        for (Int p = 0; p < now.route[slot].length - 1; ++p) {
+            if (stops[p].kind != customer_stop || stops[p + 1].kind != customer_stop) continue;
+            cost += double(stops[p].leg) * rate.distance + double(stops[p].gap) * rate.time;
+            ++legs;
+        }
+    }
+    if (cost > 0.0) return cost / double(legs);
+    const double left_out = left_out_cost(world, searcher.missing, searcher.count->missing);
+    return std::max(1e-9, (searcher.value->cost - left_out) / double(world.num_nodes));
+}
+
+bool finish_route(const World& world, Fleet& fleet, Int slot, BlockSums& acc) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const View<Trip, 1> trips = fleet.trip[slot];
+    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    load_trips(world, route, stops, trips, sorties);
+    clear_holds(route, stops, trips);
+    if (!drive_forward(world, route, stops, sorties, acc)) return false;
+    if (time_aboard_counts(world) && !hold_trips(world, route, stops, trips, sorties, acc) &&
+        !drive_forward(world, route, stops, sorties, acc)) {
+        return false;
+    }
+    return settle(world, route, stops, trips, sorties, acc);
+}
+
+}  // namespace tandem
+
+using namespace tandem;
+
+extern "C" int tandem_alone_costs(const tandem_world* world, const tandem_fleet* fleet,
+                                  tandem_block_sums* acc, const tandem_f64_3d* alone) {
+    return guarded([&] {
+        Fleet routes = fleet_of(*fleet);
+        alone_costs(world_of(*world), routes, *acc, *alone);
+    });
+}
+
+extern "C" int tandem_begin(const tandem_world* world, const tandem_searcher* searcher,
+                            int64_t num_routes) {
+    return guarded([&] {
+        Searcher searching = searcher_of(*searcher);
+        begin(world_of(*world), searching, num_routes);
+    });
+}
+
+extern "C" int tandem_leg_cost(const tandem_world* world, const tandem_searcher* searcher,
+                               double* cost) {
+    return guarded([&] { *cost = leg_cost(world_of(*world), searcher_of(*searcher)); });
+}
+
+extern "C" int tandem_finish_route(const tandem_world* world, const tandem_fleet* fleet,
+                                   int64_t slot, tandem_block_sums* acc) {
+    return guarded([&] {
+        Fleet routes = fleet_of(*fleet);
+        if (!finish_route(world_of(*world), routes, slot, *acc)) {
+            throw std::invalid_argument("nobody can drive the route");
+        }
+    });
+}
+
+extern "C" int tandem_service_starts(const tandem_node_2d* place, const tandem_i64_1d* nodes,
+                                     const tandem_i64_1d* arrivals, const tandem_i64_1d* starts) {
+    return guarded([&] {
+        const NodesRows places = View<Node, 2>(*place);
+        const View<Int, 1> node = *nodes;
+        for (Int index = 0; index < node.size(); ++index) {
+            starts->data[index] = start_of_service(places[node[index]], arrivals->data[index]);
+        }
+    });
+}
+
+extern "C" int tandem_sortie_ends(const tandem_node_3d* places, const tandem_vehicle_type_1d* types,
+                                  int64_t k, int64_t drone, const tandem_i64_1d* nodes,
+                                  const tandem_i64_1d* arrivals, int64_t begin,
+                                  const tandem_i64_1d* ends, int64_t* aboard) {
+    return guarded([&] {
+        const View<const VehicleType, 1> rows = View<VehicleType, 1>(*types);
+        const VehicleType& type = rows[row_of_drone(rows, k, drone)];
+        const NodesRows by_air = places_by_air(View<Node, 3>(*places), type);
+        const View<Int, 1> node = *nodes;
+        for (Int index = 0; index < node.size(); ++index) {
+            ends->data[index] = end_of_service(by_air[node[index]], arrivals->data[index]);
+        }
+        *aboard = recovery_end(type, begin);
+    });
+}

@@ -1,0 +1,18 @@
+// The cheapest place for a customer among linked stops.
+#pragma once
+
+#include "search/linked/layout.h"
+
+namespace tandem {
+
+// Whether all were tried, and what routes cost more then.
+struct Recreated {
+    bool done;
+    double added;
+};
+
+// Inserts the absent customers from number `first` on, each where it costs least. As `recreate`.
+Recreated recreate_linked(const World& world, Searcher& searcher, Linked& linked, Int first,
+                          double spare);
+
+}  // namespace tandem

@@ -1,0 +1,119 @@
+#include "search/linked/strings.h"
+
+#include <algorithm>
+
+#include "search/linked/chain.h"
+#include "search/moves/ruin.h"
+#include "search/route/randomness.h"
+#include "search/route/refresh.h"
+
+namespace tandem {
+
+namespace {
+
+// How many customers a turn removes at most, to the last string.
+constexpr Int most_removed = 512;
+
+// Where a string of so many customers begins, drawn from all with a customer in it.
+Int first_of_string(const World& world, const Searcher& searcher, const Linked& linked,
+                    Int customer, Int span) {
+    const View<Link, 1> link = linked.link;
+    Int first = customer;
+    Int before = 0;
+    while (before < span - 1 && link[first].before >= world.num_depots) {
+        first = link[first].before;
+        ++before;
+    }
+    Int last = customer;
+    Int behind = 0;
+    while (behind < span - 1 && link[last].behind >= world.num_depots) {
+        last = link[last].behind;
+        ++behind;
+    }
+    // The first may come `before` places ahead, or as many as leave room for the last.
+    const Int latest = std::min(Int{0}, behind - (span - 1));
+    for (Int skipped = below(searcher.rng, latest + before + 1); skipped > 0; --skipped) {
+        first = link[first].behind;
+    }
+    return first;
+}
+
+// How many customers are taken out around one, and how many within are spared.
+struct Cut {
+    Int size;
+    Int spared;
+};
+
+Cut draw_cut(View<std::uint64_t, 1> rng, Int stops, double longest) {
+    Int size = 1 + Int(uniform(rng) * std::min(longest, double(stops)));
+    if (uniform(rng) < whole_trip_share && stops <= longest_whole_trip) size = stops;
+    size = std::min(size, stops);
+    Int spared = 0;
+    if (1 < size && size < stops && uniform(rng) < split_share) {
+        spared = 1;
+        while (size + spared < stops && uniform(rng) < split_more_share) ++spared;
+    }
+    return {size, spared};
+}
+
+// Takes out a string around a customer, or all but some within; returns the saving.
+double cut_string(const World& world, Searcher& searcher, Linked& linked, Int customer,
+                  double longest) {
+    const View<Link, 1> link = linked.link;
+    const Int slot = link[customer].slot;
+    const Run& run = linked.run[slot];
+    const Rate& rate = world.rate[run.type];
+    const auto [size, spared] = draw_cut(searcher.rng, run.count, longest);
+    const Int first = first_of_string(world, searcher, linked, customer, size + spared);
+    const Int gap = spared > 0 ? 1 + below(searcher.rng, size - 1) : size;
+    const Int before = link[first].before;
+    Int saved = cut_out(world, linked, slot, first, gap);
+    const Int first_left = before < world.num_depots ? run.first : link[before].behind;
+    Int last_left = before;
+    if (spared > 0) {
+        last_left = first_left;
+        for (Int number = 1; number < spared; ++number) last_left = link[last_left].behind;
+        saved += cut_out(world, linked, slot, link[last_left].behind, size - gap);
+    }
+    if (linked.timed && run.count > 0) {
+        drive_on(world, linked, slot, first_left, spared + 1);
+        look_back(world, linked, slot, last_left, spared + 1);
+    }
+    double cost = double(saved) * rate.distance + double(size) * rate.stop;
+    if (run.count == 0) {
+        cost += rate.fixed;
+        close_run(searcher, linked, slot);
+    }
+    return cost;
+}
+
+}  // namespace
+
+Ruined ruin_linked(const World& world, Searcher& searcher, Linked& linked) {
+    SearchCounts& count = *searcher.count;
+    const double longest = longest_string(searcher);
+    Int strings = draw_strings(longest, searcher.rng);
+    Int seed = draw_customer(world, searcher.now, count.focus, searcher.rng);
+    if (count.absent > 0 && uniform(searcher.rng) < make_room_share) {
+        seed = searcher.absent[below(searcher.rng, count.absent)];
+    }
+    double saved = 0.0;
+    Int rank = -1;
+    Int customer = seed;
+    while (strings > 0 && customer >= 0 && linked.noted->removed < most_removed) {
+        const Int slot = linked.link[customer].slot;
+        if (slot >= 0 && linked.hit[slot] != count.turn) {
+            linked.hit[slot] = count.turn;
+            saved += cut_string(world, searcher, linked, customer, longest);
+            --strings;
+        }
+        ++rank;
+        customer = rank < world.near.shape(1) ? world.near(seed, rank) : nowhere;
+    }
+    for (const Int node : linked.removed_node.first(linked.noted->removed)) {
+        searcher.absent[count.absent++] = node;
+    }
+    return {saved, seed};
+}
+
+}  // namespace tandem

@@ -1,0 +1,17 @@
+// Removal of strings of adjacent customers from linked stops.
+#pragma once
+
+#include "search/linked/layout.h"
+
+namespace tandem {
+
+// What was saved, and near whom.
+struct Ruined {
+    double saved;
+    Int seed;
+};
+
+// Removes strings of customers near each other; they are absent then.
+Ruined ruin_linked(const World& world, Searcher& searcher, Linked& linked);
+
+}  // namespace tandem

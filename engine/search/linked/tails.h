@@ -1,0 +1,18 @@
+// Tails of routes, swapped among linked stops, or driven as a route of their own.
+#pragma once
+
+#include "search/linked/layout.h"
+
+namespace tandem {
+
+// The slots of both routes, `nowhere` if no tails were swapped, and what it costs.
+struct SwappedTails {
+    Int slot;
+    Int other;
+    double cost;
+};
+
+// Swaps the tail behind a random customer if that is accepted.
+SwappedTails exchange_tails_linked(const World& world, Searcher& searcher, Linked& linked);
+
+}  // namespace tandem

@@ -1,0 +1,175 @@
+#include "search/linked/tying.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "guard.h"
+#include "rules/leg.h"
+#include "rules/load.h"
+#include "search/linked/chain.h"
+#include "search/route/edit.h"
+#include "search/route/refresh.h"
+#include "search/route/state.h"
+
+namespace tandem {
+
+namespace {
+
+constexpr Int farthest = std::numeric_limits<std::int32_t>::max();
+
+// Links the stops of a route.
+void link_route(const World& world, Linked& linked, const Fleet& fleet, Int slot) {
+    const Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    Run& run = linked.run[slot];
+    Amount load = nothing;
+    run.type = route.type;
+    run.count = route.length - 2;
+    run.distance = 0;
+    for (Int p = 1; p < route.length; ++p) {
+        run.distance += connect(world, linked, slot, stops[p - 1].node, stops[p].node);
+        if (p < route.length - 1) {
+            linked.link[stops[p].node].slot = slot;
+            load = plus(load, demand_of(world.place[0][stops[p].node]));
+        }
+    }
+    write_amount(load, run.load);
+    if (linked.timed) retime(world, linked, slot);
+}
+
+// Links the stops of a route of the best plan.
+void link_best(Linked& linked, const Fleet& best, Int slot) {
+    const Route& route = best.route[slot];
+    const View<Stop, 1> stops = best.stop[slot];
+    linked.best_first[slot] = stops[1].node;
+    linked.best_type[slot] = route.type;
+    for (Int p = 1; p < route.length - 1; ++p) {
+        linked.best_behind[stops[p].node] = stops[p + 1].node;
+    }
+}
+
+// Writes the ends of a route whose customers are there, and all that follows.
+void write_stops(const World& world, Searcher& searcher, Fleet& fleet, Int slot, Int k, Int count) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    route.type = k;
+    route.length = count + 2;
+    route.sorties = 0;
+    put(stops, 0, world.type[k].begins_at, start_stop);
+    put(stops, count + 1, world.type[k].ends_at, end_stop);
+    refresh(world, fleet, slot, *searcher.acc);
+}
+
+// Writes the routes as they are; returns what they cost.
+double write_now(const World& world, Searcher& searcher, const Linked& linked) {
+    Fleet& now = searcher.now;
+    double cost = left_out_cost(world, searcher.missing, searcher.count->missing);
+    for (const Int slot : searcher.active.first(searcher.count->active)) {
+        const Run& run = linked.run[slot];
+        Int node = run.first;
+        for (Int p = 1; p <= run.count; ++p) {
+            put(now.stop[slot], p, node, customer_stop);
+            node = linked.link[node].behind;
+        }
+        write_stops(world, searcher, now, slot, run.type, run.count);
+        locate(now, slot);
+        cost += now.cost[slot];
+    }
+    return cost;
+}
+
+// Writes the routes of the best plan; returns what they cost.
+double write_best(const World& world, Searcher& searcher, const Linked& linked) {
+    Fleet& best = searcher.best;
+    double cost = left_out_cost(world, searcher.best_missing, searcher.count->best_missing);
+    for (Int slot = 0; slot < searcher.active.size(); ++slot) {
+        Int node = linked.best_first[slot];
+        if (node < 0) continue;
+        Int count = 0;
+        for (; node >= world.num_depots; node = linked.best_behind[node]) {
+            put(best.stop[slot], ++count, node, customer_stop);
+        }
+        write_stops(world, searcher, best, slot, linked.best_type[slot], count);
+        cost += best.cost[slot];
+    }
+    return cost;
+}
+
+// Empties a slot.
+void clear_route(Fleet& fleet, Int slot, Int stamp) {
+    Route& route = fleet.route[slot];
+    route.length = route.trips = route.sorties = 0;
+    route.stamp = stamp;
+    fleet.cost[slot] = 0.0;
+}
+
+}  // namespace
+
+void measure_near(const World& world, Linked& linked) {
+    const Int m = world.type[0].travel;
+    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+        const LegRow inward = legs_to(world.back, m, node);
+        const LegRow onward = legs_from(world.leg, m, node);
+        for (Int rank = 0; rank < world.fit.shape(1); ++rank) {
+            const Int other = world.fit(node, rank);
+            if (other < 0) continue;
+            const Int distance = std::min(nearness(inward, onward, other), farthest);
+            linked.near(node, rank) = static_cast<std::int32_t>(distance);
+        }
+    }
+}
+
+void tie(const World& world, Searcher& searcher, Linked& linked) {
+    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+        linked.link[node].slot = searcher.now.where[node].slot;
+    }
+    for (Int slot = 0; slot < searcher.active.size(); ++slot) {
+        if (searcher.now.route[slot].length > 0) link_route(world, linked, searcher.now, slot);
+        linked.best_first[slot] = nowhere;
+        if (searcher.best.route[slot].length > 0) link_best(linked, searcher.best, slot);
+    }
+    forget(linked);
+    searcher.count->changed = all_slots;
+}
+
+void write_back(const World& world, Searcher& searcher, Linked& linked) {
+    SearchCounts& count = *searcher.count;
+    ++count.stamp;
+    for (Int slot = 0; slot < searcher.active.size(); ++slot) {
+        clear_route(searcher.now, slot, count.stamp);
+        clear_route(searcher.best, slot, others);
+    }
+    searcher.value->cost = write_now(world, searcher, linked);
+    // The sums of what turns changed differ in their last bits; the best cost never rises.
+    searcher.value->best = std::min(searcher.value->best, write_best(world, searcher, linked));
+    count.changed = all_slots;
+}
+
+}  // namespace tandem
+
+using namespace tandem;
+
+extern "C" int tandem_measure_near(const tandem_world* world, const tandem_linked* linked) {
+    return guarded([&] {
+        Linked routes = linked_of(*linked);
+        measure_near(world_of(*world), routes);
+    });
+}
+
+extern "C" int tandem_tie(const tandem_world* world, const tandem_searcher* searcher,
+                          const tandem_linked* linked) {
+    return guarded([&] {
+        Searcher searching = searcher_of(*searcher);
+        Linked routes = linked_of(*linked);
+        tie(world_of(*world), searching, routes);
+    });
+}
+
+extern "C" int tandem_write_back(const tandem_world* world, const tandem_searcher* searcher,
+                                 const tandem_linked* linked) {
+    return guarded([&] {
+        Searcher searching = searcher_of(*searcher);
+        Linked routes = linked_of(*linked);
+        write_back(world_of(*world), searching, routes);
+    });
+}
