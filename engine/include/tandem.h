@@ -601,6 +601,7 @@ typedef struct tandem_goods_2d { tandem_goods *data; int64_t shape[2]; } tandem_
 typedef struct tandem_halt_3d { tandem_halt *data; int64_t shape[3]; } tandem_halt_3d;
 typedef struct tandem_i32_1d { int32_t *data; int64_t shape[1]; } tandem_i32_1d;
 typedef struct tandem_i32_2d { int32_t *data; int64_t shape[2]; } tandem_i32_2d;
+typedef struct tandem_i32_3d { int32_t *data; int64_t shape[3]; } tandem_i32_3d;
 typedef struct tandem_i32_4d { int32_t *data; int64_t shape[4]; } tandem_i32_4d;
 typedef struct tandem_i64_1d { int64_t *data; int64_t shape[1]; } tandem_i64_1d;
 typedef struct tandem_i64_2d { int64_t *data; int64_t shape[2]; } tandem_i64_2d;
@@ -881,6 +882,26 @@ int tandem_header(uint64_t *digest); /* of this file, the first 64 bits of its S
 
 /* Travel. */
 
+/* Write the numbers of the points nearest to those of some places, nearest first. */
+int tandem_write_nearest_in(const tandem_cells *cells, int64_t begin, int64_t end,
+                            const tandem_i32_2d *nearest);
+
+/* Mark the ends that each of some starts doesn't see past edges. */
+int tandem_mark_hidden(const tandem_f64_2d *starts, const tandem_f64_2d *ends,
+                       const tandem_f64_2d *edges, const tandem_bool_2d *hidden, int64_t first,
+                       int64_t last, bool mutual);
+
+/* Mark the corners that no shortest way from each of some starts bends at. */
+int tandem_mark_dead_ends(const tandem_f64_2d *starts, const tandem_f64_2d *corners,
+                          const tandem_f64_2d *before, const tandem_f64_2d *after, double slack,
+                          const tandem_bool_2d *hidden, int64_t first, int64_t last);
+
+/* Write the quickest flights that bend at least once. */
+int tandem_fly_around(const tandem_sights *outward, const tandem_sights *between,
+                      const tandem_sights *inward, const tandem_bool_2d *wanted, bool mutual,
+                      int64_t first, int64_t last, const tandem_f64_2d *distance,
+                      const tandem_f64_2d *duration);
+
 /* Rules. */
 
 /* Simulation. */
@@ -947,6 +968,26 @@ int tandem_choose(const tandem_f32_1d *scores, double temperature, uint64_t gene
 int tandem_roll_out(const tandem_step_weights *weights, const tandem_f32_3d *memory,
                     const tandem_scene *scene, const tandem_state *state,
                     const tandem_rollouts *rollouts, const tandem_i64_1d *stop, int64_t threads);
+
+/* Search: neighbourhood. */
+
+/* Write all customers in the order of a walk to the nearest who wasn't met yet. */
+int tandem_walk(const tandem_i32_2d *near, int64_t num_depots, const tandem_i64_1d *node);
+
+/* Write the legs from nodes, the search's number `first` and behind. */
+int tandem_write_legs(const tandem_i64_2d *duration, const tandem_i64_2d *distance,
+                      const tandem_i64_1d *node, int64_t first, const tandem_i64_3d *legs);
+
+/* The same in 32 bits. */
+int tandem_write_narrow_legs(const tandem_i32_2d *duration, const tandem_i32_2d *distance,
+                             const tandem_i64_1d *node, int64_t first,
+                             const tandem_i32_3d *legs);
+
+/* Write how badly neighbours follow or precede customers. */
+int tandem_write_misfit(const tandem_i64_2d *there, const tandem_i64_2d *back,
+                        const tandem_i64_2d *other, int64_t first, const tandem_f64_1d *earliest,
+                        const tandem_f64_1d *service, const tandem_f64_1d *latest,
+                        const tandem_f64_2d *weight);
 
 /* Search: route. */
 
