@@ -14,20 +14,27 @@ struct Scene {
     View<const float, 3> type_token;  // (problem, type, features)
 };
 
+// What the decision of one rollout sees, its row of an `Observation`.
+struct Seen {
+    Int& count;
+    View<Int, 1> action;              // (candidate,) codes
+    View<Int, 1> token;               // (candidate,) node, or number of nodes + type
+    View<Outlook, 1> outlook;         // (candidate,)
+    View<ActionFeatures, 1> feature;  // (candidate,)
+    VehicleFeatures& vehicle;
+    Int& here;  // token of the vehicle's place
+};
+
+inline Seen seen_of(const Observation& seen, Int r) {
+    return {seen.count[r],     seen.action[r],  seen.token[r], seen.outlook[r],
+            seen.described[r], seen.vehicle[r], seen.here[r]};
+}
+
 // Describe the drives, the launches and the return of the open vehicle.
 void describe_moves(const Instance& instance, const Scales& scale, const State& state, Int r,
-                    Observation& seen);
+                    const Seen& seen);
 
-// List and describe the legal actions of the rollouts `first` to `behind`.
-//
-// A rollout without a legal action is finished. Returns the largest count.
-Int observe(const Scene& scene, State& state, Int first, Int behind, Int scratch,
-            Observation& seen);
-
-// Do the chosen candidate of each rollout `first` to `behind`.
-//
-// `choice` is (rollout,), an index into the candidates; rollouts without any stay as they are.
-void act(const Instance& instance, State& state, Int first, Int behind, View<const Int, 1> choice,
-         const Observation& seen);
+// List and describe the legal actions of one rollout, which is finished if there is none.
+void observe(const Scene& scene, State& state, Int r, Int scratch, const Seen& seen);
 
 }  // namespace tandem

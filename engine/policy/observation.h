@@ -11,11 +11,12 @@ using ActionFeatures = tandem_action_features;
 using VehicleFeatures = tandem_vehicle_features;
 
 struct Scales {
-    View<const double, 1> time;  // (problem,) ms from a depot to a customer, mean
-    View<const double, 1> near;  // (problem,) ms from a customer to its nearest neighbour, mean
+    View<const double, 1> time;     // (problem,) ms from a depot to a customer, mean
+    View<const double, 1> near;     // (problem,) ms from a customer to its nearest neighbour, mean
     View<const double, 1> horizon;  // (problem,) ms, the last limit stated, or a guess
-    View<const double, 1> cost;  // (problem,) cost of driving from a depot to a customer, mean
-    View<const double, 1> amount;  // (problem,) total demand in the first dimension, or of pickups if more
+    View<const double, 1> cost;     // (problem,) cost of driving from a depot to a customer, mean
+    View<const double, 1>
+        amount;  // (problem,) total demand in the first dimension, or of pickups if more
 };
 
 inline Scales scales_of(const tandem_scales& from) {
@@ -26,7 +27,7 @@ struct Tokens {
     View<const float, 3> node;  // (problem, node, NUM_NODE_FEATURES)
     View<const float, 3> type;  // (problem, type, NUM_TYPE_FEATURES)
     View<const float, 4> pair;  // (problem, node, node, NUM_PAIR_FEATURES) from row to column
-    View<const bool, 2> mask;  // (problem, node + type) True = a token, False = padding
+    View<const bool, 2> mask;   // (problem, node + type) True = a token, False = padding
 };
 
 inline Tokens tokens_of(const tandem_tokens& from) {
@@ -34,19 +35,20 @@ inline Tokens tokens_of(const tandem_tokens& from) {
 }
 
 struct Observation {
-    View<std::int64_t, 1> count;  // (rollout,)
-    View<std::int64_t, 2> action;  // (rollout, candidate) codes
-    View<std::int64_t, 2> token;  // (rollout, candidate) node, or number of nodes + type
-    View<Outlook, 2> outlook;  // (rollout, candidate) OUTLOOK
-    View<float, 3> feature;  // (rollout, candidate, NUM_ACTION_FEATURES)
+    View<std::int64_t, 1> count;        // (rollout,)
+    View<std::int64_t, 2> action;       // (rollout, candidate) codes
+    View<std::int64_t, 2> token;        // (rollout, candidate) node, or number of nodes + type
+    View<Outlook, 2> outlook;           // (rollout, candidate) OUTLOOK
+    View<float, 3> feature;             // (rollout, candidate, NUM_ACTION_FEATURES)
     View<ActionFeatures, 2> described;  // (rollout, candidate) ACTION
-    View<float, 2> glob;  // (rollout, NUM_GLOBAL_FEATURES)
-    View<VehicleFeatures, 1> vehicle;  // (rollout,) VEHICLE_STATE
-    View<std::int64_t, 1> here;  // (rollout,) token of the vehicle's place
+    View<float, 2> glob;                // (rollout, NUM_GLOBAL_FEATURES)
+    View<VehicleFeatures, 1> vehicle;   // (rollout,) VEHICLE_STATE
+    View<std::int64_t, 1> here;         // (rollout,) token of the vehicle's place
 };
 
 inline Observation observation_of(const tandem_observation& from) {
-    return {from.count, from.action, from.token, from.outlook, from.feature, from.described, from.glob, from.vehicle, from.here};
+    return {from.count,     from.action, from.token,   from.outlook, from.feature,
+            from.described, from.glob,   from.vehicle, from.here};
 }
 
 struct StepWeights {
@@ -65,21 +67,24 @@ struct StepWeights {
 };
 
 inline StepWeights step_weights_of(const tandem_step_weights& from) {
-    return {from.globe, from.globe_bias, from.globe_output, from.globe_output_bias, from.action, from.action_bias, from.glimpse_bias, from.glimpse_output, from.action_query, from.action_mix, from.action_mix_bias, from.action_score};
+    return {from.globe,        from.globe_bias,  from.globe_output,    from.globe_output_bias,
+            from.action,       from.action_bias, from.glimpse_bias,    from.glimpse_output,
+            from.action_query, from.action_mix,  from.action_mix_bias, from.action_score};
 }
 
 struct Desk {
-    View<float, 1> hidden;  // (WIDTH,)
-    View<float, 1> query;  // (WIDTH,)
+    View<float, 1> hidden;    // (WIDTH,)
+    View<float, 1> query;     // (WIDTH,)
     View<float, 1> glimpsed;  // (WIDTH,)
-    View<float, 1> asked;  // (ACTION_WIDTH,)
-    View<float, 2> action;  // (candidate, ACTION_WIDTH)
-    View<float, 2> mixed;  // (candidate, ACTION_WIDTH)
-    View<float, 2> weight;  // (NUM_HEADS, candidate)
+    View<float, 1> asked;     // (ACTION_WIDTH,)
+    View<float, 2> action;    // (candidate, ACTION_WIDTH)
+    View<float, 2> mixed;     // (candidate, ACTION_WIDTH)
+    View<float, 2> weight;    // (NUM_HEADS, candidate)
 };
 
 inline Desk desk_of(const tandem_desk& from) {
-    return {from.hidden, from.query, from.glimpsed, from.asked, from.action, from.mixed, from.weight};
+    return {from.hidden, from.query, from.glimpsed, from.asked,
+            from.action, from.mixed, from.weight};
 }
 
 }  // namespace tandem

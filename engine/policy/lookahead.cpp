@@ -1,0 +1,149 @@
+#include "policy/lookahead.h"
+
+#include <algorithm>
+
+#include "rules/flight.h"
+#include "rules/load.h"
+#include "rules/window.h"
+
+namespace tandem {
+namespace {
+
+constexpr Int num_company = 3;    // unserved neighbours that are looked at for how near they are
+constexpr Int num_prospects = 8;  // those that are timed
+
+float to_float(double value) { return static_cast<float>(value); }
+
+// Clip a difference to three times `scale`, -1..1; 1 where there is nothing to compare.
+double excess(Int value, double scale) {
+    if (value >= unlimited) return 1;
+    return std::max(std::min(static_cast<double>(value) / scale / 3.0, 1.0), -1.0);
+}
+
+// Squash a duration; 1 where there is none.
+double soon(Int duration, double scale) {
+    return duration >= unlimited ? 1 : ratio(duration, scale);
+}
+
+// What a customer asks to be carried in the first dimension, whichever way is more.
+Int asked(const Setting& setting, Int node) {
+    const Int delivered = demand_of(setting.node[node])[0];
+    if (num_tiers(setting.amount) == 0) return delivered;
+    return std::max(delivered, picked_of(setting.amount, node, 0)[0]);
+}
+
+// Run for each unserved neighbour, the nearest first, as many as are wanted.
+template <class Look>
+void look_around(View<const Int, 1> neighbours, View<const bool, 1> served, Int wanted,
+                 Look&& look) {
+    Int seen = 0;
+    for (const Int other : neighbours) {
+        if (other < 0 || seen == wanted) return;
+        if (served[other]) continue;
+        ++seen;
+        look(other);
+    }
+}
+
+// Describe how close a candidate's unserved neighbours are.
+void describe_company(const Setting& setting, View<const Int, 1> neighbours,
+                      View<const bool, 1> served, const Candidate& candidate, const Unit& unit,
+                      ActionFeatures& feature) {
+    const View<const Int, 1> onward = setting.drive[candidate.node];
+    const Int past = setting.drive(candidate.here, candidate.node);
+    bool is_first = true;
+    feature.next_way = feature.third_way = feature.next_excess = 1;
+    look_around(neighbours, served, num_company, [&](Int other) {
+        const Int way = onward[other];
+        feature.third_way = to_float(ratio(way, unit.near));
+        if (!is_first) return;
+        is_first = false;
+        feature.next_way = feature.third_way;
+        feature.next_excess = to_float(excess(way - past, unit.near));
+    });
+}
+
+// Describe which neighbours could be driven to after a candidate, and from which to it.
+//
+// By fixed speeds, the first dimension of the load left, and without drones: a guess.
+void describe_drive(const Setting& setting, View<const Int, 1> neighbours,
+                    View<const bool, 1> served, const Candidate& candidate, const Unit& unit,
+                    ActionFeatures& feature) {
+    const NodeRows place = setting.node[candidate.node];
+    const View<const Int, 1> from_here = setting.drive[candidate.here];
+    const View<const Int, 1> onward = setting.drive[candidate.node];
+    const Int arrival = candidate.outlook.arrival;
+    const Int way = from_here[candidate.node];
+    const Int leave = candidate.outlook.start + service_duration(place);
+    const Int left = candidate.load - asked(setting, candidate.node);
+    Int soonest = unlimited, tightest = unlimited, detour = unlimited, later = unlimited;
+    Int seen = 0, lost = 0;
+    look_around(neighbours, served, num_prospects, [&](Int other) {
+        ++seen;
+        const NodeRows there = setting.node[other];
+        const Int latest = closing(there);
+        const Int past = from_here[other], back = setting.drive(other, candidate.node);
+        const Int then = leave + onward[other], directly = arrival - way + past;
+        if (lateness(place, end_of_service(there, none) + back) == 0) {
+            later = std::min(later, back + waiting(place, latest + service_duration(there) + back));
+        }
+        if (then <= latest && asked(setting, other) <= left) {
+            soonest = std::min(soonest, start_of_service(there, then) - leave);
+            if (latest < unlimited) tightest = std::min(tightest, latest - then);
+        } else if (directly <= latest) {
+            ++lost;
+        }
+        if (directly <= latest && lateness(place, end_of_service(there, directly) + back) == 0) {
+            detour = std::min(detour, past + back - way);
+        }
+    });
+    feature.next_duration = to_float(soon(soonest, unit.near));
+    feature.next_slack = to_float(slack(tightest, 0, unit.time));
+    feature.lost =
+        to_float(static_cast<double>(lost) / static_cast<double>(std::max(Int{1}, seen)));
+    feature.detour_before = to_float(excess(detour, unit.near));
+    feature.later_duration = to_float(soon(later, unit.near));
+}
+
+// Describe at which neighbours the drone could meet the truck.
+//
+// How soon, how long the truck would wait, and the least detour of the truck to serve the candidate
+// itself on its way to one.
+void describe_flight(const Setting& setting, View<const Int, 1> neighbours,
+                     View<const bool, 1> served, const Candidate& candidate, const Unit& unit,
+                     ActionFeatures& feature) {
+    const Int here = candidate.here, node = candidate.node;
+    const View<const Int, 1> from_here = setting.drive[here];
+    const View<const Int, 1> onward = setting.drive[node], home = setting.fly_home[node];
+    const Int takeoff = candidate.outlook.arrival - setting.fly(here, node);
+    const Int ready = candidate.outlook.start + service_duration(setting.node_by_air[node]);
+    Int soonest = unlimited, wait = unlimited, detour = unlimited;
+    Int seen = 0;
+    for (const Int other : neighbours) {
+        if (other < 0 || seen == num_prospects) break;
+        if (served[other] || unreachable(home[other])) continue;
+        ++seen;
+        const Int drone = ready + home[other] - takeoff, truck = from_here[other];
+        soonest = std::min(soonest, std::max(drone, truck));
+        wait = std::min(wait, std::max(Int{0}, drone - truck));
+        detour = std::min(detour, from_here[node] + onward[other] - truck);
+    }
+    feature.next_duration = to_float(soon(soonest, unit.near));
+    feature.next_slack = to_float(soon(wait, unit.near));
+    feature.detour_before = to_float(excess(detour, unit.near));
+}
+
+}  // namespace
+
+void describe_neighbours(const Setting& setting, View<const Int, 1> neighbours,
+                         View<const bool, 1> served, const Candidate& candidate, const Unit& unit,
+                         ActionFeatures& feature) {
+    describe_company(setting, neighbours, served, candidate, unit, feature);
+    if (candidate.by_air) {
+        describe_flight(setting, neighbours, served, candidate, unit, feature);
+    } else {
+        describe_drive(setting, neighbours, served, candidate, unit, feature);
+    }
+}
+
+}  // namespace tandem

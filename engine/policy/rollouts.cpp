@@ -1,0 +1,218 @@
+#include "policy/rollouts.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "guard.h"
+#include "rules/alarm.h"
+#include "simulation/simulator.h"
+
+namespace tandem {
+namespace {
+
+constexpr double clip = 10;  // what the scores are clipped to, softly
+
+constexpr Int given_up = -1;  // number of actions of a rollout that was not ended
+
+// Noise may be exactly zero, which has no logarithm.
+constexpr double least_noise = std::numeric_limits<float>::min();
+
+// A bound of what `disturbed` returns, which takes no time.
+double most_disturbed(double half, double temperature, double noise) {
+    constexpr double rounding = 1e-9;
+    const double upper = half >= 0 ? std::min(half, 1.0) : half / (1 - half);
+    const Int power = static_cast<Int>(std::bit_cast<std::uint64_t>(noise) >> 52) - 1023;
+    return clip * upper / temperature - static_cast<double>(power) * std::numbers::ln2 + rounding;
+}
+
+// A score, clipped, by the temperature, and disturbed by noise: the largest is a draw by
+// probability. `half` is twice the score by what it is clipped to.
+double disturbed(double half, double temperature, double noise) {
+    return clip * std::tanh(half) / temperature - std::log(noise);
+}
+
+// Room for what one decision sees.
+class Sight {
+public:
+    explicit Sight(Int most)
+        : action_(most), token_(most), outlook_(most), feature_(most), vehicle_{} {}
+
+    Seen seen() {
+        return {count_,          action_.view(), token_.view(), outlook_.view(),
+                feature_.view(), vehicle_,       here_};
+    }
+
+private:
+    // An array whose rows are written before they are read.
+    template <class T>
+    class Rows {
+    public:
+        explicit Rows(Int size)
+            : data_(std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(size))),
+              size_(size) {}
+
+        View<T, 1> view() { return {data_.get(), {size_}}; }
+
+    private:
+        std::unique_ptr<T[]> data_;
+        Int size_;
+    };
+
+    Int count_ = 0;
+    Int here_ = 0;
+    Rows<Int> action_, token_;
+    Rows<Outlook> outlook_;
+    Rows<ActionFeatures> feature_;
+    VehicleFeatures vehicle_;
+};
+
+// The most candidates that a decision may have.
+Int most_candidates(const Instance& instance) {
+    return 2 * instance.node.shape(2) + 1 + instance.type.shape(1);
+}
+
+// Where a rollout begins, and how it goes on.
+struct Course {
+    Memory memory;
+    double temperature;
+    const BitGenerator* bits;
+    Int kept;              // actions that are given
+    View<Int, 1> actions;  // codes
+};
+
+// Plans one rollout after another, in one thread.
+class Planner {
+public:
+    Planner(const StepWeights& weights, const Scene& scene, State& state, Int scratch)
+        : scene_(scene),
+          state_(state),
+          scratch_(scratch),
+          sight_(most_candidates(scene.instance)),
+          decider_(weights, most_candidates(scene.instance)),
+          scores_(static_cast<std::size_t>(most_candidates(scene.instance))) {}
+
+    // Plan a rollout to its end and return how many actions it has.
+    Int plan(const Course& course, Int r, View<const Int, 1> stop) {
+        for (Int index = 0; index < course.kept; ++index) {
+            apply(scene_.instance, state_, r, course.actions[index]);
+        }
+        const Seen seen = sight_.seen();
+        for (Int index = course.kept; index < course.actions.size(); ++index) {
+            if (rung(stop)) return given_up;
+            observe(scene_, state_, r, scratch_, seen);
+            if (seen.count == 0) return index;
+            const View<float, 1> scores(scores_.data(), {seen.count});
+            decider_.score(course.memory, seen, scores);
+            const Int action = seen.action[choose(scores, course.temperature, *course.bits)];
+            course.actions[index] = action;
+            apply(scene_.instance, state_, r, action);
+        }
+        return course.actions.size();
+    }
+
+private:
+    const Scene& scene_;
+    State& state_;
+    Int scratch_;
+    Sight sight_;
+    Decider decider_;
+    std::vector<float> scores_;
+};
+
+// Run a function by number on some threads, this one among them; throws what one of them threw.
+template <class Work>
+void run_on(Int threads, Work&& work) {
+    std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(threads));
+    const auto caught = [&](Int number) noexcept {
+        try {
+            work(number);
+        } catch (...) {
+            thrown[static_cast<std::size_t>(number)] = std::current_exception();
+        }
+    };
+    std::vector<std::thread> others;
+    others.reserve(static_cast<std::size_t>(threads));
+    try {
+        for (Int number = 1; number < threads; ++number) others.emplace_back(caught, number);
+    } catch (const std::system_error&) {
+        // With fewer threads it only takes longer.
+    }
+    caught(0);
+    for (std::thread& other : others) other.join();
+    for (const std::exception_ptr& error : thrown) {
+        if (error) std::rethrow_exception(error);
+    }
+}
+
+}  // namespace
+
+Int choose(View<const float, 1> scores, double temperature, const BitGenerator& bits) {
+    Int best = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    for (Int index = 0; index < scores.size(); ++index) {
+        double value = scores[index];
+        if (temperature > 0) {
+            const double noise = std::max(standard_exponential(bits), least_noise);
+            const double half = value * 2 / clip;
+            if (most_disturbed(half, temperature, noise) < most) continue;
+            value = disturbed(half, temperature, noise);
+        }
+        if (value > most) {
+            best = index;
+            most = value;
+        }
+    }
+    return best;
+}
+
+void roll_out(const StepWeights& weights, View<const float, 3> memory, const Scene& scene,
+              State& state, const Rollouts& rollouts, View<const Int, 1> stop, Int threads) {
+    const View<const Int, 1> rows(rollouts.row), view(rollouts.view), kept(rollouts.kept);
+    const View<const double, 1> temperature(rollouts.temperature);
+    const View<const std::uint64_t, 1> generator(rollouts.generator);
+    const View<Int, 2> actions(rollouts.actions);
+    const View<Int, 1> count(rollouts.count);
+    const Int scratch = state.problem.size() - threads;
+    std::atomic<Int> next = 0;
+    run_on(std::min(threads, rows.size()), [&](Int number) {
+        Planner planner(weights, scene, state, scratch + number);
+        for (Int i = next++; i < rows.size(); i = next++) {
+            const auto* bits = reinterpret_cast<const BitGenerator*>(generator[i]);
+            const Course course{memory[view[i]], temperature[i], bits, kept[i], actions[i]};
+            count[i] = planner.plan(course, rows[i], stop);
+        }
+    });
+}
+
+}  // namespace tandem
+
+using namespace tandem;
+
+int tandem_choose(const tandem_f32_1d* scores, double temperature, uint64_t generator,
+                  int64_t* choice) {
+    return guarded([&] {
+        const View<float, 1> given(*scores);
+        *choice = choose(given, temperature, *reinterpret_cast<const BitGenerator*>(generator));
+    });
+}
+
+int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_3d* memory,
+                    const tandem_scene* scene, const tandem_state* state,
+                    const tandem_rollouts* rollouts, const tandem_i64_1d* stop, int64_t threads) {
+    return guarded([&] {
+        const Instance instance = instance_of(scene->instance);
+        const Scales scale = scales_of(scene->scale);
+        State running = state_of(*state);
+        roll_out(step_weights_of(*weights), *memory, {instance, scale, scene->type_token}, running,
+                 *rollouts, View<Int, 1>(*stop), threads);
+    });
+}
