@@ -61,7 +61,7 @@ def call(name: str, *args: Any) -> Any:
         _check(name, function(*given))
         return None
     missing = results[len(args):]
-    if None in missing:
+    if any(dtype is None for dtype in missing):
         raise TypeError(f"{name} takes {len(converts)} arguments, not {len(args)}")
     rows = [np.zeros(1, dtype) for dtype in missing]
     _check(name, function(*given, *(convert(row) for convert, row in zip(

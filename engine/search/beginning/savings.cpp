@@ -1,0 +1,273 @@
+#include "search/beginning/savings.h"
+
+#include <algorithm>
+
+#include "guard.h"
+#include "rules/leg.h"
+#include "rules/shift.h"
+#include "rules/start.h"
+#include "rules/window.h"
+#include "search/neighbourhood/tables.h"
+#include "search/route/rarer.h"
+
+namespace tandem {
+
+namespace {
+
+// What the chain that begins here carries.
+Cargo chain_cargo(const ChainCargo& chain) {
+    return {amount_of(chain.delivered), amount_of(chain.picked), amount_of(chain.most),
+            chain.delivers, chain.picks};
+}
+
+// Lets the chain that begins here carry a cargo.
+void set_chain_cargo(ChainCargo& chain, const Cargo& cargo) {
+    write_amount(cargo.delivered, chain.delivered);
+    write_amount(cargo.picked, chain.picked);
+    write_amount(cargo.most, chain.most);
+    chain.delivers = cargo.total_delivered;
+    chain.picks = cargo.total_picked;
+}
+
+// How fast a type drives from where its routes begin, in mm per ms.
+double speed_of(const World& world, const VehicleType& type) {
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    double distance = 0.0;
+    double duration = 0.0;
+    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+        const Leg way = leg(legs, type.begins_at, node);
+        distance += double(way.distance);
+        duration += double(way.duration);
+    }
+    return duration > 0.0 ? distance / duration : 0.0;
+}
+
+// Chains that are joined to routes of one type.
+struct Chains {
+    const VehicleType& type;
+    TravelLegs legs;
+    NodesRows places;
+    View<Chain, 1> chain;
+};
+
+// Two routes that may become one: it would go on from `a`, the last of that which begins with
+// `head`, to `b`, the first of that which ends with `tail`; the drive from one to the other takes
+// `way`.
+struct Joint {
+    Int a;
+    Int b;
+    Int head;
+    Int tail;
+    Int way;
+};
+
+// Lets a chain be one customer.
+void set_up_chain(const Chains& chains, Int node) {
+    const auto& [type, legs, places, chain] = chains;
+    const NodeRows place = places[node];
+    const Int ready = std::max(leaves_first(type, type.shift_earliest), release_of(place));
+    const Int leave = type.shift_latest - leg(legs, node, type.ends_at).duration;
+    chain[node] = {
+        .before = nowhere,
+        .behind = nowhere,
+        .route = node,
+        .leave = end_of_service(place, ready + leg(legs, type.begins_at, node).duration),
+        .latest = latest_arrival(place, leave),
+        .last = node,
+        .length = 1,
+        .busy = service_duration(place),
+    };
+}
+
+// How long a vehicle works at least that drives two routes as one.
+Int working(const Chains& chains, const Joint& joint) {
+    const auto& [type, legs, places, chain] = chains;
+    const auto& [a, b, head, tail, way] = joint;
+    const Int latest = std::min(chain[head].latest, chain[b].latest - way - chain[head].busy);
+    const Int leaves = std::max(chain[tail].leave, chain[a].leave + way + chain[b].busy);
+    const Int busy = std::max(chain[head].busy + way + chain[b].busy, leaves - latest);
+    return leg(legs, type.begins_at, head).duration + busy + leg(legs, tail, type.ends_at).duration;
+}
+
+// Puts the route that begins with `b` behind that which ends with `a`.
+void link_up(const Chains& chains, const Joint& joint) {
+    const auto& [type, legs, places, chain] = chains;
+    const auto& [a, b, head, tail, way] = joint;
+    chain[a].behind = b;
+    chain[b].before = a;
+    chain[head].last = tail;
+    chain[tail].route = head;
+    Int time = chain[a].leave + way;
+    for (Int node = b; node != nowhere;) {
+        const Int behind = chain[node].behind;
+        time = end_of_service(places[node], time);
+        chain[node].leave = time;
+        if (behind != nowhere) time += leg(legs, node, behind).duration;
+        node = behind;
+    }
+    Int leave_by = chain[b].latest - way;
+    for (Int node = a; node != nowhere;) {
+        const Int before = chain[node].before;
+        leave_by = latest_arrival(places[node], leave_by);
+        chain[node].latest = leave_by;
+        if (before != nowhere) leave_by -= leg(legs, before, node).duration;
+        node = before;
+    }
+}
+
+}  // namespace
+
+Int length_of(const World& world, Int k, View<const Chain, 1> chain) {
+    const VehicleType& type = world.type[k];
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    Int length = 0;
+    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+        if (!world.can(k, 0, node)) continue;
+        const Int behind = chain[node].behind;
+        if (chain[node].before == nowhere) length += leg(legs, type.begins_at, node).distance;
+        length += leg(legs, node, behind == nowhere ? type.ends_at : behind).distance;
+    }
+    return length;
+}
+
+void write_nearest_types(const World& world, View<Int, 1> nearest) {
+    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+        Int least = -1;
+        for (Int k = 0; k < world.num_types; ++k) {
+            if (!world.can(k, 0, node)) continue;
+            const VehicleType& type = world.type[k];
+            const TravelLegs legs = legs_of(world.leg, type.travel);
+            const Int way =
+                leg(legs, type.begins_at, node).distance + leg(legs, node, type.ends_at).distance;
+            if (least < 0 || way < least) {
+                least = way;
+                nearest[node] = k;
+            }
+        }
+    }
+}
+
+void write_excess(const World& world, Int k, Int ranks, View<Int, 1> excess) {
+    const VehicleType& type = world.type[k];
+    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const NodesRows places = places_of(world.place, type);
+    const double speed = speed_of(world, type);
+    std::fill(excess.begin(), excess.end(), 0);
+    for (Int a = world.num_depots; a < world.num_nodes; ++a) {
+        if (!world.can(k, 0, a)) continue;
+        const Int to_end = leg(legs, a, type.ends_at).distance;
+        const Int leaves = end_of_service(places[a], 0);
+        const Int leaves_last = end_of_service(places[a], closing(places[a]));
+        const Int first = (a - world.num_depots) * ranks;
+        for (Int rank = 0; rank < ranks; ++rank) {
+            const Int b = world.near(a, rank);
+            if (b < 0 || !world.can(k, 0, b)) continue;
+            const Leg way = leg(legs, a, b);
+            const double more = detour(way.duration, double(leaves), double(leaves_last),
+                                       double(opening(places[b], 0)), double(closing(places[b]))) -
+                                double(way.duration);
+            excess[first + rank] =
+                way.distance + Int(more * speed) - to_end - leg(legs, type.begins_at, b).distance;
+        }
+    }
+}
+
+void number_pairs(View<Int, 1> excess, Int coarse) {
+    for (Int index = 0; index < excess.size(); ++index) {
+        excess[index] = (excess[index] >> coarse) * excess.size() + index;
+    }
+}
+
+Neighbours pair(const World& world, Int ranks, Int key) {
+    const Int pairs = (world.num_nodes - world.num_depots) * ranks;
+    // The number of the pair, whether the key is below zero or not.
+    const Int index = (key % pairs + pairs) % pairs;
+    const Int customer = world.num_depots + index / ranks;
+    return {customer, world.near(customer, index % ranks)};
+}
+
+void set_up_cargo(const World& world, Int node, View<ChainCargo, 1> cargo) {
+    if (tiers_of(world) == 0) {
+        const Amount demand = demand_of(world.place[0][node]);
+        set_chain_cargo(cargo[0], {demand, nothing, demand, total(demand), 0});
+    }
+    for (Int tier = 0; tier < tiers_of(world); ++tier) {
+        set_chain_cargo(cargo[tier], cargo_for(world.amount, node, tier));
+    }
+}
+
+bool may_join(const VehicleType& type, View<const ChainCargo, 1> front,
+              View<const ChainCargo, 1> rear) {
+    for (Int tier = 0; tier < front.size(); ++tier) {
+        const Cargo one = chain_cargo(front[tier]);
+        const Cargo other = chain_cargo(rear[tier]);
+        if (!may_follow(type, one, other) || !holds_in(type, followed(one, other).most, tier)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void add_cargo(View<ChainCargo, 1> front, View<const ChainCargo, 1> rear) {
+    for (Int tier = 0; tier < front.size(); ++tier) {
+        set_chain_cargo(front[tier], followed(chain_cargo(front[tier]), chain_cargo(rear[tier])));
+    }
+}
+
+void join(const World& world, Int k, Int ranks, View<const Int, 1> keys, View<Chain, 1> chain,
+          const View<ChainCargo, 2>& cargo) {
+    const VehicleType& type = world.type[k];
+    const Chains chains{type, legs_of(world.leg, type.travel), places_of(world.place, type), chain};
+    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+        set_up_chain(chains, node);
+        set_up_cargo(world, node, cargo[node]);
+    }
+    for (const Int key : keys) {
+        const auto [a, b] = pair(world, ranks, key);
+        const Int way = leg(chains.legs, a, b).duration;
+        if (chain[a].behind != nowhere || chain[b].before != nowhere ||
+            chain[a].leave + way > chain[b].latest) {
+            continue;
+        }
+        const Joint joint{a, b, chain[a].route, chain[b].last, way};
+        Chain& head = chain[joint.head];
+        const Int length = head.length + chain[b].length;
+        if (joint.head == b || !allows_stops(type, length) ||
+            !may_join(type, cargo[joint.head], cargo[b]) ||
+            working(chains, joint) > type.max_working_duration) {
+            continue;
+        }
+        head.busy += way + chain[b].busy;
+        link_up(chains, joint);
+        head.length = length;
+        add_cargo(cargo[joint.head], cargo[b]);
+    }
+}
+
+}  // namespace tandem
+
+using namespace tandem;
+
+extern "C" int tandem_length_of(const tandem_world* world, int64_t k, const tandem_chain_1d* chain,
+                                int64_t* length) {
+    return guarded([&] { *length = length_of(world_of(*world), k, View<Chain, 1>(*chain)); });
+}
+
+extern "C" int tandem_write_nearest_types(const tandem_world* world, const tandem_i64_1d* nearest) {
+    return guarded([&] { write_nearest_types(world_of(*world), *nearest); });
+}
+
+extern "C" int tandem_write_excess(const tandem_world* world, int64_t k, int64_t ranks,
+                                   const tandem_i64_1d* excess) {
+    return guarded([&] { write_excess(world_of(*world), k, ranks, *excess); });
+}
+
+extern "C" int tandem_number_pairs(const tandem_i64_1d* excess, int64_t coarse) {
+    return guarded([&] { number_pairs(*excess, coarse); });
+}
+
+extern "C" int tandem_join(const tandem_world* world, int64_t k, int64_t ranks,
+                           const tandem_i64_1d* keys, const tandem_chain_1d* chain,
+                           const tandem_chain_cargo_2d* cargo) {
+    return guarded([&] { join(world_of(*world), k, ranks, *keys, *chain, *cargo); });
+}
