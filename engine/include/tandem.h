@@ -157,23 +157,24 @@ typedef struct tandem_operation {
 
 typedef struct tandem_logged_sortie {
     int64_t drone;
-    int64_t row;
+    int64_t row;  /* of its drone's type */
     int64_t node;
     int64_t launch_stop;
-    int64_t recovery_stop;
+    int64_t recovery_stop;  /* -1 until it is recovered */
     int64_t takeoff;
     int64_t arrival;
     int64_t start;
     int64_t ready;
     int64_t recovery_start;
     int64_t recovery_end;
-    int64_t left;
-    int64_t trial_takeoff;
-    int64_t trial_ready;
-    int64_t trial_end;
-    int64_t trial_left;
+    int64_t left;  /* of the battery, of drones that are charged aboard */
+    int64_t trial_takeoff;  /* as it would be if a trip began later */
+    int64_t trial_ready;  /* likewise */
+    int64_t trial_end;  /* likewise, of the recovery */
+    int64_t trial_left;  /* likewise, as it is launched and then recovered */
 } tandem_logged_sortie;
 
+/* How many of each there are in a log. */
 typedef struct tandem_log_lengths {
     int64_t trips;
     int64_t stops;
@@ -181,42 +182,44 @@ typedef struct tandem_log_lengths {
     int64_t sorties;
 } tandem_log_lengths;
 
+/* The open vehicle of a rollout. */
 typedef struct tandem_vehicle {
-    int64_t type;
-    int64_t index;
+    int64_t type;  /* -1 before the first opens */
+    int64_t index;  /* within the type */
     int64_t node;
-    int64_t idle;
-    int64_t service_end;
-    int64_t crew;
-    int64_t free;
-    int64_t distance;
-    int64_t start_best;
-    int64_t departure_best;
-    int64_t next_start;
-    int64_t launched;
-    int64_t flying;
-    int64_t given;
-    int64_t picked;
-    int64_t taken;
-    int64_t barred_on_trip;
-    int64_t barred_on_vehicle;
-    int64_t load[9];
-    int64_t aboard[9];
+    int64_t idle;  /* at the depot, no trip begun */
+    int64_t service_end;  /* here */
+    int64_t crew;  /* end of the recoveries here */
+    int64_t free;  /* end of the launches after them as if none was held back */
+    int64_t distance;  /* of the trip */
+    int64_t start_best;  /* latest known start of the first trip that costs nothing */
+    int64_t departure_best;  /* the departure that follows from it */
+    int64_t next_start;  /* earliest start of the next trip */
+    int64_t launched;  /* on the trip before this stop */
+    int64_t flying;  /* drones */
+    int64_t given;  /* on the trip, over all dimensions */
+    int64_t picked;  /* likewise, before the stop here */
+    int64_t taken;  /* likewise, by now */
+    int64_t barred_on_trip;  /* goods that may not be added */
+    int64_t barred_on_vehicle;  /* likewise */
+    int64_t load[9];  /* left, by dimension */
+    int64_t aboard[9];  /* of pickups, by dimension */
 } tandem_vehicle;
 
+/* A drone of the open vehicle. Those in flight were launched at the truck's stop. */
 typedef struct tandem_drone {
-    int64_t row;
-    int64_t sortie;
-    int64_t place;
-    int64_t node;
+    int64_t row;  /* of its type */
+    int64_t sortie;  /* -1 where it is aboard */
+    int64_t place;  /* to be recovered at: aboard already, the next stop, this stop */
+    int64_t node;  /* customer */
     int64_t takeoff;
-    int64_t ready;
-    int64_t back;
-    int64_t recovery;
-    int64_t kept;
-    int64_t since;
-    int64_t lacking;
-    int64_t left;
+    int64_t ready;  /* end of service */
+    int64_t back;  /* arrival at the recovery stop */
+    int64_t recovery;  /* its beginning */
+    int64_t kept;  /* of the battery as it last came aboard on the trip, if charged there */
+    int64_t since;  /* when that was */
+    int64_t lacking;  /* of a full battery as it is launched */
+    int64_t left;  /* on recovery */
 } tandem_drone;
 
 typedef struct tandem_cost {
@@ -230,10 +233,11 @@ typedef struct tandem_cost {
     double unassigned;
 } tandem_cost;
 
+/* What an action on a customer leads to. */
 typedef struct tandem_outlook {
-    int64_t arrival;
-    int64_t start;
-    int64_t end;
+    int64_t arrival;  /* at the customer */
+    int64_t start;  /* of service */
+    int64_t end;  /* of the trip if the vehicle went home afterwards */
 } tandem_outlook;
 
 typedef struct tandem_node_features {
@@ -921,6 +925,8 @@ int tandem_apply_route(const tandem_instance *instance, const tandem_state *stat
 /* Write what each vehicle of legal actions costs as if there were no other. */
 int tandem_price_routes(const tandem_instance *instance, const tandem_state *state, int64_t r,
                         const tandem_i64_1d *actions, const tandem_cost_1d *price);
+/* Let each trip of the open vehicle begin as late as costs nothing, and add its cost. */
+int tandem_close_vehicle(const tandem_instance *instance, const tandem_state *state, int64_t r);
 /* End a rollout that has no legal action left. */
 int tandem_finish(const tandem_instance *instance, const tandem_state *state, int64_t r);
 

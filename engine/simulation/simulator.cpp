@@ -360,6 +360,14 @@ int tandem_price_routes(const tandem_instance* instance, const tandem_state* sta
     });
 }
 
+int tandem_close_vehicle(const tandem_instance* instance, const tandem_state* state,
+                         std::int64_t r) {
+    return guarded([&] {
+        State rows = state_of(*state);
+        close_vehicle(instance_of(*instance), rows, r);
+    });
+}
+
 int tandem_finish(const tandem_instance* instance, const tandem_state* state, std::int64_t r) {
     return guarded([&] {
         State rows = state_of(*state);
