@@ -35,11 +35,12 @@ MODEL = {
     "problem": (),
     "solution": (),
     "judge": ("problem", "solution"),
-    "kernel": ("problem",),
-    "travel": ("problem", "kernel"),
-    "simulation": ("problem", "solution", "kernel"),
+    "engine": (),
+    "kernel": ("problem", "engine"),
+    "travel": ("problem", "engine", "kernel"),
+    "simulation": ("problem", "solution", "engine", "kernel"),
     "policy": ("problem", "kernel", "simulation"),
-    "search": ("problem", "solution", "kernel"),
+    "search": ("problem", "solution", "engine", "kernel"),
     "together": ("problem", "solution", "judge", "kernel", "search"),
     "planner": ("problem", "solution", "judge", "kernel", "travel", "simulation", "policy",
                 "search", "together"),
@@ -47,7 +48,7 @@ MODEL = {
     "dialects": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
-MOST_ARROWS = 36
+MOST_ARROWS = 40
 
 INTERPRETED = {"solution", "problem/straight", "problem/travel"}
 """Imported beside compiled functions, but nothing of it is compiled into them."""

@@ -8,7 +8,7 @@ sees.
 from model.problem import Problem
 from model.search.regions.region import customers_of
 from model.solution import Solution
-from model.travel.visibility import FEW_EDGES
+from model.travel.obstacles import FEW_EDGES
 
 DRIVE, FLIGHT = 2e-8, 3e-8
 """Seconds for each leg of a way to travel."""

@@ -122,7 +122,10 @@ def _conversion(kind: Any, path: str) -> Convert:
 
     def pack(value: Any) -> Any:
         if type(value) is not Packed:
-            return Packed(value, kind.item).pointer
+            try:
+                return Packed(value, kind.item).pointer
+            except TypeError as error:
+                raise TypeError(f"{path}: {error}") from None
         if value.kind is not kind.item:
             raise TypeError(f"{path}: {kind.item.cname} was expected, not {value.kind.cname}")
         return value.pointer

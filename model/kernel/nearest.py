@@ -1,9 +1,11 @@
 """Who is nearest to whom, in a time that hardly depends on how many are equally near."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from model.kernel.cells import Cells, write_nearest_in
+from model.engine.library import call
 from model.kernel.pausing import Pause, matrix_blocks, row_blocks
 from model.problem import FloatArray, Int32Array, IntArray, Problem
 
@@ -15,6 +17,18 @@ NONE = -1
 
 POINTS_AT_ONCE = 1024
 """For how many points the nearest are found between two pauses."""
+
+
+class Cells(NamedTuple):
+    """Cells, of which each is halved into two further on or holds points; the first holds all."""
+
+    low: FloatArray  # (cell, axis)
+    high: FloatArray  # (cell, axis)
+    first: IntArray  # (cell,) its points, by their place in `point`
+    last: IntArray  # (cell,)
+    half: IntArray  # (cell, 2) the cells that it is halved into; -1 if it is not
+    point: FloatArray  # (place, axis)
+    number: Int32Array  # (place,) of the point
 
 
 def least_columns(weight: NDArray[np.floating], ranks: int) -> IntArray:
@@ -37,7 +51,7 @@ def write_nearest_points(points: FloatArray, nearest: Int32Array, pause: Pause) 
     """
     cells = cells_of(points)
     for places in row_blocks(len(points), POINTS_AT_ONCE, pause):
-        write_nearest_in(cells, places.start, places.stop, nearest)
+        call("tandem_write_nearest_in", cells, places.start, places.stop, nearest)
 
 
 def cells_of(points: FloatArray) -> Cells:

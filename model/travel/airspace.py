@@ -16,8 +16,7 @@ from shapely import Polygon
 from model.kernel.pausing import Pause, go_on, matrix_blocks
 from model.problem import FloatArray
 from model.travel.matrices import planar_distances
-from model.travel.obstacles import Obstacles, obstacles_of
-from model.travel.visibility import FEW_EDGES
+from model.travel.obstacles import FEW_EDGES, Obstacles, obstacles_of
 from model.travel.ways import Legs, Ways, find_ways
 from model.travel.wind import Wind
 

@@ -13,6 +13,9 @@ from model.problem import BoolArray, FloatArray
 TOUCH_M = 0.0005
 """How deep a flight may cut into a no-fly area and still count as touching its boundary."""
 
+FEW_EDGES = 12
+"""With no more edges than this, the engine compares every line of sight with all."""
+
 
 class Corners(NamedTuple):
     """Where alone shortest ways bend."""

@@ -5,11 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.engine.library import call
 from model.kernel.pausing import Pause, matrix_blocks, row_blocks
 from model.problem import BoolArray, FloatArray, IntArray
-from model.travel.detours import Sights, fly_around
 from model.travel.obstacles import TOUCH_M, Corners, Obstacles
-from model.travel.visibility import mark_dead_ends, mark_hidden
 from model.travel.wind import Wind
 
 SLACK_M = 2 * TOUCH_M
@@ -27,6 +26,18 @@ class Legs(NamedTuple):
 
     distance: FloatArray  # (origin, target) metres
     duration: FloatArray  # (origin, target) seconds
+
+
+class Sights(NamedTuple):
+    """Straight flights from each row's place to the places that it sees, or back.
+
+    The entries of row `i` are those from `begin[i]` up to `begin[i + 1]`.
+    """
+
+    begin: IntArray  # (row + 1,)
+    place: IntArray  # (entry,)
+    distance: FloatArray  # (entry,) metres
+    duration: FloatArray  # (entry,) seconds, infinite where the wind is too strong
 
 
 class Pairs(NamedTuple):
@@ -69,8 +80,8 @@ class Ways:
         between = self.between.flown(wind)
         size = 1 + FLIGHTS_AT_ONCE // (1 + len(outward.place) + 4 * len(between.place))
         for rows in row_blocks(len(self.blocked), size, pause):
-            fly_around(outward, between, inward, self.blocked, wind.is_calm, rows.start, rows.stop,
-                       legs.distance, legs.duration)
+            call("tandem_fly_around", outward, between, inward, self.blocked, wind.is_calm,
+                 rows.start, rows.stop, legs.distance, legs.duration)
 
     def bends(self, start: int, end: int, wind: Wind) -> IntArray:
         """Return the corners, in their order, where the quickest flight between two nodes bends.
@@ -146,14 +157,15 @@ def _look(starts: FloatArray, ends: FloatArray, obstacles: Obstacles, hidden: Bo
         return
     size = 1 + LOOKS_AT_ONCE // (len(obstacles.edges) + len(ends))
     for rows in row_blocks(len(starts), size, pause):
-        mark_hidden(starts, ends, obstacles.edges, hidden, rows.start, rows.stop, mutual)
+        call("tandem_mark_hidden", starts, ends, obstacles.edges, hidden, rows.start, rows.stop,
+             mutual)
 
 
 def _dead_ends(starts: FloatArray, corners: Corners, pause: Pause) -> BoolArray:
     """Mark the (start, corner) pairs that no quickest way goes along."""
     dead = np.zeros((len(starts), len(corners.place)), np.bool_)
     for rows in row_blocks(len(starts), 1 + LOOKS_AT_ONCE // (1 + len(corners.place)), pause):
-        mark_dead_ends(starts, *corners, SLACK_M, dead, rows.start, rows.stop)
+        call("tandem_mark_dead_ends", starts, *corners, SLACK_M, dead, rows.start, rows.stop)
     return dead
 
 
@@ -161,4 +173,5 @@ def _pairs(starts: FloatArray, ends: FloatArray, hidden: BoolArray) -> Pairs:
     row, column = np.nonzero(~hidden)
     begin = np.zeros(len(starts) + 1, np.int64)
     np.cumsum(np.bincount(row, minlength=len(starts)), out=begin[1:])
+    row, column = np.ascontiguousarray(row), np.ascontiguousarray(column)
     return Pairs(begin, column, ends[column, 0] - starts[row, 0], ends[column, 1] - starts[row, 1])

@@ -6,6 +6,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from model.engine.library import call
 from model.kernel.instance import Instance
 from model.kernel.leg import COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs
 from model.kernel.nearest import least_columns, write_nearest_points
@@ -15,7 +16,6 @@ from model.kernel.variants import Way, are_stated, ways_of
 from model.problem import UNLIMITED, Int32Array, IntArray, Problem, StraightLegs, Travel
 from model.problem.quantities import NO_LEG
 from model.search.ground.numbering import Numbering, along_neighbours, as_stated
-from model.search.ground.tables import write_legs, write_misfit
 
 NEAR_RUIN = 128
 """How many customers a ruin may spread to."""
@@ -121,12 +121,13 @@ def _tables(problem: Problem, ways: Sequence[Way], directions: int, setup: Recor
     if not ways:
         return np.empty((1, 1, len(node), 0, 2), kind)
     legs = np.empty((directions, len(ways), len(node), len(node), 2), kind)
+    write = "tandem_write_narrow_legs" if kind is np.int32 else "tandem_write_legs"
     for index, way in enumerate(ways):
         travel = problem.travel[way.travel]
         held = travel.narrow() if kind is np.int32 else None
         duration, distance = map(np.ascontiguousarray, held or travel.arrays())
         for rows in matrix_blocks(len(node), pause):
-            write_legs(duration, distance, node, rows.start, legs[0, index, rows])
+            call(write, duration, distance, node, rows.start, legs[0, index, rows])
             if way.sets_up:
                 _add_setups(legs[0, index, rows, :, 0], setup, node[rows], node)
     for index in range(len(ways) if directions > 1 else 0):
@@ -201,6 +202,7 @@ def _fit(problem: Problem, place: Records, near: Int32Array, same_back: bool, pa
         if not same_back:
             back = np.ascontiguousarray(travel.duration[other, one])
         weight = np.empty(other.shape)
-        write_misfit(there, back, other, first + rows.start, earliest, service, latest, weight)
+        call("tandem_write_misfit", there, back, other, first + rows.start, earliest, service,
+             latest, weight)
         fit[first:][rows] = np.take_along_axis(other, least_columns(weight, ranks), axis=1)
     return fit

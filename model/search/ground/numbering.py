@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.engine.library import call
 from model.kernel.instance import Instance
 from model.problem import Int32Array, IntArray
-from model.search.ground.tables import walk
 
 
 class Numbering(NamedTuple):
@@ -30,7 +30,7 @@ def along_neighbours(near: Int32Array, num_depots: int) -> Numbering:
     `near` as in `World`.
     """
     node = np.arange(len(near))
-    walk(near, num_depots, node)
+    call("tandem_walk", near, num_depots, node)
     return Numbering(node, np.argsort(node))
 
 

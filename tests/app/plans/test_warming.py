@@ -1,36 +1,13 @@
 """What is shown while a planner is warmed."""
 
-import json
 import logging
-import subprocess
 import sys
 from io import StringIO
-from pathlib import Path
-from typing import Any
 
 import pytest
 
 from app.plans.warming import LINE_SECONDS, Lines, showing
 from model.kernel.warming import Warmth
-
-ROOT = Path(__file__).parents[3]
-
-FLIGHTS_SCRIPT = """
-import sys
-from app.plans.task import task_of
-from app.requests.reading import read_request
-from model.travel.airspace import compile_ways
-from model.travel.detours import fly_around
-from model.travel.visibility import mark_dead_ends, mark_hidden
-
-functions = (fly_around, mark_dead_ends, mark_hidden)
-compile_ways()
-warm = [list(function.signatures) for function in functions]
-assert all(warm), "not all are compiled"
-for line in sys.stdin.buffer:
-    task_of(read_request(line, policies=None))
-assert warm == [list(function.signatures) for function in functions], "more had to be compiled"
-"""
 
 FIRST, SECOND = Warmth("compiling this", 0.2), Warmth("compiling that", 0.6, decodes=True)
 
@@ -83,23 +60,3 @@ def test_where_there_is_no_terminal_lines_are_written() -> None:
     with showing(lines.append) as show:
         show(FIRST)
     assert len(lines) == 1
-
-
-def with_area(request: dict[str, Any], system: str, wind: float) -> dict[str, Any]:
-    """Return a request whose flights go around an area."""
-    ends = [[0, 0], [0.003, 0]]
-    moved = {name: [place | {"location": ends[index % 2]}
-                    for index, place in enumerate(request[name], first)]
-             for name, first in (("depots", 0), ("customers", 1))}
-    return {"fleet": request["fleet"], "coordinate_system": system, **moved,
-            **({"planar_unit": 100_000} if system == "planar" else {}),
-            "airspace": {"no_fly": [[[0.001, -0.001], [0.002, -0.001], [0.0015, 0.001]]],
-                         "wind": {"speed_kmh": wind, "direction_deg": 90}}}
-
-
-def test_requests_with_areas_find_all_of_their_flights_compiled(
-        with_drones: dict[str, Any]) -> None:
-    requests = [with_area(with_drones, system, wind)
-                for system in ("planar", "geographic") for wind in (0, 20)]
-    lines = b"\n".join(json.dumps(request).encode() for request in requests)
-    subprocess.run([sys.executable, "-c", FLIGHTS_SCRIPT], cwd=ROOT, check=True, input=lines)

@@ -17,7 +17,7 @@ from training.instances import generate
 def test_customers_on_a_line_are_numbered_along_it() -> None:
     place = np.array([3.0, 7.0, 1.0, 5.0, 2.0, 6.0, 4.0])
     ranks = np.abs(place[:, None] - place).argsort(axis=1)[:, 1:]
-    near = np.vstack([np.full((2, 6), -1), ranks + 2])
+    near = np.vstack([np.full((2, 6), -1), ranks + 2]).astype(np.int32)
     numbering = along_neighbours(near, 2)
     assert numbering.node[:2].tolist() == [0, 1]
     assert sorted(numbering.node.tolist()) == list(range(9))
@@ -26,7 +26,7 @@ def test_customers_on_a_line_are_numbered_along_it() -> None:
 
 
 def test_customers_without_neighbours_are_numbered_as_they_come() -> None:
-    assert along_neighbours(np.full((4, 1), -1), 1).node.tolist() == [0, 1, 2, 3]
+    assert along_neighbours(np.full((4, 1), -1, np.int32), 1).node.tolist() == [0, 1, 2, 3]
 
 
 @pytest.mark.parametrize("variant", ["cvrp", "mixed"])
