@@ -13,8 +13,8 @@ import numpy as np
 from model.kernel.instance import Instance, pack
 from model.problem import Customer, IntArray, Problem, Travel, VehicleType
 from model.search.beginning.construct import begin_anew
-from model.search.beginning.translate import leg_cost, make_searcher
-from model.search.moves.anneal import ANY, anneal
+from model.search.beginning.translate import make_searcher
+from model.search.route.engine import ANY, anneal, leg_cost
 from model.search.route.layout import CUSTOMER
 from model.search.route.state import Searcher
 from model.search.world import make_world

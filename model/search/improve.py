@@ -16,8 +16,8 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.first_plan import first_plan
 from model.search.ground.lay import Ground, lay_ground
+from model.search.linked.engine import measure_near
 from model.search.linked.layout import Linked, make_linked
-from model.search.linked.tying import measure_near
 from model.search.limits import WHOLE, Limits, Span
 from model.search.route.layout import NOWHERE, World
 from model.search.route.state import Searcher

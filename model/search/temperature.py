@@ -3,9 +3,9 @@
 import math
 from dataclasses import dataclass
 
-from model.search.beginning.translate import leg_cost
+from model.search.route.engine import leg_cost, missing_cost
 from model.search.route.layout import World
-from model.search.route.state import Searcher, missing_cost
+from model.search.route.state import Searcher
 from model.search.world import are_alike, only_loads_limit
 
 HOT, COLD = 1.0, 0.1

@@ -2,15 +2,14 @@
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from model.search.linked.anneal import anneal_linked
-from model.search.linked.layout import Linked
-from model.search.linked.tying import tie, write_back
+from model.engine.packing import Packed, packed
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
-from model.search.moves.anneal import ANY, anneal
-from model.search.moves.ruin import LONGEST_STRING
+from model.search.linked.engine import anneal_linked, tie, write_back
+from model.search.linked.layout import Linked
 from model.search.recombining import take_better_parts
+from model.search.route.engine import ANY, LONGEST_STRING, anneal
 from model.search.route.layout import World
 from model.search.route.state import Searcher
 from model.search.temperature import Heat
@@ -56,15 +55,19 @@ class Worker:
     pace: float = 0.0  # seconds a turn takes
     cooled: float = 0.0  # share of the cooling that is left out
     looked: int = 0  # turns after which better parts were last looked for
+    given: tuple[Packed, Packed] = field(init=False)  # world and search, packed for a round
+    tied: Packed | None = field(default=None, init=False)  # likewise what is linked
 
     def run(self) -> None:
         """Search for one round."""
         most, end = self.limits.round_end(self.turns, self.span)
-        if self.linked is not None:
-            tie(self.world, self.searcher, self.linked)
+        self.given = packed(self.world), packed(self.searcher)
+        self.tied = None if self.linked is None else packed(self.linked)
+        if self.tied is not None:
+            tie(*self.given, self.tied)
         self._search(most, end)
-        if self.linked is not None:
-            write_back(self.world, self.searcher, self.linked)
+        if self.tied is not None:
+            write_back(*self.given, self.tied)
 
     def _search(self, most: float, end: float) -> None:
         """Search for so many turns in all, until some time at most."""
@@ -96,12 +99,12 @@ class Worker:
         spare = end - time.perf_counter()
         if (self.span.share(self.limits.share(self.turns)) >= LOOKED_FROM
                 and spare > LOOK * self.world.num_nodes and not self.limits.should_stop()):
-            if self.linked is None:
+            if self.tied is None:
                 take_better_parts(self.world, self.searcher)
                 return
-            write_back(self.world, self.searcher, self.linked)
+            write_back(*self.given, self.tied)
             take_better_parts(self.world, self.searcher)
-            tie(self.world, self.searcher, self.linked)
+            tie(*self.given, self.tied)
 
     def _longest_string(self) -> float:
         """Return how many customers a string has at most where routes are long."""
@@ -131,10 +134,10 @@ class Worker:
             self.cooling = span
         value.longest = self._longest_string()
         began, before = time.perf_counter(), int(self.searcher.count.turn)
-        if self.linked is None:
-            anneal(self.world, self.searcher, turns, ANY)
+        if self.tied is None:
+            anneal(*self.given, turns, ANY)
         else:
-            anneal_linked(self.world, self.searcher, self.linked, turns)
+            anneal_linked(*self.given, self.tied, turns)
         made = int(self.searcher.count.turn) - before
         self.turns += made
         self.pace = (time.perf_counter() - began) / max(1, made)
