@@ -7,7 +7,7 @@ namespace tandem {
 
 // Whether an alarm has rung. Another thread raises the flag, in memory that isn't the engine's.
 inline bool rung(View<const Int, 1> flag) {
-    return *static_cast<const volatile Int*>(flag.data()) != 0;
+    return __atomic_load_n(flag.data(), __ATOMIC_RELAXED) != 0;
 }
 
 }  // namespace tandem

@@ -47,8 +47,8 @@ inline Int charged(const VehicleType& type, Int kept, Int since, Int time) {
     return full ? type.battery : kept + rest * type.charge;
 }
 
-// When a drone has what a flight takes that leaves so much `left` of a full battery; at once if that
-// is more than it holds. It came aboard as for `charged`.
+// When a drone has what a flight takes that leaves so much `left` of a full battery; at once if
+// that is more than it holds. It came aboard as for `charged`.
 inline Int charged_by(const VehicleType& type, Int kept, Int since, Int left) {
     const Int missing = type.battery - left - kept;
     if (left < 0 || missing <= 0) return since;

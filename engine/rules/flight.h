@@ -41,8 +41,8 @@ inline Int recovery_end(const VehicleType& type, Int begin) {
 }
 
 // When a drone takes off at the latest whose truck would leave at `leave` without it, if no window
-// holds it back. A usual launch is taken to be over by then, a swap to begin, and where it has to be
-// charged, nothing is known.
+// holds it back. A usual launch is taken to be over by then, a swap to begin, and where it has to
+// be charged, nothing is known.
 inline Int gone_by(const VehicleType& type, Int leave) {
     if (charges_aboard(type)) return far;
     return launches_differ(type) ? take_off(type, leave, 1) : leave;
@@ -64,9 +64,9 @@ inline Int earliest_back(NodeRows place, Int arrival, Int home) {
     return opening(place, arrival) + service_duration(place) + home;
 }
 
-// In how long after its take-off windows may let a drone be back. Its endurance; and where it hovers
-// before windows, what it can beside the `flight`, services included, after which so much is `left`
-// of its battery, with the most `weight` aboard.
+// In how long after its take-off windows may let a drone be back. Its endurance; and where it
+// hovers before windows, what it can beside the `flight`, services included, after which so much is
+// `left` of its battery, with the most `weight` aboard.
 inline Int longest_hold(const VehicleType& type, Int flight, Int left, Int weight) {
     if (!hovers_at_customers(type) || left < 0) return type.endurance;
     return std::min(type.endurance, flight + longest_hover(type, left, weight));
@@ -156,9 +156,9 @@ inline Int longest_flight(const VehicleType& type) {
     return std::min(type.endurance, longest_cruise(type));
 }
 
-// For which arrivals at a block's beginning it is at most `limit` from one pair to another, which is
-// never before it; `far` and `none` if there is none. With `time`, both are sums with d as soon as
-// that is past `begin_c - begin_d`, so that what lasts too long by d must begin before.
+// For which arrivals at a block's beginning it is at most `limit` from one pair to another, which
+// is never before it; `far` and `none` if there is none. With `time`, both are sums with d as soon
+// as that is past `begin_c - begin_d`, so that what lasts too long by d must begin before.
 inline Interval lasting_within(Int limit, Int begin_d, Int begin_c, Int d, Int c) {
     if (d - begin_d <= limit) {
         return {c - begin_c > limit ? c - limit - begin_d : none, far};

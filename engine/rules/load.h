@@ -208,8 +208,8 @@ inline void add_come(Halt& halt, const Amount& amount, Int sum_of_all) {
     halt.comes += sum_of_all;
 }
 
-// Writes what is aboard at the stops of a trip, by what leaves and comes aboard at each. False if it
-// is too much, or picked up too early.
+// Writes what is aboard at the stops of a trip, by what leaves and comes aboard at each. False if
+// it is too much, or picked up too early.
 bool weigh_trip(const VehicleType& type, View<Halt, 1> halts, Int first, Int last, Int tier);
 
 // Whether a customer may be served on a trip on top of all others. The parcel leaves the truck at

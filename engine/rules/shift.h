@@ -8,8 +8,8 @@
 
 namespace tandem {
 
-// How long a vehicle works that ends at `end`, and works so long, past what is usual: past the shift
-// or its working duration, the longer.
+// How long a vehicle works that ends at `end`, and works so long, past what is usual: past the
+// shift or its working duration, the longer.
 inline Int overtime(const VehicleType& type, Int end, Int working) {
     return std::max(Int{0}, std::max(end - type.usual_end, working - type.usual_working));
 }

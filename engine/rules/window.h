@@ -115,8 +115,7 @@ inline Int latest_arrival(NodeRows place, Int leave) {
 
 // The last arrival no later than `arrival` is that lets a truck leave by `leave`.
 inline Int latest_free_arrival(NodeRows place, Int arrival, Int leave) {
-    return std::min(as_late(place, arrival),
-                    no_later_than(place, leave - service_duration(place)));
+    return std::min(as_late(place, arrival), no_later_than(place, leave - service_duration(place)));
 }
 
 // The pair of the start of service, for an arrival at (d, c).
@@ -124,8 +123,8 @@ inline Pair start_within(NodeRows place, Int time, Int d, Int c) {
     return {d, std::max(c, opening(place, std::max(time + d, c)))};
 }
 
-// For which arrivals at the block's beginning one at (d, c) is allowed and starts so: those that are
-// served in the same window. For where c itself is not `too_late`.
+// For which arrivals at the block's beginning one at (d, c) is allowed and starts so: those that
+// are served in the same window. For where c itself is not `too_late`.
 inline Interval allowed_within(NodeRows place, Int time, Int d, Int c) {
     const Int arrival = std::max(time + d, c);
     Int first = none;

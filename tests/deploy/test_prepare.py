@@ -11,7 +11,8 @@ CI = Path(__file__).parents[2] / ".ci"
 BROWSER = "chromium-headless-shell"
 PROGRAMS = {"make": "make", BROWSER: BROWSER, "node": "nodejs", "curl": "curl"}
 PYTHON = ("python3", "python3-venv")
-PACKAGES = ("make", *PYTHON, BROWSER, "nodejs", "curl", "postgresql")
+PACKAGES = ("make", *PYTHON, BROWSER, "nodejs", "curl", "postgresql",
+            "doctest-dev")
 RUNS, FAILS = "exit 0", "exit 1"
 
 
@@ -26,6 +27,7 @@ class Machine:
             (self.programs / name).symlink_to(str(shutil.which(name)))
         self.installed = folder / "installed"
         self.postgresql = folder / "postgresql"
+        self.doctest = folder / "doctest.h"
         self.add("id", "echo 1000")
 
     def add(self, name: str, does: str = RUNS) -> None:
@@ -40,6 +42,7 @@ class Machine:
             self.add(name)
         self.postgresql.mkdir()
         (self.postgresql / "initdb").touch()
+        self.doctest.touch()
 
     def become_root(self) -> None:
         """Have the right to install. In place."""
@@ -50,7 +53,8 @@ class Machine:
         """Run a script and return what came of it."""
         return subprocess.run([self.scripts / script], text=True, capture_output=True, check=False,
                               env={"PATH": str(self.programs), "POSTGRESQL": str(self.postgresql),
-                                   "LDCONFIG": str(self.programs / "ldconfig"), **environment})
+                                   "LDCONFIG": str(self.programs / "ldconfig"),
+                                   "DOCTEST": str(self.doctest), **environment})
 
 
 @pytest.fixture
@@ -85,6 +89,12 @@ def test_database_is_missed_where_no_folder_has_its_programs(machine: Machine) -
     machine.add_all()
     (machine.postgresql / "initdb").unlink()
     assert "missing here: postgresql.\n" in machine.run("prepare").stderr
+
+
+def test_header_of_the_engines_tests_is_missed_where_it_is_not(machine: Machine) -> None:
+    machine.add_all()
+    machine.doctest.unlink()
+    assert "missing here: doctest-dev.\n" in machine.run("prepare").stderr
 
 
 @pytest.mark.parametrize(("listed", "message"), [

@@ -1,4 +1,4 @@
-"""Tests of the compiled meaning of flights against the judge's."""
+"""Tests of the engine's meaning of flights against the judge's."""
 
 from dataclasses import replace
 
@@ -7,59 +7,42 @@ import numpy as np
 from model.judge.check import check
 from model.judge.launches import launch_duration
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.kernel.compiled import compiled
-from model.kernel.flight import (
-    can_serve, counted_until, endurance_of, handling_duration, held_takeoff, lasting_within,
-    launch_begin, launches_differ, recovery_end, take_off, unreachable, within_endurance,
-    left_after,
-)
 from model.kernel.instance import pack
 from model.kernel.records import Record, Records
-from model.kernel.stop import end_of_service, places_by_air
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.solution import Solution
+from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_energy, with_gaps, with_pickups
 
 
-@compiled
 def flown(kind: Record, places: Records, node: int, begin: int, out: int,
-          home: int) -> tuple[int, int, int, int]:
-    place = places_by_air(places, kind)[node]
-    takeoff = held_takeoff(kind, place, take_off(kind, begin, 0), out, home)
-    arrival = takeoff + out
-    back = end_of_service(place, arrival) + home
-    return takeoff, arrival, back, recovery_end(kind, back)
+          home: int) -> tuple[int, ...]:
+    place = places[kind.drone_variant, node]
+    return asked("flown", 4, kind, place, len(place), begin, out, home)
 
 
-@compiled
 def is_short_enough(kind: Record, takeoff: int, back: int, begin: int) -> bool:
-    return within_endurance(kind, takeoff, back, begin)
+    return asked("endures", 1, kind, takeoff, back, begin) == (True,)
 
 
-@compiled
-def lasts(kind: Record, places: Records, node: int, out: int, home: int) -> tuple[bool, bool]:
-    return (can_serve(kind, places_by_air(places, kind)[node], out, home),
-            unreachable(out) or unreachable(home))
+def lasts(kind: Record, places: Records, node: int, out: int, home: int) -> tuple[int, ...]:
+    place = places[kind.drone_variant, node]
+    return asked("lasts", 2, kind, place, len(place), out, home)
 
 
-@compiled
-def enduring(kind: Record, takeoff_d: int, takeoff_c: int, d: int,
-             c: int) -> tuple[int, int]:
-    return lasting_within(endurance_of(kind), takeoff_d, takeoff_c, d, c)
+def enduring(kind: Record, takeoff_d: int, takeoff_c: int, d: int, c: int) -> tuple[int, ...]:
+    return asked("enduring", 2, kind, takeoff_d, takeoff_c, d, c)
 
 
-@compiled
 def is_charged(kind: Record, places: Records, node: int, out: int, home: int, takeoff: int,
                served: int, begin: int) -> bool:
-    return left_after(kind, places_by_air(places, kind)[node], out, home, takeoff, served,
-                      begin) >= 0
+    place = places[kind.drone_variant, node]
+    left, = asked("battery_left", 1, kind, place, len(place), out, home, takeoff, served, begin)
+    return left >= 0
 
 
-@compiled
-def handled(kind: Record, time: int, launched: int) -> tuple[int, int, int, int, bool]:
-    takeoff = take_off(kind, time, launched)
-    return (launch_begin(kind, takeoff, launched), takeoff - time, handling_duration(kind),
-            counted_until(kind, time, time + 1), launches_differ(kind))
+def handled(kind: Record, time: int, launched: int) -> tuple[int, ...]:
+    return asked("handled", 5, kind, time, launched)
 
 
 def drawn(seed: int, count: int = 200) -> list[tuple[Problem, DroneType, int, int]]:

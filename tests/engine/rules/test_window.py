@@ -1,49 +1,36 @@
-"""Tests of the compiled meaning of windows against the judge's, and of its inverses."""
+"""Tests of the engine's meaning of windows against the judge's, and of its inverses."""
 
 import numpy as np
 import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.compiled import compiled
 from model.kernel.instance import pack
 from model.kernel.records import Records
-from model.kernel.stop import (
-    allowed_within, as_late, closing, end_of_service, in_same_window, lateness, latest_arrival,
-    latest_free_arrival, opening, start_of_service, start_within, too_late, waiting, width,
-)
 from model.problem import MS_PER_HOUR, UNLIMITED, Problem
 from model.solution import Route, Solution
+from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, draw_tiny, with_gaps
 
 
-@compiled
-def times(place: Records, arrival: int) -> tuple[int, int, int, int, bool]:
-    return (start_of_service(place, arrival), end_of_service(place, arrival),
-            waiting(place, arrival), lateness(place, arrival), too_late(place, arrival))
+def times(place: Records, arrival: int) -> tuple[int, ...]:
+    return asked("service_at", 5, place, len(place), arrival)
 
 
-@compiled
-def last_arrivals(place: Records, arrival: int, leave: int) -> tuple[int, int, int, int]:
-    return (as_late(place, arrival), latest_arrival(place, leave),
-            latest_free_arrival(place, arrival, leave), in_same_window(place, arrival))
+def last_arrivals(place: Records, arrival: int, leave: int) -> tuple[int, ...]:
+    return asked("last_arrivals", 4, place, len(place), arrival, leave)
 
 
-@compiled
-def within_block(place: Records, time: int, d: int, c: int) -> tuple[int, int, int, int]:
-    start_d, start_c = start_within(place, time, d, c)
-    first, last = allowed_within(place, time, d, c)
-    return start_d, start_c, first, last
+def within_block(place: Records, time: int, d: int, c: int) -> tuple[int, ...]:
+    return asked("within_block", 4, place, len(place), time, d, c)
 
 
-@compiled
 def window(place: Records, arrival: int) -> int:
-    return opening(place, arrival)
+    return asked("window_of", 1, place, len(place), arrival)[0]
 
 
-@compiled
-def extent(place: Records) -> tuple[int, int]:
-    return closing(place), width(place)
+def extent(place: Records) -> tuple[int, ...]:
+    return asked("extent_of", 2, place, len(place))
 
 
 def drawn(seed: int, count: int = 150) -> list[tuple[Problem, int, Records, int]]:

@@ -1,38 +1,28 @@
-"""Tests of compiled loads against plain sums."""
+"""Tests of the engine's loads against plain sums."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from model.kernel.compiled import compiled
+from model.engine.header import dtype_of
 from model.kernel.instance import TIER, pack
-from model.kernel.load import (
-    HALT, NOTHING, add_come, add_left, capacity_of, delivered_of, demand_of, fits, has_room, holds,
-    lifts, minus, picked_of, plus, total, total_delivered, total_picked, weigh_trip, within,
-)
 from model.kernel.records import Record, Records
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import BoolArray, IntArray, Problem
+from model.problem import IntArray, Problem
 from model.solution import Solution
+from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_dimensions, with_pickups
 
 
-@compiled
-def judged(kind: Record, places: Records) -> tuple[bool, bool, bool]:
+def judged(kind: Record, places: Records) -> tuple[int, ...]:
     """Tell whether a vehicle holds all customers, holds the last on top, a drone lifts them."""
-    load = NOTHING
-    for index in range(len(places) - 1):
-        load = plus(load, demand_of(places[index]))
-    everything = plus(load, demand_of(places[-1]))
-    return holds(kind, everything), fits(kind, load, places[-1]), lifts(kind, everything, 0)
+    return asked("demands_held", 3, kind, places, *places.shape)
 
 
-@compiled
-def left(kind: Record, place: Record) -> tuple[bool, int, int]:
+def left(kind: Record, place: Records) -> tuple[int, ...]:
     """Tell whether a customer's demand is within a capacity, both amounts, and what is left."""
-    capacity, demand = capacity_of(kind), demand_of(place)
-    return within(demand, capacity), total(demand), total(minus(capacity, demand))
+    return asked("capacity_left", 3, kind, place)
 
 
 def drawn(seed: int) -> list[tuple[Problem, IntArray, list[int]]]:
@@ -76,22 +66,12 @@ def test_what_is_left_is_what_was_there_less_the_demand() -> None:
             inside, sum(demand), sum(kind.capacity) - sum(demand))
 
 
-@compiled
-def weighed(kind: Record, amounts: IntArray, nodes: IntArray, halts: Records, more: int,
-            rooms: BoolArray) -> bool:
-    """Tell whether a vehicle may serve some in turn; in place, behind which stops one more."""
-    last = len(nodes) + 1
-    allowed = True
-    for tier in range(len(halts)):
-        for p, node in enumerate(nodes):
-            add_left(halts[tier, p + 1], delivered_of(amounts, node, tier),
-                     total_delivered(amounts, node))
-            add_come(halts[tier, p + 1], picked_of(amounts, node, tier),
-                     total_picked(amounts, node))
-        allowed = weigh_trip(kind, halts[tier], 0, last, tier) and allowed
-    for p in range(last):
-        rooms[p] = has_room(kind, halts, p + 1, p, amounts, more)
-    return allowed
+def weighed(kind: Record, amounts: IntArray, nodes: IntArray, more: int) -> tuple[bool, list[bool]]:
+    """Tell whether a vehicle may serve some in turn, and behind which stops one more."""
+    halts = np.zeros((amounts.shape[1], len(nodes) + 2), dtype_of("tandem_halt"))
+    allowed, *rooms = asked("rooms_between", len(nodes) + 2, kind, amounts, *amounts.shape[:2],
+                            nodes, len(nodes), halts, more)
+    return bool(allowed), [bool(room) for room in rooms]
 
 
 def is_legal(problem: Problem, nodes: list[int]) -> bool:
@@ -115,14 +95,11 @@ def test_there_is_room_where_the_checker_says_so() -> None:
         instance = pack([problem])
         if instance.amount.shape[2] == 0:
             continue
-        halts = np.zeros((instance.amount.shape[2], len(nodes) + 2), HALT)
-        rooms = np.zeros(len(nodes) + 1, np.bool_)
-        allowed = weighed(instance.type[0, 0], instance.amount[0], np.array(nodes), halts, more,
-                          rooms)
+        allowed, rooms = weighed(instance.type[0, 0], instance.amount[0], np.array(nodes), more)
         assert allowed == is_legal(problem, nodes), f"seed {seed}"
         if allowed:
             expected = [is_legal(problem, [*nodes[:p], more, *nodes[p:]])
                         for p in range(len(nodes) + 1)]
-            assert rooms.tolist() == expected, f"seed {seed}"
+            assert rooms == expected, f"seed {seed}"
             seen.update(expected)
     assert seen == {True, False}

@@ -1,40 +1,28 @@
-"""Compiled code computes the same legs as the judge, to the last bit."""
+"""The engine computes the same legs as the judge, to the last bit."""
 
 import numpy as np
 import pytest
 
-from model.kernel.compiled import compiled
-from model.kernel.leg import (
-    COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs, leg, leg_from, leg_to, legs_from, legs_of,
-    legs_to, nearness,
-)
-from model.problem import UNREACHABLE, Int32Array, IntArray, Points, StraightLegs, Travel
+from model.kernel.leg import COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs
+from model.problem import UNREACHABLE, IntArray, Points, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
+from tests.engine.rules.asking import legs_of, write
 
 COUNT = 60
 
 
-@compiled
-def look_up(legs: AllLegs, back: AllLegs, found: IntArray) -> None:
-    """Write all legs of the first travel, looked up in three ways, (way, origin, to, 2)."""
-    every = legs_of(legs, 0)
-    for here in range(found.shape[1]):
-        onward, inward = legs_from(legs, 0, here), legs_to(back, 0, here)
-        for there in range(found.shape[1]):
-            one, other, third = leg(every, here, there), leg_to(onward, there), leg_from(
-                inward, there)
-            found[0, here, there] = one.duration, one.distance
-            found[1, here, there] = other.duration, other.distance
-            found[2, there, here] = third.duration, third.distance
+def look_up(legs: AllLegs, back: AllLegs) -> tuple[IntArray, IntArray, IntArray]:
+    """Return all legs of the first travel as they are looked up.
 
-
-@compiled
-def look_up_nearness(legs: AllLegs, back: AllLegs, found: IntArray) -> None:
-    """Write how near all places are, there or back, (node, node)."""
-    for here in range(len(found)):
-        onward, inward = legs_from(legs, 0, here), legs_to(back, 0, here)
-        for there in range(len(found)):
-            found[here, there] = nearness(inward, onward, there)
+    In three ways, (way, origin, to, 2); distances alone in two, (way, origin, to); and how near all
+    places are, there or back, (node, node).
+    """
+    found = np.empty((7, COUNT, COUNT), np.int64)
+    distances = np.empty((2, COUNT, COUNT), np.int64)
+    given = legs_of(legs), legs_of(back)
+    write("all_legs", *given, 0, COUNT, found)
+    write("all_distances", *given, 0, COUNT, distances)
+    return found[:6].reshape(3, COUNT, COUNT, 2), distances, found[6]
 
 
 def computed(legs: StraightLegs) -> ComputedLegs:
@@ -67,16 +55,15 @@ def drawn(seed: int) -> StraightLegs:
 
 
 def test_computed_legs_are_those_of_the_judge() -> None:
-    found, near = np.empty((3, COUNT, COUNT, 2), np.int64), np.empty((COUNT, COUNT), np.int64)
     for seed in range(60):
         legs = drawn(seed)
         travel = Travel.along(legs)
         kernel = computed(legs)
-        look_up(kernel, kernel, found)
+        found, distances, near = look_up(kernel, kernel)
         assert (found[..., 0] == travel.duration[:]).all(), seed
         assert (found[..., 1] == travel.distance[:]).all(), seed
+        assert (distances == travel.distance[:]).all(), seed
         assert (travel.distance[:] == travel.distance[:].T).all(), seed
-        look_up_nearness(kernel, kernel, near)
         assert (near == travel.distance[:]).all(), seed
 
 
@@ -88,22 +75,8 @@ def test_stated_legs_are_looked_up(both_ways: bool) -> None:
     if both_ways:
         legs = np.maximum(legs, legs.transpose(0, 2, 1, 3))
     held = np.where(legs == UNREACHABLE, NO_LEG, legs).astype(np.int32)
-    back = np.ascontiguousarray(held.transpose(0, 2, 1, 3))
-    found = np.empty((3, COUNT, COUNT, 2), np.int64)
-    look_up(held, back, found)
+    found, distances, near = look_up(held, np.ascontiguousarray(held.transpose(0, 2, 1, 3)))
     assert (found[..., 0] == legs[..., 0]).all()
     assert (found[..., 1] == held[..., 1]).all()
-    near = np.empty((COUNT, COUNT), np.int64)
-    look_up_nearness(held, back, near)
+    assert (distances == held[..., 1]).all()
     assert (near == np.minimum(held[0, ..., 1], held[0, ..., 1].T)).all()
-
-
-@compiled
-def sum_of_two(legs: Int32Array) -> int:
-    """Return how long the leg from node 3 to 5 takes twice."""
-    every, onward = legs_of(legs, 0), legs_from(legs, 0, 3)
-    return leg(every, 3, 5).duration + leg_to(onward, 5).duration
-
-
-def test_sums_of_stated_legs_do_not_overflow() -> None:
-    assert sum_of_two(np.full((1, COUNT, COUNT, 2), LONGEST_NARROW, np.int32)) == 2 * LONGEST_NARROW

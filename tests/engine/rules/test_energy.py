@@ -1,28 +1,24 @@
-"""Tests of what flying takes in compiled code against the judge's."""
+"""Tests of what flying takes in the engine against the judge's."""
 
 import numpy as np
 
 from model.judge.energy import hover_energy, leg_energy
-from model.kernel.compiled import compiled
-from model.kernel.energy import (
-    EMPTY, after_hovering, after_leg, battery_of, hovers_at_customers, is_limited, longest_hover,
-)
 from model.kernel.instance import FAR, pack
 from model.kernel.records import Record
 from model.problem import UNREACHABLE, Energy
+from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_energy
 
-
-@compiled
-def taken(kind: Record, weight: int, duration: int) -> tuple[int, int, int]:
-    left = battery_of(kind)
-    return (after_leg(kind, left, weight, duration), after_hovering(kind, left, weight, duration),
-            longest_hover(kind, left, weight))
+EMPTY = -1
+"""What is left of a battery once more was asked of it than it held."""
 
 
-@compiled
-def limits(kind: Record) -> tuple[bool, bool]:
-    return is_limited(kind), hovers_at_customers(kind)
+def taken(kind: Record, weight: int, duration: int) -> tuple[int, ...]:
+    return asked("energy_taken", 3, kind, weight, duration)
+
+
+def limits(kind: Record) -> tuple[int, ...]:
+    return asked("battery_limits", 2, kind)
 
 
 def test_legs_and_hovering_take_what_the_judge_says() -> None:

@@ -1,4 +1,4 @@
-"""Tests of compiled legs by speeds that change with the time of day against the judge's."""
+"""Tests of the engine's legs by speeds that change with the time of day against the judge's."""
 
 from dataclasses import replace
 
@@ -6,22 +6,19 @@ import numpy as np
 import pytest
 
 from model.judge import clock
-from model.kernel.clock import is_steady, leg_end, leg_start
-from model.kernel.compiled import compiled
 from model.kernel.instance import pack
 from model.kernel.records import Record
 from model.problem import FULL_SPEED, IntArray, SpeedProfile
+from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, RUSH_HOUR
 
 PROFILES = (None, RUSH_HOUR, SpeedProfile((), (FULL_SPEED // 7,)),
             SpeedProfile((MINUTE, 2 * MINUTE, 9 * MINUTE), (999_983, 1, 123_457, FULL_SPEED)))
 
 
-@compiled
 def both(kind: Record, times: IntArray, factors: IntArray, duration: int,
-         time: int) -> tuple[int, int, bool]:
-    return (leg_end(kind, times, factors, duration, time),
-            leg_start(kind, times, factors, duration, time), is_steady(kind))
+         time: int) -> tuple[int, ...]:
+    return asked("clocked", 3, kind, times, len(times), factors, duration, time)
 
 
 @pytest.mark.parametrize("profile", PROFILES)

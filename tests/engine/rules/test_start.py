@@ -1,4 +1,4 @@
-"""Tests of when compiled code lets a vehicle leave, and counts its work, against the judge's."""
+"""Tests of when the engine lets a vehicle leave, and counts its work, against the judge's."""
 
 from dataclasses import replace
 
@@ -7,17 +7,14 @@ import pytest
 
 from model.judge.metrics import measure_route, measure_trip
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.compiled import compiled
 from model.kernel.instance import pack
 from model.kernel.records import Record
-from model.kernel.start import counted_from, has_begun, leaves_first
+from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings
 
 
-@compiled
-def begun(kind: Record, time: int) -> tuple[int, int, bool]:
-    leave = leaves_first(kind, time)
-    return leave, counted_from(kind, leave), has_begun(kind)
+def begun(kind: Record, time: int) -> tuple[int, ...]:
+    return asked("begun_at", 3, kind, time)
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -1,4 +1,4 @@
-"""Tests of what compiled code takes for overtime, and for too much, against the judge's."""
+"""Tests of what the engine takes for overtime, and for too much, against the judge's."""
 
 from dataclasses import replace
 
@@ -7,25 +7,19 @@ import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.compiled import compiled
 from model.kernel.instance import pack
 from model.kernel.records import Record
-from model.kernel.shift import allows_sorties, allows_stops, overtime
-from model.kernel.start import counted_from
 from model.solution import Solution
+from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings, with_duty
 
 
-@compiled
-def judged(kind: Record, departure: int, end: int, stops: int) -> tuple[int, bool, bool]:
-    working = end - counted_from(kind, departure)
-    allowed = end <= kind.shift_latest and working <= kind.max_working_duration
-    return overtime(kind, end, working), allowed, allows_stops(kind, stops)
+def judged(kind: Record, departure: int, end: int, stops: int) -> tuple[int, ...]:
+    return asked("worked_until", 3, kind, departure, end, stops)
 
 
-@compiled
 def sorties_allowed(kind: Record, count: int) -> bool:
-    return allows_sorties(kind, count)
+    return asked("sorties_allowed", 1, kind, count) == (True,)
 
 
 @pytest.mark.parametrize("seed", range(60))

@@ -1,0 +1,80 @@
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include "rules/clock.h"
+#include "rules/shift.h"
+#include "rules/start.h"
+
+namespace tandem {
+namespace {
+
+// Half as fast from 100 to 200.
+const std::array<Int, 2> changes = {100, 200};
+const std::array<Int, 3> speeds = {full_speed, full_speed / 2, full_speed};
+const View<const Int, 1> times(changes.data(), {2});
+const View<const Int, 1> factors(speeds.data(), {3});
+
+TEST_CASE("legs take longer while traffic is slow") {
+    VehicleType type{};
+    type.speed_changes = 2;
+    CHECK(leg_end(type, times, factors, 50, 0) == 50);
+    CHECK(leg_end(type, times, factors, 50, 80) == 160);   // 20, and 30 at half the speed
+    CHECK(leg_end(type, times, factors, 100, 90) == 240);  // 10, 50 in 100, 40
+    CHECK(leg_end(type, times, factors, 1, 150) == 152);
+    CHECK(leg_start(type, times, factors, 50, 160) == 80);
+    CHECK(leg_start(type, times, factors, 100, 240) == 90);
+    CHECK(leg_start(type, times, factors, 1, 151) == 149);
+}
+
+TEST_CASE("who leaves at the latest departure is in time, and no later one is") {
+    VehicleType type{};
+    type.speed_changes = 2;
+    for (Int arrival = 120; arrival < 300; ++arrival) {
+        const Int leave = leg_start(type, times, factors, 37, arrival);
+        CHECK(leg_end(type, times, factors, 37, leave) <= arrival);
+        CHECK(leg_end(type, times, factors, 37, leave + 1) > arrival);
+    }
+}
+
+TEST_CASE("legs last as long as tables say where speeds don't change") {
+    VehicleType type{};
+    type.speed_changes = no_profile;
+    CHECK(leg_end(type, {}, {}, 50, 80) == 130);
+    CHECK(leg_start(type, {}, {}, 50, 80) == 30);
+}
+
+TEST_CASE("setups are told apart from legs only where speeds change") {
+    const std::array<Setup, 3> rows = {{{1, 0}, {2, 30}, {2, 40}}};
+    const View<const Setup, 1> setups(rows.data(), {3});
+    VehicleType type{};
+    type.speed_changes = 2;
+    CHECK(setup_beside(type, setups, 0, 1) == 30);
+    CHECK(setup_beside(type, setups, 1, 2) == 0);
+    CHECK(setup_beside(type, {}, 0, 1) == 0);
+    type.speed_changes = no_profile;
+    CHECK(setup_beside(type, setups, 0, 1) == 0);
+}
+
+TEST_CASE("a vehicle under way leaves later, and its work counts from before") {
+    VehicleType type{};
+    type.busy_until = 30;
+    CHECK(leaves_first(type, 20) == 30);
+    CHECK(leaves_first(type, 40) == 40);
+    CHECK(counted_from(type, 40) == 40);
+    type.begun = 1;
+    type.shift_earliest = 5;
+    CHECK(counted_from(type, 40) == 5);
+}
+
+TEST_CASE("overtime is past the shift or past the working duration, the longer") {
+    VehicleType type{};
+    type.usual_end = 100;
+    type.usual_working = 60;
+    CHECK(overtime(type, 100, 60) == 0);
+    CHECK(overtime(type, 110, 60) == 10);
+    CHECK(overtime(type, 110, 75) == 15);
+}
+
+}  // namespace
+}  // namespace tandem

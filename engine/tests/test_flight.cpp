@@ -1,0 +1,134 @@
+#include <doctest/doctest.h>
+
+#include "rules/flight.h"
+
+namespace tandem {
+namespace {
+
+VehicleType endurant(Int endurance) {
+    VehicleType type{};
+    type.endurance = endurance;
+    type.launch_duration = type.relaunch_duration = 2;
+    type.recovery_duration = 3;
+    return type;
+}
+
+// A battery of 1000; flying empty takes 10 of it in a unit of time, with 4 aboard 7, so that with 1
+// it is 9.25, rounded down.
+VehicleType powered() {
+    VehicleType type = endurant(1000);
+    type.points = 2;
+    type.battery = 1000;
+    type.weights[1] = 4;
+    type.cruise[0] = 10;
+    type.cruise[1] = 7;
+    type.hover[0] = type.hover[1] = 20;
+    return type;
+}
+
+const Node customer = {50, far, 5, 0, 60, {1, 0, 0}};
+const NodeRows place(&customer, {1});
+
+TEST_CASE("powers are linear between points, and on beyond the last") {
+    const VehicleType type = powered();
+    CHECK(power_at(type, type.cruise, 0) == 10);
+    CHECK(power_at(type, type.cruise, 1) == 9);
+    CHECK(power_at(type, type.cruise, 4) == 7);
+    CHECK(power_at(type, type.cruise, 8) == 4);
+    CHECK(power_at(type, type.cruise, 100) == 0);
+}
+
+TEST_CASE("quotients are rounded down on both sides of zero") {
+    CHECK(floor_quotient(7, 2) == 3);
+    CHECK(floor_quotient(-7, 2) == -4);
+    CHECK(floor_quotient(-8, 2) == -4);
+}
+
+TEST_CASE("a battery is empty once more is asked of it than it holds") {
+    CHECK(spend(100, 10, 10) == 0);
+    CHECK(spend(100, 10, 11) == empty_battery);
+    CHECK(spend(empty_battery, 0, 0) == empty_battery);
+    CHECK(spend(100, 10, far) == empty_battery);
+    CHECK(spend(100, 0, far) == 100);
+}
+
+TEST_CASE("climbs and descents are part of a leg") {
+    VehicleType type = powered();
+    type.climb_duration = 4;
+    type.descent_duration = 3;
+    type.climb[0] = 30;
+    type.descent[0] = 5;
+    CHECK(after_leg(type, 1000, 0, 10) == 1000 - 30 - 120 - 15);
+    CHECK(after_leg(type, 1000, 0, 5) == 1000 - 120 - 15);
+}
+
+TEST_CASE("a battery is charged aboard up to what it holds") {
+    VehicleType type = powered();
+    type.charge = 30;
+    CHECK(charged(type, 100, 10, 10) == 100);
+    CHECK(charged(type, 100, 10, 30) == 700);
+    CHECK(charged(type, 100, 10, 40) == 1000);
+    CHECK(charged(type, 100, 10, far) == 1000);
+    CHECK(charged_by(type, 100, 10, 600) == 20);  // 400 are needed, 300 of them in 10
+    CHECK(charged_by(type, 100, 10, 950) == 10);  // it has them
+    CHECK(charged_by(type, 100, 10, -1) == 10);   // nobody can fly that
+    CHECK(charged_by(type, 100, 10, 599) == 21);
+}
+
+TEST_CASE("a drone is held back until its window lets it be back in time") {
+    // It is back 5 + 20 after the window has opened at 50.
+    CHECK(held_takeoff(endurant(30), place, 0, 10, 20) == 45);
+    CHECK(held_takeoff(endurant(80), place, 0, 10, 20) == 0);
+    CHECK(held_takeoff(endurant(30), place, 48, 10, 20) == 48);
+}
+
+TEST_CASE("where it hovers, its battery lets it wait no longer") {
+    // Out 10 with 1 aboard, hover 5 in service, home 20: 1000 - 90 - 100 - 200 are left, 30 at 20.
+    const VehicleType type = powered();
+    CHECK(after_flight(type, place, 10, 20) == 610);
+    CHECK(held_takeoff(type, place, 0, 10, 20) == 75 - (35 + 30));
+    CHECK(can_wait(type, place, 10, 20, 30));
+    CHECK_FALSE(can_wait(type, place, 10, 20, 31));
+    CHECK(left_after(type, place, 10, 20, 30, 55, 80) == 610 - 10 * 20 - 5 * 20);
+    VehicleType landing = type;
+    landing.lands = 1;
+    CHECK(held_takeoff(landing, place, 0, 10, 20) == 0);
+}
+
+TEST_CASE("all launches of a trip but the first may take longer") {
+    VehicleType type = endurant(100);
+    CHECK_FALSE(launches_differ(type));
+    CHECK(gone_by(type, 40) == 40);
+    type.relaunch_duration = 7;
+    CHECK(take_off(type, 40, 0) == 42);
+    CHECK(take_off(type, 40, 1) == 47);
+    CHECK(launch_begin(type, 47, 3) == 40);
+    CHECK(gone_by(type, 40) == 47);
+    CHECK(handling_duration(type) == 10);
+    type.charge = 1;
+    CHECK(gone_by(type, 40) == far);
+}
+
+TEST_CASE("waiting for the recovery counts where it is said to") {
+    VehicleType type = endurant(20);
+    CHECK(within_endurance(type, 10, 30, 50));
+    type.waiting_counts = 1;
+    CHECK_FALSE(within_endurance(type, 10, 30, 31));
+}
+
+TEST_CASE("an endurance allows an interval of arrivals at the beginning of a block") {
+    for (const Pair takeoff : {Pair{0, 0}, Pair{3, 20}, Pair{10, 5}}) {
+        for (const Pair more : {Pair{0, 0}, Pair{4, 15}, Pair{15, 4}, Pair{20, 20}}) {
+            const Pair back = {takeoff.d + more.d, takeoff.c + more.c};
+            const auto [first, last] = lasting_within(10, takeoff.d, takeoff.c, back.d, back.c);
+            for (Int time = -40; time < 60; ++time) {
+                const Int aloft =
+                    std::max(time + back.d, back.c) - std::max(time + takeoff.d, takeoff.c);
+                CHECK((first <= time && time <= last) == (aloft <= 10));
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tandem
