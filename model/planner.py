@@ -22,7 +22,7 @@ from model.kernel.instance import Instance, pack
 from model.kernel.pausing import EndedError, Pause, pausing
 from model.kernel.warming import Tell, Warming, telling
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
-from model.policy.rollouts import NOTHING
+from model.policy.rolling import NOTHING
 from model.problem import Problem
 from model.search.compiling import (
     COMPILE_SEARCH, beside, compile_search, parts_for, small_problem,
@@ -228,8 +228,8 @@ class Planner:
         with Alarm(give_up, listener.should_stop) as alarm:
             if alarm.has_rung:
                 return None
-            scene = prepare(policy, problem, instance)
-            found = decode(policy, scene, config, give_up, alarm.flag)
+            view = prepare(policy, problem, instance)
+            found = decode(policy, view, config, give_up, alarm.flag)
         return None if found is NOTHING else extract(problem, instance, found.actions)
 
 

@@ -18,12 +18,10 @@ from model.search.route.engine import ANY, anneal, leg_cost
 from model.search.route.layout import CUSTOMER
 from model.search.route.state import Searcher
 from model.search.world import make_world
-from model.simulation.cost import by_term
-from model.simulation.meeting import NO_VEHICLE
-from model.simulation.simulator import (
+from model.simulation.actions import (
     DRIVE, NUM_KINDS, OPEN, RETURN, apply_route, encode_action, finish, reset,
 )
-from model.simulation.transition import State
+from model.simulation.state import NO_VEHICLE, State, by_term
 from model.solution import Route, Solution, Stop, Trip
 
 HOT, COLD = 0.5, 0.05

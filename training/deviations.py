@@ -10,12 +10,11 @@ from typing import Protocol
 
 import numpy as np
 
-from model.policy.features import step
-from model.policy.observation import Observation, empty_observation
-from model.policy.tokens import Float32Array
+from model.policy.decision_features import Observation, Rollouts
+from model.policy.problem_features import Float32Array
 from model.problem import FloatArray, IntArray
-from model.simulation.cost import by_term
-from model.simulation.simulator import max_steps, reset
+from model.simulation.state import by_term
+from model.simulation.actions import max_steps
 from training.completion import apply_all
 from training.judge import LEAST_RISE, NO_RISE, PATH, Judgement, Mistake
 from training.rollout import Batch
@@ -44,15 +43,14 @@ def go_on(actor: Scorer, batch: Batch, beginnings: Sequence[IntArray],
     seen, the likeliest first. With a number of `decisions`, it ends after so many.
     """
     rows = len(beginnings)
-    state = reset(batch.instance, np.zeros(rows, np.int64))
-    seen = empty_observation(rows, batch.instance.node.shape[2], batch.instance.type.shape[1])
+    rollouts = Rollouts(batch.scene, np.zeros(rows, np.int64))
+    state, seen = rollouts.state, rollouts.seen
     choice, after = np.zeros(rows, np.int64), [list[int]() for _ in range(rows)]
     ranked = [list[int]() for _ in range(rows)]
     for r, actions in enumerate(beginnings):
         apply_all(batch.instance, state, r, actions)
     for _ in range(max_steps(batch.instance) if decisions is None else decisions):
-        if step(batch.instance, batch.scale, state, batch.tokens.type, 0, rows, rows, choice,
-                seen) == 0:
+        if rollouts.step(choice) == 0:
             break
         for r in np.flatnonzero(seen.count).tolist():
             scores = actor.scores(batch, seen, r)

@@ -9,11 +9,9 @@ import torch
 from torch import Tensor
 
 from model.kernel.instance import Instance
-from model.policy.features import step
-from model.policy.observation import Observation, empty_observation
+from model.policy.decision_features import Observation, Rollouts
 from model.problem import FloatArray, IntArray, Problem
-from model.simulation.simulator import LAUNCH, NUM_KINDS, OPEN, reset
-from model.simulation.transition import State
+from model.simulation.actions import LAUNCH, NUM_KINDS, OPEN
 from training.completion import apply_all
 from training.labels import NONE, TRIED, Labelled, Origin, Trial
 from training.rollout import Batch, make_batch
@@ -109,20 +107,20 @@ def make_lesson(plans: Sequence[Labelled], rng: np.random.Generator,
     return replayed(batch, rows, begun(batch, rows)) if rows else None
 
 
-def begun(batch: Batch, rows: Sequence[Stretch]) -> State:
-    """Return the states in which stretches begin."""
-    state = reset(batch.instance, np.array([row.plan for row in rows]))
+def begun(batch: Batch, rows: Sequence[Stretch]) -> Rollouts:
+    """Return rollouts as stretches begin."""
+    rollouts = Rollouts(batch.scene, np.array([row.plan for row in rows]))
     for r, row in enumerate(rows):
-        apply_all(batch.instance, state, r, row.before)
-    return state
+        apply_all(batch.instance, rollouts.state, r, row.before)
+    return rollouts
 
 
-def replayed(batch: Batch, rows: Sequence[Stretch], state: State) -> Lesson | None:
+def replayed(batch: Batch, rows: Sequence[Stretch], rollouts: Rollouts) -> Lesson | None:
     """Return the decisions of stretches, the longest of which come first, from where they begin.
 
-    `state` is of no use afterwards. None if there is no decision.
+    `rollouts` are of no use afterwards. None if there is no decision.
     """
-    seen = list(_replay(batch, rows, state))
+    seen = list(_replay(rows, rollouts))
     return _padded(batch, batch.num_problems, rows, seen) if seen else None
 
 
@@ -146,14 +144,13 @@ class _Seen:
     rise: FloatArray
 
 
-def _replay(batch: Batch, rows: Sequence[Stretch], state: State) -> Iterator[_Seen]:
+def _replay(rows: Sequence[Stretch], rollouts: Rollouts) -> Iterator[_Seen]:
     """Yield all decisions of stretches, the longest of which come first."""
-    number = len(rows)
-    seen = empty_observation(number, batch.instance.node.shape[2], batch.instance.type.shape[1])
+    number, seen = len(rows), rollouts.seen
     choice, left = np.zeros(number, np.int64), np.ones(number, np.bool_)
     for index in range(len(rows[0].path)):
         going = sum(index < len(row.path) for row in rows)
-        step(batch.instance, batch.scale, state, batch.tokens.type, 0, going, number, choice, seen)
+        rollouts.step(choice, behind=going)
         for r in np.flatnonzero(left[:going]).tolist():
             found = _decision(seen, r, rows[r], index)
             if found is None:

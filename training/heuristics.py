@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from model.policy.observation import Observation
+from model.policy.decision_features import Observation
 from model.problem import FloatArray, IntArray
-from model.simulation.cost import by_term
-from model.simulation.simulator import DRIVE, LAUNCH, OPEN, RETURN
+from model.simulation.state import by_term
+from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN
 from training.rollout import Batch, Simulation
 
 

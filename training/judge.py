@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from model.problem import UNLIMITED, IntArray, Problem
-from model.simulation.simulator import DRIVE, NUM_KINDS, OPEN, RETURN
+from model.simulation.actions import DRIVE, NUM_KINDS, OPEN, RETURN
 from training.completion import (
     Routes, Setting, complete, cost_of, is_cut, open_type, to_actions, to_routes, what_is_left,
 )

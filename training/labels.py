@@ -19,12 +19,10 @@ import typer
 from tqdm import tqdm
 
 from model.policy.attention import AttentionConfig, AttentionPolicy
-from model.policy.features import step
-from model.policy.observation import Observation, empty_observation
-from model.policy.rollouts import StepWeights, candidate_scores, roll_out
-from model.policy.tokens import Float32Array
+from model.policy.decision_features import Observation, Rollouts
+from model.policy.rolling import StepWeights, candidate_scores, roll_out
+from model.policy.problem_features import Float32Array
 from model.problem import FloatArray, IntArray, Problem
-from model.simulation.simulator import reset
 from training.completion import Setting, apply_all, can_complete
 from training.deviations import go_on, judge_by_policy
 from training.export import WEIGHTS
@@ -138,24 +136,21 @@ class Actor:
     def plan(self, batch: Batch, temperature: float, rng: np.random.Generator) -> IntArray:
         """Return the actions of a plan, greedy at temperature 0."""
         self._encoded = batch, self.memory(batch)
-        plan, = roll_out(self._weights, self._encoded[1], batch.instance, batch.scale,
-                         batch.tokens.type, [temperature], rng)
+        plan, = roll_out(self._weights, self._encoded[1], batch.scene, [temperature], rng)
         return plan.actions
 
     def scores(self, batch: Batch, seen: Observation, r: int) -> Float32Array:
         """Return the scores of what a rollout of the only problem of a batch sees."""
         if self._encoded is None or self._encoded[0] is not batch:
             self._encoded = batch, self.memory(batch)
-        scores: Float32Array = candidate_scores(self._weights, self._encoded[1], seen, r)
-        return scores
+        return candidate_scores(self._weights, self._encoded[1], seen, r)
 
     def preferred(self, batch: Batch, actions: IntArray, choices: Sequence[int]) -> int | None:
         """Return which of some codes the policy prefers after actions; None if none is legal."""
-        state = reset(batch.instance, np.zeros(1, np.int64))
-        seen = empty_observation(1, batch.instance.node.shape[2], batch.instance.type.shape[1])
-        apply_all(batch.instance, state, 0, actions)
-        count = step(batch.instance, batch.scale, state, batch.tokens.type, 0, 1, 1,
-                     np.zeros(1, np.int64), seen)
+        rollouts = Rollouts(batch.scene, np.zeros(1, np.int64))
+        seen = rollouts.seen
+        apply_all(batch.instance, rollouts.state, 0, actions)
+        count = rollouts.observe()
         legal = seen.action[0, :count].tolist()
         if not set(choices) & set(legal):
             return None

@@ -10,7 +10,7 @@ from torch import Tensor
 from model.policy.network import PolicyNetwork
 from model.policy.pointer import Critic
 from model.problem import FloatArray
-from model.simulation.cost import COST, by_term
+from model.simulation.state import by_term, empty_costs
 from training.dataset import Chunk, Decisions, chunks, paths
 from training.rollout import Batch, Outcome
 
@@ -35,7 +35,8 @@ def training_costs(batch: Batch, outcome: Outcome, num_rollouts: int,
     The penalty for customers left out is softened: one customer left out would outweigh every
     other difference between two plans.
     """
-    weight = np.ones(1, COST)
+    weight = empty_costs(1)
+    by_term(weight)[:] = 1.0
     weight["unassigned"] = unassigned_weight
     cost = (by_term(outcome.cost) * by_term(weight)).sum(axis=1).reshape(-1, num_rollouts)
     unit = batch.scale.cost * np.maximum(batch.instance.size["customers"], 1)

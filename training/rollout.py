@@ -1,4 +1,4 @@
-"""Rollouts of a policy in the compiled simulator, recorded step by step."""
+"""Rollouts of a policy in the simulator, recorded step by step."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -10,12 +10,11 @@ from torch import Tensor
 
 from model.kernel.instance import Instance, pack
 from model.kernel.records import Records
-from model.policy.features import step
+from model.policy.decision_features import Rollouts, Scene
 from model.policy.network import PolicyNetwork
-from model.policy.observation import Observation, empty_observation
-from model.policy.tokens import Scales, Tokens, scales, tokens
+from model.policy.problem_features import Scales, Tokens, scales, tokens
 from model.problem import IntArray, Problem
-from model.simulation.simulator import max_steps, reset
+from model.simulation.actions import max_steps
 from training.dataset import Decisions
 
 Chooser = Callable[[Tensor], Tensor]
@@ -36,6 +35,11 @@ class Batch:
         """Problems in the batch."""
         return len(self.instance.size)
 
+    @property
+    def scene(self) -> Scene:
+        """Return what decisions see of the problems."""
+        return Scene(self.instance, self.scale, self.tokens.type)
+
     def encoder_inputs(self, device: torch.device) -> tuple[Tensor, ...]:
         """Return node, type and pair features and the token mask as tensors."""
         seen = self.tokens
@@ -47,7 +51,7 @@ class Batch:
 class Outcome:
     """Where rollouts ended."""
 
-    cost: Records  # (rollout,) COST
+    cost: Records  # (rollout,) by term
     num_unserved: IntArray  # (rollout,)
     record: list[Decisions]  # step by step
 
@@ -111,10 +115,9 @@ class Simulation:
         self.num_rows = len(problems) * num_rollouts
         self.shape = (len(problems), num_rollouts)
         self.first_rollout = problems.start * num_rollouts  # among those of all problems
-        self.state = reset(batch.instance, np.repeat(np.array(problems), num_rollouts),
-                           num_threads)
-        self.seen: Observation = empty_observation(
-            self.num_rows, batch.instance.node.shape[2], batch.instance.type.shape[1])
+        self._rollouts = Rollouts(batch.scene, np.repeat(np.array(problems), num_rollouts),
+                                  num_threads)
+        self.state, self.seen = self._rollouts.state, self._rollouts.seen
         bounds = np.linspace(0, self.num_rows, num_threads + 1).astype(int).tolist()
         self._parts = list(zip(bounds, bounds[1:], range(num_threads), strict=False))
         self._pool = ThreadPoolExecutor(num_threads)
@@ -125,9 +128,7 @@ class Simulation:
         `choice` is (rollout,), of no effect at the first step.
         """
         def part(first: int, behind: int, thread: int) -> int:
-            return int(step(self.batch.instance, self.batch.scale, self.state,
-                            self.batch.tokens.type, first, behind, self.num_rows + thread,
-                            choice, self.seen))
+            return self._rollouts.step(choice, first, behind, thread)
         return max(self._pool.map(part, *zip(*self._parts, strict=True)))
 
     def inputs(self, most: int, device: torch.device) -> tuple[Tensor, ...]:

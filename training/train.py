@@ -21,7 +21,7 @@ from torch.utils.tensorboard import SummaryWriter
 from tqdm import tqdm
 
 from model.policy.pointer import Critic
-from model.simulation.cost import by_term
+from model.simulation.state import by_term
 from training.config import TrainConfig
 from training.dataset import join
 from training.export import WEIGHTS

@@ -19,8 +19,8 @@ from torch.nn.functional import smooth_l1_loss, softplus
 from tqdm import tqdm
 
 from model.policy.attention import AttentionPolicy
-from model.policy.observation import NUM_GLOBAL_FEATURES
-from model.simulation.cost import by_term
+from model.policy.decision_features import NUM_GLOBAL_FEATURES
+from model.simulation.state import by_term
 from training.examples import Stretch, begun, problem_of, replayed
 from training.export import WEIGHTS
 from training.judged import CPU, Buffer, write
@@ -92,9 +92,9 @@ def look(policy: AttentionPolicy, plans: Sequence[Labelled],
             worth.append(float(plan.worth[place]))
     if not rows:
         return None
-    state = begun(batch, rows)
-    spent = by_term(state.cost[:len(rows)]).sum(axis=1)
-    lesson = replayed(batch, rows, state)
+    rollouts = begun(batch, rows)
+    spent = by_term(rollouts.state.cost[:len(rows)]).sum(axis=1)
+    lesson = replayed(batch, rows, rollouts)
     if lesson is None:
         return None
     of_plan = np.array([row.plan for row in rows])

@@ -725,13 +725,6 @@ typedef struct tandem_scales {
     tandem_f64_1d amount;  /* (problem,) total demand in the first dimension, or of pickups if more */
 } tandem_scales;
 
-typedef struct tandem_tokens {
-    tandem_f32_3d node;  /* (problem, node, NUM_NODE_FEATURES) */
-    tandem_f32_3d type;  /* (problem, type, NUM_TYPE_FEATURES) */
-    tandem_f32_4d pair;  /* (problem, node, node, NUM_PAIR_FEATURES) from row to column */
-    tandem_bool_2d mask;  /* (problem, node + type) True = a token, False = padding */
-} tandem_tokens;
-
 typedef struct tandem_observation {
     tandem_i64_1d count;  /* (rollout,) */
     tandem_i64_2d action;  /* (rollout, candidate) codes */
@@ -758,16 +751,6 @@ typedef struct tandem_step_weights {
     tandem_f32_1d action_mix_bias;
     tandem_f32_1d action_score;
 } tandem_step_weights;
-
-typedef struct tandem_desk {
-    tandem_f32_1d hidden;  /* (WIDTH,) */
-    tandem_f32_1d query;  /* (WIDTH,) */
-    tandem_f32_1d glimpsed;  /* (WIDTH,) */
-    tandem_f32_1d asked;  /* (ACTION_WIDTH,) */
-    tandem_f32_2d action;  /* (candidate, ACTION_WIDTH) */
-    tandem_f32_2d mixed;  /* (candidate, ACTION_WIDTH) */
-    tandem_f32_2d weight;  /* (NUM_HEADS, candidate) */
-} tandem_desk;
 
 typedef struct tandem_world {
     int64_t num_depots;
@@ -940,25 +923,19 @@ typedef struct tandem_scene {
 } tandem_scene;
 
 /* Rollouts of one problem, each begun by actions that are given. */
-typedef struct tandem_rollouts {
+typedef struct tandem_courses {
     tandem_i64_1d row;  /* (rollout,) of the state */
     tandem_i64_1d view;  /* (rollout,) of the memory */
     tandem_f64_1d temperature;  /* (rollout,) 0 for the likeliest action at each step */
-    tandem_u64_1d generator;  /* (rollout,) address of NumPy's `bitgen_t`, not looked at without heat */
+    tandem_u64_1d generator;  /* (rollout,) address of NumPy's `bitgen_t` */
     tandem_i64_1d kept;  /* (rollout,) actions that are given */
     tandem_i64_2d actions;  /* (rollout, action) codes */
     tandem_i64_1d count;  /* (rollout,) actions in the end, -1 of one that was given up */
-} tandem_rollouts;
+} tandem_courses;
 
-/* Describe the drives, the launches and the return of the open vehicle of one rollout. */
-int tandem_describe_moves(const tandem_instance *instance, const tandem_scales *scale,
-                          const tandem_state *state, int64_t r, const tandem_observation *seen);
 /* List and describe the legal actions of the rollouts `first` to `behind`; `most` of any of them. */
 int tandem_observe(const tandem_scene *scene, const tandem_state *state, int64_t first,
                    int64_t behind, int64_t scratch, const tandem_observation *seen, int64_t *most);
-/* Do the chosen candidate of each rollout. */
-int tandem_act(const tandem_instance *instance, const tandem_state *state, int64_t first,
-               int64_t behind, const tandem_i64_1d *choice, const tandem_observation *seen);
 /* Do what was chosen of what was seen, then observe. */
 int tandem_step(const tandem_scene *scene, const tandem_state *state, int64_t first,
                 int64_t behind, int64_t scratch, const tandem_i64_1d *choice,
@@ -973,7 +950,7 @@ int tandem_choose(const tandem_f32_1d *scores, double temperature, uint64_t gene
    actions on, until a flag tells to give up. */
 int tandem_roll_out(const tandem_step_weights *weights, const tandem_f32_3d *memory,
                     const tandem_scene *scene, const tandem_state *state,
-                    const tandem_rollouts *rollouts, const tandem_i64_1d *stop, int64_t threads);
+                    const tandem_courses *courses, const tandem_i64_1d *stop, int64_t threads);
 
 /* Search: neighbourhood. */
 

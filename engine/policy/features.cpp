@@ -307,8 +307,7 @@ void describe_opens(const Scene& scene, const State& state, Int r, double unserv
     }
 }
 
-}  // namespace
-
+// Describe the drives, the launches and the return of the open vehicle.
 void describe_moves(const Instance& instance, const Scales& scale, const State& state, Int r,
                     const Seen& seen) {
     const Int b = state.problem[r];
@@ -357,6 +356,8 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
     }
 }
 
+}  // namespace
+
 void observe(const Scene& scene, State& state, Int r, Int scratch, const Seen& seen) {
     seen.count = 0;
     if (state.done[r]) return;
@@ -393,23 +394,7 @@ Int observe_all(const tandem_scene& from, State& state, Int first, Int behind, I
     return most;
 }
 
-// Do what was chosen; rollouts without a candidate stay as they are.
-void act_all(const Instance& instance, State& state, Int first, Int behind,
-             View<const Int, 1> choice, const Observation& seen) {
-    for (Int r = first; r < behind; ++r) {
-        if (seen.count[r] > 0) apply(instance, state, r, seen.action(r, choice[r]));
-    }
-}
-
 }  // namespace
-
-int tandem_describe_moves(const tandem_instance* instance, const tandem_scales* scale,
-                          const tandem_state* state, int64_t r, const tandem_observation* seen) {
-    return guarded([&] {
-        describe_moves(instance_of(*instance), scales_of(*scale), state_of(*state), r,
-                       seen_of(observation_of(*seen), r));
-    });
-}
 
 int tandem_observe(const tandem_scene* scene, const tandem_state* state, int64_t first,
                    int64_t behind, int64_t scratch, const tandem_observation* seen, int64_t* most) {
@@ -419,23 +404,19 @@ int tandem_observe(const tandem_scene* scene, const tandem_state* state, int64_t
     });
 }
 
-int tandem_act(const tandem_instance* instance, const tandem_state* state, int64_t first,
-               int64_t behind, const tandem_i64_1d* choice, const tandem_observation* seen) {
-    return guarded([&] {
-        State running = state_of(*state);
-        act_all(instance_of(*instance), running, first, behind, View<Int, 1>(*choice),
-                observation_of(*seen));
-    });
-}
-
 int tandem_step(const tandem_scene* scene, const tandem_state* state, int64_t first, int64_t behind,
                 int64_t scratch, const tandem_i64_1d* choice, const tandem_observation* seen,
                 int64_t* most) {
     return guarded([&] {
+        const Instance instance = instance_of(scene->instance);
         State running = state_of(*state);
         const Observation observation = observation_of(*seen);
-        act_all(instance_of(scene->instance), running, first, behind, View<Int, 1>(*choice),
-                observation);
+        const View<Int, 1> chosen(*choice);
+        for (Int r = first; r < behind; ++r) {
+            // Rollouts without a candidate stay as they are.
+            if (observation.count[r] == 0) continue;
+            apply(instance, running, r, observation.action(r, chosen[r]));
+        }
         *most = observe_all(*scene, running, first, behind, scratch, observation);
     });
 }

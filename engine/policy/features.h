@@ -30,10 +30,6 @@ inline Seen seen_of(const Observation& seen, Int r) {
             seen.described[r], seen.vehicle[r], seen.here[r]};
 }
 
-// Describe the drives, the launches and the return of the open vehicle.
-void describe_moves(const Instance& instance, const Scales& scale, const State& state, Int r,
-                    const Seen& seen);
-
 // List and describe the legal actions of one rollout, which is finished if there is none.
 void observe(const Scene& scene, State& state, Int r, Int scratch, const Seen& seen);
 

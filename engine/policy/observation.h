@@ -5,8 +5,6 @@
 
 namespace tandem {
 
-using NodeFeatures = tandem_node_features;
-using TypeFeatures = tandem_type_features;
 using ActionFeatures = tandem_action_features;
 using VehicleFeatures = tandem_vehicle_features;
 
@@ -21,17 +19,6 @@ struct Scales {
 
 inline Scales scales_of(const tandem_scales& from) {
     return {from.time, from.near, from.horizon, from.cost, from.amount};
-}
-
-struct Tokens {
-    View<const float, 3> node;  // (problem, node, NUM_NODE_FEATURES)
-    View<const float, 3> type;  // (problem, type, NUM_TYPE_FEATURES)
-    View<const float, 4> pair;  // (problem, node, node, NUM_PAIR_FEATURES) from row to column
-    View<const bool, 2> mask;   // (problem, node + type) True = a token, False = padding
-};
-
-inline Tokens tokens_of(const tandem_tokens& from) {
-    return {from.node, from.type, from.pair, from.mask};
 }
 
 struct Observation {
@@ -70,21 +57,6 @@ inline StepWeights step_weights_of(const tandem_step_weights& from) {
     return {from.globe,        from.globe_bias,  from.globe_output,    from.globe_output_bias,
             from.action,       from.action_bias, from.glimpse_bias,    from.glimpse_output,
             from.action_query, from.action_mix,  from.action_mix_bias, from.action_score};
-}
-
-struct Desk {
-    View<float, 1> hidden;    // (WIDTH,)
-    View<float, 1> query;     // (WIDTH,)
-    View<float, 1> glimpsed;  // (WIDTH,)
-    View<float, 1> asked;     // (ACTION_WIDTH,)
-    View<float, 2> action;    // (candidate, ACTION_WIDTH)
-    View<float, 2> mixed;     // (candidate, ACTION_WIDTH)
-    View<float, 2> weight;    // (NUM_HEADS, candidate)
-};
-
-inline Desk desk_of(const tandem_desk& from) {
-    return {from.hidden, from.query, from.glimpsed, from.asked,
-            from.action, from.mixed, from.weight};
 }
 
 }  // namespace tandem

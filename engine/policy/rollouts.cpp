@@ -175,12 +175,12 @@ Int choose(View<const float, 1> scores, double temperature, const BitGenerator& 
 }
 
 void roll_out(const StepWeights& weights, View<const float, 3> memory, const Scene& scene,
-              State& state, const Rollouts& rollouts, View<const Int, 1> stop, Int threads) {
-    const View<const Int, 1> rows(rollouts.row), view(rollouts.view), kept(rollouts.kept);
-    const View<const double, 1> temperature(rollouts.temperature);
-    const View<const std::uint64_t, 1> generator(rollouts.generator);
-    const View<Int, 2> actions(rollouts.actions);
-    const View<Int, 1> count(rollouts.count);
+              State& state, const Courses& courses, View<const Int, 1> stop, Int threads) {
+    const View<const Int, 1> rows(courses.row), view(courses.view), kept(courses.kept);
+    const View<const double, 1> temperature(courses.temperature);
+    const View<const std::uint64_t, 1> generator(courses.generator);
+    const View<Int, 2> actions(courses.actions);
+    const View<Int, 1> count(courses.count);
     const Int scratch = state.problem.size() - threads;
     std::atomic<Int> next = 0;
     run_on(std::min(threads, rows.size()), [&](Int number) {
@@ -207,12 +207,12 @@ int tandem_choose(const tandem_f32_1d* scores, double temperature, uint64_t gene
 
 int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_3d* memory,
                     const tandem_scene* scene, const tandem_state* state,
-                    const tandem_rollouts* rollouts, const tandem_i64_1d* stop, int64_t threads) {
+                    const tandem_courses* courses, const tandem_i64_1d* stop, int64_t threads) {
     return guarded([&] {
         const Instance instance = instance_of(scene->instance);
         const Scales scale = scales_of(scene->scale);
         State running = state_of(*state);
         roll_out(step_weights_of(*weights), *memory, {instance, scale, scene->type_token}, running,
-                 *rollouts, View<Int, 1>(*stop), threads);
+                 *courses, View<Int, 1>(*stop), threads);
     });
 }

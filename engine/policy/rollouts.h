@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-using Rollouts = tandem_rollouts;
+using Courses = tandem_courses;
 
 // The likeliest candidate, or one drawn by probability if the temperature isn't 0.
 Int choose(View<const float, 1> scores, double temperature, const BitGenerator& bits);
@@ -15,6 +15,6 @@ Int choose(View<const float, 1> scores, double temperature, const BitGenerator& 
 //
 // Each thread tries actions on a row of its own of the state, behind those of all rollouts.
 void roll_out(const StepWeights& weights, View<const float, 3> memory, const Scene& scene,
-              State& state, const Rollouts& rollouts, View<const Int, 1> stop, Int threads);
+              State& state, const Courses& courses, View<const Int, 1> stop, Int threads);
 
 }  // namespace tandem

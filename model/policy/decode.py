@@ -16,16 +16,15 @@ from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 from model.kernel.alarm import silent
 from model.kernel.cores import num_cores
 from model.kernel.instance import Instance
-from model.policy.features import step
-from model.policy.observation import Observation, empty_observation
-from model.policy.route_pool import RoutePool
-from model.policy.rollouts import (
-    NOTHING, STEP_WEIGHTS, Rollout, StepWeights, cost_of, read_weights, roll_out,
+from model.policy.decision_features import Observation, Rollouts, Scene
+from model.policy.problem_features import Float32Array, Tokens, scales, tokens
+from model.policy.rolling import (
+    NOTHING, STEP_WEIGHTS, Rollout, StepWeights, cost_of, read_weights, roll_out, roll_out_views,
 )
-from model.policy.tokens import Float32Array, Scales, Tokens, scales, tokens
+from model.policy.route_pool import RoutePool
 from model.problem import BoolArray, IntArray, Problem
-from model.simulation.cost import by_term
-from model.simulation.simulator import max_steps, reset
+from model.simulation.actions import max_steps
+from model.simulation.state import by_term
 
 ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.InvalidGraph,
               ort_errors.Fail)
@@ -76,11 +75,10 @@ class Policy:
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
-    """A problem as the policy sees it."""
+class View:
+    """A problem as the policy sees it from one side."""
 
-    instance: Instance
-    scale: Scales
+    scene: Scene
     tokens: Tokens
     memory: Float32Array  # (token, width)
 
@@ -112,11 +110,11 @@ def load_policy(folder: Path) -> Policy:
                   step_weights)
 
 
-def prepare(policy: Policy, problem: Problem, instance: Instance) -> Scene:
+def prepare(policy: Policy, problem: Problem, instance: Instance) -> View:
     """Run the encoder."""
     scale = scales(instance)
     seen = tokens(instance, scale, problem.coordinates[None])
-    return Scene(instance, scale, seen, encode(policy, seen, 0))
+    return View(Scene(instance, scale, seen.type), seen, encode(policy, seen, 0))
 
 
 def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
@@ -128,7 +126,7 @@ def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
     return memory
 
 
-def decode(policy: Policy, scene: Scene, config: DecodeConfig,
+def decode(policy: Policy, view: View, config: DecodeConfig,
            deadline: float | None = None, stop: IntArray | None = None) -> Rollout:
     """Plan by the policy; return the cheapest plan by routes of all rollouts.
 
@@ -136,13 +134,14 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
     ----------
     policy
         An exported policy.
-    scene
+    view
         The problem, prepared by the same policy.
     config
         Greedy or sampled; the same seed gives the same plan. Where several samples are asked for,
         greedy plans are among them.
     deadline
-        On `time.perf_counter`; no block of samples begins later, but the first. None: no limit.
+        On `time.perf_counter`; no round of samples begins later, but the first block. None: no
+        limit.
     stop
         Flag of an alarm at which rollouts are given up; `NOTHING` is returned if all are.
     """
@@ -150,27 +149,38 @@ def decode(policy: Policy, scene: Scene, config: DecodeConfig,
         raise ValueError(f"num_samples, temperature: {config.num_samples!r}, "
                          f"{config.temperature!r} are not allowed")
     flag = silent() if stop is None else stop
-    rounds = _rounds(policy, scene, config)
+    rounds = _rounds(policy, view, config)
     blocks = sum(map(len, rounds))
     seeds = iter(np.random.SeedSequence(config.seed).spawn(blocks + len(rounds)))
-    routes, found = RoutePool(scene.instance), NOTHING
+    routes, found = RoutePool(view.scene.instance), NOTHING
 
     @cache
-    def seen_from(symmetry: int) -> Scene:
-        return scene if symmetry == 0 else replace(
-            scene, memory=encode(policy, scene.tokens, symmetry))
+    def seen_from(symmetry: int) -> View:
+        return view if symmetry == 0 else replace(
+            view, memory=encode(policy, view.tokens, symmetry))
+
+    def is_due(block: _Block) -> bool:
+        is_late = deadline is not None and time.perf_counter() >= deadline
+        return not flag[0] and (block.is_first or not is_late)
 
     def plan(block: _Block, seed: np.random.SeedSequence) -> list[Rollout]:
-        is_late = deadline is not None and time.perf_counter() >= deadline
-        if flag[0] or (is_late and not block.is_first):
+        if not is_due(block):
             return []
         return _decode_block(policy, seen_from(block.symmetry), block.temperatures,
                              np.random.default_rng(seed), found, flag)
 
     with ThreadPoolExecutor(min(max(map(len, rounds)), num_cores())) as pool:
         for now in rounds:
-            # All of them, before what they go on from changes.
-            planned = list(pool.map(plan, now, [next(seeds) for _ in now]))
+            own = [next(seeds) for _ in now]
+            if policy.step_weights is not None and all(block.is_view for block in now):
+                due = [block.symmetry for block in now if is_due(block)]
+                views = list(pool.map(seen_from, due))
+                planned = [] if not views else [roll_out_views(
+                    policy.step_weights, [each.memory for each in views], view.scene, flag,
+                    num_cores())]
+            else:
+                # All of them, before what they go on from changes.
+                planned = list(pool.map(plan, now, own))
             for rollout in chain.from_iterable(planned):
                 routes.add(rollout.actions)
                 found = min(found, rollout, key=cost_of)
@@ -185,11 +195,12 @@ class _Block(NamedTuple):
     symmetry: int  # one of SYMMETRIES
     temperatures: list[float]
     is_first: bool = False
+    is_view: bool = False  # one greedy plan of all
 
 
-def _rounds(policy: Policy, scene: Scene, config: DecodeConfig) -> list[list[_Block]]:
+def _rounds(policy: Policy, view: View, config: DecodeConfig) -> list[list[_Block]]:
     """Return the blocks that are planned at the same time, those of each round."""
-    views = VIEWED_CUSTOMERS // max(1, int(scene.instance.size[0].customers))
+    views = VIEWED_CUSTOMERS // max(1, int(view.scene.instance.size[0].customers))
     views = min(max(views, 1), len(SYMMETRIES))
     is_compiled = policy.step_weights is not None
     if config.decoding == "greedy":
@@ -213,12 +224,12 @@ def _greedy(views: int, in_parts: bool) -> list[list[_Block]]:
     encoded and planned as a whole.
     """
     parts = views // 2 if in_parts else 0
-    whole = [_Block(symmetry, [0.0], symmetry == 0) for symmetry in range(views - parts)]
+    whole = [_Block(symmetry, [0.0], symmetry == 0, True) for symmetry in range(views - parts)]
     lines = [_Block(symmetry, [0.0] * parts) for symmetry in range(min(LANES, len(whole)))]
     return [whole, lines] if parts > 0 else [whole]
 
 
-def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
+def _decode_block(policy: Policy, view: View, temperatures: list[float],
                   rng: np.random.Generator, so_far: Rollout,
                   stop: IntArray) -> list[Rollout]:
     """Plan a rollout by each temperature.
@@ -226,27 +237,26 @@ def _decode_block(policy: Policy, scene: Scene, temperatures: list[float],
     Those of a policy whose step is compiled go on from the best so far. An alarm ends them.
     """
     if policy.step_weights is not None:
-        return roll_out(policy.step_weights, scene.memory, scene.instance, scene.scale,
-                        scene.tokens.type, temperatures, rng, so_far, stop)
+        return roll_out(policy.step_weights, view.memory, view.scene, temperatures, rng, so_far,
+                        stop)
     rows, warmth = len(temperatures), np.array([temperatures], np.float32).T
-    instance = scene.instance
-    state = reset(instance, np.zeros(rows, np.int64))
-    seen = empty_observation(rows, instance.node.shape[2], instance.type.shape[1])
+    rollouts = Rollouts(view.scene, np.zeros(rows, np.int64))
+    seen = rollouts.seen
     hidden = np.zeros((rows, policy.hidden_size), np.float32)
     choice = np.zeros(rows, np.int64)
     actions = []
-    for _ in range(max_steps(instance)):
+    for _ in range(max_steps(view.scene.instance)):
         if stop[0]:
             return []
-        most = step(instance, scene.scale, state, scene.tokens.type, 0, rows, rows, choice, seen)
+        most = rollouts.step(choice)
         if most == 0:
             break
-        logits, hidden = policy.step.run(None, step_inputs(policy, scene, seen, most, hidden))
+        logits, hidden = policy.step.run(None, step_inputs(policy, view, seen, most, hidden))
         noise = rng.standard_exponential(logits.shape, np.float32)
         noise[warmth[:, 0] == 0.0] = 1.0
         disturbed(logits, np.where(warmth > 0.0, warmth, 1.0), noise).argmax(axis=1, out=choice)
         actions.append(np.where(seen.count > 0, seen.action[np.arange(rows), choice], NO_ACTION))
-    cost = by_term(state.cost[:rows]).sum(axis=1)
+    cost = by_term(rollouts.state.cost[:rows]).sum(axis=1)
     by_rollout = np.array(actions).reshape(-1, rows).T
     return [Rollout(taken[taken != NO_ACTION], float(cost[r]))
             for r, taken in enumerate(by_rollout)]
@@ -262,11 +272,11 @@ def disturbed(logits: Float32Array, temperature: Float32Array,
     return logits / temperature - np.log(np.maximum(noise, np.finfo(np.float32).tiny))
 
 
-def step_inputs(policy: Policy, scene: Scene, seen: Observation, most: int,
+def step_inputs(policy: Policy, view: View, seen: Observation, most: int,
                 hidden: Float32Array) -> dict[str, IntArray | Float32Array | BoolArray]:
     """Return the inputs of `step.onnx`, padded to `most` candidates."""
     return {
-        "memory": scene.memory,
+        "memory": view.memory,
         "here": seen.here,
         "candidate": np.ascontiguousarray(seen.token[:, :most]),
         "feature": np.ascontiguousarray(seen.feature[:, :most, : policy.num_features]),

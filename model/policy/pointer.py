@@ -13,8 +13,8 @@ from torch import Tensor, nn
 from torch.nn.functional import linear
 
 from model.policy.network import MASKED, take
-from model.policy.observation import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
-from model.policy.tokens import NUM_NODE_FEATURES, NUM_TYPE_FEATURES
+from model.policy.decision_features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
+from model.policy.problem_features import NUM_NODE_FEATURES, NUM_TYPE_FEATURES
 
 @dataclass(frozen=True)
 class PointerConfig:

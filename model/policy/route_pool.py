@@ -17,11 +17,11 @@ import numpy as np
 from model.kernel.alarm import silent
 from model.kernel.instance import Instance
 from model.policy.partition import cheapest_partition
-from model.policy.resampling import serves, vehicles_nearby
-from model.policy.rollouts import NOTHING, Rollout
+from model.policy.keeping import serves, vehicles_nearby
+from model.policy.rolling import NOTHING, Rollout
 from model.problem import BoolArray, FloatArray, IntArray
-from model.simulation.cost import by_term
-from model.simulation.simulator import NUM_KINDS, OPEN, price_routes, reset
+from model.simulation.state import by_term, empty_costs
+from model.simulation.actions import NUM_KINDS, OPEN, price_routes, reset
 
 REGION = 100
 """Customers whose routes are chosen together, at most: the time for more grows fast."""
@@ -62,10 +62,9 @@ class RoutePool:
         new = [codes for codes in _split(actions) if codes.tobytes() not in self._by_actions]
         if not new:
             return
-        terms = by_term(self._state.cost)
-        price = np.zeros((len(new), terms.shape[1]))
-        price_routes(self._instance, self._state, 0, np.concatenate(new), terms, price)
-        for codes, cost in zip(new, price.sum(axis=1).tolist(), strict=True):
+        price = empty_costs(len(new))
+        price_routes(self._instance, self._state, 0, np.concatenate(new), price)
+        for codes, cost in zip(new, by_term(price).sum(axis=1).tolist(), strict=True):
             nodes = np.sort(codes[serves(codes)] // NUM_KINDS)
             route = Route(codes, int(codes[0] // NUM_KINDS), nodes, cost)
             key = route.type, nodes.tobytes()

@@ -7,17 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from model.kernel.instance import Instance, pack
-from model.policy import features
-from model.policy import tokens as token_module
-from model.policy.observation import empty_observation
+from model.policy import problem_features
+from model.policy.decision_features import Rollouts, Scene
 from model.problem import (
     UNLIMITED, UNREACHABLE, Customer, DroneType, Energy, FloatArray, Overtime, Problem,
     SpeedProfile, Travel, VehicleType,
 )
-from model.simulation.cost import by_term
-from model.simulation.simulator import NUM_KINDS, RETURN, legal_actions, reset
-from model.simulation.transition import State
-from model.simulation.trial import OUTLOOK
+from model.simulation.actions import NUM_KINDS, RETURN, legal_actions
+from model.simulation.state import State, by_term, empty_outlooks
 from model.solution import COST_TERMS
 from training.instances import VARIANTS, generate
 
@@ -53,7 +50,7 @@ class Batch:
 
     problems: Sequence[Problem]
     instance: Instance
-    tokens: token_module.Tokens
+    tokens: problem_features.Tokens
     rollouts: list[Rollout]
     state: State
 
@@ -73,20 +70,20 @@ def roll(problems: Sequence[Problem], seed: int) -> Batch:
         If a rollout does not end.
     """
     instance, rows = pack(problems), len(problems)
-    scale = token_module.scales(instance)
+    scale = problem_features.scales(instance)
     width = instance.node.shape[2]
     coordinates = np.zeros((rows, width, 2))
     for row, problem in enumerate(problems):
         coordinates[row, : problem.num_nodes] = problem.coordinates
-    tokens = token_module.tokens(instance, scale, coordinates)
-    state = reset(instance, np.arange(rows))
-    seen = empty_observation(rows, width, instance.type.shape[1])
+    tokens = problem_features.tokens(instance, scale, coordinates)
+    under_way = Rollouts(Scene(instance, scale, tokens.type), np.arange(rows))
+    state, seen = under_way.state, under_way.seen
     rngs = [np.random.default_rng((seed, problem.num_customers)) for problem in problems]
     rollouts = [Rollout() for _ in problems]
     choice = np.zeros(rows, np.int64)
     vehicles = int(instance.type["count"].sum(axis=1).max())
     for _ in range(2 * width + vehicles + 2):
-        if not features.observe(instance, scale, state, tokens.type, 0, rows, rows, seen):
+        if not under_way.step(choice):
             break
         for row in np.flatnonzero(seen.count).tolist():
             count = seen.count[row]
@@ -95,7 +92,6 @@ def roll(problems: Sequence[Problem], seed: int) -> Batch:
             rollouts[row].steps.append(Step(
                 codes, int(choice[row]), seen.feature[row, :count].copy(), seen.glob[row].copy(),
                 seen.token[row, :count].tolist(), int(seen.here[row])))
-        features.act(instance, state, 0, rows, choice, seen)
     else:
         raise RuntimeError("a rollout does not end")
     for row in range(rows):
@@ -106,7 +102,7 @@ def roll(problems: Sequence[Problem], seed: int) -> Batch:
 def legal(problem: Problem, instance: Instance, state: State) -> list[int]:
     """Return the legal actions of the only rollout of a state."""
     most = 2 * problem.num_nodes + 1 + len(problem.vehicle_types)
-    actions, outlooks = np.zeros(most, np.int64), np.zeros(most, OUTLOOK)
+    actions, outlooks = np.zeros(most, np.int64), empty_outlooks(most)
     count = legal_actions(instance, state, 0, 1, actions, outlooks)
     return actions[:count].tolist()
 

@@ -10,8 +10,8 @@ import onnxruntime as ort
 import pytest
 import torch
 
-from model.policy.observation import empty_observation
-from model.policy.rollouts import (
+from model.policy.decision_features import empty_observation
+from model.policy.rolling import (
     ACTION_WIDTH, CLIP, SHAPES, SHARE, STEP_WEIGHTS, candidate_scores, read_weights,
 )
 from training.export import WEIGHTS, Encoder, Step, example_inputs, export

@@ -8,7 +8,7 @@ import pytest
 import torch
 
 from model.policy.attention import AttentionConfig, AttentionPolicy
-from model.simulation.simulator import LAUNCH, NUM_KINDS, OPEN, RETURN
+from model.simulation.actions import LAUNCH, NUM_KINDS, OPEN, RETURN
 from training.completion import (
     Setting, complete, cost_of, open_type, to_actions, to_routes, what_is_left,
 )

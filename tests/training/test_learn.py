@@ -10,7 +10,7 @@ from torch import Tensor
 from model.policy.attention import AttentionConfig, AttentionPolicy
 from model.policy.network import PolicyNetwork
 from model.policy.pointer import Critic, PointerConfig, PointerPolicy
-from model.simulation.cost import COST
+from model.simulation.state import empty_costs
 from training.dataset import Decisions, chunks, join, paths
 from training.instances import VARIANTS, generate
 from training.learn import (
@@ -191,7 +191,7 @@ def test_critic_learns_the_costs_of_a_batch(batch: Batch) -> None:
 
 
 def test_customers_left_out_weigh_less_in_training(batch: Batch) -> None:
-    cost = np.zeros(batch.num_problems, COST)
+    cost = empty_costs(batch.num_problems)
     cost["distance"], cost["unassigned"] = 2.0, 10.0
     outcome = Outcome(cost, np.ones(batch.num_problems, np.int64), None)  # type: ignore[arg-type]
     unit = batch.scale.cost * batch.instance.size["customers"]

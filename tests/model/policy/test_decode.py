@@ -13,12 +13,12 @@ import pytest
 from model.judge.check import check
 from model.kernel.alarm import Alarm
 from model.kernel.instance import pack
-from model.policy import rollouts
+from model.policy import rolling
 from model.policy.decode import (
     BLOCK, SYMMETRIES, DecodeConfig, Policy, decode, disturbed, encode, load_policy, prepare,
 )
 from model.policy.network import MASKED
-from model.policy.rollouts import CLIP, NOTHING, choose
+from model.policy.rolling import CLIP, NOTHING, choose
 from model.problem import Problem
 from model.simulation.extract import extract
 from training.instances import VARIANTS, generate
@@ -86,8 +86,8 @@ def test_samples_are_drawn_less_widely_where_drones_fly(monkeypatch: pytest.Monk
     policy = load_policy(WEIGHTS / "attention")
     flown, driven = (generate(np.random.default_rng(5), 20, name) for name in ("drone", "cvrp"))
     both = [plan(policy, problem, DecodeConfig("sample", 20)) for problem in (flown, driven)]
-    cooler = rollouts.HOTTER_WITH_DRONES / rollouts.HOTTER
-    monkeypatch.setattr(rollouts, "HOTTER_WITH_DRONES", rollouts.HOTTER)
+    cooler = rolling.HOTTER_WITH_DRONES / rolling.HOTTER
+    monkeypatch.setattr(rolling, "HOTTER_WITH_DRONES", rolling.HOTTER)
     assert plan(policy, flown, DecodeConfig("sample", 20)) != both[0]
     assert plan(policy, flown, DecodeConfig("sample", 20, temperature=cooler)) == both[0]
     assert plan(policy, driven, DecodeConfig("sample", 20)) == both[1]
@@ -128,7 +128,7 @@ def test_draws_follow_the_probabilities_and_never_what_is_masked() -> None:
     assert drawn[0] / len(logits) == pytest.approx(0.7, abs=0.02)
 
 
-def test_compiled_draws_follow_the_probabilities() -> None:
+def test_draws_of_the_engine_follow_the_probabilities() -> None:
     scores = np.arctanh(np.log(np.array([0.5, 0.3, 0.2])) / CLIP).astype(np.float32) * CLIP / 2
     rng = np.random.default_rng(3)
     for temperature, expected in ((1.0, [0.5, 0.3, 0.2]), (0.5, [0.658, 0.237, 0.105])):

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 
 from model.kernel.instance import pack
-from model.policy import features
-from model.policy.observation import (
-    ACTION, NUM_ACTION_FEATURES, VEHICLE_STATE, empty_observation,
+from model.policy.decision_features import (
+    ACTION, NUM_ACTION_FEATURES, VEHICLE_STATE, Rollouts, Scene,
 )
-from model.policy.tokens import NODE, TYPE, Float32Array, Tokens, scales, tokens
+from model.policy.problem_features import NODE, TYPE, Float32Array, Tokens, scales, tokens
 from model.problem import IncompatibleGoods, Overtime, Problem
-from model.simulation.simulator import DRIVE, OPEN, apply, encode_action, reset
+from model.simulation.actions import DRIVE, OPEN, apply, encode_action
 from tests.conftest import MINUTE
 from tests.model.rollouts import Batch, Units, in_other_units, random_problems, roll
 from tests.model.tiny import draw_tiny, with_energy
@@ -119,12 +118,12 @@ def test_company_is_the_unserved_customers_nearby(tiny_problem, customers, truck
     instance = pack([problem])
     scale = scales(instance)
     assert scale.near[0] == 2 * 2 * MINUTE  # neighbours are 1, 1, 2, 4 km away, 2 minutes a km
-    state = reset(instance, np.zeros(1, np.int64))
-    seen = empty_observation(1, problem.num_nodes, 1)
     types = tokens(instance, scale, problem.coordinates[None]).type
+    rollouts = Rollouts(Scene(instance, scale, types), np.zeros(1, np.int64))
+    seen = rollouts.seen
     for action in (encode_action(OPEN, 0), encode_action(DRIVE, 2)):
-        apply(instance, state, 0, action)
-    features.observe(instance, scale, state, types, 0, 1, 1, seen)
+        apply(instance, rollouts.state, 0, action)
+    rollouts.observe()
     names = ("next_way", "third_way", "next_excess")
     of_node = {int(code) // 4: [seen.described[name][0, index] for name in names] for index, code
                in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == DRIVE}
@@ -271,11 +270,11 @@ def first_drives(problem: Problem, name: str) -> list[float]:
     """Return a feature of the drives of the first vehicle, which has just been opened."""
     instance = pack([problem])
     scale = scales(instance)
-    state = reset(instance, np.zeros(1, np.int64))
-    seen = empty_observation(1, problem.num_nodes, 1)
     types = tokens(instance, scale, problem.coordinates[None]).type
-    apply(instance, state, 0, encode_action(OPEN, 0))
-    features.observe(instance, scale, state, types, 0, 1, 1, seen)
+    rollouts = Rollouts(Scene(instance, scale, types), np.zeros(1, np.int64))
+    seen = rollouts.seen
+    apply(instance, rollouts.state, 0, encode_action(OPEN, 0))
+    rollouts.observe()
     return [float(seen.described[name][0, index]) for index, code
             in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == DRIVE]
 

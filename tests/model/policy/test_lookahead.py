@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from model.kernel.instance import pack
-from model.policy import features
-from model.policy.observation import empty_observation
-from model.policy.tokens import scales, tokens
+from model.policy.decision_features import Rollouts, Scene
+from model.policy.problem_features import scales, tokens
 from model.problem import Problem
-from model.simulation.simulator import DRIVE, LAUNCH, OPEN, apply, encode_action, reset
+from model.simulation.actions import DRIVE, LAUNCH, OPEN, apply, encode_action
 from tests.conftest import MINUTE
 
 TIMED = ["next_duration", "next_slack", "lost", "detour_before", "later_duration"]
@@ -22,12 +21,12 @@ def prospects(problem: Problem, *actions: int) -> dict[int, np.ndarray]:
     instance = pack([problem])
     scale = scales(instance)
     assert scale.near[0] == 4 * MINUTE  # neighbours are 1, 1, 2, 4 km away, 2 minutes a km
-    state = reset(instance, np.zeros(1, np.int64))
-    seen = empty_observation(1, problem.num_nodes, 1)
     types = tokens(instance, scale, problem.coordinates[None]).type
+    rollouts = Rollouts(Scene(instance, scale, types), np.zeros(1, np.int64))
+    seen = rollouts.seen
     for action in actions:
-        apply(instance, state, 0, action)
-    features.observe(instance, scale, state, types, 0, 1, 1, seen)
+        apply(instance, rollouts.state, 0, action)
+    rollouts.observe()
     return {int(code): np.array([seen.described[name][0, index] for name in TIMED]) for index, code
             in enumerate(seen.action[0, :seen.count[0]])}
 

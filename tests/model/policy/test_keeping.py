@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from model.kernel.instance import pack
-from model.policy.resampling import (
+from model.policy.keeping import (
     LEAST_ANEW, MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep,
 )
 from model.problem import IntArray
-from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, apply, reset
+from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, apply, reset
 from tests.model.rollouts import legal, random_problems, roll
 
 

@@ -1,0 +1,224 @@
+"""Rollouts of `attention` by the engine.
+
+Its step as `step.onnx` computes it, for one rollout and without padding. A decision is so small
+that a call of ONNX Runtime takes longer than its arithmetic, and a plan makes many of them.
+"""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.engine.library import call, packed
+from model.kernel.alarm import silent
+from model.policy.decision_features import (
+    NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, Scene,
+)
+from model.policy.keeping import MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep
+from model.policy.problem_features import Float32Array
+from model.problem import FloatArray, IntArray
+from model.simulation.actions import max_steps, reset
+from model.simulation.state import by_term
+
+STEP_WEIGHTS = "step.npz"
+"""File in a policy's folder."""
+
+WIDTH = 96
+NUM_HEADS = 4
+ACTION_WIDTH = 48
+"""Sizes of the network, those of `engine/policy/decision.h`."""
+
+SHARE = 4 * WIDTH
+"""Where the last part of a token's memory begins."""
+
+CLIP = 10.0
+"""What the scores are clipped to, softly."""
+
+
+class StepWeights(NamedTuple):
+    """The weights of a decision, matrices as (input, output)."""
+
+    globe: Float32Array
+    globe_bias: Float32Array
+    globe_output: Float32Array
+    globe_output_bias: Float32Array
+    action: Float32Array
+    action_bias: Float32Array
+    glimpse_bias: Float32Array
+    glimpse_output: Float32Array
+    action_query: Float32Array
+    action_mix: Float32Array
+    action_mix_bias: Float32Array
+    action_score: Float32Array
+
+
+SHAPES = {
+    "globe": (NUM_GLOBAL_FEATURES, WIDTH), "globe_bias": (WIDTH,),
+    "globe_output": (WIDTH, WIDTH), "globe_output_bias": (WIDTH,),
+    "action": (NUM_ACTION_FEATURES, ACTION_WIDTH), "action_bias": (ACTION_WIDTH,),
+    "glimpse_bias": (NUM_HEADS, ACTION_WIDTH), "glimpse_output": (WIDTH, WIDTH),
+    "action_query": (WIDTH, ACTION_WIDTH), "action_mix": (ACTION_WIDTH, ACTION_WIDTH),
+    "action_mix_bias": (ACTION_WIDTH,), "action_score": (ACTION_WIDTH,),
+}
+"""Of `StepWeights`."""
+
+
+class Rollout(NamedTuple):
+    """A plan as it was made."""
+
+    actions: IntArray  # (action,) codes
+    cost: float
+
+
+NOTHING = Rollout(np.zeros(0, np.int64), math.inf)
+
+GIVEN_UP = -1
+"""Number of actions of a rollout that was not ended."""
+
+HOTTER, HOTTER_WITH_DRONES = 2.0, 1.4
+"""Times the temperature of rollouts that keep a part: what is likely is in the best already, and a
+good route is of use in whatever plan it was drawn. Less of it where drones fly."""
+
+
+class Courses(NamedTuple):
+    """Where some rollouts begin and how they go on, a row each."""
+
+    row: IntArray  # (rollout,) of the state
+    view: IntArray  # (rollout,) of the memory
+    temperature: FloatArray  # (rollout,) 0 for the likeliest action at each step
+    generator: NDArray[np.uint64]  # (rollout,) address of NumPy's bit generator
+    kept: IntArray  # (rollout,) actions that are given
+    actions: IntArray  # (rollout, action) codes
+    count: IntArray  # type: ignore[assignment]  # (rollout,) actions in the end, or GIVEN_UP
+
+
+def read_weights(path: Path) -> StepWeights:
+    """Read what `training.export` wrote.
+
+    Raises
+    ------
+    ValueError
+        If an array is missing or has another shape than the engine's.
+    """
+    with np.load(path, allow_pickle=False) as stored:
+        arrays = {name: np.ascontiguousarray(stored[name], dtype=np.float32)
+                  for name in StepWeights._fields if name in stored}
+    for name, shape in SHAPES.items():
+        if name not in arrays or arrays[name].shape != shape:
+            raise ValueError(f"{path.name}: {name!r} is not there in the shape {shape}")
+    return StepWeights(**arrays)
+
+
+def choose(scores: Float32Array, temperature: float, rng: np.random.Generator) -> int:
+    """Return the likeliest candidate, or one drawn by probability if the temperature isn't 0."""
+    return int(call("tandem_choose", scores, temperature, _address(rng)))
+
+
+def candidate_scores(weights: StepWeights, memory: Float32Array, seen: Observation,
+                     r: int) -> Float32Array:
+    """Return the scores of a rollout's candidates, (candidate,), before they are clipped."""
+    scores = np.empty(seen.count[r], np.float32)
+    call("tandem_candidate_scores", weights, memory, seen, r, scores)
+    return scores
+
+
+def _address(rng: np.random.Generator) -> int:
+    """Return where the engine finds what it draws from, which nobody else may use meanwhile."""
+    return int(rng.bit_generator.ctypes.bit_generator.value or 0)
+
+
+class _Planning:
+    """Plans of one problem under way."""
+
+    def __init__(self, weights: StepWeights, memory: Float32Array, scene: Scene, rows: int,
+                 stop: IntArray | None, num_threads: int = 1) -> None:
+        self._state = reset(scene.instance, np.zeros(rows, np.int64), num_threads)
+        self._most = max_steps(scene.instance)
+        self._given = packed(weights), memory, packed(scene), packed(self._state)
+        self._stop = silent() if stop is None else stop
+        self._num_threads = num_threads
+
+    def plan(self, rows: Sequence[int], temperature: float, rng: np.random.Generator,
+             kept: IntArray) -> list[Rollout]:
+        """Plan rollouts of the state, the first from the first view; leave out those given up."""
+        number = len(rows)
+        actions = np.empty((number, self._most), np.int64)
+        actions[:, :len(kept)] = kept
+        courses = Courses(
+            np.array(rows), np.arange(number), np.full(number, float(temperature)),
+            np.full(number, _address(rng), np.uint64), np.full(number, len(kept)), actions,
+            np.zeros(number, np.int64))
+        call("tandem_roll_out", *self._given, courses, self._stop, self._num_threads)
+        cost = by_term(self._state.cost[rows]).sum(axis=1)
+        return [Rollout(codes[:count].copy(), float(total)) for codes, count, total
+                in zip(actions, courses.count.tolist(), cost, strict=True) if count != GIVEN_UP]
+
+
+def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
+             temperatures: Sequence[float], rng: np.random.Generator, so_far: Rollout = NOTHING,
+             stop: IntArray | None = None) -> list[Rollout]:
+    """Plan a problem several times, one after another; return the plans.
+
+    Parameters
+    ----------
+    weights
+        Of the policy's decisions.
+    memory
+        (token, memory width) that its encoder made of the problem.
+    scene
+        The problem, packed alone.
+    temperatures
+        Of each rollout if it plans all; 0 for the likeliest action at each step.
+    rng
+        For all others.
+    so_far
+        What was found before. Rollouts keep a part of the cheapest so far.
+    stop
+        Flag of an alarm at which the rest is given up.
+    """
+    instance = scene.instance
+    planning = _Planning(weights, memory[None], scene, len(temperatures), stop)
+    hotter = HOTTER_WITH_DRONES if (instance.type["drones"] > 0).any() else HOTTER
+    plans: list[Rollout] = []
+    for r, temperature in enumerate(temperatures):
+        kept = NOTHING.actions
+        if so_far is not NOTHING:
+            most_anew = MOST_ANEW if temperature > 0 else MOST_ANEW_GREEDILY
+            kept = part_to_keep(instance, so_far.actions, most_anew, rng)
+            temperature *= hotter
+        found = planning.plan([r], temperature, rng, kept)
+        if not found:
+            break
+        plans += found
+        so_far = min(so_far, *found, key=cost_of)
+    return plans
+
+
+def roll_out_views(weights: StepWeights, memories: Sequence[Float32Array], scene: Scene,
+                   stop: IntArray | None = None, num_threads: int = 1) -> list[Rollout]:
+    """Plan a problem greedily from each of some views at the same time; return the plans.
+
+    Parameters
+    ----------
+    weights
+        Of the policy's decisions.
+    memories
+        By view, (token, memory width) that its encoder made of the problem.
+    scene
+        The problem, packed alone.
+    stop
+        Flag of an alarm at which all that are not ended are given up.
+    num_threads
+        Of the engine.
+    """
+    views = len(memories)
+    planning = _Planning(weights, np.stack(memories), scene, views, stop, num_threads)
+    return planning.plan(range(views), 0.0, np.random.default_rng(0), NOTHING.actions)
+
+
+def cost_of(rollout: Rollout) -> float:
+    """Return what a plan costs, to compare plans by."""
+    return rollout.cost
