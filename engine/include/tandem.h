@@ -981,6 +981,14 @@ int tandem_go_back(const tandem_searcher *searcher);
 
 /* Search: insertion. */
 
+/* Tell what it costs to insert a customer as a move says. */
+int tandem_price_move(const tandem_world *world, const tandem_fleet *fleet, const tandem_move *move,
+                      int64_t node, tandem_block_sums *acc, double *cost);
+/* Tell what the cheapest stop beside neighbours costs a customer, where all routes are lean and it
+   is cheaper than `best`. */
+int tandem_scan_beside_lean(const tandem_world *world, const tandem_searcher *searcher,
+                            int64_t node, double best, bool enlarge, double *cost);
+
 /* Search: moves. */
 
 /* Ruin and recreate; by an order, insert all who are left out instead. */

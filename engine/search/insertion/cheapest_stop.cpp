@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "guard.h"
 #include "rules/load.h"
 #include "search/insertion/evaluate.h"
 #include "search/insertion/newcomer.h"
@@ -330,3 +331,11 @@ double scan_beside_lean(const World& world, const Searcher& searcher, Int node, 
 }
 
 }  // namespace tandem
+
+extern "C" int tandem_scan_beside_lean(const tandem_world* world, const tandem_searcher* searcher,
+                                       int64_t node, double best, bool enlarge, double* cost) {
+    return tandem::guarded([&] {
+        tandem::Searcher working = tandem::searcher_of(*searcher);
+        *cost = tandem::scan_beside_lean(tandem::world_of(*world), working, node, best, enlarge);
+    });
+}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "guard.h"
 #include "rules/drone_types.h"
 #include "rules/leg.h"
 #include "rules/load.h"
@@ -330,3 +331,12 @@ double price_stop(const World& world, const Fleet& fleet, Int slot, Int p, Int n
 }
 
 }  // namespace tandem
+
+extern "C" int tandem_price_move(const tandem_world* world, const tandem_fleet* fleet,
+                                 const tandem_move* move, int64_t node, tandem_block_sums* acc,
+                                 double* cost) {
+    return tandem::guarded([&] {
+        tandem::Fleet routes = tandem::fleet_of(*fleet);
+        *cost = tandem::price_move(tandem::world_of(*world), routes, *move, node, *acc);
+    });
+}

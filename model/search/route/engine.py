@@ -15,6 +15,9 @@ BY_FAR, BY_WIDTH = 2, 4
 """Orders in which customers are inserted: who is farthest from the depot first, or who has the
 least time."""
 
+INFEASIBLE = 1e300
+"""What an insertion costs that can't be."""
+
 LONGEST_STRING = 10
 """How many stops a string has at most, but where `Searcher.value` allows more on long routes."""
 

@@ -16,8 +16,7 @@ from model.problem import FULL_SPEED, Problem, SpeedProfile
 from model.search.beginning.construct import begin_anew, insert_missing
 from model.search.beginning.translate import make_searcher
 from model.search.improve import Improved, SearchConfig, improve
-from model.search.moves.anneal import ANY, anneal
-from model.search.moves.recreate import BY_FAR
+from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.state import Searcher
 from model.search.world import make_world
 from model.solution import Solution

@@ -9,7 +9,7 @@ from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.moves.anneal import ANY, anneal
+from model.search.route.engine import ANY, anneal
 from model.search.route.layout import World
 from model.search.world import make_world
 from model.solution import Solution

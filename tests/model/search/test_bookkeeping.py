@@ -1,19 +1,16 @@
 """What a search keeps up to date from turn to turn is what it would find by looking at all."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from numba import njit
 
+from model.engine.library import call
 from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.insertion.cheapest_stop import scan_beside_lean
-from model.search.moves.anneal import ANY, anneal
-from model.search.moves.recreate import BY_FAR, FEW_TO_SORT, sort_absent
+from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.layout import NOWHERE, World
 from model.search.route.state import Searcher
 from model.search.world import make_world
@@ -23,6 +20,9 @@ from training.instances import generate
 ROUNDS, TURNS = 12, 25
 SOME = 420
 """Customers, so that insertions are tried beside neighbours only."""
+
+FEW = 60
+"""Customers who are sorted in the simplest way."""
 
 
 def begun(variant: str, size: int) -> tuple[Problem, World, Searcher]:
@@ -126,35 +126,26 @@ def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
         left_out = now.stop[slot, 1: now.route[slot].length - 1]["node"].tolist()
         now.where["slot"][left_out] = NOWHERE
         for node in left_out:
-            cost = least(world, searcher, node)
+            cost = call("tandem_scan_beside_lean", world, searcher, node, np.inf, False)
             assert cost == pytest.approx(beside_neighbours(world, searcher, node))
             found += cost < np.inf
         now.where["slot"][left_out] = slot
     assert found > SOME / 20
 
 
-def _least(world: World, searcher: Searcher, node: int) -> float:
-    return scan_beside_lean(world, searcher.now, node, np.inf, False, searcher.move, searcher.rng)
-
-
-least: Callable[[World, Searcher, int], float] = njit()(_least)
-
-
 def test_many_customers_are_sorted_as_few_are() -> None:
-    _, world, searcher = begun("cvrp", SOME)
+    problem = generate(np.random.default_rng(17), SOME, "cvrp")
+    world = make_world(problem, pack([problem]))
+    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
+    world.type["count"] = 0
     assert isinstance(world.leg, np.ndarray)
     distance = world.leg[0, 0, :, 1]
-    for count in (FEW_TO_SORT - 1, SOME):
-        searcher.absent[:count] = np.random.default_rng(2).permutation(SOME)[:count] + 1
-        searcher.count.absent = count
-        sort(world, searcher, 3, BY_FAR)
-        far = distance[searcher.absent[3:count]]
-        assert (np.diff(far) <= 0).all()
-        assert len(set(searcher.absent[:count].tolist())) == count
-
-
-def _sort(world: World, searcher: Searcher, first: int, order: int) -> None:
-    sort_absent(world, searcher, first, order)
-
-
-sort: Callable[[World, Searcher, int, int], None] = njit()(_sort)
+    for count in (FEW, SOME):
+        nodes = np.random.default_rng(2).permutation(SOME)[:count] + 1
+        searcher.missing[:count] = nodes
+        searcher.count.missing = count
+        anneal(world, searcher, 1, BY_FAR)
+        # Nobody drives, so that those to be inserted stay as they were sorted.
+        left_out = searcher.missing[: searcher.count.missing]
+        assert (np.diff(distance[left_out]) <= 0).all()
+        assert set(left_out.tolist()) == set(nodes.tolist())

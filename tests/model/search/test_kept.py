@@ -10,9 +10,7 @@ from model.kernel.instance import pack
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.insertion.evaluate import INFEASIBLE
-from model.search.moves.anneal import ANY, anneal
-from model.search.moves.recreate import BY_FAR
+from model.search.route.engine import ANY, BY_FAR, INFEASIBLE, anneal
 from model.search.route.layout import CHANGING, World
 from model.search.route.state import Searcher
 from model.search.world import make_world

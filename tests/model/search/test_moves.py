@@ -14,13 +14,14 @@ from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.ground.lay import Ground, lay_ground
 from model.search.improve import Improved, Progress, SearchConfig, improve
-from model.search.moves.anneal import BUILT_BESIDE_FROM
 from model.search.world import Moves
 from model.solution import Solution
 
 MINUTE = 60_000
 
 TRUCK = VehicleType("truck", 2, (40_000,), 0, cost_per_km=1.0)
+THOUSANDS = 2000
+"""Customers so many that a first plan looks beside neighbours alone."""
 COLD = {"hot": 0.01, "cold": 0.001}
 """Temperatures at which no detour of many turns is made."""
 
@@ -281,7 +282,7 @@ def test_first_plan_uses_other_types_where_one_does_not_suffice() -> None:
 
 def test_thousands_begin_with_a_plan_that_is_not_far_from_good() -> None:
     # Beside neighbours; where all routes were looked at, it was twice as dear as need be.
-    places = np.random.default_rng(3).uniform(-30.0, 30.0, (BUILT_BESIDE_FROM, 2)).tolist()
+    places = np.random.default_rng(3).uniform(-30.0, 30.0, (THOUSANDS, 2)).tolist()
     problem = on_a_plane(list(map(tuple, places)),
                          replace(SMALL, count=150, fixed_cost=8.0, capacity=(12_000,)),
                          replace(LARGE, count=60, fixed_cost=12.0, capacity=(24_000,)))
@@ -296,7 +297,7 @@ def test_thousands_begin_with_a_plan_that_is_not_far_from_good() -> None:
 def test_thousands_begin_with_the_same_plan_where_laying_the_ground_took_its_time(
         monkeypatch: pytest.MonkeyPatch) -> None:
     # A tenth of the time was over: no plan by one type after another was tried any more.
-    places = np.random.default_rng(3).uniform(-30.0, 30.0, (BUILT_BESIDE_FROM, 2)).tolist()
+    places = np.random.default_rng(3).uniform(-30.0, 30.0, (THOUSANDS, 2)).tolist()
     problem = on_a_plane(list(map(tuple, places)),
                          replace(SMALL, count=150, fixed_cost=2.0, capacity=(12_000,)),
                          replace(LARGE, count=60, fixed_cost=30.0, capacity=(24_000,)))
@@ -315,7 +316,7 @@ def test_thousands_begin_with_the_same_plan_where_laying_the_ground_took_its_tim
 
 
 def test_thousands_begin_with_several_trips_a_vehicle_and_more_are_found() -> None:
-    places = np.random.default_rng(4).uniform(-30.0, 30.0, (BUILT_BESIDE_FROM, 2)).tolist()
+    places = np.random.default_rng(4).uniform(-30.0, 30.0, (THOUSANDS, 2)).tolist()
     problem = on_a_plane(list(map(tuple, places)), replace(
         SMALL, count=400, fixed_cost=50.0, capacity=(10_000,), max_trips=4))
     instance = pack([problem])

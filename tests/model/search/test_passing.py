@@ -7,8 +7,7 @@ from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, Problem, Travel, VehicleType
 from model.search.beginning.translate import make_searcher
 from model.search.ground.lay import NEAR_INSERTION
-from model.search.insertion.passing import EACH_DRAWN
-from model.search.moves.anneal import ANY, anneal
+from model.search.route.engine import ANY, anneal
 from model.search.world import make_world
 from model.solution import Solution
 from tests.model.search.found import read_plan
@@ -20,6 +19,9 @@ NEARER, FARTHER, SPARE = 14, 2, 5
 """Routes to a village that the lone customer lives in, and to a town beyond, with room on each."""
 
 TURNS = 300
+
+EACH_DRAWN = 4
+"""Of how many routes one is drawn where nobody is near."""
 
 
 def village_and_town() -> tuple[Problem, list[list[int]]]:

@@ -14,8 +14,8 @@ from model.search import worker
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.moves.anneal import ANY, anneal
 from model.search.recombining import take_better_parts
+from model.search.route.engine import ANY, anneal
 from model.search.route.layout import Fleet, World
 from model.search.route.state import Searcher
 from model.search.world import make_world

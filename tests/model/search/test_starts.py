@@ -12,8 +12,7 @@ from model.search.improve import (
     MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, START_TURNS_BY_TYPES, STARTS_SHARE,
     SearchConfig, improve,
 )
-from model.search.moves.anneal import ANY, anneal
-from model.search.moves.recreate import BY_FAR
+from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.layout import World
 from model.search.route.state import Searcher
 from model.search.sharing import go_on_from_best

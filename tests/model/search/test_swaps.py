@@ -1,22 +1,16 @@
 """What an insertion costs where a trip's first launch is shorter than all others."""
 
-import json
-import os
-import subprocess
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from model.engine.library import call
 from model.kernel.instance import pack
 from model.problem import UNLIMITED, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.insertion.evaluate import price_move
-from model.search.route.edit import AT_STOP, BY_SORTIE, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL
 from model.search.route.layout import END, MODE_PRICED, START, World
 from model.search.route.state import Searcher
 from model.search.world import make_world
@@ -24,9 +18,10 @@ from model.solution import Solution
 from tests.model.tiny import MINUTE
 from training.instances import generate
 
-ROOT = Path(__file__).parents[3]
-
 SEEDS = 12
+
+AT_STOP, BY_SORTIE, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL = 0, 1, 4, 5, 6
+"""Kinds of moves, as in `engine/search/route/edit.h`."""
 
 SPAN = 3
 """Stops behind its launch where a sortie is recovered at most."""
@@ -76,14 +71,11 @@ def begun(seed: int) -> tuple[Problem, World, Searcher]:
     return problem, world, searcher
 
 
-def compare() -> None:
-    """Price moves of all kinds, and tell what the plans cost. In Python that is interpreted."""
-    costs = list[float]()
+def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
     compared = dict.fromkeys((BY_SORTIE, AT_STOP, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL), 0)
     refused = 0
     for seed in range(SEEDS):
         problem, world, searcher = begun(seed)
-        costs.append(searcher.value.cost)
         timed = world._replace(mode=world.mode | MODE_PRICED)
         # How much is aboard is looked at before.
         world.type["capacity"] *= 100
@@ -94,21 +86,9 @@ def compare() -> None:
             for kind, first, last in places(searcher, slot):
                 move.kind, move.slot, move.first, move.last, move.drone = kind, slot, first, last, 1
                 node = int(rng.choice(others))
-                part, whole = (price_move(each, searcher.now, move, node, searcher.acc)
-                               for each in (world, timed))
+                part, whole = (call("tandem_price_move", each, searcher.now, move, node,
+                                    searcher.acc) for each in (world, timed))
                 assert part == pytest.approx(whole), (seed, slot, kind, first, last, node)
                 refused += part > 1e200
                 compared[kind] += part < 1e200
     assert min(refused, *compared.values()) > 5, (refused, compared)
-    print(json.dumps(costs))
-
-
-def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
-    # Nothing that prices a given move is compiled for itself, and that would take a minute. What
-    # is compiled comes to the same plans.
-    done = subprocess.run(
-        [sys.executable, "-W", "ignore::RuntimeWarning", "-c",
-         "from tests.model.search.test_swaps import compare; compare()"],
-        cwd=ROOT, check=True, stdout=subprocess.PIPE, env={**os.environ, "NUMBA_DISABLE_JIT": "1"})
-    costs = [begun(seed)[2].value.cost for seed in range(SEEDS)]
-    assert costs == pytest.approx(json.loads(done.stdout))

@@ -11,9 +11,8 @@ from model.problem import UNLIMITED, Depot, Points, Problem, StraightLegs, Trave
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.linked.anneal import anneal_linked
+from model.search.linked.engine import anneal_linked, measure_near, tie, write_back
 from model.search.linked.layout import Linked, make_linked
-from model.search.linked.tying import measure_near, tie, write_back
 from model.search.route.layout import NOWHERE, World
 from model.search.route.state import Searcher
 from model.search.world import are_timed, can_be_linked, make_world
