@@ -121,18 +121,19 @@ typedef struct tandem_point {
     double z;
 } tandem_point;
 
+/* What is aboard around a stop of a trip, of one tier; sums are over all dimensions. */
 typedef struct tandem_halt {
-    int64_t leaves;
-    int64_t comes;
-    int64_t picked;
-    int64_t due;
-    int64_t given;
-    int64_t load;
-    int64_t driven;
+    int64_t leaves;  /* sum of the parcels that leave the truck there */
+    int64_t comes;  /* sum of what comes aboard there */
+    int64_t picked;  /* sum of what was picked up before */
+    int64_t due;  /* sum of what is delivered behind */
+    int64_t given;  /* sum of what is delivered on the whole trip */
+    int64_t load;  /* on leaving, in the first dimension */
+    int64_t driven;  /* how far the trip has come */
     int64_t leaving[3];
     int64_t coming[3];
-    int64_t before[3];
-    int64_t behind[3];
+    int64_t before[3];  /* the most that is aboard before the stop */
+    int64_t behind[3];  /* likewise, from leaving it on */
 } tandem_halt;
 
 typedef struct tandem_logged_stop {
@@ -352,15 +353,16 @@ typedef struct tandem_vehicle_features {
     float type[34];
 } tandem_vehicle_features;
 
+/* A stop of a truck: what is chosen, what a lean route needs, and all else that follows. */
 typedef struct tandem_stop {
     int64_t node;
-    int64_t kind;
-    int64_t release;
-    int64_t leave;
-    int64_t latest;
-    int64_t leg;
-    int64_t gap;
-    int64_t flying;
+    int64_t kind;  /* a customer, or where a trip starts or ends */
+    int64_t release;  /* of the trip that starts here */
+    int64_t leave;  /* when the truck leaves */
+    int64_t latest;  /* the last arrival that keeps all rules behind */
+    int64_t leg;  /* how far it is to the next stop */
+    int64_t gap;  /* how long that takes */
+    int64_t flying;  /* drones in the air then */
     int64_t trip;
     int64_t early;
     int64_t rest;
@@ -381,12 +383,13 @@ typedef struct tandem_stop {
     double window_cost;
 } tandem_stop;
 
+/* A drone's way from a stop to its customers, and back at another or the same. */
 typedef struct tandem_sortie {
-    int64_t launch;
-    int64_t recovery;
-    int64_t drone;
-    int64_t count;
-    int64_t state;
+    int64_t launch;  /* the position of the stop where it begins */
+    int64_t recovery;  /* likewise, where it ends */
+    int64_t drone;  /* its number on the truck */
+    int64_t count;  /* of customers */
+    int64_t state;  /* whether it waits, flies or is done, while its block is timed */
     int64_t takeoff_d;
     int64_t takeoff_c;
     int64_t ready_d;
@@ -403,7 +406,7 @@ typedef struct tandem_sortie {
     int64_t since;
     int64_t follows;
     int64_t nodes[8];
-    int64_t arrivals[8];
+    int64_t arrivals[8];  /* at the customers */
 } tandem_sortie;
 
 typedef struct tandem_trip {
@@ -415,9 +418,10 @@ typedef struct tandem_trip {
     int64_t load[3];
 } tandem_trip;
 
+/* A vehicle's route, in a slot. */
 typedef struct tandem_route {
     int64_t type;
-    int64_t length;
+    int64_t length;  /* of stops; 0 in an empty slot */
     int64_t trips;
     int64_t sorties;
     int64_t end;
@@ -425,27 +429,31 @@ typedef struct tandem_route {
     int64_t working;
     int64_t offset;
     int64_t awaited;
-    int64_t stamp;
+    int64_t stamp;  /* stands for what the route is; 0 while a turn changes it */
     int64_t barred;
 } tandem_route;
 
+/* A customer's best place on a lean route as it is. */
 typedef struct tandem_kept {
-    int64_t stamp;
-    int64_t detour;
-    int64_t stop;
+    int64_t stamp;  /* of the route */
+    int64_t detour;  /* the shortest */
+    int64_t stop;  /* before it; -1 if no detour is that short */
 } tandem_kept;
 
+/* What insertions are looked for. */
 typedef struct tandem_bound {
-    double best;
-    double blink;
+    double best;  /* cost below which */
+    double blink;  /* how often one is overlooked */
 } tandem_bound;
 
+/* Where a customer is served. */
 typedef struct tandem_place {
-    int64_t slot;
-    int64_t position;
-    int64_t sortie;
+    int64_t slot;  /* of the route; -1 if left out, -2 if another thread's */
+    int64_t position;  /* of the stop; else -1 */
+    int64_t sortie;  /* its number; else -1 */
 } tandem_place;
 
+/* Where a customer is inserted; which fields tell, `kind` says. */
 typedef struct tandem_move {
     int64_t kind;
     int64_t slot;
@@ -456,6 +464,7 @@ typedef struct tandem_move {
     int64_t type;
 } tandem_move;
 
+/* The times of a block of stops, from one where all drones are aboard to the next. */
 typedef struct tandem_block_sums {
     int64_t time;
     int64_t free_d;
@@ -465,15 +474,16 @@ typedef struct tandem_block_sums {
     int64_t dep;
     int64_t oldest;
     int64_t flying;
-    int64_t launched;
-    int64_t first_sortie;
-    int64_t awaited;
-    int64_t end;
+    int64_t launched;  /* on the trip so far */
+    int64_t first_sortie;  /* of the trip */
+    int64_t awaited;  /* on the route so far: how long launches wait for batteries to be charged */
+    int64_t end;  /* of a part, as what follows it: this and the next three */
     int64_t cum;
     int64_t depart;
     int64_t driven;
 } tandem_block_sums;
 
+/* How many there are of each; the turn; the last stamp that was given. */
 typedef struct tandem_search_counts {
     int64_t active;
     int64_t missing;
@@ -483,103 +493,114 @@ typedef struct tandem_search_counts {
     int64_t stamp;
     int64_t best_missing;
     int64_t customers;
-    int64_t lean;
+    int64_t lean;  /* whether all routes are */
     int64_t offers;
-    int64_t changed;
-    int64_t stay;
-    int64_t focus;
+    int64_t changed;  /* slots, since the best; -1 where any may have */
+    int64_t stay;  /* turns near one customer; 0: everywhere */
+    int64_t focus;  /* that customer */
 } tandem_search_counts;
 
+/* Costs of the routes as they are and at their best, and what the annealing goes by. */
 typedef struct tandem_search_values {
     double cost;
     double best;
     double temperature;
-    double cooling;
-    double longest;
+    double cooling;  /* factor of the temperature each turn */
+    double longest;  /* how long strings are at most where routes are long */
 } tandem_search_values;
 
+/* A place in an order of customers that truck and drone serve. */
 typedef struct tandem_line {
     int64_t node;
-    int64_t drive;
-    int64_t distance;
-    int64_t grounded;
-    int64_t before;
-    int64_t flight;
-    int64_t spared_drive;
-    int64_t spared_distance;
+    int64_t drive;  /* driving and serving up to the arrival there */
+    int64_t distance;  /* likewise */
+    int64_t grounded;  /* how many so far no truck may serve */
+    int64_t before;  /* where the operation begins that ends here */
+    int64_t flight;  /* the place flown to meanwhile; 0: none */
+    int64_t spared_drive;  /* by a truck that passes by */
+    int64_t spared_distance;  /* likewise */
 } tandem_line;
 
+/* A customer in a chain of some that a route serves. */
 typedef struct tandem_chain {
     int64_t before;
     int64_t behind;
-    int64_t route;
-    int64_t leave;
-    int64_t latest;
-    int64_t last;
-    int64_t length;
-    int64_t busy;
+    int64_t route;  /* of its last customer, the first */
+    int64_t leave;  /* the departure */
+    int64_t latest;  /* the latest arrival */
+    int64_t last;  /* of its first customer, the last */
+    int64_t length;  /* likewise, how many there are */
+    int64_t busy;  /* likewise, how long to serve them and to drive from one to the next takes */
 } tandem_chain;
 
+/* What a chain carries, by its first customer. */
 typedef struct tandem_chain_cargo {
-    int64_t delivers;
-    int64_t picks;
+    int64_t delivers;  /* sum over all dimensions */
+    int64_t picks;  /* likewise */
     int64_t delivered[3];
     int64_t picked[3];
-    int64_t most[3];
+    int64_t most[3];  /* that is aboard of both */
 } tandem_chain_cargo;
 
+/* A customer on linked stops. Times are kept only where something limits them. A cache line. */
 typedef struct tandem_link {
-    int64_t slot;
-    int64_t before;
-    int64_t behind;
-    int64_t inward;
-    int64_t onward;
-    int64_t gap;
-    int64_t leave;
-    int64_t latest;
+    int64_t slot;  /* of the route */
+    int64_t before;  /* who comes before, or the depot there */
+    int64_t behind;  /* likewise */
+    int64_t inward;  /* how far it is from there */
+    int64_t onward;  /* and to who comes behind */
+    int64_t gap;  /* how long that takes */
+    int64_t leave;  /* when the vehicle does */
+    int64_t latest;  /* when it has to come */
 } tandem_link;
 
+/* A linked route. Where there is nobody, its end comes first and its beginning last. */
 typedef struct tandem_run {
     int64_t type;
-    int64_t first;
-    int64_t last;
-    int64_t count;
+    int64_t first;  /* customer */
+    int64_t last;  /* customer */
+    int64_t count;  /* of customers */
     int64_t distance;
     int64_t load[3];
 } tandem_run;
 
+/* Customers in a row that were taken out this turn. */
 typedef struct tandem_piece {
-    int64_t slot;
-    int64_t type;
+    int64_t slot;  /* of their route */
+    int64_t type;  /* that drove it then */
     int64_t count;
-    int64_t gap;
-    int64_t saved;
+    int64_t gap;  /* of the leg to who came behind */
+    int64_t saved;  /* how much shorter the route is without them */
 } tandem_piece;
 
+/* A customer inserted this turn. */
 typedef struct tandem_entry {
     int64_t node;
-    int64_t onward;
-    int64_t gap;
+    int64_t onward;  /* how far the leg was that it came between */
+    int64_t gap;  /* how long that took */
 } tandem_entry;
 
+/* Times of a customer before they changed this turn. */
 typedef struct tandem_moment {
     int64_t node;
     int64_t leave;
     int64_t latest;
 } tandem_moment;
 
+/* How many of each were noted this turn. */
 typedef struct tandem_noted {
     int64_t pieces;
     int64_t removed;
     int64_t entries;
     int64_t moments;
     int64_t retyped;
-    int64_t over;
+    int64_t over;  /* whether there were more moments than there is room */
 } tandem_noted;
 
+/* What the vehicle costs that is cheapest. */
 typedef struct tandem_least {
-    double distance;
-    double stop;
+    double distance;  /* a mm more */
+    double stop;  /* a customer more */
 } tandem_least;
 
 /* Arrays of others, row by row. */
