@@ -80,6 +80,9 @@ void all_legs(const tandem_legs* legs, const tandem_legs* back, int64_t travel, 
 void all_distances(const tandem_legs* legs, const tandem_legs* back, int64_t travel, int64_t nodes,
                    int64_t* found);
 
+/* The engine's clock, in nanoseconds. */
+void steady_clock_at(int64_t* found);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,43 @@
+// When work has to end: at an instant, or once whoever asked for it wants no more.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "view.h"
+
+namespace tandem {
+
+// Belongs to one thread, which asks it between small parts of its work. Whether the work is wanted
+// is looked at each time, and the clock, which takes as long as some of these parts, now and then.
+class Deadline {
+public:
+    // What Python writes: not 0 once nobody wants more, at any time and from any thread; and the
+    // last instant in nanoseconds of the steady clock, Python's `time.perf_counter_ns`.
+    explicit Deadline(View<const std::int64_t, 1> alarm) : alarm_(alarm.data()) {}
+
+    // Whether work has to end; from then on it always has.
+    bool passed() const {
+        if (passed_) return true;
+        if (__atomic_load_n(&alarm_[cancelled], __ATOMIC_RELAXED) != 0) return passed_ = true;
+        if (--calls_ > 0) return false;
+        calls_ = calls_between_looks;
+        return passed_ = now() >= alarm_[last_instant];
+    }
+
+private:
+    static constexpr int cancelled = 0, last_instant = 1;
+    // Of parts that take half a millisecond at most, so that the clock is looked at every 16.
+    static constexpr int calls_between_looks = 32;
+
+    static std::int64_t now() {
+        const auto since = std::chrono::steady_clock::now().time_since_epoch();
+        return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
+    }
+
+    const std::int64_t* alarm_;
+    mutable int calls_ = 1;
+    mutable bool passed_ = false;
+};
+
+}  // namespace tandem

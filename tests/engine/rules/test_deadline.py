@@ -1,0 +1,12 @@
+"""The engine tells deadlines by the clock that Python states them by."""
+
+import time
+
+from tests.engine.rules.asking import asked
+
+
+def test_the_engines_clock_is_that_of_python() -> None:
+    asked("steady_clock_at", 1)
+    before = time.perf_counter_ns()
+    between, = asked("steady_clock_at", 1)
+    assert before <= between <= time.perf_counter_ns()
