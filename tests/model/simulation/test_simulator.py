@@ -16,10 +16,10 @@ from model.kernel.instance import pack
 from model.problem import (
     UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType,
 )
-from model.simulation.extract import extract
-from model.simulation.simulator import (
+from model.simulation.actions import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
 )
+from model.simulation.extract import extract
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, record, roll
 from tests.model.tiny import (
