@@ -39,7 +39,7 @@ MODEL = {
     "kernel": ("problem", "engine"),
     "travel": ("problem", "engine", "kernel"),
     "simulation": ("problem", "solution", "engine", "kernel"),
-    "policy": ("problem", "kernel", "simulation"),
+    "policy": ("problem", "engine", "kernel", "simulation"),
     "search": ("problem", "solution", "engine", "kernel"),
     "together": ("problem", "solution", "judge", "kernel", "search"),
     "planner": ("problem", "solution", "judge", "kernel", "travel", "simulation", "policy",

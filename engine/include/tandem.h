@@ -605,7 +605,6 @@ typedef struct tandem_least {
 
 /* Arrays of others, row by row. */
 
-typedef struct tandem_action_features_2d { tandem_action_features *data; int64_t shape[2]; } tandem_action_features_2d;
 typedef struct tandem_bool_1d { bool *data; int64_t shape[1]; } tandem_bool_1d;
 typedef struct tandem_bool_2d { bool *data; int64_t shape[2]; } tandem_bool_2d;
 typedef struct tandem_bool_3d { bool *data; int64_t shape[3]; } tandem_bool_3d;
@@ -667,7 +666,6 @@ typedef struct tandem_stop_2d { tandem_stop *data; int64_t shape[2]; } tandem_st
 typedef struct tandem_trip_2d { tandem_trip *data; int64_t shape[2]; } tandem_trip_2d;
 typedef struct tandem_u64_1d { uint64_t *data; int64_t shape[1]; } tandem_u64_1d;
 typedef struct tandem_vehicle_1d { tandem_vehicle *data; int64_t shape[1]; } tandem_vehicle_1d;
-typedef struct tandem_vehicle_features_1d { tandem_vehicle_features *data; int64_t shape[1]; } tandem_vehicle_features_1d;
 typedef struct tandem_vehicle_type_1d { tandem_vehicle_type *data; int64_t shape[1]; } tandem_vehicle_type_1d;
 typedef struct tandem_vehicle_type_2d { tandem_vehicle_type *data; int64_t shape[2]; } tandem_vehicle_type_2d;
 
@@ -752,9 +750,7 @@ typedef struct tandem_observation {
     tandem_i64_2d token;  /* (rollout, candidate) node, or number of nodes + type */
     tandem_outlook_2d outlook;  /* (rollout, candidate) OUTLOOK */
     tandem_f32_3d feature;  /* (rollout, candidate, NUM_ACTION_FEATURES) */
-    tandem_action_features_2d described;  /* (rollout, candidate) ACTION */
     tandem_f32_2d glob;  /* (rollout, NUM_GLOBAL_FEATURES) */
-    tandem_vehicle_features_1d vehicle;  /* (rollout,) VEHICLE_STATE */
     tandem_i64_1d here;  /* (rollout,) token of the vehicle's place */
 } tandem_observation;
 

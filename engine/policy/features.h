@@ -25,9 +25,13 @@ struct Seen {
     Int& here;  // token of the vehicle's place
 };
 
+// A row of an observation, whose floats are given their names.
 inline Seen seen_of(const Observation& seen, Int r) {
-    return {seen.count[r],     seen.action[r],  seen.token[r], seen.outlook[r],
-            seen.described[r], seen.vehicle[r], seen.here[r]};
+    const View<float, 2> feature = seen.feature[r];
+    auto* rows = reinterpret_cast<ActionFeatures*>(feature.data());
+    auto* vehicle = reinterpret_cast<VehicleFeatures*>(seen.glob[r].data());
+    return {seen.count[r], seen.action[r], seen.token[r], seen.outlook[r], {rows, {feature.size()}},
+            *vehicle,      seen.here[r]};
 }
 
 // List and describe the legal actions of one rollout, which is finished if there is none.

@@ -22,20 +22,17 @@ inline Scales scales_of(const tandem_scales& from) {
 }
 
 struct Observation {
-    View<std::int64_t, 1> count;        // (rollout,)
-    View<std::int64_t, 2> action;       // (rollout, candidate) codes
-    View<std::int64_t, 2> token;        // (rollout, candidate) node, or number of nodes + type
-    View<Outlook, 2> outlook;           // (rollout, candidate) OUTLOOK
-    View<float, 3> feature;             // (rollout, candidate, NUM_ACTION_FEATURES)
-    View<ActionFeatures, 2> described;  // (rollout, candidate) ACTION
-    View<float, 2> glob;                // (rollout, NUM_GLOBAL_FEATURES)
-    View<VehicleFeatures, 1> vehicle;   // (rollout,) VEHICLE_STATE
-    View<std::int64_t, 1> here;         // (rollout,) token of the vehicle's place
+    View<std::int64_t, 1> count;   // (rollout,)
+    View<std::int64_t, 2> action;  // (rollout, candidate) codes
+    View<std::int64_t, 2> token;   // (rollout, candidate) node, or number of nodes + type
+    View<Outlook, 2> outlook;      // (rollout, candidate) OUTLOOK
+    View<float, 3> feature;        // (rollout, candidate, NUM_ACTION_FEATURES)
+    View<float, 2> glob;           // (rollout, NUM_GLOBAL_FEATURES)
+    View<std::int64_t, 1> here;    // (rollout,) token of the vehicle's place
 };
 
 inline Observation observation_of(const tandem_observation& from) {
-    return {from.count,     from.action, from.token,   from.outlook, from.feature,
-            from.described, from.glob,   from.vehicle, from.here};
+    return {from.count, from.action, from.token, from.outlook, from.feature, from.glob, from.here};
 }
 
 struct StepWeights {

@@ -53,8 +53,6 @@ class Scene(NamedTuple):
 
 class Observation(NamedTuple):
     """What one decision sees, a row per rollout. Candidates are the legal actions, first `count`.
-
-    `described` and `vehicle` are `feature` and `glob` by name.
     """
 
     count: IntArray  # type: ignore[assignment]  # (rollout,)
@@ -62,26 +60,30 @@ class Observation(NamedTuple):
     token: IntArray  # (rollout, candidate) node, or number of nodes + type
     outlook: Records  # (rollout, candidate) what an action on a customer leads to
     feature: Float32Array  # (rollout, candidate, NUM_ACTION_FEATURES)
-    described: Records  # (rollout, candidate) ACTION
     glob: Float32Array  # (rollout, NUM_GLOBAL_FEATURES)
-    vehicle: Records  # (rollout,) VEHICLE_STATE
     here: IntArray  # (rollout,) token of the vehicle's place
+
+    @property
+    def described(self) -> Records:
+        """Return `feature` by name, (rollout, candidate) ACTION."""
+        return self.feature.view(ACTION)[..., 0]
+
+    @property
+    def vehicle(self) -> Records:
+        """Return `glob` by name, (rollout,) VEHICLE_STATE."""
+        return self.glob.view(VEHICLE_STATE)[..., 0]
 
 
 def empty_observation(rows: int, num_nodes: int, num_types: int) -> Observation:
     """Allocate room for the candidates of every rollout."""
     most = 2 * num_nodes + 1 + num_types
-    feature = np.zeros((rows, most, NUM_ACTION_FEATURES), np.float32)
-    glob = np.zeros((rows, NUM_GLOBAL_FEATURES), np.float32)
     return Observation(
         count=np.zeros(rows, np.int64),
         action=np.zeros((rows, most), np.int64),
         token=np.zeros((rows, most), np.int64),
         outlook=empty_outlooks(rows, most),
-        feature=feature,
-        described=feature.view(ACTION)[..., 0],
-        glob=glob,
-        vehicle=glob.view(VEHICLE_STATE)[..., 0],
+        feature=np.zeros((rows, most, NUM_ACTION_FEATURES), np.float32),
+        glob=np.zeros((rows, NUM_GLOBAL_FEATURES), np.float32),
         here=np.zeros(rows, np.int64),
     )
 

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.engine.library import packed
 from model.kernel.alarm import silent
 from model.kernel.instance import Instance
 from model.policy.partition import cheapest_partition
@@ -53,7 +54,8 @@ class RoutePool:
 
     def __init__(self, instance: Instance) -> None:
         self._instance = instance
-        self._state = reset(instance, np.zeros(1, np.int64))
+        # Packed once, since plans come by the hundred.
+        self._alone = packed(instance), packed(reset(instance, np.zeros(1, np.int64)))
         self._routes: dict[tuple[int, bytes], Route] = {}
         self._by_actions: dict[bytes, tuple[int, bytes]] = {}
 
@@ -63,7 +65,7 @@ class RoutePool:
         if not new:
             return
         price = empty_costs(len(new))
-        price_routes(self._instance, self._state, 0, np.concatenate(new), price)
+        price_routes(*self._alone, 0, np.concatenate(new), price)
         for codes, cost in zip(new, by_term(price).sum(axis=1).tolist(), strict=True):
             nodes = np.sort(codes[serves(codes)] // NUM_KINDS)
             route = Route(codes, int(codes[0] // NUM_KINDS), nodes, cost)

@@ -5,6 +5,7 @@ return to a depot, open a vehicle of a type. `engine/simulation/simulator.h` say
 """
 
 from model.engine.library import call
+from model.engine.packing import Packed
 from model.kernel.instance import Instance
 from model.kernel.records import Records
 from model.problem import IntArray
@@ -41,7 +42,7 @@ def apply_route(instance: Instance, state: State, r: int, actions: IntArray, fir
     return int(call("tandem_apply_route", instance, state, r, actions, first))
 
 
-def price_routes(instance: Instance, state: State, r: int, actions: IntArray,
+def price_routes(instance: Instance | Packed, state: State | Packed, r: int, actions: IntArray,
                  price: Records) -> None:
     """Write what each vehicle costs, (vehicle,), as if there were no other. In place.
 
