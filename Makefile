@@ -19,74 +19,78 @@ URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help serve plan test test-quick prepared lint train bench bench-quick bench-rules latency study study-quick screenshots fuzz settings clean
+.PHONY: help engine serve plan test test-quick prepared lint train bench bench-quick bench-rules latency study study-quick screenshots fuzz settings clean
 
 help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-serve: .venv/serving ## Run the service (PORT=8000, HOST=127.0.0.1)
+engine: .venv/tools ## Compile what of the engine changed
+	@$(BIN)/python engine/backend.py
+
+serve: .venv/serving engine ## Run the service (PORT=8000, HOST=127.0.0.1)
 	@echo "Starting; the first time, plans wait some minutes until the search is compiled. Open $(URL) for the console, $(URL)/docs for the API or, in another terminal and in this folder, run"
 	@echo
 	@echo "  curl -H 'Content-Type: application/json' --data-binary @examples/table1.json $(URL)/plan"
 	@echo
 	@exec $(BIN)/tandem serve --host $(HOST) --port $(PORT)
 
-plan: .venv/serving ## Plan examples/table1.json, write plan.json and check it
+plan: .venv/serving engine ## Plan examples/table1.json, write plan.json and check it
 	@$(BIN)/tandem plan examples/table1.json --output plan.json
 	@$(BIN)/tandem check examples/table1.json plan.json
 	@echo "The plan is in plan.json."
 
-test: prepared .venv/testing ## Install what the tests need and run them
+test: prepared .venv/testing engine ## Install what the tests need and run them
 	@echo "Compiling what is tested, so that no test waits for that."
 	@$(BIN)/tandem warm
 	$(PYTEST)
 
-test-quick: .venv/testing ## Run many tests in under a minute, without browser, database and services
+test-quick: .venv/testing engine ## Run many tests in under a minute, without browser, database and services
 	@TANDEM_MAX_CUSTOMERS=$(QUICK_CUSTOMERS) $(BIN)/tandem warm
 	$(PYTEST) -m "not slow"
 
 prepared:
 	@.ci/prepare
 
-lint: .venv/testing ## Check style and types
+lint: .venv/testing engine ## Check style and types
 	$(BIN)/ruff check
 	$(BIN)/mypy
+	.ci/lint-engine
 
-train: .venv/testing ## Train a policy in runs/attention, from where it stopped (MINUTES=60)
+train: .venv/testing engine ## Train a policy in runs/attention, from where it stopped (MINUTES=60)
 	OMP_NUM_THREADS=1 $(BIN)/python -m training.train --folder runs/attention --policy attention \
 		--baseline shared --sizes 0:20,500:50,7000:100 --size-mix 1.0 --num-rollouts 16 \
 		--learning-rate 0.0005 --minutes $(MINUTES)
 
-bench: .venv/benching ## Run other solvers and Tandem side by side (DATA=../shared/data; hours)
+bench: .venv/benching engine ## Run other solvers and Tandem side by side (DATA=../shared/data; hours)
 	$(BIN)/python -m benchmarks.versus --data $(DATA) --output runs/bench/versus.csv
 	$(BIN)/python -m benchmarks.drones --data $(DATA) --output runs/bench/drones.csv
 	$(BIN)/python -m benchmarks.report --results runs/bench/versus.csv
 
-bench-quick: .venv/benching ## The same on a few instances, in five minutes
+bench-quick: .venv/benching engine ## The same on a few instances, in five minutes
 	$(BIN)/python -m benchmarks.versus --data $(DATA) --quick --output runs/bench/quick.csv
 	$(BIN)/python -m benchmarks.report --results runs/bench/quick.csv --output runs/bench/quick.md
 
-bench-rules: .venv/benching ## Tandem and PyVRP where instances have rules that few solvers know
+bench-rules: .venv/benching engine ## Tandem and PyVRP where instances have rules that few solvers know
 	$(BIN)/python -m benchmarks.rule_sets --data $(DATA)
 	$(BIN)/python -m benchmarks.versus --data $(DATA) --sets $(RULE_SETS) --solvers tandem,pyvrp \
 		--output runs/bench/rule-sets.csv
 	$(BIN)/python -m benchmarks.report --results runs/bench/rule-sets.csv --part rule-sets
 
-latency: .venv/benching ## Measure how long plans take, phase by phase
+latency: .venv/benching engine ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency
 
-study: .venv/serving ## Make the paper's study again, docs/study.md (20 minutes on 2 cores)
+study: .venv/serving engine ## Make the paper's study again, docs/study.md (20 minutes on 2 cores)
 	@$(BIN)/tandem warm
 	$(BIN)/python -m benchmarks.study
 
-study-quick: .venv/serving ## The same with few cases, build/study.md
+study-quick: .venv/serving engine ## The same with few cases, build/study.md
 	@$(BIN)/tandem warm
 	$(BIN)/python -m benchmarks.study --quick
 
-screenshots: .venv/testing ## Make the pictures of the console in docs/screenshots, with Chromium
+screenshots: .venv/testing engine ## Make the pictures of the console in docs/screenshots, with Chromium
 	$(BIN)/python -m tests.console.screenshots
 
-fuzz: .venv/testing ## Send generated requests to the whole API (CASES=10000), and wild problems
+fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10000), and wild problems
 	$(BIN)/python -m benchmarks.fuzz_api --cases $(CASES)
 	$(BIN)/python -m benchmarks.fuzz_problems
 	$(BIN)/python -m benchmarks.fuzz_vroom
@@ -94,28 +98,34 @@ fuzz: .venv/testing ## Send generated requests to the whole API (CASES=10000), a
 	$(BIN)/python -m benchmarks.fuzz_replans
 	$(BIN)/python -m benchmarks.leavers
 
-settings: .venv/serving ## Write docs/settings.md
+settings: .venv/serving engine ## Write docs/settings.md
 	$(BIN)/tandem settings > docs/settings.md
 
 clean: ## Remove caches, compiled code and plan.json; keep .venv and training runs
-	rm -rf build dist *.egg-info plan.json .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf build dist *.egg-info model/engine/libtandem.* plan.json .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find app model training benchmarks examples tests -name __pycache__ -prune -exec rm -rf {} +
 
-.venv/serving: pyproject.toml | .venv/created
+.venv/serving: pyproject.toml .venv/tools
 	@echo "Installing Tandem into .venv."
-	@$(PIP) install --quiet --editable .
+	@$(PIP) install --quiet --no-build-isolation --editable .
 	@touch $@
 
-.venv/testing: pyproject.toml | .venv/created
+.venv/testing: pyproject.toml .venv/tools
 	@echo "Installing Tandem and all that its tests need into .venv; PyTorch is large."
-	@$(PIP) install --quiet --editable '.[test,train]'
+	@$(PIP) install --quiet --no-build-isolation --editable '.[test,train]'
 	@$(BIN)/python -m tests.app.roads.wheels
 	@touch $@ .venv/serving
 
-.venv/benching: pyproject.toml | .venv/created
+.venv/benching: pyproject.toml .venv/tools
 	@echo "Installing Tandem and its benchmarks into .venv."
-	@$(PIP) install --quiet --editable '.[bench]'
+	@$(PIP) install --quiet --no-build-isolation --editable '.[bench]'
 	@touch $@ .venv/serving
+
+# What is installed once builds faster than pip, which would get it anew for each build.
+.venv/tools: pyproject.toml engine/backend.py | .venv/created
+	@.ci/compiler
+	@$(PIP) install --quiet $$($(BIN)/python engine/backend.py requires)
+	@touch $@
 
 .venv/created:
 	@python=$$(.ci/find-python) && "$$python" -m venv .venv

@@ -19,19 +19,19 @@ using Point = tandem_point;
 using Int = std::int64_t;
 
 constexpr Int far = Int{1} << 58;  // an instant later than any that occurs
-constexpr Int none = -far;  // and one earlier
-constexpr Int tier = 3;  // how many dimensions of load are looked at together
-constexpr Int max_tiers = 3;  // for all eight dimensions
+constexpr Int none = -far;         // and one earlier
+constexpr Int tier = 3;            // how many dimensions of load are looked at together
+constexpr Int max_tiers = 3;       // for all eight dimensions
 
-constexpr Int unlimited = Int{1} << 42;  // no limit on a time (ms) or a distance (mm)
+constexpr Int unlimited = Int{1} << 42;        // no limit on a time (ms) or a distance (mm)
 constexpr Int unreachable_leg = Int{1} << 50;  // duration and distance of what can't be flown
-constexpr std::int32_t no_leg = INT32_MAX;  // the same where legs are held in 32 bits
+constexpr std::int32_t no_leg = INT32_MAX;     // the same where legs are held in 32 bits
 constexpr double ms_per_hour = 3'600'000.0;
 constexpr double mm_per_km = 1'000'000.0;
 constexpr Int full_speed = 1'000'000;  // factor at which a leg takes the duration its table states
 
 constexpr Int no_profile = -1;  // `speed_changes` of who drives as fast all day
-constexpr Int no_row = -1;  // `drone_row` behind the last
+constexpr Int no_row = -1;      // `drone_row` behind the last
 
 // `pickup_order`: in any order, after all deliveries, and so where some came before the trip began.
 constexpr Int pickups_any = 0;
@@ -40,9 +40,10 @@ constexpr Int pickups_begun = 2;
 
 struct Legs {
     View<const std::int32_t, 4> stated;  // (travel, origin, to, 2); none where some are computed
-    View<const std::int64_t, 5> table;  // (direction, table, node, node, 2); one direction if they are the same back
+    View<const std::int64_t, 5>
+        table;  // (direction, table, node, node, 2); one direction if they are the same back
     View<const Point, 1> point;  // (node,) POINT
-    View<const LegLaw, 1> law;  // (travel,) LAW
+    View<const LegLaw, 1> law;   // (travel,) LAW
 };
 
 inline Legs legs_of(const tandem_legs& from) {
@@ -52,27 +53,50 @@ inline Legs legs_of(const tandem_legs& from) {
 struct Instance {
     View<const Size, 1> size;  // (problem,) SIZE
     View<const Node, 4> node;  // (problem, variant, node, 1 + gaps) NODE
-    View<const std::int64_t, 4> amount;  // (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
+    View<const std::int64_t, 4>
+        amount;  // (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
     View<const Price, 2> price;  // (problem, node) PRICE
     View<const Goods, 2> goods;  // (problem, node) GOODS, or (problem, 0)
     View<const Setup, 2> setup;  // (problem, node) SETUP, or (problem, 0)
-    View<const std::int64_t, 2> fresh_for;  // (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
+    View<const std::int64_t, 2>
+        fresh_for;  // (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
     View<const VehicleType, 2> type;  // (problem, row) TYPE; trucks first, as many as SIZE says
-    View<const Rate, 2> rate;  // (problem, row) RATE
+    View<const Rate, 2> rate;         // (problem, row) RATE
     View<const bool, 3> reload;  // (problem, type, node) where a trip may end and the next begin
-    View<const bool, 3> can_drive;  // (problem, type, node) table, kind, skills and capacity allow a truck
-    View<const bool, 3> can_fly;  // (problem, type, node) likewise for its drones
-    View<const std::int64_t, 3> profile_time;  // (problem, type, change)
+    View<const bool, 3>
+        can_drive;  // (problem, type, node) table, kind, skills and capacity allow a truck
+    View<const bool, 3> can_fly;                 // (problem, type, node) likewise for its drones
+    View<const std::int64_t, 3> profile_time;    // (problem, type, change)
     View<const std::int64_t, 3> profile_factor;  // (problem, type, change + 1)
-    View<const std::int64_t, 4> duration;  // (problem, travel, node, node)
-    View<const std::int64_t, 4> distance;  // (problem, travel, node, node)
+    View<const std::int64_t, 4> duration;        // (problem, travel, node, node)
+    View<const std::int64_t, 4> distance;        // (problem, travel, node, node)
     View<const double, 1> unassigned_cost;  // (problem,) of whoever it costs least to leave out
-    View<const double, 2> unassigned_more;  // (problem, node) what leaving out another costs above that
-    View<const std::int64_t, 3> neighbour;  // (problem, node, rank) nearest customers first, -1 behind the last
+    View<const double, 2>
+        unassigned_more;  // (problem, node) what leaving out another costs above that
+    View<const std::int64_t, 3>
+        neighbour;  // (problem, node, rank) nearest customers first, -1 behind the last
 };
 
 inline Instance instance_of(const tandem_instance& from) {
-    return {from.size, from.node, from.amount, from.price, from.goods, from.setup, from.fresh_for, from.type, from.rate, from.reload, from.can_drive, from.can_fly, from.profile_time, from.profile_factor, from.duration, from.distance, from.unassigned_cost, from.unassigned_more, from.neighbour};
+    return {from.size,
+            from.node,
+            from.amount,
+            from.price,
+            from.goods,
+            from.setup,
+            from.fresh_for,
+            from.type,
+            from.rate,
+            from.reload,
+            from.can_drive,
+            from.can_fly,
+            from.profile_time,
+            from.profile_factor,
+            from.duration,
+            from.distance,
+            from.unassigned_cost,
+            from.unassigned_more,
+            from.neighbour};
 }
 
 }  // namespace tandem

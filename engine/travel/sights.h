@@ -6,11 +6,12 @@
 namespace tandem {
 
 struct Cells {
-    View<const double, 2> low;  // (cell, axis)
-    View<const double, 2> high;  // (cell, axis)
+    View<const double, 2> low;          // (cell, axis)
+    View<const double, 2> high;         // (cell, axis)
     View<const std::int64_t, 1> first;  // (cell,) its points, by their place in `point`
-    View<const std::int64_t, 1> last;  // (cell,)
-    View<const std::int64_t, 2> half;  // (cell, 2) the cells that it is halved into; -1 if it is not
+    View<const std::int64_t, 1> last;   // (cell,)
+    View<const std::int64_t, 2>
+        half;                     // (cell, 2) the cells that it is halved into; -1 if it is not
     View<const double, 2> point;  // (place, axis)
     View<const std::int32_t, 1> number;  // (place,) of the point
 };
@@ -22,8 +23,8 @@ inline Cells cells_of(const tandem_cells& from) {
 struct Sights {
     View<const std::int64_t, 1> begin;  // (row + 1,)
     View<const std::int64_t, 1> place;  // (entry,)
-    View<const double, 1> distance;  // (entry,) metres
-    View<const double, 1> duration;  // (entry,) seconds, infinite where the wind is too strong
+    View<const double, 1> distance;     // (entry,) metres
+    View<const double, 1> duration;     // (entry,) seconds, infinite where the wind is too strong
 };
 
 inline Sights sights_of(const tandem_sights& from) {

@@ -62,9 +62,9 @@ constexpr Int mode_settled = 4;  // trips must be held back to know the cost
 // All behind a change is timed again, since speed changes, who comes later may have to wait for
 // another window, or drones are charged aboard.
 constexpr Int mode_retimed = 8;
-constexpr Int mode_simple = 16;  // an insertion's cost is that of its distance alone
-constexpr Int mode_lean = 32;    // as that, with one trip of any distance, no releases, no drones
-constexpr Int mode_apart = 64;   // several trips don't all begin and end at one place
+constexpr Int mode_simple = 16;   // an insertion's cost is that of its distance alone
+constexpr Int mode_lean = 32;     // as that, with one trip of any distance, no releases, no drones
+constexpr Int mode_apart = 64;    // several trips don't all begin and end at one place
 constexpr Int mode_loaded = 128;  // what is aboard costs by the way that it is driven
 
 struct World {
@@ -72,100 +72,175 @@ struct World {
     std::int64_t num_nodes;
     std::int64_t num_types;
     std::int64_t max_visits;  // customers on a sortie
-    bool tails;  // routes may swap their tails
-    bool single_drones;  // some type has one drone, and trips may be split anew
-    bool loops;  // sorties may end where they began
-    bool crossings;  // sorties may end elsewhere
-    bool general;  // insertions may cost more than their detour; else all routes are lean
-    bool traded;  // vehicles may drive each other's routes
-    bool mixed;  // types of vehicles, some of whose routes are not lean, may drive each other's
+    bool tails;               // routes may swap their tails
+    bool single_drones;       // some type has one drone, and trips may be split anew
+    bool loops;               // sorties may end where they began
+    bool crossings;           // sorties may end elsewhere
+    bool general;   // insertions may cost more than their detour; else all routes are lean
+    bool traded;    // vehicles may drive each other's routes
+    bool mixed;     // types of vehicles, some of whose routes are not lean, may drive each other's
     bool scan_all;  // else insertion looks beside neighbours only
     bool optional;  // nobody has to be served
-    bool adds_up;  // to insert a customer never saves anything, if no detour does
-    bool keeps;  // customers' best places on routes are kept from turn to turn
-    double blink;  // how often a better place for a customer is overlooked
-    double unassigned_cost;  // of whoever it costs least to leave out
+    bool adds_up;   // to insert a customer never saves anything, if no detour does
+    bool keeps;     // customers' best places on routes are kept from turn to turn
+    double blink;   // how often a better place for a customer is overlooked
+    double unassigned_cost;                 // of whoever it costs least to leave out
     View<const double, 1> unassigned_more;  // (node,) what leaving out another costs above that
-    bool unequal;  // leaving out some costs more than others
+    bool unequal;                           // leaving out some costs more than others
     View<const bool, 1> must_serve;  // (node,) leaving it out costs more than any route for one
-    View<const Node, 3> place;  // (variant, node, row) NODE
-    View<const std::int64_t, 3> amount;  // (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
+    View<const Node, 3> place;       // (variant, node, row) NODE
+    View<const std::int64_t, 3>
+        amount;                  // (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
     View<const Price, 1> price;  // (node,) PRICE, per ms
     View<const Goods, 1> goods;  // (node,) GOODS, none where all go together
     View<const Setup, 1> setup;  // (node,) SETUP, none where nobody sets up
     View<const std::int64_t, 1> fresh_for;  // (node,) ms, none where nothing is limited
-    View<const VehicleType, 1> type;  // (row,) TYPE
-    View<const Rate, 1> rate;  // (row,) RATE, per mm and per ms
-    View<const std::int64_t, 1> mode;  // (row,) MODE_ flags
-    View<const bool, 2> reload;  // (type, node) where a trip may end and the next begin
-    View<const std::int64_t, 1> visits;  // (row,) customers on a sortie
-    View<const bool, 3> can;  // (row, 2, node) by truck, by drone
-    View<const bool, 2> splice;  // (type, type) vehicles may end each other's routes
-    View<const bool, 2> swap;  // (type, type) may drive each other's routes at a cost by distance alone
-    Legs leg;  // duration, distance
+    View<const VehicleType, 1> type;        // (row,) TYPE
+    View<const Rate, 1> rate;               // (row,) RATE, per mm and per ms
+    View<const std::int64_t, 1> mode;       // (row,) MODE_ flags
+    View<const bool, 2> reload;             // (type, node) where a trip may end and the next begin
+    View<const std::int64_t, 1> visits;     // (row,) customers on a sortie
+    View<const bool, 3> can;                // (row, 2, node) by truck, by drone
+    View<const bool, 2> splice;             // (type, type) vehicles may end each other's routes
+    View<const bool, 2>
+        swap;   // (type, type) may drive each other's routes at a cost by distance alone
+    Legs leg;   // duration, distance
     Legs back;  // the same, for those to a node
-    View<const std::int64_t, 2> profile_time;  // (type, change)
+    View<const std::int64_t, 2> profile_time;    // (type, change)
     View<const std::int64_t, 2> profile_factor;  // (type, change + 1)
     View<const std::int32_t, 2> near;  // (node, rank) customers, nearest first, -1 behind the last
-    View<const std::int32_t, 2> fit;  // (node, rank) customers whom a truck would visit before or after
-    View<const std::int64_t, 1> stop;  // (1,) not 0 once the search must end, as `model.kernel.alarm` says
+    View<const std::int32_t, 2>
+        fit;  // (node, rank) customers whom a truck would visit before or after
+    View<const std::int64_t, 1>
+        stop;  // (1,) not 0 once the search must end, as `model.kernel.alarm` says
 };
 
 inline World world_of(const tandem_world& from) {
-    return {from.num_depots, from.num_nodes, from.num_types, from.max_visits, from.tails, from.single_drones, from.loops, from.crossings, from.general, from.traded, from.mixed, from.scan_all, from.optional, from.adds_up, from.keeps, from.blink, from.unassigned_cost, from.unassigned_more, from.unequal, from.must_serve, from.place, from.amount, from.price, from.goods, from.setup, from.fresh_for, from.type, from.rate, from.mode, from.reload, from.visits, from.can, from.splice, from.swap, legs_of(from.leg), legs_of(from.back), from.profile_time, from.profile_factor, from.near, from.fit, from.stop};
+    return {from.num_depots,
+            from.num_nodes,
+            from.num_types,
+            from.max_visits,
+            from.tails,
+            from.single_drones,
+            from.loops,
+            from.crossings,
+            from.general,
+            from.traded,
+            from.mixed,
+            from.scan_all,
+            from.optional,
+            from.adds_up,
+            from.keeps,
+            from.blink,
+            from.unassigned_cost,
+            from.unassigned_more,
+            from.unequal,
+            from.must_serve,
+            from.place,
+            from.amount,
+            from.price,
+            from.goods,
+            from.setup,
+            from.fresh_for,
+            from.type,
+            from.rate,
+            from.mode,
+            from.reload,
+            from.visits,
+            from.can,
+            from.splice,
+            from.swap,
+            legs_of(from.leg),
+            legs_of(from.back),
+            from.profile_time,
+            from.profile_factor,
+            from.near,
+            from.fit,
+            from.stop};
 }
 
 struct Fleet {
-    View<Route, 1> route;  // (slot,) ROUTE
-    View<double, 1> cost;  // (slot,)
-    View<double, 1> early;  // (slot,) of it, what waiting costs where trips are held back
-    View<Stop, 2> stop;  // (slot, position) STOP
-    View<Halt, 3> halt;  // (slot, tier, position) HALT; no tiers where `TRIP.load` tells all
-    View<Trip, 2> trip;  // (slot, trip) TRIP
+    View<Route, 1> route;    // (slot,) ROUTE
+    View<double, 1> cost;    // (slot,)
+    View<double, 1> early;   // (slot,) of it, what waiting costs where trips are held back
+    View<Stop, 2> stop;      // (slot, position) STOP
+    View<Halt, 3> halt;      // (slot, tier, position) HALT; no tiers where `TRIP.load` tells all
+    View<Trip, 2> trip;      // (slot, trip) TRIP
     View<Sortie, 2> sortie;  // (slot, sortie) SORTIE
-    View<Place, 1> where;  // (node,) PLACE
+    View<Place, 1> where;    // (node,) PLACE
     View<std::int64_t, 1> used;  // (type,) routes
 };
 
 inline Fleet fleet_of(const tandem_fleet& from) {
-    return {from.route, from.cost, from.early, from.stop, from.halt, from.trip, from.sortie, from.where, from.used};
+    return {from.route, from.cost,   from.early, from.stop, from.halt,
+            from.trip,  from.sortie, from.where, from.used};
 }
 
 struct Searcher {
     Fleet now;
     Fleet before;  // those touched this turn, as they are listed there; who is where is not noted
-    Fleet best;  // likewise not
-    SearchCounts* count;  // COUNTS
-    SearchValues* value;  // VALUES
-    View<std::uint64_t, 1> rng;  // (1,)
-    View<std::int64_t, 1> active;  // slots in use, and behind them those that are free
-    View<std::int64_t, 1> rank;  // (slot,) where it stands in `active`
+    Fleet best;    // likewise not
+    SearchCounts* count;            // COUNTS
+    SearchValues* value;            // VALUES
+    View<std::uint64_t, 1> rng;     // (1,)
+    View<std::int64_t, 1> active;   // slots in use, and behind them those that are free
+    View<std::int64_t, 1> rank;     // (slot,) where it stands in `active`
     View<std::int64_t, 1> changed;  // slots changed since the best
-    View<bool, 1> is_changed;  // (slot,) it is among those
+    View<bool, 1> is_changed;       // (slot,) it is among those
     View<std::int64_t, 1> missing;  // customers left out
     View<std::int64_t, 1> best_missing;
-    View<std::int64_t, 1> absent;  // to be inserted this turn, behind those left alone
-    View<std::int64_t, 1> touched;  // slots changed this turn
-    View<bool, 1> marked;  // (node,) removed this turn
+    View<std::int64_t, 1> absent;    // to be inserted this turn, behind those left alone
+    View<std::int64_t, 1> touched;   // slots changed this turn
+    View<bool, 1> marked;            // (node,) removed this turn
     View<std::int64_t, 1> absences;  // (node,) turns after which a customer was left out
-    View<std::int64_t, 2> hit;  // (slot, trip) turn of the last string
-    View<Line, 1> line;  // (node + 3,) scratch, places of a trip or two in order
-    View<double, 1> line_cost;  // (node + 3,) scratch
-    View<double, 1> key;  // (node,) order of insertion
-    View<std::int64_t, 1> moved;  // scratch
-    Move* move;  // MOVE, scratch, best insertion
-    View<Move, 1> offer;  // (offer,) MOVE, scratch, insertions that may be best
-    View<double, 1> least;  // (offer,) scratch, what each costs at least
-    BlockSums* acc;  // SUMS of a block, scratch
-    Bound* bound;  // BOUND, scratch
-    View<double, 3> alone;  // (type, 2, node) cost of a route that serves one customer
+    View<std::int64_t, 2> hit;       // (slot, trip) turn of the last string
+    View<Line, 1> line;              // (node + 3,) scratch, places of a trip or two in order
+    View<double, 1> line_cost;       // (node + 3,) scratch
+    View<double, 1> key;             // (node,) order of insertion
+    View<std::int64_t, 1> moved;     // scratch
+    Move* move;                      // MOVE, scratch, best insertion
+    View<Move, 1> offer;             // (offer,) MOVE, scratch, insertions that may be best
+    View<double, 1> least;           // (offer,) scratch, what each costs at least
+    BlockSums* acc;                  // SUMS of a block, scratch
+    Bound* bound;                    // BOUND, scratch
+    View<double, 3> alone;           // (type, 2, node) cost of a route that serves one customer
     View<Kept, 2> kept;  // (node, slot) KEPT, the best places on lean routes as they are
-    View<Move, 2> kept_move;  // (node, slot) MOVE, the best insertions where not all routes are lean
+    View<Move, 2>
+        kept_move;  // (node, slot) MOVE, the best insertions where not all routes are lean
     View<double, 2> kept_cost;  // (node, slot) where not all routes are lean, what these cost
 };
 
 inline Searcher searcher_of(const tandem_searcher& from) {
-    return {fleet_of(from.now), fleet_of(from.before), fleet_of(from.best), from.count, from.value, from.rng, from.active, from.rank, from.changed, from.is_changed, from.missing, from.best_missing, from.absent, from.touched, from.marked, from.absences, from.hit, from.line, from.line_cost, from.key, from.moved, from.move, from.offer, from.least, from.acc, from.bound, from.alone, from.kept, from.kept_move, from.kept_cost};
+    return {fleet_of(from.now),
+            fleet_of(from.before),
+            fleet_of(from.best),
+            from.count,
+            from.value,
+            from.rng,
+            from.active,
+            from.rank,
+            from.changed,
+            from.is_changed,
+            from.missing,
+            from.best_missing,
+            from.absent,
+            from.touched,
+            from.marked,
+            from.absences,
+            from.hit,
+            from.line,
+            from.line_cost,
+            from.key,
+            from.moved,
+            from.move,
+            from.offer,
+            from.least,
+            from.acc,
+            from.bound,
+            from.alone,
+            from.kept,
+            from.kept_move,
+            from.kept_cost};
 }
 
 // Copy what is chosen of a stop. In place.
