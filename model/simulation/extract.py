@@ -8,10 +8,8 @@ import numpy as np
 from model.kernel.instance import Instance
 from model.kernel.records import read_rows
 from model.problem import IntArray, Problem
-from model.simulation.meeting import NO_VEHICLE
-from model.simulation.simulator import apply_route, reset
-from model.simulation.transition import State, close_vehicle
-from model.simulation.vehicle_log import VehicleLog
+from model.simulation.actions import apply_route, close_vehicle, reset
+from model.simulation.state import NO_VEHICLE, State, VehicleLogs
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 
 
@@ -48,7 +46,7 @@ def _close(problem: Problem, instance: Instance, state: State) -> list[Route]:
     return [Route(vehicle.type, vehicle.index, _trips(problem, state.log))]
 
 
-def _trips(problem: Problem, logs: VehicleLog) -> tuple[Trip, ...]:
+def _trips(problem: Problem, logs: VehicleLogs) -> tuple[Trip, ...]:
     count, = read_rows(logs.count[:1])
     firsts = logs.trip["first_stop"][0, : count.trips].tolist()
     stops: list[Stop] = []

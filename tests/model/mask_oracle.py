@@ -18,7 +18,7 @@ from model.judge.timing import (
     Operation, latest_release, schedule_trip,
 )
 from model.problem import UNREACHABLE, Problem, VehicleType
-from model.simulation.simulator import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
+from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Stop, Trip, Visit
 from tests.model.open_trip import Flight, OpenTrip, back_at, drones_of, lasts, preferred
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -105,16 +104,6 @@ def legal(problem: Problem, instance: Instance, state: State) -> list[int]:
     actions, outlooks = np.zeros(most, np.int64), empty_outlooks(most)
     count = legal_actions(instance, state, 0, 1, actions, outlooks)
     return actions[:count].tolist()
-
-
-def record(problems: Sequence[Problem], path: Path) -> None:
-    """Save all that rollouts of the problems, in one batch, see, do and cost."""
-    batch = roll(problems, seed=11)
-    steps = [step for rollout in batch.rollouts for step in rollout.steps]
-    np.savez(path, codes=np.concatenate([step.codes for step in steps]),
-             choice=[step.choice for step in steps], glob=np.stack([step.glob for step in steps]),
-             feature=np.concatenate([step.feature for step in steps]), served=batch.state.served,
-             cost=by_term(batch.state.cost), used=batch.state.used, fresh=batch.state.fresh)
 
 
 def random_problems(seed: int, count: int, largest: int = 25) -> list[Problem]:

@@ -8,6 +8,7 @@
 #include "rules/flight.h"
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/evaluate.h"
+#include "search/insertion/least.h"
 #include "search/insertion/new_trips.h"
 #include "search/insertion/newcomer.h"
 #include "search/route/edit.h"
@@ -355,17 +356,17 @@ void take_cheapest(const World& world, const Searcher& searcher, Int node) {
     const View<Move, 1> offer = searcher.offer;
     const View<double, 1> least = searcher.least;
     Int left = searcher.count->offers;
+    Least cheapest(least, left);
     while (left > 0 && !rung(world.stop)) {
-        const Int first = std::min_element(least.begin(), least.begin() + left) - least.begin();
+        const Int first = cheapest.first();
         if (least[first] >= bound.best) break;
         const double cost = price_offer(world, searcher, offer[first], node, least[first]);
         if (cost < bound.best && uniform(searcher.rng) >= bound.blink) {
             bound.best = cost;
             *searcher.move = offer[first];
         }
-        --left;
-        least[first] = least[left];
-        offer[first] = offer[left];
+        cheapest.take_out(first);
+        offer[first] = offer[--left];
     }
     searcher.count->offers = 0;
 }

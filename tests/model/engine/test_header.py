@@ -15,21 +15,13 @@ from model.search.route import layout
 from model.search.route.block import SUMS
 from model.search.route.edit import MOVE
 from model.search.route.state import COUNTS, VALUES
-from model.simulation.cost import COST
-from model.simulation.meeting import DRONE, VEHICLE
-from model.simulation.trial import OUTLOOK
-from model.simulation.vehicle_log import (
-    LENGTHS, LOGGED_SORTIE, LOGGED_STOP, LOGGED_TRIP, OPERATION,
-)
 
 ROWS = {
     "size": instance.SIZE, "node": instance.NODE, "setup": instance.SETUP,
     "price": instance.PRICE, "goods": instance.GOODS, "vehicle_type": instance.TYPE,
     "rate": instance.RATE, "leg_law": leg.LAW, "point": leg.POINT, "halt": HALT,
-    "logged_stop": LOGGED_STOP, "logged_trip": LOGGED_TRIP, "operation": OPERATION,
-    "logged_sortie": LOGGED_SORTIE, "log_lengths": LENGTHS, "vehicle": VEHICLE, "drone": DRONE,
-    "cost": COST, "outlook": OUTLOOK, "node_features": tokens.NODE,
-    "type_features": tokens.TYPE, "action_features": ACTION, "vehicle_features": VEHICLE_STATE,
+    "node_features": tokens.NODE, "type_features": tokens.TYPE, "action_features": ACTION,
+    "vehicle_features": VEHICLE_STATE,
     "stop": layout.STOP, "sortie": layout.SORTIE, "trip": layout.TRIP, "route": layout.ROUTE,
     "kept": layout.KEPT, "bound": layout.BOUND, "place": layout.PLACE, "move": MOVE,
     "block_sums": SUMS, "search_counts": COUNTS, "search_values": VALUES, "line": LINE,

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 
 from model.kernel.instance import pack
-from model.simulation.cost import by_term
-from model.simulation.extract import extract
-from model.simulation.simulator import (
+from model.simulation.actions import (
     DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, finish, reset,
 )
+from model.simulation.extract import extract
+from model.simulation.state import by_term
 
 MINUTE = 60_000
 

@@ -13,8 +13,8 @@ from model.judge.trial import small_problem
 from model.kernel.instance import pack
 from model.problem import Problem, SpeedProfile
 from model.search.improve import SearchConfig, improve
+from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, reset
 from model.simulation.extract import extract
-from model.simulation.simulator import DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, reset
 from model.solution import Solution, Trip
 from tests.model.mask_oracle import legal_codes
 from tests.model.remedies import applied

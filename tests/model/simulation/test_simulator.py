@@ -1,12 +1,8 @@
-"""Tests of the decision process: legal plans, an exact mask, compilation."""
+"""Tests of the decision process: legal plans, an exact mask."""
 
-import os
-import subprocess
-import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import astuple, dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,20 +12,18 @@ from model.kernel.instance import pack
 from model.problem import (
     UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType,
 )
-from model.simulation.extract import extract
-from model.simulation.simulator import (
+from model.simulation.actions import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
 )
+from model.simulation.extract import extract
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
-from tests.model.rollouts import choose, legal, random_problems, record, roll
+from tests.model.rollouts import choose, legal, random_problems, roll
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_duty,
     with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
     with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
     with_table, with_turnaround,
 )
-
-ROOT = Path(__file__).resolve().parents[3]
 
 Change = Callable[[np.random.Generator, Problem], Problem]
 
@@ -292,16 +286,3 @@ def test_before_a_vehicle_opens_every_row_looks_the_same() -> None:
     for name in ("problem", "served", "num_unserved", "used", "done", "vehicle", "cost"):
         rows = getattr(state, name)[:3]
         assert (rows == rows[0]).all(), name
-
-
-def test_compiled_and_interpreted_rollouts_agree(tmp_path: Path) -> None:
-    command = ("import sys; from pathlib import Path; from tests.model import rollouts as r;"
-               "r.record(r.random_problems(seed=23, count=48, largest=8), Path(sys.argv[1]))")
-    subprocess.run([sys.executable, "-c", command, str(tmp_path / "interpreted.npz")], cwd=ROOT,
-                   check=True, env={**os.environ, "NUMBA_DISABLE_JIT": "1"})
-    record(random_problems(seed=23, count=48, largest=8), tmp_path / "compiled.npz")
-    with np.load(tmp_path / "compiled.npz") as compiled, \
-            np.load(tmp_path / "interpreted.npz") as interpreted:
-        assert set(compiled) == set(interpreted)
-        for name in compiled:
-            np.testing.assert_allclose(compiled[name], interpreted[name], rtol=1e-6, atol=1e-7)

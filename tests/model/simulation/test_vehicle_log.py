@@ -10,8 +10,8 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, read_decision, schedule
 from model.kernel.instance import pack
 from model.problem import Problem
+from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN, encode_action
 from model.simulation.extract import extract
-from model.simulation.simulator import DRIVE, LAUNCH, OPEN, RETURN, encode_action
 from model.solution import Route, Solution, Stop, Visit
 from tests.model.mask_oracle import MINUTE, costs_nothing
 from tests.model.rollouts import random_problems, roll
