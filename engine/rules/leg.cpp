@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
+#include <utility>
 
 namespace tandem {
 namespace {
@@ -24,7 +24,8 @@ constexpr double long_arc = 0.5;
 
 // Coefficients of arcsin(s) / s in powers of s squared, the highest first: the k-th from the end is
 // (2k)! / (k!)^2 / (4^k (2k + 1)), rounded once.
-constexpr std::array<double, 44> arcsine_series = {
+constexpr std::size_t short_terms = 8, long_terms = 44;
+constexpr std::array<double, long_terms> arcsine_series = {
     0.0009860731369833312, 0.0010211486797106276,
     0.0010583541258722428, 0.0010978750465914472,
     0.0011399183307022236, 0.0011847152561624392,
@@ -48,17 +49,23 @@ constexpr std::array<double, 44> arcsine_series = {
     0.044642857142857144,  0.075,
     0.16666666666666666,   1.0,
 };
-constexpr std::size_t short_terms = 8;
+
+// arcsin(s) / s by the square of s, of so many terms. Without a loop, so that the processor begins
+// with the next leg before it is done with this.
+template <std::size_t... term>
+double series(double square, std::index_sequence<term...>) {
+    constexpr std::size_t first = long_terms - sizeof...(term);
+    double value = 0.0;
+    ((value = value * square + arcsine_series[first + term]), ...);
+    return value;
+}
 
 // The arc over a chord, by the square of its half, up to `long_arc` but for rounding.
 double arc_over(double quarter) {
-    const std::span<const double> terms = arcsine_series;
-    const double square = std::min(quarter, long_arc);
-    double value = 0.0;
-    for (const double coefficient : square <= short_arc ? terms.last(short_terms) : terms) {
-        value = value * square + coefficient;
-    }
-    return 2.0 * std::sqrt(quarter) * value;
+    const double chord = 2.0 * std::sqrt(quarter);
+    if (quarter <= short_arc)
+        return chord * series(quarter, std::make_index_sequence<short_terms>());
+    return chord * series(std::min(quarter, long_arc), std::make_index_sequence<long_terms>());
 }
 
 // The angle between two unit vectors.
