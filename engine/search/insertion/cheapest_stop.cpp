@@ -37,13 +37,13 @@ CheapestStop scan_stops(const Newcomer& newcomer, View<const Stop, 1> stops, Int
                         const Wanted& wanted, View<std::uint64_t, 1> rng) {
     CheapestStop found{wanted.best, nowhere};
     for (Int p = first; p <= last; ++p) {
-        const Detour detour = newcomer.behind(stops, p);
-        const double cost = double(detour.distance) * wanted.rate;
-        if (cost >= found.cost || detour.distance > wanted.spare || p == wanted.skipped ||
+        const Int further = newcomer.further_behind(stops, p);
+        const double cost = double(further) * wanted.rate;
+        if (cost >= found.cost || further > wanted.spare || p == wanted.skipped ||
             !room_behind(newcomer.room, p)) {
             continue;
         }
-        if (is_in_time(newcomer.place, detour, stops[p].leave, stops[p + 1])) {
+        if (newcomer.comes_in_time(stops, p, stops[p].leave)) {
             if (uniform(rng) >= wanted.blink) found = {cost, p};
         } else if (too_late(newcomer.place, stops[p].leave)) {
             break;
@@ -68,10 +68,10 @@ CheapestStop scan_delayed(NodesRows places, const Newcomer& newcomer, View<const
         }
         if (too_late(place, leave)) break;
         if (p < first) continue;
-        const Detour detour = newcomer.behind(stops, p);
-        const double cost = double(detour.distance) * wanted.rate;
-        if (cost < found.cost && detour.distance <= wanted.spare &&
-            is_in_time(place, detour, leave, stops[p + 1]) && room_behind(newcomer.room, p) &&
+        const Int further = newcomer.further_behind(stops, p);
+        const double cost = double(further) * wanted.rate;
+        if (cost < found.cost && further <= wanted.spare &&
+            newcomer.comes_in_time(stops, p, leave) && room_behind(newcomer.room, p) &&
             uniform(rng) >= wanted.blink) {
             found = {cost, p};
         }
@@ -86,10 +86,9 @@ CheapestStop scan_limited(const World& world, const Fleet& fleet, Int slot, Int 
     const View<const Stop, 1> stops = fleet.stop[slot];
     CheapestStop found{wanted.best, nowhere};
     for (Int p = first; p <= last; ++p) {
-        const Detour detour = newcomer.behind(stops, p);
-        const double cost = double(detour.distance) * wanted.rate;
-        if (cost >= found.cost || detour.distance > wanted.spare ||
-            !room_behind(newcomer.room, p)) {
+        const Int further = newcomer.further_behind(stops, p);
+        const double cost = double(further) * wanted.rate;
+        if (cost >= found.cost || further > wanted.spare || !room_behind(newcomer.room, p)) {
             continue;
         }
         if (too_late(newcomer.place, stops[p].leave)) break;
@@ -139,10 +138,10 @@ ShortestDetour shortest_detour(const Newcomer& newcomer, View<const Stop, 1> sto
                                Int best) {
     ShortestDetour found{best, nowhere};
     for (Int p = 0; p < last; ++p) {
-        const Detour detour = newcomer.behind(stops, p);
-        if (detour.distance >= found.distance || !room_behind(newcomer.room, p)) continue;
-        if (is_in_time(newcomer.place, detour, stops[p].leave, stops[p + 1])) {
-            found = {detour.distance, p};
+        const Int further = newcomer.further_behind(stops, p);
+        if (further >= found.distance || !room_behind(newcomer.room, p)) continue;
+        if (newcomer.comes_in_time(stops, p, stops[p].leave)) {
+            found = {further, p};
         } else if (too_late(newcomer.place, stops[p].leave)) {
             break;
         }
@@ -216,9 +215,9 @@ double take_cheaper(const World& world, const Searcher& searcher, Int slot,
     const Newcomer newcomer = newcomer_on(world, searcher.now, slot, serving.type, node);
     const double rate = world.rate[serving.type].distance;
     for (const Int p : places) {
-        const Detour detour = newcomer.behind(stops, p);
-        const double cost = double(detour.distance) * rate + serving.cost;
-        if (cost < best && is_in_time(newcomer.place, detour, stops[p].leave, stops[p + 1]) &&
+        const Int further = newcomer.further_behind(stops, p);
+        const double cost = double(further) * rate + serving.cost;
+        if (cost < best && newcomer.comes_in_time(stops, p, stops[p].leave) &&
             room_behind(newcomer.room, p) && uniform(searcher.rng) >= world.blink) {
             best = cost;
             take_stop(*searcher.move, slot, p, serving.type);

@@ -25,6 +25,22 @@ struct Newcomer {
         const Leg out = leg_from(inward, stops[p].node), on = leg_to(onward, stops[p + 1].node);
         return {out, on, out.distance + on.distance - stops[p].leg};
     }
+
+    // How much further it is by the customer than from stop `p` to the next.
+    Int further_behind(View<const Stop, 1> stops, Int p) const {
+        return distance_from(inward, stops[p].node) + distance_to(onward, stops[p + 1].node) -
+               stops[p].leg;
+    }
+
+    // Tells whether a truck that leaves stop `p` at `leave` may come next, and then reach the
+    // following stop. Most are passed over by distance, so that durations are looked up here alone.
+    bool comes_in_time(View<const Stop, 1> stops, Int p, Int leave) const {
+        const Int arrival = leave + leg_from(inward, stops[p].node).duration;
+        if (too_late(place, arrival)) return false;
+        const Stop& behind = stops[p + 1];
+        return end_of_service(place, arrival) + leg_to(onward, behind.node).duration <=
+               behind.latest;
+    }
 };
 
 // Returns a customer as trucks of type `k` meet it on a route, for one of type `by` to be served.

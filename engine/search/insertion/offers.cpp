@@ -110,15 +110,19 @@ void offer_flights(const World& world, const Searcher& searcher, Int slot, Int l
     const View<const Stop, 1> stops = now.stop[slot];
     const VehicleType& type = world.type[row];
     const Rate& rate = world.rate[row];
-    const LegRow onward = legs_from(world.leg, type.home_travel, node);
     const Leg out = leg_from(legs_to(world.back, type.drone_travel, node), stops[launch].node);
     const NodeRows place = places_by_air(world.place, type)[node];
-    const Int left = gone_by(type, stops[launch].leave);
     Int begun = stops[launch].arrival;
     if (launch > 0) begun = take_off(type, begun, 0);
-    const Int service = service_duration(place);
     double late = 0.0;
     if (world.mode[k] & mode_priced) late = lateness_cost(world, node, begun + out.duration);
+    const double early = now.early[slot], air_rate = rate.drone_distance, time_rate = rate.time;
+    // Most stops are so far away that the flight home needn't be looked at.
+    if (double(out.distance) * air_rate + late - early >= best) return;
+    const LegRow onward = legs_from(world.leg, type.home_travel, node);
+    const Int left = gone_by(type, stops[launch].leave);
+    const Int service = service_duration(place);
+    const bool loaded = loads_cost(world, k);
     begun = recovery_end(type, begun) - idle_time(route);
     const Room room = room_on(world, now, slot, k, node);
     Int last = launch;
@@ -127,6 +131,8 @@ void offer_flights(const World& world, const Searcher& searcher, Int slot, Int l
     }
     for (Int recovery = world.loops ? launch : launch + 1; recovery <= last; ++recovery) {
         const Leg home = leg_to(onward, stops[recovery].node);
+        const double flown = double(out.distance + home.distance) * air_rate;
+        if (flown + late - early >= best) continue;
         const Int met = stops[recovery].arrival;
         const Int flight = out.duration + service + home.duration;
         if (!within_endurance(type, left, left, met)) {
@@ -136,9 +142,8 @@ void offer_flights(const World& world, const Searcher& searcher, Int slot, Int l
         }
         // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
         const Int longer = std::max(Int{0}, begun + flight - stops[recovery].leave);
-        double cost = double(out.distance + home.distance) * rate.drone_distance +
-                      double(longer) * rate.time + late - now.early[slot];
-        if (loads_cost(world, k)) cost += load_more(world, now, slot, launch, recovery, node);
+        double cost = flown + double(longer) * time_rate + late - early;
+        if (loaded) cost += load_more(world, now, slot, launch, recovery, node);
         if (cost < best && can_serve(type, place, out.duration, home.duration) &&
             room_between(room, launch, recovery)) {
             Move& offer = add_offer(searcher, cost, by_sortie, slot, launch);

@@ -59,33 +59,69 @@ struct WayByAir {
     }
 };
 
-// Return what it costs to go from place `i` to `j` while the drone serves place `flown`.
-//
-// Infinite if that can't be, or if what the truck does alone costs `most` or more.
-double operation_cost(const World& world, Int k, View<const Line, 1> line, Int i, Int j, Int flown,
-                      double most) {
-    const VehicleType& type = world.type[k];
-    const Rate& rate = world.rate[k];
-    const Int node = line[i].node;
-    const Int customer = line[flown].node;
-    const Int drive = line[j].drive - line[i].drive - line[flown].spared_drive;
-    const Int distance = line[j].distance - line[i].distance - line[flown].spared_distance;
-    const Int here = service_duration(places_of(world.place, type)[node]);
-    const Int handled = handling_duration(type);
-    const Int driven = drive - here + std::max(Int{0}, here - launch_duration(type, 1));
-    const double ground = cost_of(distance, rate.distance) + cost_of(j - i - 1, rate.stop);
-    if (cost_of(handled + driven, rate.time) + ground >= most) return infinite;
-    const NodeRows place = places_by_air(world.place, type)[customer];
-    const WayByAir flight(world, type, place, node, customer, line[j].node);
-    const Int airborne = std::max(flight.duration, driven);
-    if (!within_endurance(type, 0, flight.duration, airborne) ||
-        !can_wait(type, place, flight.out.duration, flight.home.duration,
-                  airborne - flight.duration)) {
-        return infinite;
+// Operations from place `i` of a line on which the drone of a vehicle serves one of the customers
+// between while the truck serves the others.
+class Crossing {
+public:
+    Crossing(const World& world, Int k, View<const Line, 1> line, Int i)
+        : world_(world),
+          type_(world.type[k]),
+          rate_(world.rate[k]),
+          places_(places_by_air(world.place, type_)),
+          line_(line),
+          i_(i),
+          handled_(handling_duration(type_)) {
+        const Int here = service_duration(places_of(world.place, type_)[line[i].node]);
+        launched_ = std::max(Int{0}, here - launch_duration(type_, 1)) - here;
     }
-    return cost_of(handled + airborne, rate.time) + ground + cost_of(airborne, rate.drone_time) +
-           flight.distance_cost(rate);
-}
+
+    // Tell whether what the truck does alone on the way to place `j` costs `most` or more, if it
+    // is spared so much.
+    bool costs(Int j, Int spared_drive, Int spared_distance, double most) const {
+        return cost_of(handled_ + driven(j, spared_drive), rate_.time) +
+                   ground(j, spared_distance) >=
+               most;
+    }
+
+    // Return what it costs to go to place `j` while the drone serves place `flown`.
+    //
+    // Infinite if that can't be, or if what the truck does alone costs `most` or more.
+    double cost(Int j, Int flown, double most) const {
+        const Line& spared = line_[flown];
+        const Int drive = driven(j, spared.spared_drive);
+        const double alone = ground(j, spared.spared_distance);
+        if (cost_of(handled_ + drive, rate_.time) + alone >= most) return infinite;
+        const NodeRows place = places_[spared.node];
+        const WayByAir flight(world_, type_, place, line_[i_].node, spared.node, line_[j].node);
+        const Int airborne = std::max(flight.duration, drive);
+        if (!within_endurance(type_, 0, flight.duration, airborne) ||
+            !can_wait(type_, place, flight.out.duration, flight.home.duration,
+                      airborne - flight.duration)) {
+            return infinite;
+        }
+        return cost_of(handled_ + airborne, rate_.time) + alone +
+               cost_of(airborne, rate_.drone_time) + flight.distance_cost(rate_);
+    }
+
+private:
+    Int driven(Int j, Int spared) const {
+        return line_[j].drive - line_[i_].drive - spared + launched_;
+    }
+
+    double ground(Int j, Int spared) const {
+        return cost_of(line_[j].distance - line_[i_].distance - spared, rate_.distance) +
+               cost_of(j - i_ - 1, rate_.stop);
+    }
+
+    const World& world_;
+    const VehicleType& type_;
+    const Rate& rate_;
+    NodesRows places_;
+    View<const Line, 1> line_;
+    Int i_;
+    Int handled_;
+    Int launched_;  // how much longer the truck is there than the launch takes, less the service
+};
 
 // Return what a flight costs for which the truck waits at a stop.
 double loop_cost(const World& world, Int k, Int node, Int customer) {
@@ -106,15 +142,22 @@ double drive_cost(const Rate& rate, double before, const Leg& way, Int service) 
            cost_of(way.distance, rate.distance) + rate.stop;
 }
 
+// How much a truck is spared at most of the way to a place by one customer less.
+struct Spared {
+    Int drive = -far;
+    Int distance = -far;
+};
+
 // Try all operations from place `i` to `j` with one flight across. In place.
-void cross(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int i, Int j) {
+void cross(const World& world, Int k, const Crossing& crossing, const Spared& most,
+           View<Line, 1> line, View<double, 1> cost, Int i, Int j) {
+    if (crossing.costs(j, most.drive, most.distance, cost[j] - cost[i])) return;
     const Int grounded = line[j - 1].grounded - line[i].grounded;
-    if (grounded > 1 || !world.crossings) return;
+    if (grounded > 1) return;
     for (Int flown = i + 1; flown < j; ++flown) {
         const Int customer = line[flown].node;
         if (!world.can(k, 1, customer) || (grounded == 1 && world.can(k, 0, customer))) continue;
-        const double total =
-            cost[i] + operation_cost(world, k, line, i, j, flown, cost[j] - cost[i]);
+        const double total = cost[i] + crossing.cost(j, flown, cost[j] - cost[i]);
         if (total < cost[j]) {
             cost[j] = total;
             line[j].before = i;
@@ -130,6 +173,8 @@ void extend(const World& world, Int k, View<Line, 1> line, View<double, 1> cost,
     const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
     const Int here = line[i].node;
     const Int service = service_duration(places_of(world.place, world.type[k])[here]);
+    const Crossing crossing(world, k, line, i);
+    Spared most;
     double loops = 0.0;
     for (Int j = i + 1; j < std::min(length, i + longest_operation + 1); ++j) {
         const Int to = line[j].node;
@@ -140,8 +185,10 @@ void extend(const World& world, Int k, View<Line, 1> line, View<double, 1> cost,
                 line[j].before = i;
                 line[j].flight = no_flight;
             }
-            cross(world, k, line, cost, i, j);
+            if (j > i + 1 && world.crossings) cross(world, k, crossing, most, line, cost, i, j);
         }
+        most = {std::max(most.drive, line[j].spared_drive),
+                std::max(most.distance, line[j].spared_distance)};
         if (loops < infinite) {
             loops = world.can(k, 1, to) ? loops + loop_cost(world, k, here, to) : infinite;
         }
@@ -218,7 +265,7 @@ double present_cost(const World& world, Int k, View<const Line, 1> line, Int len
     for (Int j = length - 1; j > 0; j = line[j].before) {
         const Int i = line[j].before;
         if (line[j].flight != no_flight) {
-            cost += operation_cost(world, k, line, i, j, line[j].flight, infinite);
+            cost += Crossing(world, k, line, i).cost(j, line[j].flight, infinite);
             continue;
         }
         const Int here = line[i].node;
