@@ -10,9 +10,9 @@ RULE_SETS ?= mdvrptw,sdvrptw,pcvrptw,vrpmtw,ovrp,vrpb,vrpspd
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 # On all cores; who is idle takes over what others have left. Threads of PyTorch's own would wait for
-# each other in vain. Modules are kept compiled whatever the environment says: dozens of processes
+# each other in vain. Tests of the engine find CMake there. Modules are kept compiled whatever the environment says: dozens of processes
 # load them all.
-PYTEST := OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --numprocesses auto --dist worksteal
+PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --numprocesses auto --dist worksteal
 # What more customers need takes long to compile, and only slow tests need it.
 QUICK_CUSTOMERS := 3000
 URL := http://$(HOST):$(PORT)

@@ -4,12 +4,25 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <type_traits>
 
 namespace tandem {
 
-// A view of an array of N dimensions. Indices are not checked but in builds for sanitizers, which
-// see the memory behind.
+#ifdef TANDEM_CHECKED
+constexpr bool checks_indices = true;
+#else
+constexpr bool checks_indices = false;
+#endif
+
+// Ends the process at an index outside an array, in builds for sanitizers.
+inline void check_index(std::int64_t index, std::int64_t size) {
+    if constexpr (checks_indices) {
+        if (index < 0 || index >= size) std::abort();
+    }
+}
+
+// A view of an array of N dimensions. Indices are not checked but in builds for sanitizers.
 template <class T, int N>
 class View {
 public:
@@ -42,6 +55,7 @@ public:
 
     // The row, or the element, of the first axis.
     decltype(auto) operator[](std::int64_t index) const {
+        check_index(index, shape_[0]);
         if constexpr (N == 1) {
             return (data_[index]);
         } else {
@@ -73,6 +87,7 @@ public:
 
     // The first `count` rows.
     View first(std::int64_t count) const {
+        check_index(count, shape_[0] + 1);
         View part = *this;
         part.shape_[0] = count;
         return part;
@@ -82,8 +97,11 @@ private:
     template <class... Index>
     std::int64_t offset(Index... index) const {
         const std::array<std::int64_t, N> at{static_cast<std::int64_t>(index)...};
-        std::int64_t place = at[0];
-        for (std::size_t axis = 1; axis < N; ++axis) place = place * shape_[axis] + at[axis];
+        std::int64_t place = 0;
+        for (std::size_t axis = 0; axis < N; ++axis) {
+            check_index(at[axis], shape_[axis]);
+            place = place * shape_[axis] + at[axis];
+        }
         return place;
     }
 
