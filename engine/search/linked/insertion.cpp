@@ -1,7 +1,9 @@
 #include "search/linked/insertion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "rules/alarm.h"
 #include "rules/leg.h"
@@ -21,6 +23,9 @@ namespace tandem {
 
 namespace {
 
+// From which distance on `Linked::near` doesn't tell.
+constexpr Int farthest = std::numeric_limits<std::int32_t>::max();
+
 // A customer to be inserted, the legs there and from there, and whether a route may be given a
 // larger type for him.
 struct Newcomer {
@@ -28,21 +33,73 @@ struct Newcomer {
     LegRow inward;
     LegRow onward;
     bool enlarge;
+    bool same_back;  // legs are as far there as back
 };
 
-// Which route a customer joins, `nowhere` if it can't; by which type, and at what cost but for that
-// of the detour.
+Newcomer newcomer_at(const World& world, Int m, Int node, bool enlarge) {
+    const LegRow inward = legs_to(world.back, m, node);
+    const LegRow onward = legs_from(world.leg, m, node);
+    const bool same_back = inward.stated == onward.stated && inward.table == onward.table;
+    return {node, inward, onward, enlarge, same_back};
+}
+
+// Asks for a leg from memory, if it is there.
+void prefetch(const LegRow& row, Int node) {
+    if (row.stated != nullptr) __builtin_prefetch(row.stated + 2 * node);
+}
+
+// What routes may carry at most, by type, so that they may serve a customer more; less than nothing
+// if none of the type may.
+class Room {
+public:
+    // `enlarge` tells that a route may be given a larger type.
+    Room(const World& world, Int node, bool enlarge)
+        : world_(world), node_(node), is_any_(enlarge || world.num_types > most_known) {
+        const Int count = std::min(world.num_types, most_known);
+        for (Int k = 0; k < count; ++k) most_[std::size_t(k)] = most(k);
+        most_[most_known] = {far, far, far};
+    }
+
+    // Whether the vehicle of a route may serve the customer more, and holds what that takes.
+    bool is_on(const Run& run) const {
+        const Amount load = amount_of(run.load);
+        return within(load, run.type < most_known ? most_[std::size_t(run.type)] : most(run.type));
+    }
+
+    // The same without branches; true as well where another type might.
+    bool may_be_on(const Run& run) const {
+        const Amount& most = most_[std::size_t(is_any_ ? most_known : run.type)];
+        return (run.load[0] <= most[0]) & (run.load[1] <= most[1]) & (run.load[2] <= most[2]);
+    }
+
+private:
+    static constexpr Int most_known = 8;
+
+    Amount most(Int k) const {
+        if (!world_.can(k, 0, node_)) return {-1, -1, -1};
+        return minus(capacity_of(world_.type[k]), demand_of(world_.place[0][node_]));
+    }
+
+    const World& world_;
+    const Int node_;
+    const bool is_any_;
+    std::array<Amount, most_known + 1> most_;
+};
+
+// Which route a customer joins, by which type, what driving costs that, and what all costs but for
+// the detour.
 struct Joining {
     Int slot;
     Int type;
+    double rate;
     double cost;
 };
 
-// Two between whom a customer may come, or a depot, and how far they are apart.
+// Two between whom a customer may come, or a depot, and how much longer that is.
 struct Gap {
     Int before;
     Int behind;
-    Int distance;
+    Int detour;
 };
 
 // Looks for the cheapest place for one customer, and writes it to `searcher.move`.
@@ -50,32 +107,33 @@ class Places {
 public:
     Places(const World& world, Searcher& searcher, const Linked& linked, const Newcomer& newcomer,
            double best)
-        : world_(world), searcher_(searcher), linked_(linked), newcomer_(newcomer), best_(best) {}
+        : world_(world),
+          searcher_(searcher),
+          linked_(linked),
+          newcomer_(newcomer),
+          room_(world, newcomer.node, newcomer.enlarge),
+          best_(best) {
+        set_longest_detour();
+    }
 
     double best() const { return best_; }
 
     // Tries a customer beside neighbours.
     //
-    // Most are passed over by the triangle inequality: unless who comes before or behind a
-    // neighbour is nearer, beside whom the same place is looked at, it costs as much as the way
-    // there and back, less the longer of the neighbour's legs.
+    // Most of the time goes into getting legs from memory, so that those of several neighbours are
+    // asked for at once, and into branches that can't be foreseen, so that there are none where
+    // neighbours are passed over.
     void try_beside() {
-        const auto others = world_.fit[newcomer_.node];
-        const auto near = linked_.near[newcomer_.node];
-        Int most = longest_detour();
-        for (Int rank = 0; rank < others.size(); ++rank) {
-            const Int other = others[rank];
-            if (other < 0) break;
-            const Link& at = linked_.link[other];
-            if (at.slot < 0 || 2 * Int{near[rank]} - std::max(at.inward, at.onward) >= most) {
-                continue;
+        const Int size = world_.fit.shape(1);
+        for (Int first = 0; first < size; first += at_once) {
+            std::array<std::int32_t, at_once> ranks;
+            const std::size_t count = choose(first, std::min(first + at_once, size), ranks);
+            for (std::size_t index = 0; index < count; ++index) {
+                const Link& at = linked_.link[world_.fit(newcomer_.node, ranks[index])];
+                prefetch(newcomer_.onward, at.behind);
+                prefetch(newcomer_.inward, at.before);
             }
-            const Joining joins = joining(at.slot);
-            if (joins.slot < 0) continue;
-            const double before = best_;
-            try_between(joins, {other, at.behind, at.onward});
-            try_between(joins, {at.before, other, at.inward});
-            if (best_ < before) most = longest_detour();
+            for (std::size_t index = 0; index < count; ++index) try_neighbour(ranks[index]);
         }
     }
 
@@ -84,11 +142,17 @@ public:
         const Int number = searcher_.count->active;
         if (number == 0) return;
         const Int begin = below(searcher_.rng, number);
-        const Int end = begin + std::min(most_drawn, number / each_drawn);
-        for (Int index = begin; index < end; ++index) {
+        const Int drawn = std::min(most_drawn, number / each_drawn);
+        std::array<Int, most_drawn> slots;
+        std::size_t count = 0;
+        for (Int index = begin; index < begin + drawn; ++index) {
             const Int slot = searcher_.active[index < number ? index : index - number];
-            const Joining joins = joining(slot);
-            if (joins.slot >= 0) try_ends(joins);
+            slots[count] = slot;
+            count += room_.may_be_on(linked_.run[slot]);
+        }
+        for (std::size_t index = 0; index < count; ++index) {
+            Joining joins;
+            if (may_join(slots[index], joins)) try_ends(joins);
         }
     }
 
@@ -96,51 +160,109 @@ public:
     void try_everywhere() {
         for (const Int slot : searcher_.active.first(searcher_.count->active)) {
             if (rung(world_.stop)) break;
-            const Joining joins = joining(slot);
-            if (joins.slot < 0) continue;
+            Joining joins;
+            if (!may_join(slot, joins)) continue;
             try_ends(joins);
             const Run& run = linked_.run[slot];
             for (Int before = run.first; before != run.last;) {
                 const Link& at = linked_.link[before];
-                try_between(joins, {before, at.behind, at.onward});
+                try_between(joins, between(before, at.behind, at.onward));
                 before = at.behind;
             }
         }
     }
 
 private:
-    // A detour, and all longer ones, that costs no less than the best, whoever drives it.
-    Int longest_detour() const {
-        const Least& cheapest = *linked_.cheapest;
-        const double most = best_ - cheapest.stop;
-        if (cheapest.distance == 0.0 || most >= double(far) * cheapest.distance) return far;
-        return Int(std::ceil(most / cheapest.distance));
+    static constexpr Int at_once = 8;
+
+    // Whether a place beside a neighbour may be the best yet.
+    //
+    // Most may not by the triangle inequality: unless who comes before or behind a neighbour is
+    // nearer, beside whom the same place is looked at, it costs as much as the way there and back,
+    // less the longer of the neighbour's legs.
+    bool may_be_beside(const Link& at, Int nearest) const {
+        return (at.slot >= 0) & (2 * nearest - std::max(at.inward, at.onward) < longest_detour_);
     }
 
-    // Who would serve a customer more on a route: a larger type if that may be.
-    Joining joining(Int slot) const {
+    // Lists the neighbours, by rank from `first` to `behind`, whose places may be the best yet, and
+    // whose routes may be joined; returns how many.
+    std::size_t choose(Int first, Int behind, std::array<std::int32_t, at_once>& ranks) const {
+        const std::int32_t* const others = &world_.fit(newcomer_.node, 0);
+        const std::int32_t* const near = &linked_.near(newcomer_.node, 0);
+        const Link* const link = linked_.link.data();
+        const Run* const run = linked_.run.data();
+        const Int longest = longest_detour_;
+        std::size_t count = 0;
+        for (Int rank = first; rank < behind && others[rank] >= 0; ++rank) {
+            const Link& at = link[others[rank]];
+            const bool is_near = 2 * Int{near[rank]} - std::max(at.inward, at.onward) < longest;
+            const bool has_room = room_.may_be_on(run[std::max(at.slot, Int{0})]);
+            ranks[count] = static_cast<std::int32_t>(rank);
+            count += (at.slot >= 0) & is_near & has_room;
+        }
+        return count;
+    }
+
+    void try_neighbour(Int rank) {
+        const Int node = world_.fit(newcomer_.node, rank);
+        const Int nearest = linked_.near(newcomer_.node, rank);
+        const Link& at = linked_.link[node];
+        Joining joins;
+        if (!may_be_beside(at, nearest) || !may_join(at.slot, joins)) return;
+        Int inward = nearest;
+        Int onward = nearest;
+        if (!newcomer_.same_back || nearest == farthest) {
+            inward = distance_from(newcomer_.inward, node);
+            onward = distance_to(newcomer_.onward, node);
+        }
+        const Int on = distance_to(newcomer_.onward, at.behind);
+        try_between(joins, {node, at.behind, inward + on - at.onward});
+        const Int there = distance_from(newcomer_.inward, at.before);
+        try_between(joins, {at.before, node, there + onward - at.inward});
+    }
+
+    // Two who are so far apart.
+    Gap between(Int before, Int behind, Int distance) const {
+        return {before, behind,
+                distance_from(newcomer_.inward, before) + distance_to(newcomer_.onward, behind) -
+                    distance};
+    }
+
+    // Writes a detour that, as all longer ones, costs no less than the best, whoever drives it.
+    void set_longest_detour() {
+        const Least& cheapest = *linked_.cheapest;
+        const double most = best_ - cheapest.stop;
+        const bool is_any = cheapest.distance == 0.0 || most >= double(far) * cheapest.distance;
+        longest_detour_ = is_any ? far : Int(std::ceil(most / cheapest.distance));
+    }
+
+    // Whether somebody may serve a customer more on a route, and who that is: a larger type if that
+    // may be.
+    bool may_join(Int slot, Joining& joins) const {
         const Run& run = linked_.run[slot];
-        const Int node = newcomer_.node;
-        if (world_.can(run.type, 0, node) &&
-            fits(world_.type[run.type], amount_of(run.load), world_.place[0][node])) {
-            return {slot, run.type, world_.rate[run.type].stop};
+        if (room_.is_on(run)) {
+            const Rate& rate = world_.rate[run.type];
+            joins = {slot, run.type, rate.distance, rate.stop};
+            return true;
         }
-        if (newcomer_.enlarge) {
-            const Int by = larger_for(world_, searcher_, run, node);
-            if (by >= 0) {
-                const double more =
-                    cost_of_run(world_, by, run) - cost_of_run(world_, run.type, run);
-                return {slot, by, more + world_.rate[by].stop};
-            }
-        }
-        return {nowhere, nowhere, 0.0};
+        return newcomer_.enlarge && may_join_enlarged(slot, joins);
+    }
+
+    [[gnu::noinline]] bool may_join_enlarged(Int slot, Joining& joins) const {
+        const Run& run = linked_.run[slot];
+        const Int by = larger_for(world_, searcher_, run, newcomer_.node);
+        if (by < 0) return false;
+        const Rate& rate = world_.rate[by];
+        const double more = cost_of_run(world_, by, run) - cost_of_run(world_, run.type, run);
+        joins = {slot, by, rate.distance, more + rate.stop};
+        return true;
     }
 
     // Whether a customer may come between two by what windows, and the shift, allow.
     bool keeps_windows(const VehicleType& type, const Gap& gap) const {
-        const NodeRows place = places_of(world_.place, type)[newcomer_.node];
         const Int arrival = leaves_at(world_, linked_, type, gap.before) +
                             leg_from(newcomer_.inward, gap.before).duration;
+        const NodeRows place = places_of(world_.place, type)[newcomer_.node];
         if (too_late(place, arrival)) return false;
         return end_of_service(place, arrival) + leg_to(newcomer_.onward, gap.behind).duration <=
                due_at(world_, linked_, type, gap.behind);
@@ -148,10 +270,12 @@ private:
 
     // Tries a customer between two.
     void try_between(const Joining& joins, const Gap& gap) {
-        const Int detour = distance_from(newcomer_.inward, gap.before) +
-                           distance_to(newcomer_.onward, gap.behind) - gap.distance;
-        const double cost = double(detour) * world_.rate[joins.type].distance + joins.cost;
-        if (cost >= best_) return;
+        const double cost = double(gap.detour) * joins.rate + joins.cost;
+        if (cost < best_) take(joins, gap, cost);
+    }
+
+    // Takes a place between two for the best if it may be there and isn't overlooked.
+    [[gnu::noinline]] void take(const Joining& joins, const Gap& gap, double cost) {
         if (linked_.timed && !keeps_windows(world_.type[joins.type], gap)) return;
         if (uniform(searcher_.rng) < world_.blink) return;
         Move& move = *searcher_.move;
@@ -160,21 +284,26 @@ private:
         move.first = gap.before;
         move.type = joins.type;
         best_ = cost;
+        set_longest_detour();
     }
 
     // Tries a customer first and last on a route.
     void try_ends(const Joining& joins) {
         const Run& run = linked_.run[joins.slot];
         const VehicleType& type = world_.type[run.type];
-        try_between(joins, {type.begins_at, run.first, linked_.link[run.first].inward});
-        try_between(joins, {run.last, type.ends_at, linked_.link[run.last].onward});
+        const Link& first = linked_.link[run.first];
+        const Link& last = linked_.link[run.last];
+        try_between(joins, between(type.begins_at, run.first, first.inward));
+        try_between(joins, between(run.last, type.ends_at, last.onward));
     }
 
     const World& world_;
     Searcher& searcher_;
     const Linked& linked_;
     const Newcomer& newcomer_;
+    const Room room_;
     double best_;
+    Int longest_detour_ = far;
 };
 
 // Inserts a customer where `searcher.move` says. False if no slot is free.
@@ -224,8 +353,7 @@ Recreated recreate_linked(const World& world, Searcher& searcher, Linked& linked
     for (Int index = first; index < searcher.count->absent; ++index) {
         const Int node = absent[index];
         if (rung(world.stop)) return {false, total};
-        const Newcomer newcomer{node, legs_to(world.back, m, node), legs_from(world.leg, m, node),
-                                enlarge};
+        const Newcomer newcomer = newcomer_at(world, m, node, enlarge);
         const bool opens = opening && index == first;
         const double cost = find_linked(world, searcher, linked, newcomer, opens);
         const double left_out = world.unassigned_cost + world.unassigned_more[node];
