@@ -5,6 +5,7 @@ the Python that loads it, in machine code for the processor at hand, from `build
 change only what changed is compiled. A wheel holds what all processors of a family run.
 
     python engine/backend.py             builds the library in place
+    python engine/backend.py tests       builds what tests of the engine run, in `build/tests`
     python engine/backend.py requires    tells what must be installed to build anything here
 """
 
@@ -126,19 +127,33 @@ def choose_compiler() -> None:
 
 def build_in_place() -> None:
     """Build the library in place, or what of it changed since."""
-    folder = BUILD / ("engine" if compiler() else "engine-zig")
+    build("engine")
+
+
+def build_tests() -> None:
+    """Build the engine's own tests, and the library by which others ask for its rules."""
+    build("tests", "engine_tests", "tandem_rules")
+
+
+def build(name: str, *targets: str) -> None:
+    """Build targets, or what of them changed since, in a folder of that name."""
+    folder = BUILD / (name if compiler() else f"{name}-zig")
     choose_compiler()
     cmake, ninja = (program(name) or name for name in BUILDERS)
     # Both may be elsewhere than last time: pip has them in a folder for each build.
     subprocess.run([cmake, "-S", ROOT / "engine", "-B", folder, "-G", "Ninja",
                     f"-DCMAKE_MAKE_PROGRAM={ninja}"], check=True, stdout=subprocess.DEVNULL)
-    done = subprocess.run([ninja, "-C", folder], check=False, capture_output=True, text=True)
+    done = subprocess.run([ninja, "-C", folder, *targets], check=False, capture_output=True,
+                          text=True)
     if done.returncode:
         sys.exit(done.stdout + done.stderr)
 
 
 def main(arguments: list[str]) -> None:
-    """Build in place, or tell what that needs."""
+    """Build in place or for tests, or tell what that needs."""
+    if arguments == ["tests"]:
+        build_tests()
+        return
     if arguments != ["requires"]:
         build_in_place()
         return

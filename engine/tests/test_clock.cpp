@@ -12,28 +12,36 @@ namespace {
 // Half as fast from 100 to 200.
 const std::array<Int, 2> changes = {100, 200};
 const std::array<Int, 3> speeds = {full_speed, full_speed / 2, full_speed};
-const View<const Int, 1> times(changes.data(), {2});
-const View<const Int, 1> factors(speeds.data(), {3});
 
-TEST_CASE("legs take longer while traffic is slow") {
+VehicleType changing() {
     VehicleType type{};
     type.speed_changes = 2;
-    CHECK(leg_end(type, times, factors, 50, 0) == 50);
-    CHECK(leg_end(type, times, factors, 50, 80) == 160);   // 20, and 30 at half the speed
-    CHECK(leg_end(type, times, factors, 100, 90) == 240);  // 10, 50 in 100, 40
-    CHECK(leg_end(type, times, factors, 1, 150) == 152);
-    CHECK(leg_start(type, times, factors, 50, 160) == 80);
-    CHECK(leg_start(type, times, factors, 100, 240) == 90);
-    CHECK(leg_start(type, times, factors, 1, 151) == 149);
+    return type;
+}
+
+Int end_of(Int duration, Int leave) {
+    return leg_end(changing(), {changes.data(), {2}}, {speeds.data(), {3}}, duration, leave);
+}
+
+Int start_of(Int duration, Int arrival) {
+    return leg_start(changing(), {changes.data(), {2}}, {speeds.data(), {3}}, duration, arrival);
+}
+
+TEST_CASE("legs take longer while traffic is slow") {
+    CHECK(end_of(50, 0) == 50);
+    CHECK(end_of(50, 80) == 160);   // 20, and 30 at half the speed
+    CHECK(end_of(100, 90) == 240);  // 10, 50 in 100, 40
+    CHECK(end_of(1, 150) == 152);
+    CHECK(start_of(50, 160) == 80);
+    CHECK(start_of(100, 240) == 90);
+    CHECK(start_of(1, 151) == 149);
 }
 
 TEST_CASE("who leaves at the latest departure is in time, and no later one is") {
-    VehicleType type{};
-    type.speed_changes = 2;
     for (Int arrival = 120; arrival < 300; ++arrival) {
-        const Int leave = leg_start(type, times, factors, 37, arrival);
-        CHECK(leg_end(type, times, factors, 37, leave) <= arrival);
-        CHECK(leg_end(type, times, factors, 37, leave + 1) > arrival);
+        const Int leave = start_of(37, arrival);
+        CHECK(end_of(37, leave) <= arrival);
+        CHECK(end_of(37, leave + 1) > arrival);
     }
 }
 
@@ -47,8 +55,7 @@ TEST_CASE("legs last as long as tables say where speeds don't change") {
 TEST_CASE("setups are told apart from legs only where speeds change") {
     const std::array<Setup, 3> rows = {{{1, 0}, {2, 30}, {2, 40}}};
     const View<const Setup, 1> setups(rows.data(), {3});
-    VehicleType type{};
-    type.speed_changes = 2;
+    VehicleType type = changing();
     CHECK(setup_beside(type, setups, 0, 1) == 30);
     CHECK(setup_beside(type, setups, 1, 2) == 0);
     CHECK(setup_beside(type, {}, 0, 1) == 0);

@@ -2,8 +2,8 @@
 
 import fcntl
 import re
-import shutil
 import subprocess
+import sys
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,22 +15,20 @@ from model.engine.header import interface
 from model.engine.packing import Packed, packed
 
 ENGINE = Path(__file__).parents[3] / "engine"
-BUILD = ENGINE.parent / "build/tests"
+BUILD = ENGINE.parent / "build"
 
 
 def built(target: str) -> Path:
-    """Build what stands in `engine/tests`, one process at a time, and return the file."""
-    ninja = ["-G", "Ninja"] if shutil.which("ninja") else []
-    BUILD.mkdir(parents=True, exist_ok=True)
-    with (BUILD / "lock").open("w") as lock:
+    """Build what stands in `engine/tests`, one process at a time, and return a file of it."""
+    BUILD.mkdir(exist_ok=True)
+    with (BUILD / "tests.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        for command in (["cmake", "-S", ENGINE, "-B", BUILD, "-DTANDEM_IN_PLACE=OFF", *ninja],
-                        ["cmake", "--build", BUILD, "--target", target]):
-            done = subprocess.run(command, text=True, capture_output=True, check=False)
-            if done.returncode:
-                raise RuntimeError(done.stdout + done.stderr)
-    return next(path for path in (BUILD / "tests").iterdir()
-                if path.stem in {target, f"lib{target}"} and path.is_file())
+        done = subprocess.run([sys.executable, ENGINE / "backend.py", "tests"], text=True,
+                              capture_output=True, check=False)
+    if done.returncode:
+        raise RuntimeError(done.stdout + done.stderr)
+    files = [*BUILD.glob(f"tests*/{target}"), *BUILD.glob(f"tests*/lib{target}.*")]
+    return max(files, key=lambda file: file.stat().st_mtime)
 
 
 @cache
