@@ -75,14 +75,6 @@ public:
         launched_ = std::max(Int{0}, here - launch_duration(type_, 1)) - here;
     }
 
-    // Tell whether what the truck does alone on the way to place `j` costs `most` or more, if it
-    // is spared so much.
-    bool costs(Int j, Int spared_drive, Int spared_distance, double most) const {
-        return cost_of(handled_ + driven(j, spared_drive), rate_.time) +
-                   ground(j, spared_distance) >=
-               most;
-    }
-
     // Return what it costs to go to place `j` while the drone serves place `flown`.
     //
     // Infinite if that can't be, or if what the truck does alone costs `most` or more.
@@ -115,7 +107,7 @@ private:
 
     const World& world_;
     const VehicleType& type_;
-    const Rate& rate_;
+    Rate rate_;
     NodesRows places_;
     View<const Line, 1> line_;
     Int i_;
@@ -142,21 +134,20 @@ double drive_cost(const Rate& rate, double before, const Leg& way, Int service) 
            cost_of(way.distance, rate.distance) + rate.stop;
 }
 
-// How much a truck is spared at most of the way to a place by one customer less.
-struct Spared {
-    Int drive = -far;
-    Int distance = -far;
+// Places of a line whose customers a drone may serve, from one on to where operations end.
+struct Flyable {
+    std::array<Int, longest_operation> place;
+    Int count = 0;
 };
 
 // Try all operations from place `i` to `j` with one flight across. In place.
-void cross(const World& world, Int k, const Crossing& crossing, const Spared& most,
+void cross(View<const bool, 1> drives, const Crossing& crossing, const Flyable& flyable,
            View<Line, 1> line, View<double, 1> cost, Int i, Int j) {
-    if (crossing.costs(j, most.drive, most.distance, cost[j] - cost[i])) return;
     const Int grounded = line[j - 1].grounded - line[i].grounded;
     if (grounded > 1) return;
-    for (Int flown = i + 1; flown < j; ++flown) {
-        const Int customer = line[flown].node;
-        if (!world.can(k, 1, customer) || (grounded == 1 && world.can(k, 0, customer))) continue;
+    for (Int index = 0; index < flyable.count; ++index) {
+        const Int flown = flyable.place[static_cast<std::size_t>(index)];
+        if (grounded == 1 && drives[line[flown].node]) continue;
         const double total = cost[i] + crossing.cost(j, flown, cost[j] - cost[i]);
         if (total < cost[j]) {
             cost[j] = total;
@@ -171,26 +162,26 @@ void extend(const World& world, Int k, View<Line, 1> line, View<double, 1> cost,
             Int i) {
     const Rate& rate = world.rate[k];
     const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
+    const View<const bool, 1> drives = world.can[k][0], flies = world.can[k][1];
     const Int here = line[i].node;
     const Int service = service_duration(places_of(world.place, world.type[k])[here]);
     const Crossing crossing(world, k, line, i);
-    Spared most;
+    Flyable flyable;
     double loops = 0.0;
     for (Int j = i + 1; j < std::min(length, i + longest_operation + 1); ++j) {
         const Int to = line[j].node;
-        if (j == length - 1 || world.can(k, 0, to)) {
+        if (j == length - 1 || drives[to]) {
             const double total = drive_cost(rate, cost[i] + loops, leg(legs, here, to), service);
             if (total < cost[j]) {
                 cost[j] = total;
                 line[j].before = i;
                 line[j].flight = no_flight;
             }
-            if (j > i + 1 && world.crossings) cross(world, k, crossing, most, line, cost, i, j);
+            if (world.crossings) cross(drives, crossing, flyable, line, cost, i, j);
         }
-        most = {std::max(most.drive, line[j].spared_drive),
-                std::max(most.distance, line[j].spared_distance)};
+        if (flies[to]) flyable.place[static_cast<std::size_t>(flyable.count++)] = j;
         if (loops < infinite) {
-            loops = world.can(k, 1, to) ? loops + loop_cost(world, k, here, to) : infinite;
+            loops = flies[to] ? loops + loop_cost(world, k, here, to) : infinite;
         }
     }
 }
