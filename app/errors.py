@@ -14,7 +14,7 @@ MEDIA_TYPE = "application/problem+json"
 MAX_LISTED_ERRORS = 1000
 """A reply lists no more errors than this; `detail` states how many there are."""
 
-Refusal = Literal["overload", "rate_limit", "access", "starting"]
+Refusal = Literal["overload", "rate_limit", "access"]
 """Why a request is turned away without a look at its content, as metrics count it."""
 
 _NUMBER = re.compile(r"-?\d{1,15}(?:\.\d{1,15})?")
@@ -239,15 +239,6 @@ class NoGeocoderError(RequestError):
     status = 503
     name = "geocoder-unavailable"
     title = "The geocoder is unavailable"
-
-
-class NotReadyError(RequestError):
-    """The planner is still warming up."""
-
-    status = 503
-    name = "not-ready"
-    title = "The service is starting"
-    refusal = "starting"
 
 
 def problem_response(status: int, name: str, title: str, detail: str,

@@ -3,7 +3,6 @@
 from fastapi import APIRouter, Request
 from fastapi.responses import JSONResponse
 
-from app.plans.routes import Service
 from app.schemas.response import LivenessReply, ReadinessReply
 
 router = APIRouter(tags=["operations"])
@@ -20,18 +19,14 @@ async def live() -> dict[str, str]:
             response_model=ReadinessReply, responses={503: {
                 "model": ReadinessReply, "description": "The service is starting or stopping, or "
                 "its database is not as it has to be."}})
-async def ready(request: Request, service: Service) -> JSONResponse:
+async def ready(request: Request) -> JSONResponse:
     """Answer 200 while plans can be computed and jobs taken, 503 before and after."""
     if request.app.state.shutdown.has_begun:
         return JSONResponse({"status": "stopping", "detail": "this process is about to end"}, 503)
-    readiness = service.readiness()
-    if readiness.is_ready:
-        if request.app.state.jobs.is_preparing:
-            detail = "the database is being prepared"
-            return JSONResponse({"status": "starting", "detail": detail}, 503)
-        trouble = await request.app.state.jobs.misfit() or await request.app.state.guard.trouble()
-        if trouble is not None:
-            return JSONResponse({"status": "unavailable", "detail": trouble}, 503)
-    content = {"status": "ready" if readiness.is_ready else "starting", "detail": readiness.detail,
-               "progress": readiness.progress}
-    return JSONResponse(content, 200 if readiness.is_ready else 503)
+    if request.app.state.jobs.is_preparing:
+        detail = "the database is being prepared"
+        return JSONResponse({"status": "starting", "detail": detail}, 503)
+    trouble = await request.app.state.jobs.misfit() or await request.app.state.guard.trouble()
+    if trouble is not None:
+        return JSONResponse({"status": "unavailable", "detail": trouble}, 503)
+    return JSONResponse({"status": "ready", "detail": "ready"})

@@ -104,17 +104,14 @@ def _running(app: FastAPI, settings: Settings, planner: Planner,
         roads.start()
         service = PlanService(planner, settings.search_threads, observer.record_plan,
                               Bounds.of_plans(settings), roads)
-        service.start()
         app.state.service, app.state.addresses = service, roads.addresses
-        jobs = running_jobs(settings, planner, lambda: service.readiness().is_ready,
-                            observer.metrics, observer.record_plan, roads, service.await_search,
+        jobs = running_jobs(settings, planner, observer.metrics, observer.record_plan, roads,
                             [delete_expired], Courtesy(lambda: app.state.turns.are_waited_for))
         app.state.gallery.start()
         with (keeping_plans(settings) as app.state.kept, jobs as app.state.jobs,
               giving_back(lambda: is_asked(app))):
             yield
         app.state.gallery.stop()
-        service.stop()
 
 
 def _map_errors(app: FastAPI) -> None:

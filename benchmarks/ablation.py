@@ -19,7 +19,7 @@ from app.settings import DEFAULT_POLICY, Settings
 from benchmarks.rows import append_rows, read_rows
 from model.judge.check import check
 from model.kernel.instance import pack
-from model.planner import PlanCheckError, Start, keep_loaded
+from model.planner import PlanCheckError, Start
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
@@ -125,10 +125,6 @@ def search_config(way: Way, turns: int | None = None) -> SearchConfig:
 def measure(samples: Sequence[Sample], policy: Policy, chosen: Sequence[Way],
             known: Collection[tuple[str, Way]] = ()) -> Iterator[Trial]:
     """Yield the plan of each problem by each way, but those `known`."""
-    for one in samples[::max(1, len(samples) // len(COMPARED))]:
-        for way in chosen:
-            plans(one.problem, policy, way, turns=20)  # so that all code is compiled
-    keep_loaded()
     for number, one in enumerate(samples, start=1):
         for way in chosen:
             if (one.name, way) in known:

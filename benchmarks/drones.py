@@ -23,7 +23,6 @@ from benchmarks.truck_drone_rules import TruckDroneInstance, broken_rules
 from benchmarks.versus import machine
 from model.judge.check import check
 from model.kernel.instance import pack
-from model.planner import keep_loaded
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.world import Moves
@@ -31,9 +30,6 @@ from model.solution import Solution
 
 EQUAL = 1e-6
 """Largest relative excess over a reference of a plan that reaches it."""
-
-WARM_TURNS = 20
-"""Length of the search for each set that doesn't count: code is compiled in it."""
 
 SAMPLE_SEED = 0
 
@@ -149,13 +145,8 @@ def result(run: Run, verdict: Verdict, seconds: float) -> DroneResult:
 
 def measure(planned: Sequence[Run]) -> Iterator[DroneResult]:
     """Yield the result of each run."""
-    warm: set[str] = set()
     for number, run in enumerate(planned, start=1):
         instance = run.instance
-        if instance.set_name not in warm:
-            _search(instance.problem, SearchConfig(threads=run.threads, turns=WARM_TURNS), math.inf)
-            warm.add(instance.set_name)
-            keep_loaded()
         began = time.perf_counter()
         plans = plan(instance, run.budget, run.seed, run.threads)
         seconds = time.perf_counter() - began

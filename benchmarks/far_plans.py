@@ -57,7 +57,6 @@ def main() -> None:
 def measure(roads: Roads, extract: Path, count: int, seconds: float) -> None:
     """Plan so many places, and print what came of it."""
     planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
-    planner.warm()
     places = reached(roads, drawn(extract, 2 * count, 0))[:count]
     request = read_request(json.dumps(request_of(places, seconds)).encode(), planner.policies)
     began = time.perf_counter()

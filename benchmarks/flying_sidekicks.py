@@ -29,7 +29,6 @@ from benchmarks.rows import appended, read_rows
 from benchmarks.versus import machine
 from model.judge.check import check
 from model.kernel.instance import pack
-from model.planner import keep_loaded
 from model.problem import (
     MS_PER_HOUR, Customer, Depot, DroneType, Energy, FloatArray, Problem, Travel, VehicleType,
 )
@@ -279,11 +278,7 @@ class Result:
 
 def measure(instances: Iterable[Sidekicks], seconds: float, seed: int) -> Iterator[Result]:
     """Yield the result of each instance."""
-    for number, instance in enumerate(instances):
-        if number == 0:
-            # Code is compiled in a search that doesn't count.
-            _timed(instance, frozenset(), seed, time.perf_counter() + 1.0)
-            keep_loaded()
+    for instance in instances:
         makespan = plan(instance, seconds, seed)
         gap = gap_percent(makespan, instance.optimum)
         typer.echo(f"{instance.name} {instance.uav} x {instance.count}: {gap:.4f} %")

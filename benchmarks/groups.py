@@ -39,7 +39,6 @@ def main(
 ) -> None:
     """Plan both kinds of problems."""
     planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
-    planner.warm()
     good = sum(is_as_good(planner, draw_group(np.random.default_rng((SEED, number))),
                           small_seconds) for number in range(problems))
     typer.echo(f"{good} of {problems} small problems as the best plan")

@@ -59,7 +59,6 @@ def paces(turns: dict[str, int] | None, seconds: float) -> tuple[Paces, dict[str
     """Return the paces, and with how many turns: as many as given, or as take `seconds`."""
     settings = Settings()
     planner = load_planner(settings.weights_dir, (DEFAULT_POLICY,))
-    planner.warm()
     found: Paces = {}
     made: dict[str, int] = {}
     for name, problem in kinds():

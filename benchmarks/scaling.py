@@ -44,22 +44,11 @@ def measured(number: int, is_planned: bool, turns: int = TURNS) -> Data:
     collect_seldom()
     compile_scan()
     body = to_json(many_customers(number))
-    _compile(number)
     _steps(to_json(many_customers(2)), {}, is_planned, 0)  # what is imported and made once
     before = _peak_mb()
     found: Data = {"customers": number, "body": len(body) / 1e6}
     _steps(body, found, is_planned, turns)
     return found | {"memory": _peak_mb() - before}
-
-
-def _compile(number: int) -> None:
-    """Have the search compiled, or loaded, that so many customers need."""
-    from app.conversion.travels import COMPUTED_FROM
-    from model.search.compiling import LARGE, PLAIN, compile_search
-
-    compile_search(PLAIN)
-    if number >= COMPUTED_FROM:
-        compile_search(LARGE)
 
 
 def _steps(body: bytes, found: Data, is_planned: bool, turns: int) -> None:

@@ -37,7 +37,6 @@ def main() -> None:
     """Print a line for each seed and way to plan."""
     settings = Settings(roads=ROADS)
     planner = load_planner(settings.weights_dir, settings.policies)
-    planner.warm()
     stated = json.loads((EXAMPLES / "city_day.json").read_text("utf-8"))
     with opened_roads(settings) as roads:
         roads.start()

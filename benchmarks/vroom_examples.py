@@ -62,7 +62,6 @@ def main(files: Annotated[list[Path], typer.Argument(help="Examples, as JSON.")]
     """Print the costs of Tandem's plans divided by those of VROOM's."""
     settings = Settings()
     planner = load_planner(settings.weights_dir, (DEFAULT_POLICY,))
-    planner.warm()
     ratios = []
     for file in files:
         request = plannable(json.loads(file.read_text("utf-8")), settings.vroom_speeds["car"])

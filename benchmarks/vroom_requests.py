@@ -253,7 +253,6 @@ def main(
 ) -> None:
     """Print the costs of Tandem's solutions divided by those of VROOM's."""
     planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
-    planner.warm()
     table = Table(title="Cost of Tandem / cost of VROOM where both serve the same, and how often "
                         "Tandem serves more / less by VROOM's objective")
     for name in ("class", "jobs", "VROOM s", "same time", "more / less", "1 s", "more / less"):

@@ -91,7 +91,6 @@ def main(sizes: str = "20,50,100", each: int = 8, seconds: float = 1.0,
     """Print the table in Markdown."""
     output.unlink(missing_ok=True)
     planner = load_planner(Settings().weights_dir, [policy])
-    planner.warm()
     counts = [int(size) for size in sizes.split(",")]
     append_rows(output, Pair, plan_pairs(planner, policy, counts, each, seconds))
     print("\n".join(table(read_rows(output, Pair))))

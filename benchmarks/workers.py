@@ -153,8 +153,7 @@ def _serve(solver: Solver, pipe: Connection, by_processor_time: bool) -> None:
             for _ in range(WARM_CALLS):
                 solver.solve(instance, min(seconds, WARM_SECONDS), seed)
             warm.add(instance.set_name)
-            # As `model.planner.keep_loaded`, which would load the compiler for solvers without one:
-            # to look through what is loaded takes longer than some budgets.
+            # To look through what is loaded takes longer than some budgets.
             gc.collect()
             gc.freeze()
         pipe.send("warm")

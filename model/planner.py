@@ -3,30 +3,21 @@
 `Progress` is passed on to those who plan, who need no other part for them.
 """
 
-import gc
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass, replace
-from itertools import product
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 from model.judge.check import Evaluation
 from model.judge.memory import Memory
 from model.kernel.alarm import Alarm
-from model.kernel.compiled import first_to_compile
-from model.kernel.cores import num_cores
 from model.kernel.instance import Instance, pack
 from model.kernel.pausing import EndedError, Pause, pausing
-from model.kernel.warming import Tell, Warming, telling
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.policy.rolling import NOTHING
 from model.problem import Problem
-from model.search.compiling import (
-    COMPILE_SEARCH, beside, compile_search, parts_for, small_problem,
-)
 from model.search.improve import GRACE, Improved, SearchConfig, improve
 from model.search.improve import Progress as Progress
 from model.search.reserve import more_by_plan, usual_reserve
@@ -34,7 +25,6 @@ from model.simulation.extract import extract
 from model.solution import Solution
 from model.together.improving import Part, Terms, improve_together
 from model.together.joint import find_joint
-from model.travel.airspace import compile_ways
 
 Start = Literal["policy", "insertion", "given"]
 
@@ -51,9 +41,6 @@ begins with there is dearer than the policy's plan."""
 
 GIVE_UP_SHARE = 0.5
 """Share of the time limit after which the policy is given up where a search follows."""
-
-WARM_LIMIT = 3600.0
-"""Time limit of the plan that everything is compiled for, which no compiler should need."""
 
 
 class Listener(NamedTuple):
@@ -119,37 +106,6 @@ class Planner:
     def policies(self) -> tuple[str, ...]:
         """Names of the loaded policies."""
         return tuple(self._policies)
-
-    def warm(self, tell: Tell = lambda _: None, problem: Problem | None = None) -> None:
-        """Plan small problems by each policy and by none, so that all is compiled. In place.
-
-        Given a problem, all that it needs.
-        Where nothing is yet, one of several processes compiles and the others wait; where there are
-        two cores, it has a helper that compiles the search with all rules, or what one problem
-        needs of it. What is loaded by then is taken out of the garbage collector's sight.
-        """
-        parts = parts_for(problem)
-        with telling(tell) as warming, first_to_compile(parts) as is_first:
-            self._warm(warming, parts, is_first and num_cores() > 1)
-        keep_loaded()
-
-    def _warm(self, warming: Warming, parts: Sequence[str], with_helper: bool) -> None:
-        *others, longest = parts
-        with beside(COMPILE_SEARCH.format(longest)) if with_helper else nullcontext():
-            warming.enter("compiling flights around no-fly areas")
-            compile_ways()
-            for name in self._policies:
-                warming.enter(f"compiling what policy {name} needs")
-                self.plan(small_problem(), PlanOptions(name, time_limit=0.0))
-                self.plan(small_problem(), PlanOptions(name, "sample", num_samples=4,
-                                                       time_limit=0.0))
-            warming.enter("compiling the search", decodes=True)
-            for part in others:
-                compile_search(part)
-        compile_search(longest)
-        for name, part in product(self._policies, parts):
-            self.plan(small_problem(part), PlanOptions(
-                name, time_limit=WARM_LIMIT, search_iterations=4, threads=2))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -380,13 +336,3 @@ def load_planner(weights: Path, names: Sequence[str]) -> Planner:
         If a policy is missing or can't be read.
     """
     return Planner({name: load_policy(weights / name) for name in names})
-
-
-def keep_loaded() -> None:
-    """Let the garbage collector no longer look through what is there.
-
-    The compiler leaves so many objects that to look through them takes a quarter of a second, which
-    might fall into any plan.
-    """
-    gc.collect()
-    gc.freeze()

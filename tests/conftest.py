@@ -36,7 +36,7 @@ SLOW = (
     "tests/benchmarks/", "tests/console/", "tests/training/", "tests/test_end_to_end.py",
     *(f"tests/app/{name}" for name in (
         "access/", "addresses/test_servers.py", "cli/test_plot.py", "dispatches/", "jobs/", "kept/",
-        "load/", "observe/", "pictures/", "plans/test_task.py", "plans/test_warming.py",
+        "load/", "observe/", "pictures/", "plans/test_task.py",
         "requests/test_bounds.py", "requests/test_wrong_bodies.py", "roads/",
         "schemas/test_clients.py", "sheets/", "test_api_fuzz.py", "vroom/test_planning.py",
         "vroom/test_windows.py")),
@@ -110,8 +110,6 @@ def own_data_dir(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Have services under test keep their data in a folder of their own."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TANDEM_DATA_DIR", str(tmp_path_factory.mktemp("data")))
-        # Services that take no more compile no search for computed legs, of which few tests know.
-        patch.setenv("TANDEM_MAX_CUSTOMERS", "3000")
         yield
 
 

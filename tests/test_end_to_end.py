@@ -15,9 +15,6 @@ from app.cli.commands import cli as command_line
 from tests.conftest import eventually, free_port
 
 ROOT = Path(__file__).parent.parent
-COMPILED = 1800.0
-"""Seconds within which the service plans, even if everything has to be compiled."""
-
 EXAMPLES = sorted((ROOT / "examples").glob("*.json"))
 
 
@@ -29,7 +26,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
         process = subprocess.Popen([sys.executable, "-m", "app", "serve", "--port", str(port)],
                                    stdout=log, stderr=log, cwd=ROOT)
     with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=120, trust_env=False) as http:
-        eventually(lambda: process.poll() is not None or is_ready(http), COMPILED)
+        eventually(lambda: process.poll() is not None or is_ready(http))
         assert process.poll() is None, path.read_text()
         yield http
     process.terminate()

@@ -1,7 +1,6 @@
 """The `tandem` command."""
 
 import time
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
 
@@ -17,24 +16,19 @@ from app.cli.plot import plot
 from app.cli.roads import roads_cli, roads_of
 from app.cli.serving import run_server
 from app.cli.settings_page import settings_page
-from app.conversion.travels import COMPUTED_FROM
 from app.database.files import FolderError, check_folder
 from app.errors import RequestError
 from app.files.importers import FileFormat, convert_file
 from app.load.memory import collect_seldom
 from app.plans.service import plan_options, preparing, reply_of
 from app.plans.task import Task, task_of
-from app.plans.warming import showing
 from app.requests.bounds import UNBOUNDED
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
 from app.schemas.fields import Rounding
 from app.settings import Settings
 from model.judge.check import Evaluation
-from model.kernel.compiled import is_cold
-from model.planner import Planner, load_planner
-from model.problem import Problem
-from model.search.compiling import COMPILE_LARGE, COMPUTED, beside, compile_large
+from model.planner import load_planner
 from model.solution import COST_TERMS
 
 LEAST_PREPARING = 60.0
@@ -97,19 +91,6 @@ def list_settings() -> None:
 
 
 @cli.command()
-def warm() -> None:
-    """Compile everything that planning needs, so that later starts are quick."""
-    settings = Settings()
-    compiles_large = settings.max_customers > COMPUTED_FROM
-    with beside(COMPILE_LARGE) if compiles_large and is_cold(COMPUTED) else nullcontext():
-        _warm_planner(settings)
-    if compiles_large:
-        typer.echo(f"compiling the search for more than {COMPUTED_FROM} places", err=True)
-        compile_large()
-    typer.echo("ready")
-
-
-@cli.command()
 def plan(problem_file: ProblemFile, output: Output = None) -> None:
     """Plan one problem."""
     settings = Settings()
@@ -122,8 +103,8 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
             task = task_of(request, hurried, roads=roads)
             prepared = time.perf_counter() - started
             _print_warnings(task)
-            planner = _warm_planner(settings, task.problem)
-            # What loading and compiling take is no part of the time limit.
+            planner = load_planner(settings.weights_dir, settings.policies)
+            # What loading takes is no part of the time limit.
             reply = reply_of(planner, task, plan_options(request.options, settings.search_threads),
                              time.perf_counter() - prepared, waited=hurried.waited)
     except RequestError as error:
@@ -178,13 +159,6 @@ def main() -> None:
     """Run the command line."""
     collect_seldom()
     cli()
-
-
-def _warm_planner(settings: Settings, problem: Problem | None = None) -> Planner:
-    planner = load_planner(settings.weights_dir, settings.policies)
-    with showing(lambda line: typer.echo(line, err=True)) as show:
-        planner.warm(show, problem)
-    return planner
 
 
 def _print_warnings(task: Task) -> None:

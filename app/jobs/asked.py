@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from app.conversion.preparing import Preparing, StoppedError
+from app.conversion.preparing import StoppedError
 from app.jobs.rows import JobRow
 from app.plans.service import plan_options, preparing
 from app.plans.task import Task, task_of
@@ -13,7 +13,6 @@ from app.requests.bounds import Bounds
 from app.roads.roads import NO_ROADS, Roads
 from app.schemas.request import PlanRequest
 from model.planner import PlanOptions
-from model.problem import Problem
 
 JOB_BOUNDS = Bounds(time_setting="TANDEM_MAX_JOB_SECONDS")
 """What a job may take; it was within the settings when it came."""
@@ -22,7 +21,6 @@ LEAST_PREPARING = 300.0
 """Seconds that may pass before the search of any job: nobody waits for it, and it would be lost.
 Roads take minutes for ten thousand places."""
 
-Awaiting = Callable[[Problem, Preparing], None]
 
 KEPT = 60.0
 """Seconds after which what nobody has used any more is forgotten."""
@@ -59,14 +57,11 @@ class Asking:
         Threads where a request states none.
     roads
         Those to plan on.
-    await_search
-        Waits until a problem can be searched, unless the work is to end, or refuses it.
     """
 
     def __init__(self, read: Callable[[JobRow], PlanRequest], search_threads: int,
-                 roads: Roads = NO_ROADS, await_search: Awaiting = lambda *_: None) -> None:
+                 roads: Roads = NO_ROADS) -> None:
         self._read = read
-        self._await_search = await_search
         self._search_threads = search_threads
         self._roads = roads
         self._kept: dict[str, _Kept] = {}
@@ -88,7 +83,6 @@ class Asking:
         work = preparing(request.options, JOB_BOUNDS, should_stop).beside_search(
             LEAST_PREPARING, "a job's search")
         task = task_of(request, work, roads=self._roads)
-        self._await_search(task.problem, work)
         return Asked(task, plan_options(request.options, self._search_threads))
 
     def keep(self, job_id: str, asked: Asked, now: float) -> None:

@@ -176,7 +176,7 @@ async def explain_plan(
     bounds = Bounds.of_plans(request.app.state.settings)
     reply = await planning.run(request, lambda should_stop: explain_job(
         wanted, plan, customer, drones, ExplainOptions(time_limit=time_limit), bounds,
-        service.planner_for, should_stop, service.roads))
+        service.planner, should_stop, service.roads))
     return Response(reply, media_type="application/json")
 
 

@@ -11,7 +11,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.connections import close_for_good
 from app.database.durable import connect
-from app.jobs.asked import Asking, Awaiting
+from app.jobs.asked import Asking
 from app.jobs.desk import JobDesk
 from app.jobs.divided import DividedWork
 from app.jobs.housekeeping import Housekeeper
@@ -39,14 +39,10 @@ HOUR_MS = 3_600_000
 RETRY = 1.0
 """Seconds between two attempts to reach the database."""
 
-WARMTH_POLLING = 0.1
-"""Seconds between two looks whether the planner is warm."""
-
 
 @contextmanager
-def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], bool],
-                 metrics: Metrics, on_plan: Callable[[Data], None],
-                 roads: Roads = NO_ROADS, await_search: Awaiting = lambda *_: None,
+def running_jobs(settings: Settings, planner: Planner, metrics: Metrics,
+                 on_plan: Callable[[Data], None], roads: Roads = NO_ROADS,
                  also_expire: Sequence[Callable[[Engine], None]] = (),
                  courtesy: Courtesy = NOBODY_WAITS) -> Iterator[JobDesk]:
     """Yield where endpoints turn to; jobs are worked on until the block ends.
@@ -57,16 +53,12 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
         How to run.
     planner
         What plans.
-    is_warm
-        Tells whether the planner is warm.
     metrics
         Where jobs are counted.
     on_plan
         Is told of each plan made.
     roads
         Those to plan on.
-    await_search
-        Waits until a problem can be searched, unless the work is to end, or refuses it.
     also_expire
         What else deletes what has expired, besides jobs.
     courtesy
@@ -76,8 +68,7 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
     store = JobStore(queues.engine, int(settings.job_expiry_hours * HOUR_MS), queues.add_webhook,
                      metrics.count_finished_job)
     reader = JobReader(planner.policies, settings, roads)
-    asking = Asking(partial(reader.plan_request, store), settings.search_threads, roads,
-                    await_search)
+    asking = Asking(partial(reader.plan_request, store), settings.search_threads, roads)
     returning = Returning(*(partial(queues.put, queue=queue)
                             for queue in (PLANS, WAITING, DIVIDED)))
     terms = RegionTerms(settings.region_from, settings.region_customers, settings.region_seconds)
@@ -103,7 +94,7 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
     metrics.watch_jobs(desk.count)
     stopping = threading.Event()
     starter = threading.Thread(target=_start, name="job-starter", daemon=True, args=(
-        desk, None if settings.role == "api" else worker, is_warm, stopping))
+        desk, None if settings.role == "api" else worker, stopping))
     starter.start()
     try:
         yield desk
@@ -114,16 +105,12 @@ def running_jobs(settings: Settings, planner: Planner, is_warm: Callable[[], boo
         close_for_good(queues.engine)
 
 
-def _start(desk: JobDesk, worker: Worker | None, is_warm: Callable[[], bool],
-           stopping: threading.Event) -> None:
-    """Prepare the database, wait for the planner, work on jobs. In place."""
+def _start(desk: JobDesk, worker: Worker | None, stopping: threading.Event) -> None:
+    """Prepare the database, then work on jobs. In place."""
     while not stopping.is_set() and not desk.prepare():
         stopping.wait(RETRY)
     if worker is None:
         return
-    while not is_warm():
-        if stopping.wait(WARMTH_POLLING):
-            return
     while not stopping.is_set() and not _has_started(worker):
         stopping.wait(RETRY)
 

@@ -73,7 +73,7 @@ class Metrics:
         self._refused = Counter(
             "tandem_refused_requests", "Requests refused without a look at their content.",
             ("reason",), registry=self.registry)
-        for reason in ("overload", "rate_limit", "access", "starting"):
+        for reason in ("overload", "rate_limit", "access"):
             self._refused.labels(reason)
         self._waiting = Gauge(
             "tandem_planner_waiting", "Requests that wait for a planner.",

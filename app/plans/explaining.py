@@ -62,7 +62,7 @@ class Question:
         return self.began + share * (self.until - self.began)
 
 
-def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[Problem], Planner],
+def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Planner,
                    should_stop: Callable[[], bool] = lambda: False,
                    roads: Roads = NO_ROADS) -> bytes:
     """Return the reply to a request of `POST /explain` as JSON, unless the work is to end.
@@ -82,7 +82,7 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Callable[[Proble
 
 
 def explain_job(request: PlanRequest, plan: bytes, customer: str | None, drones: bool,
-                options: ExplainOptions, bounds: Bounds, planner: Callable[[Problem], Planner],
+                options: ExplainOptions, bounds: Bounds, planner: Planner,
                 should_stop: Callable[[], bool], roads: Roads = NO_ROADS) -> bytes:
     """Return the same of a job's plan, as JSON; raises as `answer_explain` does."""
     began = time.perf_counter()
@@ -137,7 +137,7 @@ def _question(customer: str | None, drones: bool, options: ExplainOptions,
 class _Explainer:
     """Answers questions about one plan."""
 
-    def __init__(self, task: Task, solution: Solution, planner: Callable[[Problem], Planner],
+    def __init__(self, task: Task, solution: Solution, planner: Planner,
                  should_stop: Callable[[], bool]) -> None:
         """Judge the plan.
 
@@ -211,15 +211,14 @@ class _Explainer:
 
     def _searched(self, seconds: float) -> tuple[PlanResult, PlanResult] | None:
         """Return plans with drones and of trucks alone, found from the same plan as long."""
-        planner = self._planner(self._problem)
         begun = _without_sorties(self._problem, self._solution, self._setting)
         if not self._task.check(begun).is_feasible:
             return None
         alone = replace(self._problem, vehicle_types=tuple(
             [replace(kind, drones=None, more_drones=()) for kind in self._problem.vehicle_types]))
-        options = PlanOptions(planner.policies[0], time_limit=seconds)
+        options = PlanOptions(self._planner.policies[0], time_limit=seconds)
         listener = Listener(self._should_stop)
-        flown, driven = [planner.plan(problem, options, None, listener, begun)
+        flown, driven = [self._planner.plan(problem, options, None, listener, begun)
                          for problem in (self._problem, alone)]
         return flown, driven
 

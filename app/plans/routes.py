@@ -81,7 +81,7 @@ async def explain(request: Request, principal: Plan, planning: Planning, body: B
     """Return what it would cost to serve a customer elsewhere, and what drones save."""
     bounds = Bounds.of_plans(request.app.state.settings)
     reply = await planning.run(request, lambda should_stop: answer_explain(
-        body, bounds, service.planner_for, should_stop, service.roads))
+        body, bounds, service.planner, should_stop, service.roads))
     return Response(reply, media_type="application/json")
 
 

@@ -362,7 +362,4 @@ class ReadinessReply(_Reply):
         description="`ready` if all plans can be computed; `unavailable` while the database's "
         "tables don't fit this version, or keys are needed and can't be read."
     )
-    detail: str = Field(description="The same in words, and what can be planned already.")
-    progress: float | None = Field(
-        None, ge=0, le=1, description="While the planner is made ready: how much of it is, by a "
-        "rough estimate.")
+    detail: str = Field(description="The same in words.")

@@ -45,17 +45,14 @@ whatever the request's size."""
 SECONDS_PER_JOB = 2e-4
 """Kept back for the last check and the reply."""
 
-Require = Callable[[Problem], object]
-
 
 def answer(planner: Planner, body: ReceivedBody, settings: Settings,
            should_stop: Callable[[], bool],
            on_plan: Callable[[Mapping[str, Any]], None] = lambda _: None,
-           roads: Roads = NO_ROADS, require: Require = lambda _: None) -> bytes:
+           roads: Roads = NO_ROADS) -> bytes:
     """Return the reply to a VROOM request as JSON; `on_plan` is told it.
 
-    The search ends as soon as `should_stop` says so, with the best plan so far. `require` refuses
-    what can't be searched.
+    The search ends as soon as `should_stop` says so, with the best plan so far.
 
     Raises
     ------
@@ -70,7 +67,7 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
     preparing = preparing_of(request.options, began, settings, should_stop)
     try:
         places = find_places(request, settings.vroom_speeds, settings.max_legs, preparing, roads)
-        reply = _answer(planner, request, places, body, settings, preparing, require)
+        reply = _answer(planner, request, places, body, settings, preparing)
         if request.options.g and places.on_roads:
             add_lines(reply, {vehicle.id: vehicle.profile for vehicle in request.vehicles
                               if vehicle.profile in places.on_roads}, roads,
@@ -97,7 +94,7 @@ def preparing_of(stated: VroomOptionsInput, began: float, settings: Settings,
 
 
 def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: ReceivedBody,
-            settings: Settings, preparing: Preparing, require: Require) -> Mapping[str, Any]:
+            settings: Settings, preparing: Preparing) -> Mapping[str, Any]:
     request = translate(stated)
     options = PlanOptions(
         planner.policies[0],
@@ -105,7 +102,6 @@ def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: 
 
     def plan(problem: Problem, options: PlanOptions, start: Solution,
              tell: Callable[[Progress], None]) -> PlanResult:
-        require(problem)
         return planner.plan(problem, options, listener=Listener(preparing.should_stop, tell),
                             start=start)
 

@@ -52,9 +52,9 @@ async def vroom(request: Request, principal: Plan, planning: Planning, body: Bod
     try:
         reply = await planning.run(
             request,
-            lambda should_stop: answer(service.warm_planner(), body, settings, should_stop,
+            lambda should_stop: answer(service.planner, body, settings, should_stop,
                                        request.app.state.metrics.count_vroom_plan,
-                                       service.roads, service.planner_for))
+                                       service.roads))
     except VroomError as error:
         return error.response()
     except PlanCheckError as error:

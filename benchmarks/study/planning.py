@@ -49,10 +49,8 @@ def plan_all(tasks: Sequence[Task], workers: int) -> Iterator[Done]:
 
 @cache
 def planner() -> Planner:
-    """Return this process's planner, everything compiled."""
-    loaded = load_planner(Settings().weights_dir, POLICIES)
-    loaded.warm()
-    return loaded
+    """Return this process's planner."""
+    return load_planner(Settings().weights_dir, POLICIES)
 
 
 def plan_one(task: Task) -> Done:

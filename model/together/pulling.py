@@ -11,7 +11,6 @@ from model.judge.check import check, judge_route
 from model.kernel.instance import pack
 from model.kernel.pausing import EndedError, pausing
 from model.problem import Problem
-from model.search.compiling import is_compiled, parts_for
 from model.search.improve import SearchConfig, improve
 from model.search.regions.part import Part, part_of
 from model.search.regions.region import Region, Vehicle, customers_of, vehicle_of
@@ -77,8 +76,6 @@ class Pulling:
         joint = Joint(part.problem, True)
         soft = relaxed(part.problem, joint)
         if soft is None:
-            return plan
-        if not is_compiled(*parts_for(soft)):
             return plan
         mended = self._mended(part, joint, self._searched(soft, part.inward(region.plan),
                                                           everybody))

@@ -19,16 +19,13 @@ from app.main import create_app
 from app.settings import DEFAULT_POLICY, Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.kernel.warming import Tell, Warmth
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem, VehicleType
-from model.search.compiling import compile_search, parts_for
 from model.solution import Route, Solution
-from model.travel.airspace import compile_ways
 from tests.conftest import eventually
 
-READY_SECONDS = 600.0
-"""How long a service may take until it plans: the search may have to be compiled."""
+READY_SECONDS = 60.0
+"""How long a service may take until it plans."""
 
 APP_DIR = Path(__file__).parents[2] / "app"
 
@@ -43,19 +40,10 @@ def opened(settings: Settings) -> Iterator[Engine]:
         engine.dispose()
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _compiled_ways() -> None:
-    """Have ways around no-fly areas compiled, which planners do that are warmed."""
-    compile_ways()
-
-
 class FirstFitPlanner:
     """Serves each customer, in order, in the first place where no rule breaks."""
 
     policies = (DEFAULT_POLICY,)
-
-    def warm(self, tell: Tell, problem: Problem | None = None) -> None:
-        tell(Warmth("compiling nothing", 1.0))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -179,7 +167,7 @@ def serve() -> Iterator[Callable[..., httpx.Client]]:
 
 @pytest.fixture(scope="session")
 def client() -> Iterator[httpx.Client]:
-    """Return a client of a warm service."""
+    """Return a client of a service."""
     with serving(FirstFitPlanner()) as client:
         yield ready(client)
 
@@ -190,15 +178,10 @@ class SearchingPlanner(Planner):
     def __init__(self) -> None:
         super().__init__({DEFAULT_POLICY: None})  # type: ignore[dict-item]
 
-    def warm(self, tell: Tell = lambda _: None, problem: Problem | None = None) -> None:
-        """Compile the search, so that no plan's time goes into that."""
-        for part in parts_for(problem):
-            compile_search(part)
-
 
 @pytest.fixture(scope="session")
 def searching() -> Iterator[httpx.Client]:
-    """Return a client of a warm service that searches."""
+    """Return a client of a service that searches."""
     with serving(SearchingPlanner(), Settings(vroom_seconds=0.3)) as client:
         client.timeout = 300
         yield ready(client)

@@ -22,9 +22,7 @@ SIZE, SECONDS = 30, 1.0
 @pytest.fixture(scope="module")
 def planner() -> Planner:
     """Return the planner that the service has by default."""
-    planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
-    planner.warm()
-    return planner
+    return load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
 
 
 @pytest.mark.parametrize("make", CLASSES, ids=lambda make: make.__name__)

@@ -1,31 +1,22 @@
 """The planner over thousands of random problems, with the policies as committed."""
 
-import os
-import subprocess
-import sys
 import time
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from model import planner as planner_module
 from model.judge import memory
 from model.judge.check import JudgedRoute, check, judge_route
 from model.judge.past import Past
 from model.judge.rules import Violation
-from model.kernel.warming import Warmth
 from model.planner import (
     Listener, Planner, PlanCheckError, PlanOptions, PlanResult, load_planner,
 )
 from model.problem import Problem
-from model.search.compiling import (
-    COMPILE_SEARCH, LARGE, LARGE_RARER, PLAIN, RARER, beside, parts_for, small_problem,
-)
 from model.search.improve import Progress
-from model.solution import Route, Solution
+from model.solution import Route
 from training.instances import VARIANTS, generate
 from training.variants import InstanceConfig
 
@@ -40,9 +31,7 @@ SPOILED = InstanceConfig(spoiled=1.0, max_spoiled=0.5)
 
 @pytest.fixture(scope="module")
 def planner() -> Planner:
-    planner = load_planner(WEIGHTS, POLICIES)
-    planner.warm()
-    return planner
+    return load_planner(WEIGHTS, POLICIES)
 
 
 def mixed_problem(rng: np.random.Generator, index: int) -> Problem:
@@ -218,111 +207,12 @@ def test_a_plan_that_fails_the_check_never_leaves(planner: Planner,
         return replace(judged, violations=[Violation("CAPACITY", "too much", path)])
 
     monkeypatch.setattr(memory, "judge_route", strict)
+    problem = mixed_problem(np.random.default_rng(1), 1)
     for time_limit in (0.0, 0.05):
         with pytest.raises(PlanCheckError, match=r"routes\[0\]: too much"):
-            planner.plan(small_problem(), PlanOptions(POLICIES[0], time_limit=time_limit))
+            planner.plan(problem, PlanOptions(POLICIES[0], time_limit=time_limit))
 
 
 def test_unknown_policy_is_refused(planner: Planner) -> None:
     with pytest.raises(ValueError, match="policy: 'best'"):
-        planner.plan(small_problem(), PlanOptions("best"))
-
-
-def test_warming_tells_its_progress(planner: Planner) -> None:
-    told: list[Warmth] = []
-    planner.warm(told.append)
-    assert "no-fly areas" in told[0].doing
-    assert not told[0].decodes
-    assert any(POLICIES[0] in warmth.doing for warmth in told)
-    assert "search" in told[-1].doing
-    assert told[-1].decodes
-
-
-def test_second_process_compiles_the_search_where_nothing_is_yet(
-    planner: Planner, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    helpers: list[str] = []
-
-    def watch(statement: str) -> AbstractContextManager[None]:
-        helpers.append(statement)
-        return beside(statement)
-
-    monkeypatch.setattr(planner_module, "first_to_compile", lambda _: nullcontext(True))
-    monkeypatch.setattr(planner_module, "beside", watch)
-    monkeypatch.setattr(planner_module, "num_cores", lambda: 2)
-    planner.warm()
-    assert helpers == [COMPILE_SEARCH.format(RARER)]
-    subprocess.run([sys.executable, "-c", *helpers], check=True)
-
-
-@pytest.mark.parametrize("part", [PLAIN, RARER, LARGE, LARGE_RARER])
-def test_what_one_problem_needs_is_compiled_alone(
-    planner: Planner, part: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    problem, compiled = small_problem(part), list[str]()
-    monkeypatch.setattr(planner_module, "compile_search", compiled.append)
-    planner.warm(problem=problem)
-    assert compiled == [part]
-    assert parts_for(problem) == (part,)
-    assert set(parts_for(None)) == {PLAIN, RARER}
-
-
-def test_work_beside_is_over_at_the_end(tmp_path: Path) -> None:
-    file = tmp_path / "process"
-    with beside(f"import os, pathlib; pathlib.Path({str(file)!r}).write_text(str(os.getpid()))"):
-        pass
-    assert int(file.read_text()) != os.getpid()
-
-
-def test_what_fails_beside_is_left_to_the_process_that_waits() -> None:
-    with beside("raise SystemExit(1)"):
-        done = True
-    assert done
-
-
-def test_a_given_plan_is_improved_in_place_of_the_policys(planner: Planner) -> None:
-    problem = generate(np.random.default_rng(4), 20, "drone")
-    options = PlanOptions(POLICIES[0], time_limit=60.0, search_iterations=0)
-    given = planner.plan(problem, options).solution
-    kept = planner.plan(problem, options, start=given)
-    assert (kept.start, kept.solution) == ("given", given)
-    better = planner.plan(problem, replace(options, search_iterations=400), start=given)
-    assert better.start == "given"
-    assert better.decoded_cost == kept.final_cost
-    assert better.final_cost < kept.final_cost
-
-
-def test_listener_hears_of_the_first_plan_before_the_search(planner: Planner) -> None:
-    problem = generate(np.random.default_rng(5), 20, "vrptw")
-    told: list[tuple[Progress, Solution]] = []
-    options = PlanOptions(POLICIES[0], time_limit=60.0, search_iterations=50)
-    listener = Listener(on_progress=lambda progress: told.append((progress, progress.plan())))
-    result = planner.plan(problem, options, listener=listener)
-    first, plan = told[0]
-    assert (first.cost, first.turns) == (result.decoded_cost, 0)
-    assert check(problem, plan).cost.total == result.decoded_cost
-
-
-@pytest.mark.parametrize("options", [
-    PlanOptions("attention", time_limit=0.0), PlanOptions("attention", search_iterations=0),
-    PlanOptions("attention", "sample", time_limit=0.0), PlanOptions("attention"),
-])
-def test_a_caller_who_wants_no_more_gets_a_plan_at_once(planner: Planner,
-                                                        options: PlanOptions) -> None:
-    problem = generate(np.random.default_rng(4), 100, "drone")
-    result = planner.plan(problem, options, listener=Listener(lambda: True))
-    assert check(problem, result.solution).violations == ()
-    assert result.start == "insertion"
-    assert not result.deterministic
-
-
-def test_a_policy_that_takes_too_long_is_given_up(planner: Planner,
-                                                  monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("model.planner.GRACE", 0.0)
-    problem = generate(np.random.default_rng(4), 400, "vrptw")
-    options = PlanOptions("pointer", search_iterations=0, time_limit=0.001)
-    result = planner.plan(problem, options)
-    assert check(problem, result.solution).violations == ()
-    assert result.solution.unassigned == ()
-    assert result.start == "insertion"
-    assert not result.deterministic
+        planner.plan(mixed_problem(np.random.default_rng(1), 1), PlanOptions("best"))

@@ -80,12 +80,6 @@ def test_what_is_no_plan_is_refused(tmp_path: Path, smallest: Request) -> None:
     assert "MISSING_FIELD $.routes: " in told.stderr
 
 
-def test_warm_says_when_it_is_done() -> None:
-    result = CliRunner().invoke(commands.cli, ["warm"])
-    assert result.stdout == "ready\n"
-    assert "compiling nothing, about 100% done" in result.stderr
-
-
 def test_serve_runs_the_application(monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[dict[str, Any]] = []
     monkeypatch.setattr("uvicorn.run", lambda app, **options: calls.append(options))

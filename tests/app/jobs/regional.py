@@ -20,7 +20,6 @@ from app.jobs.store import JobStore
 from app.settings import DEFAULT_POLICY, Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.warming import Tell, Warmth
 from model.planner import ALONE, Elapsed, Listener, PlanOptions, PlanResult
 from model.problem import Problem
 from model.search.improve import Progress
@@ -40,9 +39,6 @@ class PoolingPlanner:
         self.sizes: list[int] = []  # of the regions planned
         self.cooled: list[float] = []  # how far each search was cooled down when it began
         self.fails = False
-
-    def warm(self, tell: Tell) -> None:
-        tell(Warmth("compiling nothing", 1.0))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:

@@ -12,7 +12,6 @@ from app.jobs.running import RegionTerms
 from app.settings import DEFAULT_POLICY
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.warming import Tell, Warmth
 from model.planner import ALONE, Elapsed, Listener, PlanCheckError, PlanOptions, PlanResult
 from model.problem import Problem
 from model.search.improve import Progress
@@ -50,9 +49,6 @@ class SteppingPlanner:
 
     def __init__(self) -> None:
         self.cooled = 0.0  # how far the last search was cooled down when it began
-
-    def warm(self, tell: Tell) -> None:
-        tell(Warmth("compiling nothing", 1.0))
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:

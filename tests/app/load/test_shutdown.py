@@ -79,12 +79,11 @@ def command_of(pid: int) -> str:
 def serving(data_dir: Path) -> Iterator[subprocess.Popen[bytes]]:
     """Run two processes on one port, until the block ends."""
     port = free_port()
-    # The processes live, but aren't ready: compiling would take minutes.
     with (subprocess.Popen(
             [sys.executable, "-m", "app", "serve", "--port", str(port), "--workers", "2"],
             cwd=ROOT, stderr=subprocess.DEVNULL, env={
                 **os.environ, "PYTHONPATH": str(ROOT), "TANDEM_DATA_DIR": str(data_dir),
-                "TMPDIR": str(data_dir), "NUMBA_DISABLE_JIT": "1"}) as process,
+                "TMPDIR": str(data_dir)}) as process,
           httpx.Client(base_url=f"http://127.0.0.1:{port}", trust_env=False) as client):
         try:
             eventually(lambda: status_of(client, "/health/live") == 200, 120)

@@ -32,9 +32,7 @@ pytestmark = pytest.mark.by_clock
 @pytest.fixture(scope="session")
 def planner() -> Planner:
     """Return the planner that the service has by default."""
-    planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
-    planner.warm()
-    return planner
+    return load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
 
 
 @pytest.fixture(scope="session")

@@ -43,10 +43,8 @@ class Watched(Planner):
 
 @pytest.fixture(scope="module")
 def planner() -> Planner:
-    """Return the planner that the service has by default, warm."""
-    planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
-    planner.warm()
-    return planner
+    """Return the planner that the service has by default."""
+    return load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
 
 
 def request_of(jobs: int, windows: int, vehicles: int, length: int | None = None,

@@ -76,7 +76,7 @@ export const store = createStore({
   dialog: null, // name of the open dialog
   dark: false,
   language: language(), // of the texts
-  starting: null, // {detail, progress} until the service is ready
+  starting: null, // {detail} until the service is ready
   scenario: null, // comparison or sweep and its job
   scenarioSeconds: null, // of each scenario; null: as long as fits the problem
   keptFleets: {}, // fleets by name, to compare

@@ -64,10 +64,5 @@ function Notice() {
   if (!starting) return tells ? html`<${KeepingNotice} />` : html`<${WarningsBar} />`;
   return html`<div class="notice starting"
     role="status"><div><strong>${t('app.starting')}</strong>
-    ${' '}${starting.detail}
-    ${
-      starting.progress != null &&
-      html`<progress max="1" value=${starting.progress}
-        aria-label=${t('app.progress')}></progress>`
-    }</div></div>`;
+    ${' '}${starting.detail}</div></div>`;
 }
