@@ -9,10 +9,7 @@ from pydantic import ValidationError
 from app.errors import InvalidRequestError, schema_error
 from app.kept.rows import Content
 from app.kept.schemas import KeptPlanInput
-from app.requests.refusal import MAX_LOOSE, require_json, require_readable
-
-BYTES_PER_VALUE = 8
-"""Requests and plans, which are kept unread, have no more values than one for so many bytes."""
+from app.requests.refusal import require_json
 
 NOTHING = msgspec.Raw(b"null")
 
@@ -33,7 +30,6 @@ def read_content(body: bytes) -> Content:
     NotJsonError, InvalidRequestError
         If it has none.
     """
-    require_readable(body, KeptPlanInput, MAX_LOOSE + len(body) // BYTES_PER_VALUE)
     require_json(body)
     # What is told of a value's type is how it begins.
     value = msgspec.Raw(body.strip())

@@ -4,22 +4,21 @@ What is no JSON, wrong all over or holds far too much is refused here, for littl
 """
 
 import codecs
+import json
 import re
 from collections.abc import Iterator, Sequence
-from functools import cache
+from contextlib import suppress
+from itertools import islice
+from types import EllipsisType
 
 import msgspec
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 
 from app.errors import (
-    InputError, InvalidRequestError, NotJsonError, json_path, schema_errors,
+    ErrorCode, InputError, InvalidRequestError, NotJsonError, schema_errors,
 )
-from app.requests.scan import (
-    COUNT, DEPTH, ERRORS, KEY_END, KEY_START, LEVELS, PARTS, SHAPE, Shapes, scan,
-)
-from app.requests.shapes import shapes_of
+from app.requests.shapes import read_shape
 from app.schemas.hints import with_hints
 from app.schemas.times import read_body
 
@@ -29,42 +28,67 @@ MAX_COUNTED_ERRORS = 20_000
 MAX_SEARCHED_BYTES = 4 * 2**20
 """To save memory, longer bodies that don't fit the schema aren't searched for further errors."""
 
-_ROW = re.compile(rb"\[[-+0-9.eE,\s]{100,}+\]")
-
 LEAST_BYTES = 2**14
 """Shorter bodies can't do harm."""
+
+LISTED_BYTES = 2**17
+"""In longer bodies, without rows of numbers, what is wrong first is told alone: an error takes
+hundreds of times the length of what it is about."""
 
 MAX_PARTS, BYTES_PER_PART = 200_000, 25
 """Most objects and arrays of a body: so many, and one more for so many bytes."""
 
-MAX_LOOSE = 400_000
-"""Most values in what isn't read, or may be anything."""
-
 DECODED_AT_ONCE = 2**20
 """Bytes: a whole body as text would take up to four times its length."""
 
+_ROW = re.compile(rb"\[[-+0-9.eE,\s]{100,}+\]")
 
-def require_readable(body: bytes, model: type[BaseModel], most_loose: int = MAX_LOOSE) -> None:
+MOST_KEYS = 20
+"""Keys of an object among which the one is looked for that msgspec doesn't name."""
+
+Step = str | int | EllipsisType
+
+_WORDS: tuple[tuple[re.Pattern[str], ErrorCode, str], ...] = (
+    (re.compile(r"`str` of length <= (\d+)"), "WRONG_LENGTH",
+     "The text has more than {} characters: shorten it."),
+    (re.compile(r" of length <= (\d+)"), "WRONG_LENGTH",
+     "There are more than {} entries: remove some."),
+    (re.compile(r"unknown field `(.*)`"), "UNKNOWN_FIELD",
+     "There is no field of this name: remove it or correct its spelling."),
+    (re.compile(r"missing required field `(.*)`"), "MISSING_FIELD",
+     "This field is required: add it."),
+)
+"""By what msgspec says."""
+
+_STEP = re.compile(r"\[(\d+|\.\.\.)\]|\.([^.\[]+)")
+
+
+def require_readable(body: bytes, model: type[BaseModel]) -> None:
     """Refuse a body that would take much time or memory to be refused later.
-
-    Parameters
-    ----------
-    most_loose
-        Most values in what isn't read, or may be anything.
 
     Raises
     ------
     InvalidRequestError
-        If it has more errors than are looked at, or more parts than any request.
+        If it is long and doesn't fit the schema, or has more parts than any request.
     NotJsonError
         If it is no JSON.
     """
     if len(body) < LEAST_BYTES:
         return
-    errors = _require_sparse(body, model, most_loose)
+    # Brackets in texts count as well, of which there are few.
+    parts, most = body.count(b"[") + body.count(b"{"), MAX_PARTS + len(body) // BYTES_PER_PART
+    if parts > most:
+        raise InvalidRequestError([InputError(
+            code="TOO_MANY_PARTS", path="$", message=f"There are more than {most} objects and "
+            "arrays, more than any request needs: send less.")])
     require_json(body)
-    if errors and len(body) > MAX_SEARCHED_BYTES:
-        _refuse_without_rows(body, model)
+    if len(body) <= LISTED_BYTES:
+        return
+    try:
+        read_shape(body, model)
+    except msgspec.ValidationError as error:
+        raise InvalidRequestError(_errors_beside_rows(body, model)
+                                  or _errors_first(body, model, str(error))) from None
 
 
 def require_json(body: bytes) -> None:
@@ -89,58 +113,69 @@ def require_json(body: bytes) -> None:
         raise NotJsonError(f"The body is not JSON, {error}: send one JSON object.") from None
 
 
-def _require_sparse(body: bytes, model: type[BaseModel], most_loose: int) -> int:
-    """Return how many errors were counted; raises as `require_readable` does if too many."""
-    shapes = shapes_of(model)
-    most = np.array([MAX_COUNTED_ERRORS, MAX_PARTS + len(body) // BYTES_PER_PART, most_loose])
-    levels, found = np.zeros((DEPTH, 6), np.int64), np.zeros(4, np.int64)
-    if scan(np.frombuffer(body, np.uint8), shapes, most, levels, found):
-        return int(found[ERRORS])
-    steps = list(_steps(body, levels[:found[LEVELS]]))
-    if found[ERRORS] > most[ERRORS]:
-        raise InvalidRequestError([_wrong_all_over(steps, shapes, levels[:found[LEVELS]])])
-    kind, bound = (("objects and arrays", most[PARTS]) if found[PARTS] > most[PARTS]
-                   else ("values in what is not read", most_loose))
-    raise InvalidRequestError([InputError(
-        code="TOO_MANY_PARTS", path=json_path(steps),
-        message=f"By here there are more than {bound} {kind}, more than any request needs, and "
-        "reading stopped: send less.")])
+def _errors_beside_rows(body: bytes, model: type[BaseModel]) -> list[InputError]:
+    """Return what is wrong with a body beside its rows of numbers; nothing if that is too long."""
+    rest = _ROW.sub(b"[]", body)
+    return [] if len(rest) > LISTED_BYTES else _in_words(_details(rest, model), model)
 
 
-def _refuse_without_rows(body: bytes, model: type[BaseModel]) -> None:
-    """Refuse a long body by what is wrong with it beside its rows of numbers, if that is anything.
+def _errors_first(body: bytes, model: type[BaseModel], told: str) -> list[InputError]:
+    """Return what is wrong with the value that `told`, a message of msgspec, is about."""
+    message, _, path = told.partition(" - at `$")
+    path = path.rstrip("`")
+    stated = [int(place) if place.isdigit() else key or ... for place, key in _STEP.findall(path)]
+    # Of an array of numbers, of which this is one, but one error is told.
+    most = MAX_SEARCHED_BYTES if "`float`" in message else LISTED_BYTES
+    for steps, reduced in _reduced(body, stated):
+        if len(reduced) <= most:
+            first = tuple(0 if isinstance(step, int) else step for step in steps)
+            found = [details | {"loc": (*steps, *details["loc"][len(steps):])}
+                     for details in _details(reduced, model)
+                     if details["loc"][:len(steps)] == first]
+            if found:
+                return _in_words(found, model)
+    return [_told(message, path)]
 
-    An error holds what was sent: where a field is missing, all that is beside it.
+
+def _reduced(body: bytes, steps: Sequence[Step]) -> Iterator[tuple[tuple[str | int, ...], bytes]]:
+    """Yield bodies of what leads to one value alone, as the only entry of each array.
+
+    Each with the steps that lead there. What may be any key of an object is each in turn.
     """
+    if not steps:
+        yield (), body
+        return
+    step, *further = steps
+    if isinstance(step, int):
+        entry = msgspec.json.decode(body, type=list[msgspec.Raw])[step]
+        for inner, reduced in _reduced(entry, further):
+            yield (step, *inner), b"[" + reduced + b"]"
+        return
+    fields = msgspec.json.decode(body, type=dict[str, msgspec.Raw])
+    for key in islice(fields, MOST_KEYS) if step is ... else (step,):
+        with suppress(LookupError, msgspec.ValidationError):
+            for inner, reduced in _reduced(fields[key], further):
+                yield (key, *inner), b"{" + json.dumps(key).encode() + b":" + reduced + b"}"
+
+
+def _told(message: str, path: str) -> InputError:
+    """Return an error in the words of msgspec, or ours if they are known."""
+    for pattern, code, words in _WORDS:
+        match = pattern.search(message)
+        if match:
+            field = f".{match[1]}" if code in ("MISSING_FIELD", "UNKNOWN_FIELD") else ""
+            return InputError(code=code, path=f"${path}{field}", message=words.format(match[1]))
+    return InputError(code="WRONG_TYPE", path=f"${path}", message=f"{message}: correct the value.")
+
+
+def _details(body: bytes, model: type[BaseModel]) -> list[ErrorDetails]:
+    """Return what pydantic finds in a short body."""
     try:
-        read_body(model, _ROW.sub(b"[]", body))
+        read_body(model, body)
     except ValidationError as error:
-        details = error.errors(include_url=False, include_input=False)
-        if details[0]["type"] != "json_invalid":
-            raise InvalidRequestError(with_hints(schema_errors(details), model)) from None
+        return error.errors(include_url=False)
+    return []
 
 
-@cache
-def compile_scan() -> None:
-    """Compile what looks at bodies, or load it if that was done before."""
-    require_readable(b"{}" + b" " * LEAST_BYTES, InputError)
-
-
-def _wrong_all_over(steps: Sequence[str | int], shapes: Shapes,
-                    levels: NDArray[np.int64]) -> InputError:
-    if len(levels) and levels[-1, COUNT] > shapes.most[levels[-1, SHAPE]]:
-        return InputError(code="WRONG_LENGTH", path=json_path(steps[:-1]), message=f"There are "
-                          f"more than {shapes.most[levels[-1, SHAPE]]} entries: remove some.")
-    return InputError(
-        code="TOO_MANY_ERRORS", path=json_path(steps),
-        message=f"By here the request has more than {MAX_COUNTED_ERRORS} errors, and reading "
-        "stopped: compare it with the schema.")
-
-
-def _steps(body: bytes, levels: NDArray[np.int64]) -> Iterator[str | int]:
-    """Yield the steps to where a scan ended."""
-    for level in levels[1:].tolist():
-        if level[KEY_START] > 0:
-            yield body[level[KEY_START]:level[KEY_END]].decode(errors="replace")
-        elif level[KEY_START] < 0 and level[COUNT] > 0:
-            yield level[COUNT] - 1
+def _in_words(details: Sequence[ErrorDetails], model: type[BaseModel]) -> list[InputError]:
+    return with_hints(schema_errors(details), model)

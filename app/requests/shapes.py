@@ -1,105 +1,111 @@
-"""What a schema allows at each place of a body, as arrays that compiled code walks through."""
+"""What a schema allows, as types that msgspec reads by: far quicker than pydantic, and up to the
+first value that is wrong.
+
+They refuse nothing that the schema takes. What validators of the models' own forbid is left to
+these.
+"""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cache
-from typing import Any, TypeVar
+from itertools import count
+from typing import Annotated, Any, Literal, Union
 
-import numpy as np
-from numpy.typing import NDArray
+import msgspec
+from msgspec import Meta, Struct, defstruct
 from pydantic import BaseModel
 
-from app.requests.scan import (
-    ANYTHING, ARRAY, BOOLEAN, FNV_FACTOR, FNV_START, FRACTION, INTEGER, NO_SHAPE, NOTHING,
-    NULL, OBJECT, STRING, Shapes,
-)
-
-ANY_KIND = 127
-
-UNBOUNDED = 2**62
-MAX_KEYS = 63
-"""Most fields of an object; each has a bit of a word."""
+MAX_LOOSE = 400_000
+"""Most values in what may be anything."""
 
 LONG = 2000
 """Arrays of numbers that may have more entries are validated up to the first that is wrong."""
 
-_KINDS: dict[str | None, int] = {
-    "object": OBJECT, "array": ARRAY, "string": STRING, "integer": INTEGER,
-    "number": INTEGER | FRACTION, "boolean": BOOLEAN, "null": NULL}
+_KINDS = ("object", "array", "string", "number", "boolean", "null")
+_NUMBERS = ("integer", "number")
 
 Schema = Mapping[str, Any]
-Number = TypeVar("Number", bound=np.generic)
 
 
-@dataclass
-class _Shape:
-    kinds: int = 0
-    lowest: float = -np.inf
-    highest: float = np.inf
-    shortest: int = 0
-    longest: int = UNBOUNDED
-    most: int = UNBOUNDED
-    fewest: int = 0
-    entry: int = NO_SHAPE
-    is_row: bool = False
-    required: frozenset[str] = frozenset()
-    keys: dict[str, int] = field(default_factory=dict)
+class Loose:
+    """What may be anything."""
+
+
+class LooseList(Loose):
+    """An array of that."""
+
+
+class Row:
+    """An array of numbers, of which there may be very many: each is read, looked at and let go."""
+
+    entries: Any
+
+
+def read_shape(body: bytes, model: type[BaseModel]) -> None:
+    """Read a body by the shape of a model, without making anything of it.
+
+    Raises
+    ------
+    msgspec.ValidationError
+        At the first value that doesn't fit.
+    """
+    msgspec.json.decode(body, type=shape_of(model), dec_hook=_look_at)
 
 
 @cache
-def shapes_of(model: type[BaseModel]) -> Shapes:
-    """Return the shapes that a model allows."""
+def shape_of(model: type[BaseModel]) -> Any:
+    """Return the type of all that a model's schema allows, and more."""
     schema = model.model_json_schema(by_alias=True)
-    collector = _Collector(schema.get("$defs", {}))
-    root = collector.collect(schema)
-    shapes = [*collector.shapes, _Shape(entry=root)]
-    keys = [list(shape.keys.items()) for shape in shapes]
-    def column(name: str, kind: type[Number]) -> NDArray[Number]:
-        return np.array([getattr(shape, name) for shape in shapes], kind)
-
-    return Shapes(
-        column("kinds", np.int64), column("lowest", np.float64), column("highest", np.float64),
-        column("shortest", np.int64), column("longest", np.int64), column("most", np.int64),
-        column("fewest", np.int64), column("entry", np.int64), column("is_row", np.bool_),
-        required=np.array([sum(1 << list(shape.keys).index(name) for name in shape.required)
-                           for shape in shapes], np.int64),
-        first_key=np.cumsum([0, *map(len, keys)], dtype=np.int64),
-        key_hash=np.array([hash_of(name.encode()) for some in keys for name, _ in some],
-                          np.uint64),
-        key_shape=np.array([shape for some in keys for _, shape in some], np.int64))
+    return _Builder(schema.get("$defs", {})).shape(schema)
 
 
-def hash_of(name: bytes) -> int:
-    """Return the FNV-1a hash of a name, as compiled code computes it."""
-    value = FNV_START
-    for byte in name:
-        value = ((value ^ byte) * FNV_FACTOR) % 2**64
-    return value
+def _look_at(kind: type, value: object) -> object:
+    """Look at a value that msgspec knows no type for, and let it go.
+
+    Raises
+    ------
+    ValueError
+        If it is none of the kind.
+    """
+    if issubclass(kind, Row):
+        try:
+            msgspec.convert(value, kind.entries)
+        except msgspec.ValidationError as error:
+            raise ValueError(str(error).partition(" - at ")[0]) from None
+    elif kind is LooseList and not isinstance(value, list):
+        raise ValueError("Expected `array`")
+    elif _size(value) > MAX_LOOSE:
+        raise ValueError(f"There are more than {MAX_LOOSE} values")
+    return kind()
 
 
-class _Collector:
-    """Numbers the shapes of a JSON schema as pydantic writes it."""
+def _size(value: object) -> int:
+    """Return how many values there are in a value, or more than are looked at."""
+    size, left = 0, [value]
+    while left and size <= MAX_LOOSE:
+        inner = left.pop()
+        entries = (inner.values() if isinstance(inner, dict)
+                   else inner if isinstance(inner, list) else ())
+        size += 1 + len(entries)
+        left.extend(entry for entry in entries if isinstance(entry, dict | list))
+    return size
+
+
+class _Builder:
+    """Makes types of a JSON schema as pydantic writes it."""
 
     def __init__(self, definitions: Mapping[str, Schema]) -> None:
         self._definitions = definitions
-        self._numbers: dict[str, int] = {}
-        self.shapes = [_Shape(), _Shape(kinds=ANY_KIND, entry=ANYTHING)]
+        self._made: dict[str, Any] = {}
+        self._numbers = count()
 
-    def collect(self, schema: Schema) -> int:
-        """Return the number of the shape that a schema describes, a new one if need be."""
+    def shape(self, schema: Schema) -> Any:
+        """Return the type that holds all that a schema allows."""
         name = schema.get("$ref")
-        if name in self._numbers:
-            return self._numbers[name]
-        if not schema.keys() & {"$ref", "anyOf", "oneOf", "type"}:
-            return ANYTHING
-        shape = _Shape()
-        self.shapes.append(shape)
-        number = len(self.shapes) - 1
-        if name is not None:
-            self._numbers[name] = number
-        for alternative in self._alternatives(schema):
-            self._allow(shape, alternative)
-        return number
+        if name is None:
+            return self._either(list(self._alternatives(schema)))
+        if name not in self._made:
+            self._made[name] = self._either(list(self._alternatives(schema)))
+        return self._made[name]
 
     def _alternatives(self, schema: Schema) -> Iterator[Schema]:
         if "$ref" in schema:
@@ -110,39 +116,91 @@ class _Collector:
         else:
             yield schema
 
-    def _allow(self, shape: _Shape, schema: Schema) -> None:
-        """Let a shape be what an alternative describes, too. In place."""
-        if "type" not in schema:
-            shape.kinds, shape.entry = ANY_KIND, ANYTHING
-            return
-        kind = _KINDS[schema["type"]]
-        shape.kinds |= kind
-        if kind == OBJECT:
-            self._allow_object(shape, schema)
-        elif kind == ARRAY:
-            shape.most = schema.get("maxItems", UNBOUNDED)
-            shape.fewest = schema.get("minItems", 0)
-            # The entries of a tuple are alike here.
-            entries = schema.get("items") or schema.get("prefixItems", [{}])[0]
-            shape.entry = self.collect(entries)
-            if _KINDS.get(entries.get("type")) in (INTEGER, INTEGER | FRACTION):
-                shape.is_row = shape.most > LONG
-        elif kind == STRING:
-            texts = schema.get("enum", [schema["const"]] if "const" in schema else [])
-            shape.shortest = min(map(len, texts), default=schema.get("minLength", 0))
-            shape.longest = max(map(len, texts), default=schema.get("maxLength", UNBOUNDED))
-            shape.keys |= dict.fromkeys(texts, NOTHING)
-        elif kind & INTEGER:
-            shape.lowest = schema.get("minimum", -np.inf)
-            shape.highest = schema.get("maximum", np.inf)
+    def _either(self, alternatives: list[Schema]) -> Any:
+        """Return the type of any of some alternatives, those of one kind taken together."""
+        if any("type" not in each for each in alternatives):
+            return Loose
+        parts = []
+        for kind in _KINDS:
+            of_kind = [each for each in alternatives
+                       if ("number" if each["type"] in _NUMBERS else each["type"]) == kind]
+            if of_kind:
+                parts.append(getattr(self, f"_{kind}")(of_kind))
+        if Loose in parts or (LooseList in parts and len(set(parts) - {None}) > 1):
+            return Loose
+        if len(set(parts) - {None}) > 1:
+            # To msgspec, rows are something of their own, which may be that or nothing.
+            parts = [part.entries if _is_row(part) else part for part in parts]
+        return Union[tuple(parts)]  # noqa: UP007
 
-    def _allow_object(self, shape: _Shape, schema: Schema) -> None:
-        shape.keys |= {name: self.collect(inner)
-                       for name, inner in schema.get("properties", {}).items()}
-        shape.required = frozenset(schema.get("required", ()))
-        if len(shape.keys) > MAX_KEYS:
-            raise ValueError(f"{schema.get('title')}: more than {MAX_KEYS} fields")
-        free = schema.get("additionalProperties", True)
-        if free:
-            shape.entry = ANYTHING if free is True else self.collect(free)
-            shape.most = schema.get("maxProperties", UNBOUNDED)
+    def _object(self, some: list[Schema]) -> Any:
+        fields: dict[str, list[Schema]] = {}
+        for each in some:
+            for name, inner in each.get("properties", {}).items():
+                fields.setdefault(name, []).append(inner)
+        free = [each.get("additionalProperties", True) for each in some]
+        if not fields:
+            entries = [each for each in free if isinstance(each, Mapping)]
+            most = [each.get("maxProperties") for each in some]
+            entry = self.shape({"anyOf": entries}) if len(entries) == len(free) else Loose
+            return Annotated[dict[str, entry],  # type: ignore[valid-type]
+                             Meta(max_length=_largest(most))]
+        required = frozenset.intersection(*(frozenset(each.get("required", ())) for each in some))
+        return self._struct({name: self.shape({"anyOf": inner}) for name, inner in fields.items()},
+                            required, closed=not any(free))
+
+    def _struct(self, fields: Mapping[str, Any], required: frozenset[str],
+                closed: bool) -> type[Struct]:
+        """Return the type of objects with some fields; nothing else if they are `closed`."""
+        names = {f"field_{index}": name for index, name in enumerate(fields)}
+        return defstruct(
+            f"Shape{next(self._numbers)}",
+            [(field, fields[name]) if name in required
+             else (field, fields[name] | msgspec.UnsetType, msgspec.UNSET)
+             for field, name in names.items()],
+            rename=names, forbid_unknown_fields=closed, kw_only=True, gc=False)
+
+    def _array(self, some: list[Schema]) -> Any:
+        entries = [entry for each in some
+                   for entry in [*each.get("prefixItems", ()), each.get("items")]
+                   if isinstance(entry, Mapping)]
+        most = _largest([each.get("maxItems") for each in some])
+        entry = self.shape({"anyOf": entries}) if entries else Loose
+        if entry is Loose:
+            return LooseList
+        listed = Annotated[list[entry], Meta(  # type: ignore[valid-type]
+            min_length=min(each.get("minItems", 0) for each in some), max_length=most)]
+        if (most is None or most > LONG) and entries and all(
+                each.get("type") in _NUMBERS for each in entries):
+            return type("NumberRow", (Row,), {"entries": listed})
+        return listed
+
+    def _string(self, some: list[Schema]) -> Any:
+        texts = [text for each in some
+                 for text in each.get("enum", [each["const"]] if "const" in each else ())]
+        if texts and all(each.keys() & {"enum", "const"} for each in some):
+            return Literal[tuple(texts)]
+        return Annotated[str, Meta(
+            min_length=min(each.get("minLength", 0) for each in some),
+            max_length=_largest([each.get("maxLength") for each in some]))]
+
+    def _number(self, some: list[Schema]) -> Any:
+        least: list[Any] = [each.get("minimum") for each in some]
+        return Annotated[float, Meta(
+            ge=None if None in least else min(least),
+            le=_largest([each.get("maximum") for each in some]))]
+
+    def _boolean(self, _: list[Schema]) -> Any:
+        return bool
+
+    def _null(self, _: list[Schema]) -> Any:
+        return None
+
+
+def _is_row(part: Any) -> bool:
+    return isinstance(part, type) and issubclass(part, Row)
+
+
+def _largest(bounds: list[Any]) -> Any:
+    """Return the largest of some bounds, None if one of them is none."""
+    return None if None in bounds else max(bounds)

@@ -18,7 +18,6 @@ from app.plans.checking import read_check
 from app.plans.explaining import read_explain
 from app.requests.bounds import UNBOUNDED
 from app.requests.reading import read_request
-from app.requests.refusal import compile_scan
 from app.settings import Settings
 from app.vroom.errors import VroomError
 from app.vroom.reading import read_request as read_vroom
@@ -175,7 +174,6 @@ def measured(read: Callable[[bytes], object], body: bytes) -> tuple[int, float, 
 
 def main(size: int) -> Iterator[str]:
     """Yield a line for each body: endpoint, shape, bytes, growth in bytes, seconds, outcome."""
-    compile_scan()
     for endpoint, read in readers().items():
         for name, shape in SHAPES[endpoint].items():
             body = body_of(shape, size)
