@@ -16,7 +16,7 @@ from shapely import Polygon
 from model.kernel.pausing import Pause, go_on, matrix_blocks
 from model.problem import FloatArray
 from model.travel.matrices import planar_distances
-from model.travel.obstacles import FEW_EDGES, Obstacles, obstacles_of
+from model.travel.obstacles import Obstacles, obstacles_of
 from model.travel.ways import Legs, Ways, find_ways
 from model.travel.wind import Wind
 
@@ -75,15 +75,6 @@ def flight_legs(
     if straight_m is None:
         straight_m = planar_distances(points_m)
     return Flights(points_m, airspace, straight_m).legs(airspeed_kmh)
-
-
-def compile_ways() -> None:
-    """Fly around areas with few edges and many, so that all of it is compiled."""
-    places = np.array([[0.0, 0.0], [9.0, 0.0]])
-    for corners in (4, 2 * FEW_EDGES):
-        angles = 2 * np.pi * np.arange(corners) / corners
-        ring = tuple((4.0 + float(np.cos(angle)), float(np.sin(angle))) for angle in angles)
-        flight_legs(places, Airspace((ring,)), 1.0)
 
 
 class Flights:
