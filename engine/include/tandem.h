@@ -10,6 +10,7 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
+/* How many of each a problem has. */
 typedef struct tandem_size {
     int64_t depots;
     int64_t customers;
@@ -17,6 +18,15 @@ typedef struct tandem_size {
     int64_t dimensions;
 } tandem_size;
 
+/* A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
+   that is allowed, far where lateness only costs; service duration; release; the last arrival that
+   is not late; demand in the first dimensions.
+   There are as many tables of nodes, variants, as there are ways to be served: they differ in the
+   service duration, in the first it is the customers' own. In those of drones that a battery limits,
+   `demand` tells what weighs: of what is delivered, and of what is picked up.
+   Where somebody has several windows, each node has more rows, one for each gap between two: its
+   `window_latest` closes the window before, far behind the last, and its `window_earliest` opens the
+   next. */
 typedef struct tandem_node {
     int64_t window_earliest;
     int64_t arrival_limit;
@@ -26,22 +36,36 @@ typedef struct tandem_node {
     int64_t demand[3];
 } tandem_node;
 
+/* Where a node is, equal at one place, and how long whoever comes from elsewhere sets up there.
+   Nobody has a row where nobody has to. Legs hold it, unless speeds change or it leads back. */
 typedef struct tandem_setup {
     int64_t site;
     int64_t setup_duration;
 } tandem_setup;
 
+/* What lateness and waiting at a node cost per hour; in a search per ms. */
 typedef struct tandem_price {
     double lateness;
     double waiting;
 } tandem_price;
 
+/* Bits of the goods at a node that some others must not go with, and of those others: on one trip
+   with them, and on one vehicle. Nobody has a row where nothing is incompatible. */
 typedef struct tandem_goods {
     int64_t held;
     int64_t barred_on_trip;
     int64_t barred_on_vehicle;
 } tandem_goods;
 
+/* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries beside
+   its customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken
+   from its working duration, and costs as if it were fixed. The end of the shift and the longest
+   working duration are with overtime; what is `usual` is without. Each launch of a trip but the first
+   takes the `relaunch_duration`; no more sorties are flown than there are batteries. Its drones'
+   powers are known at so many `points`, by weight; none if no battery limits them; aboard they gain a
+   `charge`, from what each has at first. It picks up in any order, or after all that a trip delivers,
+   which is something, or was before the trip begins here; what else it carries in the first
+   dimension. `rules/drone_types.h` says which rows tell of which drones. */
 typedef struct tandem_vehicle_type {
     int64_t count;
     int64_t travel;
@@ -91,6 +115,8 @@ typedef struct tandem_vehicle_type {
     int64_t first_charge[256];
 } tandem_vehicle_type;
 
+/* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
+   per km and part of the first dimension aboard. In a search per mm and per ms. */
 typedef struct tandem_rate {
     double fixed;
     double distance;

@@ -8,17 +8,10 @@ from types import TracebackType
 
 import numpy as np
 
-from model.kernel.compiled import pasted
 from model.problem import IntArray
 
 LOOKS = 0.01
 """Seconds between two looks at whether the caller wants no more."""
-
-
-@pasted
-def rung(flag: IntArray) -> bool:
-    """Tell whether an alarm has rung."""
-    return flag[0] != 0
 
 
 def silent() -> IntArray:

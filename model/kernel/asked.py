@@ -6,7 +6,7 @@ from model.problem import Customer, IntArray, Problem
 
 
 def goods_rows(problem: Problem) -> list[tuple[int, int, int]]:
-    """Return the GOODS of all customers."""
+    """Return the goods at all customers."""
     named = sorted(frozenset().union(*(each.goods for each in problem.incompatible_goods)))
     bit = {goods: 1 << index for index, goods in enumerate(named)}
     barred = {(scope, goods): sum(bit[other] for other in frozenset().union(
@@ -26,7 +26,7 @@ def goods_rows(problem: Problem) -> list[tuple[int, int, int]]:
 
 
 def setup_rows(problem: Problem) -> list[tuple[int, int]]:
-    """Return the SETUP of all nodes."""
+    """Return the setup at all nodes."""
     places = [(depot.site, 0) for depot in problem.depots]
     places += [(each.site, each.setup_duration) for each in problem.customers]
     # Whoever states no place is at one alone.

@@ -6,7 +6,7 @@ NO_ENERGY = (0,) * 6
 
 
 def battery_row(energy: Energy | None) -> tuple[int, ...]:
-    """Return what `TYPE` says of a battery, but for its powers."""
+    """Return what a type's row says of a battery, but for its powers."""
     if energy is None:
         return NO_ENERGY
     return (len(energy.weights), energy.available, int(energy.lands), energy.climb_duration,

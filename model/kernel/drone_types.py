@@ -1,4 +1,4 @@
-"""Types of drones on one truck: rows of TYPE, as if the truck had these drones alone. Compiled.
+"""Types of drones on one truck: rows of vehicle types, as if the truck had these drones alone.
 
 A truck with drones of one type is told by its own row. One with several has a row more for each of
 them, behind those of all trucks, which follow one another by their `drone_row`; in its own, what is
@@ -7,9 +7,7 @@ said of drones holds for the most that any of them can, and all are counted.
 
 from dataclasses import replace
 
-from model.kernel.compiled import inlined
-from model.kernel.plain import is_plain
-from model.kernel.records import Record, Records
+from model.kernel.records import Records
 from model.problem import BoolArray, Problem, VehicleType
 
 NO_ROW = -1
@@ -67,59 +65,3 @@ def most_drone_rows(types: Records) -> int:
             number += 1
         most = max(most, number)
     return most
-
-
-@inlined
-def are_several(kind: Record) -> bool:
-    """Tell whether a truck has drones of several types, or others follow those of a row."""
-    return not is_plain(kind) and kind.drone_row >= 0
-
-
-@inlined
-def first_drone_row(types: Records, k: int) -> int:
-    """Return the row of the first drones on a truck; `next_drone_row` those behind."""
-    return types[k].drone_row if are_several(types[k]) else k
-
-
-@inlined
-def next_drone_row(types: Records, row: int) -> int:
-    """Return the row of a truck's next type of drones, NO_ROW behind the last."""
-    return types[row].drone_row if are_several(types[row]) else NO_ROW
-
-
-@inlined
-def row_of_drone(types: Records, k: int, drone: int) -> int:
-    """Return the row of a truck's drone."""
-    row = first_drone_row(types, k)
-    while are_several(types[row]) and drone >= types[row].drones:
-        drone -= types[row].drones
-        row = types[row].drone_row
-    return row
-
-
-@inlined
-def num_drone_rows(types: Records, k: int) -> int:
-    """Return how many rows tell of the drones of a truck."""
-    count, row = 1, next_drone_row(types, first_drone_row(types, k))
-    while row >= 0:
-        count, row = count + 1, next_drone_row(types, row)
-    return count
-
-
-@inlined
-def drone_row_at(types: Records, k: int, place: int) -> int:
-    """Return the row of a truck's drones at a place in their order, from 0."""
-    row = first_drone_row(types, k)
-    for _ in range(place):
-        row = next_drone_row(types, row)
-    return row
-
-
-@inlined
-def first_drone(types: Records, k: int, row: int) -> int:
-    """Return the number of a truck's first drone of a row."""
-    number, other = 0, first_drone_row(types, k)
-    while other != row:
-        number += types[other].drones
-        other = types[other].drone_row
-    return number

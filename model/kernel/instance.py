@@ -1,7 +1,7 @@
-"""Problems as packed arrays for the compiled code, padded to a common size.
+"""Problems as packed arrays for the engine, padded to a common size.
 
-Rows are problems, so that one call can run rollouts of a whole training batch. Columns of the
-integer tables are named by the constants below.
+Rows are problems, so that one call can run rollouts of a whole training batch. `tandem.h` says what
+rows of nodes, types and so on hold.
 """
 
 from collections.abc import Sequence
@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from model.engine.library import dtype_of
 from model.kernel.asked import (
     goods_rows, has_setups, most_asked_for, setup_rows, weight_rows,
 )
@@ -16,13 +17,12 @@ from model.kernel.battery_rows import battery_row, full_row, powers_row
 from model.kernel.drone_types import NO_ROW, all_kinds
 from model.kernel.nearest import write_nearest
 from model.kernel.pausing import Pause, go_on
-from model.kernel.plain import ANY_RULE, MARKED
-from model.kernel.records import Records, record
+from model.kernel.records import Records
 from model.kernel.variants import (
     Variant, Way, durations_of, index_of, variant_of, ways_of, write_legs,
 )
 from model.problem import (
-    MAX_DIMENSIONS, MAX_POINTS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray,
+    MAX_DIMENSIONS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray,
     IntArray, Problem, VehicleType,
 )
 
@@ -40,63 +40,10 @@ MAX_NEIGHBOURS = 24
 FAR, NONE = 2**58, -2**58
 """Instants later, and earlier, than any that occurs."""
 
-SIZE = record("depots", "customers", "types", "dimensions")
-"""How many of each a problem has."""
-
-NODE = record("window_earliest", "arrival_limit", "service_duration", "release", "window_latest",
-              demand=TIER, rare=ANY_RULE)
-"""A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
-that is allowed, `FAR` where lateness only costs; service duration; release; the last arrival that
-is not late; demand in the first dimensions.
-
-There are as many tables of nodes, variants, as there are ways to be served: they differ in the
-service duration, in the first it is the customers' own. `kernel/stop` says which is whose. In those
-of drones that a battery limits, `demand` tells what weighs, as `kernel/load` says: of what is
-delivered, and of what is picked up.
-
-Where somebody has several windows, each node has more rows, one for each gap between two: its
-`window_latest` closes the window before, `FAR` behind the last, and its `window_earliest` opens the
-next."""
-
-SETUP = record("site", "setup_duration")
-"""Where a node is, equal at one place, and how long whoever comes from elsewhere sets up there.
-Nobody has a row where nobody has to. Legs hold it, unless speeds change or it leads back."""
-
-PRICE = record(lateness=float, waiting=float)
-"""What lateness and waiting at a node cost per hour."""
-
-GOODS = record("held", "barred_on_trip", "barred_on_vehicle")
-"""Bits of the goods at a node that some others must not go with, and of those others: on one trip
-with them, and on one vehicle. Nobody has a row where nothing is incompatible."""
-
-TYPE = record(
-    "count", "travel", "depot", "begins_at", "ends_at", "changes_ends", "shift_earliest",
-    "busy_until", "begun", "shift_latest", "max_working_duration", "usual_end", "usual_working",
-    "max_trip_distance", "max_trips", "max_stops", "max_sorties", "reload_duration",
-    "speed_changes", "drone_row", "drones", "drone_travel", "home_travel", "endurance",
-    "waiting_counts", "launch_duration", "relaunch_duration", "recovery_duration", "variant",
-    "drone_variant", "points", "battery", "lands", "climb_duration", "descent_duration", "charge",
-    "pickup_order", "carried", capacity=MAX_TIERS * TIER, payload=MAX_TIERS * TIER,
-    weights=MAX_POINTS, cruise=MAX_POINTS, hover=MAX_POINTS, climb=MAX_POINTS,
-    descent=MAX_POINTS, first_charge=MOST_DRONES, rare=ANY_RULE)
-"""A vehicle type. Its speed changes are a number or `NO_PROFILE`. What a vehicle carries beside its
-customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken from
-its working duration, and costs as if it were fixed. The end of the shift and the longest working
-duration are with overtime; what is `usual` is without. Each launch of a trip but the first takes
-the `relaunch_duration`; no more sorties are flown than there are batteries. Its drones' powers are
-known at so many `points`, by weight; none if no battery limits them; aboard they gain a `charge`,
-from what each has at first. It picks up in any order, or after all that a trip delivers, which is
-something, or was before the trip begins here; what else it carries in the first dimension.
-`kernel/drone_types` says which rows tell of which drones."""
 ANY, LAST, BEGUN = range(3)
 
 NO_PROFILE = -1
 NO_DRONES = (0,) * 8
-
-RATE = record(fixed=float, distance=float, stop=float, time=float, overtime=float,
-              drone_distance=float, drone_time=float, load=float)
-"""What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
-per km and part of the first dimension aboard."""
 
 AMOUNTS = 2 * TIER + 2
 """Of a tier at a node: what is delivered, what is picked up, and both sums over all dimensions."""
@@ -105,15 +52,15 @@ AMOUNTS = 2 * TIER + 2
 class Instance(NamedTuple):
     """Packed problems."""
 
-    size: Records  # (problem,) SIZE
-    node: Records  # (problem, variant, node, 1 + gaps) NODE
-    amount: IntArray  # (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
-    price: Records  # (problem, node) PRICE
-    goods: Records  # (problem, node) GOODS, or (problem, 0)
-    setup: Records  # (problem, node) SETUP, or (problem, 0)
+    size: Records  # (problem,)
+    node: Records  # (problem, variant, node, 1 + gaps)
+    amount: IntArray  # (problem, node, tier, AMOUNTS); no tiers where the demand of nodes tells all
+    price: Records  # (problem, node)
+    goods: Records  # (problem, node), or (problem, 0)
+    setup: Records  # (problem, node), or (problem, 0)
     fresh_for: IntArray  # (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
-    type: Records  # (problem, row) TYPE; trucks first, as many as SIZE says
-    rate: Records  # (problem, row) RATE
+    type: Records  # (problem, row); trucks first, as many as `size` says
+    rate: Records  # (problem, row)
     reload: BoolArray  # (problem, type, node) where a trip may end and the next begin
     can_drive: BoolArray  # (problem, type, node) table, kind, skills and capacity allow a truck
     can_fly: BoolArray  # (problem, type, node) likewise for its drones
@@ -162,15 +109,16 @@ def _empty(problems: Sequence[Problem], variants: int, travels: int, legs: bool)
     limited = any(problem.limits_time_aboard for problem in problems)
     apart = any(problem.incompatible_goods for problem in problems)
     instance = Instance(
-        size=np.zeros(rows, SIZE),
-        node=np.zeros((rows, variants, nodes, 1 + gaps), NODE),
+        size=np.zeros(rows, dtype_of("tandem_size")),
+        node=np.zeros((rows, variants, nodes, 1 + gaps), dtype_of("tandem_node")),
         amount=np.zeros((rows, nodes, _num_tiers(problems), AMOUNTS), np.int64),
-        price=np.zeros((rows, nodes), PRICE),
-        goods=np.zeros((rows, nodes if apart else 0), GOODS),
-        setup=np.zeros((rows, nodes if any(map(has_setups, problems)) else 0), SETUP),
+        price=np.zeros((rows, nodes), dtype_of("tandem_price")),
+        goods=np.zeros((rows, nodes if apart else 0), dtype_of("tandem_goods")),
+        setup=np.zeros((rows, nodes if any(map(has_setups, problems)) else 0),
+                       dtype_of("tandem_setup")),
         fresh_for=np.full((rows, nodes if limited else 0), FAR, np.int64),
-        type=np.zeros((rows, types), TYPE),
-        rate=np.zeros((rows, types), RATE),
+        type=np.zeros((rows, types), dtype_of("tandem_vehicle_type")),
+        rate=np.zeros((rows, types), dtype_of("tandem_rate")),
         reload=np.zeros((rows, types, nodes), np.bool_),
         can_drive=np.zeros((rows, types, nodes), np.bool_),
         can_fly=np.zeros((rows, types, nodes), np.bool_),
@@ -280,7 +228,7 @@ def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
 def _customer_row(customer: Customer) -> tuple[Any, ...]:
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
-            customer.latest, _padded(customer.demand, TIER), MARKED)
+            customer.latest, _padded(customer.demand, TIER))
 
 
 def _padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
@@ -305,7 +253,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
         *battery_row(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
         _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *powers_row(energy),
-        full_row(energy, MOST_DRONES), MARKED)
+        full_row(energy, MOST_DRONES))
 
 
 def _pickup_order(kind: VehicleType) -> int:

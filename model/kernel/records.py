@@ -2,7 +2,7 @@
 
 from collections import namedtuple
 from functools import cache
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,38 +10,6 @@ from numpy.typing import NDArray
 Record = Any
 """One row, whose fields are attributes."""
 Records = NDArray[np.record]
-
-
-def record(*names: str, **others: int | type | tuple[int, ...]) -> np.dtype[np.record]:
-    """Return the type of a row, whose fields lie in memory as they are listed.
-
-    Parameters
-    ----------
-    names
-        Integers.
-    others
-        By name, how many integers, or another type than that, or the shape of an array of bytes.
-    """
-    fields: list[Any] = [(name, np.int64) for name in names]
-    for name, other in others.items():
-        if isinstance(other, tuple):
-            fields.append((name, np.int8, other))
-        else:
-            fields.append((name, np.int64, (other,)) if isinstance(other, int) else (name, other))
-    return cast("np.dtype[np.record]", np.dtype((np.record, np.dtype(fields, align=True))))
-
-
-def row_of_floats(*fields: str | tuple[str, int]) -> np.dtype[np.record]:
-    """Return the type of a row of 32-bit floats, which is an array of them as well.
-
-    Parameters
-    ----------
-    fields
-        Names, with a number where there are several floats.
-    """
-    row: list[Any] = [(field, np.float32) if isinstance(field, str)
-                      else (field[0], np.float32, field[1:]) for field in fields]
-    return cast("np.dtype[np.record]", np.dtype((np.record, np.dtype(row))))
 
 
 def one(kind: np.dtype[np.record]) -> Record:

@@ -95,7 +95,7 @@ def index_of(ways: Sequence[Way], travel: int, sets_up: bool) -> int:
 
 def write_legs(problem: Problem, ways: Sequence[Way], setup: Records, duration: IntArray,
                distance: IntArray, pause: Pause) -> None:
-    """Write the legs of all ways, (way, origin, to); `setup` has the SETUP of nodes. In place."""
+    """Write the legs of all ways, (way, origin, to); `setup` has those at nodes. In place."""
     nodes = problem.num_nodes
     for index, way in enumerate(ways):
         travel = problem.travel[way.travel]

@@ -2,15 +2,11 @@
 
 import numpy as np
 
-from model.kernel.compiled import compiled
-from model.kernel.copying import copy_some
+from model.engine.library import call
 from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
-from model.search.route.layout import ELSEWHERE, NOWHERE, OTHERS, World
-from model.search.route.refresh import locate
-from model.search.route.state import (
-    ALL, Searcher, copy_route, keep_best, left_out_cost, list_active,
-)
+from model.search.route.layout import OTHERS, World
+from model.search.route.state import ALL, Searcher
 
 DIVIDED_FROM = 200
 """Number of customers from which on each thread has a region of its own."""
@@ -69,8 +65,8 @@ class Crew:
         self._parts = [room._replace(active=room.active[: routes[number] + free])
                        for number, room in enumerate(self._rooms)]
         for number, part in enumerate(self._parts):
-            take_part(self._world, whole, part, owner, number, missing[heir == number],
-                      (spare + number) // threads)
+            call("tandem_take_part", self._world, whole, part, owner, number,
+                 missing[heir == number], (spare + number) // threads)
 
     def gather(self) -> None:
         """Put together what the searches found since they were spread."""
@@ -87,7 +83,7 @@ class Crew:
         whole.count.missing = filled = 0
         whole.value.cost = sum(float(part.value.cost) for part in chosen)
         for part in chosen:
-            filled = add_routes(whole, part, filled)
+            filled = call("tandem_add_routes", whole, part, filled)
         keep_best_of(whole, best)
 
 
@@ -101,9 +97,9 @@ def make_rooms(world: World, whole: Searcher,
 
 def take_all(world: World, whole: Searcher, part: Searcher) -> None:
     """Go on from all routes as they are. In place."""
-    take_part(world, whole, part, np.zeros(len(whole.active), np.int64), 0,
-              whole.missing[: whole.count.missing],
-              world.type["count"][:world.num_types] - whole.now.used)
+    call("tandem_take_part", world, whole, part, np.zeros(len(whole.active), np.int64), 0,
+         whole.missing[: whole.count.missing],
+         world.type["count"][:world.num_types] - whole.now.used)
 
 
 def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
@@ -114,7 +110,7 @@ def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
         whole.count.best_missing = filled = 0
         whole.value.best = cost
         for part in parts:
-            filled = add_best(whole, part, filled)
+            filled = call("tandem_add_best", whole, part, filled)
         whole.best.route["stamp"] = OTHERS
         whole.count.changed = ALL
 
@@ -155,81 +151,3 @@ def regions(place: FloatArray, whole: Searcher, threads: int,
     owner = np.empty(slots, np.int64)
     owner[order] = np.minimum(middle * threads // max(1, len(served)), threads - 1)
     return owner
-
-
-@compiled
-def take_part(world: World, whole: Searcher, part: Searcher, owner: IntArray, number: int,
-              missing: IntArray, spare: IntArray) -> None:
-    """Go on from the routes that thread `number` owns, and the customers missing. In place.
-
-    `spare` (type,) vehicles may be used besides.
-    """
-    now, count = part.now, part.count
-    count.stamp += 1
-    for node in range(len(now.where)):
-        now.where[node].slot = ELSEWHERE
-    cost, filled = 0.0, 0
-    for index in range(whole.count.active):
-        slot = whole.active[index]
-        if owner[slot] == number:
-            copy_route(whole.now, slot, now, filled, count.lean)
-            locate(now, filled)
-            cost += now.cost[filled]
-            filled += 1
-    for slot in range(len(part.active)):
-        if slot >= filled:
-            now.route[slot].length = now.route[slot].sorties = now.route[slot].trips = 0
-            now.cost[slot] = 0.0
-        now.route[slot].stamp = count.stamp
-    for k in range(world.num_types):
-        now.used[k] = world.type[k].count - spare[k]
-    list_active(part)
-    count.changed = ALL
-    for node in missing:
-        now.where[node].slot = NOWHERE
-    count.missing = len(missing)
-    copy_some(missing, part.missing, len(missing))
-    count.customers = 0
-    for node in range(world.num_depots, world.num_nodes):
-        if now.where[node].slot != ELSEWHERE:
-            count.customers += 1
-    part.value.cost = cost + left_out_cost(world, missing, len(missing))
-    keep_best(part)
-
-
-@compiled
-def add_routes(whole: Searcher, part: Searcher, filled: int) -> int:
-    """Copy a part's routes behind the `filled` first slots, and who is missing.
-
-    In place; returns how many slots are filled.
-    """
-    now, count = whole.now, whole.count
-    for index in range(part.count.active):
-        copy_route(part.now, part.active[index], now, filled, count.lean)
-        now.used[now.route[filled].type] += 1
-        locate(now, filled)
-        filled += 1
-    for index in range(part.count.missing):
-        node = part.missing[index]
-        now.where[node].slot = NOWHERE
-        whole.missing[count.missing] = node
-        count.missing += 1
-    list_active(whole)
-    return filled
-
-
-@compiled
-def add_best(whole: Searcher, part: Searcher, filled: int) -> int:
-    """Copy a part's best routes behind the `filled` first slots, and who is missing.
-
-    In place; returns how many slots are filled.
-    """
-    count = whole.count
-    for slot in range(len(part.active)):
-        if part.best.route[slot].length > 0:
-            copy_route(part.best, slot, whole.best, filled, count.lean)
-            filled += 1
-    for index in range(part.count.best_missing):
-        whole.best_missing[count.best_missing] = part.best_missing[index]
-        count.best_missing += 1
-    return filled

@@ -7,9 +7,8 @@ import numpy as np
 
 from model.kernel.alarm import silent
 from model.kernel.drone_types import all_kinds, any_aboard
-from model.kernel.instance import FAR, NO_PROFILE, Instance, pack
+from model.kernel.instance import FAR, NO_PROFILE, Instance
 from model.kernel.leg import LEG_DURATION, ComputedLegs, are_the_same_back
-from model.kernel.plain import as_plain, is_plain
 from model.kernel.records import Record, Records
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem,
@@ -79,7 +78,6 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
     blink = _blink(problem.num_customers, most_visits)
     must_serve = _must_serve(problem, instance)
-    types, place = _as_stated(instance, types)
     return World(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
@@ -95,7 +93,7 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         unassigned_more=instance.unassigned_more[0],
         unequal=bool(instance.unassigned_more[0].any()),
         must_serve=must_serve,
-        place=place, amount=instance.amount[0], goods=instance.goods[0],
+        place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
         setup=instance.setup[0], fresh_for=instance.fresh_for[0],
         price=_per_ms(instance.price[0]), type=types, rate=_per_unit(rates), mode=mode,
         reload=instance.reload[0], visits=visits,
@@ -194,7 +192,7 @@ def can_be_linked(world: World) -> bool:
     stated, and whoever is left out makes nobody late.
     """
     travel = world.type["travel"][:world.num_types]
-    return (is_plain(world.type[0]) and not world.general and bool((travel == travel[0]).all())
+    return (not (_states_rarer_rules(world) or world.general) and bool((travel == travel[0]).all())
             and not (are_timed(world) and skipping_delays(world)))
 
 
@@ -273,29 +271,16 @@ def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
 
 
-def states_rarer_rules(problem: Problem) -> bool:
-    """Tell whether the search for a problem is that which is compiled with all rules."""
-    instance = pack([problem], legs=False)
-    return not _is_plain(instance, instance.type[0])
-
-
-def _as_stated(instance: Instance, types: Records) -> tuple[Records, Records]:
-    """Return the rows of types and nodes, plain if no rarer rule is stated."""
-    node = instance.node[0]
-    return (as_plain(types), as_plain(node)) if _is_plain(instance, types) else (types, node)
-
-
-def _is_plain(instance: Instance, types: Records) -> bool:
-    """Tell whether no rarer rule is stated, so that code does that was compiled without them."""
-    rate, number = instance.rate[0], instance.size[0].customers
-    tables = (instance.node[0, 0, :, 1:], instance.amount[0, :, :, 0], instance.goods[0],
-              instance.setup[0], instance.fresh_for[0])
+def _states_rarer_rules(world: World) -> bool:
+    """Tell whether a rule is stated that linked stops don't know."""
+    types, rate, number = world.type, world.rate, world.num_nodes - world.num_depots
+    tables = (world.place[0, :, 1:], world.amount[:, :, 0], world.goods, world.setup,
+              world.fresh_for)
     rarer = (types["variant"] > 0) | (types["changes_ends"] > 0) | (types["points"] > 0)
     rarer |= (types["max_stops"] < number) | (types["max_sorties"] < number)
     rarer |= (types["relaunch_duration"] != types["launch_duration"]) | (types["drone_row"] >= 0)
     rarer |= (rate["overtime"] > 0) | (rate["load"] > 0)
-    return not (any(table.size for table in tables) or instance.unassigned_more[0].any()
-                or rarer.any())
+    return bool(any(table.size for table in tables) or world.unequal or rarer.any())
 
 
 def _must_serve(problem: Problem, instance: Instance) -> BoolArray:

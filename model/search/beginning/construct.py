@@ -2,35 +2,13 @@
 
 import math
 
-from model.kernel.compiled import compiled
-from model.kernel.copying import clear
-from model.search.moves.anneal import anneal
-from model.search.moves.recreate import BY_FAR, BY_WIDTH
-from model.search.route.layout import NOWHERE, World
-from model.search.route.state import ALL, Searcher, go_back, list_active, missing_cost
+from model.engine.library import call
+from model.search.route.engine import BY_FAR, BY_WIDTH, anneal, go_back, missing_cost
+from model.search.route.layout import World
+from model.search.route.state import Searcher
 
 CONSTRUCTED = (BY_FAR, BY_WIDTH)
 """Orders in which customers are inserted into no routes."""
-
-
-@compiled
-def disband(searcher: Searcher) -> None:
-    """Take all routes apart. In place."""
-    now, count = searcher.now, searcher.count
-    count.stamp += 1
-    count.changed = ALL
-    for slot in range(len(searcher.active)):
-        now.route[slot].stamp = count.stamp
-        now.route[slot].length = now.route[slot].sorties = now.route[slot].trips = 0
-        now.cost[slot] = 0.0
-    clear(now.used)
-    count.absent = 0
-    for node in range(len(now.where)):
-        if now.where[node].slot >= 0:
-            now.where[node].slot = NOWHERE
-            searcher.missing[count.missing] = node
-            count.missing += 1
-    list_active(searcher)
 
 
 def insert_missing(world: World, searcher: Searcher, order: int) -> None:
@@ -68,7 +46,7 @@ def begin_again(world: World, searcher: Searcher) -> None:
 def _construct(world: World, searcher: Searcher) -> None:
     """Plan anew by insertion in the best of several orders, if that is better. In place."""
     for order in CONSTRUCTED:
-        disband(searcher)
+        call("tandem_disband", searcher)
         searcher.value.cost = missing_cost(world, searcher)
         insert_missing(world, searcher, order)
     go_back(searcher)

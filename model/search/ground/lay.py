@@ -6,9 +6,9 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from model.engine.library import call
+from model.engine.library import call, dtype_of
 from model.kernel.instance import Instance
-from model.kernel.leg import COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs
+from model.kernel.leg import COMPUTED, GLOBE, AllLegs, ComputedLegs
 from model.kernel.nearest import least_columns, write_nearest_points
 from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.kernel.records import Records
@@ -79,7 +79,8 @@ def _legs(problem: Problem, returns: Sequence[bool], setup: Records, numbering: 
     `returns` says of which matrices legs are the same both ways.
     """
     ways = ways_of(problem)
-    law, point = np.zeros(len(ways), LAW), np.zeros(problem.num_nodes, POINT)
+    law = np.zeros(len(ways), dtype_of("tandem_leg_law"))
+    point = np.zeros(problem.num_nodes, dtype_of("tandem_point"))
     stated: list[Way] = []
     for index, way in enumerate(ways):
         straight = problem.travel[way.travel].straight

@@ -2,8 +2,8 @@
 
 A route is a row of stops: each trip begins with a START at the depot and ends with an END there,
 customers of the truck between. Sorties name the stops where they begin and end by position in the
-route and are sorted by them. All else in the arrays follows from these and is written by
-`refresh.refresh`.
+route and are sorted by them. All else in the arrays follows from these and is written by the
+engine; `tandem.h` says what rows hold.
 
 Times inside a block of stops hang on the truck's arrival `t` as `max(t + d, c)`: `d` is the longest
 path of durations from there, `c` what windows and releases hold up. Such pairs add up and take
@@ -16,55 +16,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.kernel.compiled import inlined
-from model.kernel.instance import TIER
+from model.engine.library import dtype_of
 from model.kernel.leg import AllLegs
-from model.kernel.load import HALT
-from model.kernel.plain import ANY_RULE, as_plain, is_plain
-from model.kernel.records import Record, Records, record
+from model.kernel.records import Records
 from model.kernel.sparse import sparse_rows
 from model.problem import BoolArray, FloatArray, Int32Array, IntArray
 
 MOST_VISITS = 8
 """Customers on a sortie that the search puts there at most."""
 
-STOP = record(
-    # What is chosen.
-    "node", "kind", "release",
-    # What a lean route needs, with these.
-    "leave", "latest", "leg", "gap", "flying", "trip",
-    # All else that follows.
-    "early", "rest", "end", "cum", "depart", "arrival", "before", "block", "last", "d", "c", "hi",
-    "lo", "dep", "hold", "idle", window_cost=float)
-
 CUSTOMER, START, END = range(3)
-
-SORTIE = record(
-    "launch", "recovery", "drone", "count", "state", "takeoff_d", "takeoff_c", "ready_d", "ready_c",
-    "takeoff", "begin", "held", "home", "limit", "left", "taken", "charged", "kept", "since",
-    "follows", nodes=MOST_VISITS, arrivals=MOST_VISITS)
-"""Where it begins and ends; its customers, and when it reaches them; what `block` knows of it."""
-WAITING, FLYING, DONE = range(3)
-
-TRIP = record("first", "last", "release", "distance", "barred", load=TIER)
-
-ROUTE = record("type", "length", "trips", "sorties", "end", "cum", "working", "offset", "awaited",
-               "stamp", "barred", rare=ANY_RULE)
-
-CHANGING = 0
-"""Stamp of a route that this turn changes; any other stands for what the route in the slot is."""
 
 OTHERS = -1
 """Stamp of a route of the best plan that was not made turn by turn: no route as it is has it."""
 
-KEPT = record("stamp", "detour", "stop")
-"""Stamp of the route, shortest detour for a customer, stop before it; -1 if none is that short."""
-
-BOUND = record(best=float, blink=float)
-"""Cost below which insertions are looked for, and how often one is overlooked."""
-
-PLACE = record("slot", "position", "sortie")
-"""Where a customer is served: the route's slot; the stop's position, or the sortie; else -1."""
 NOWHERE, ELSEWHERE = -1, -2
 """Slot of a customer who is left out; of one whom another thread deals with."""
 
@@ -101,14 +66,14 @@ class World(NamedTuple):
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that
     unequal: bool  # leaving out some costs more than others
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
-    place: Records  # (variant, node, row) NODE
-    amount: IntArray  # (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
-    price: Records  # (node,) PRICE, per ms
-    goods: Records  # (node,) GOODS, none where all go together
-    setup: Records  # (node,) SETUP, none where nobody sets up
+    place: Records  # (variant, node, row)
+    amount: IntArray  # (node, tier, AMOUNTS); no tiers where the demand of nodes tells all
+    price: Records  # (node,), per ms
+    goods: Records  # (node,), none where all go together
+    setup: Records  # (node,), none where nobody sets up
     fresh_for: IntArray  # (node,) ms, none where nothing is limited
-    type: Records  # (row,) TYPE
-    rate: Records  # (row,) RATE, per mm and per ms
+    type: Records  # (row,)
+    rate: Records  # (row,), per mm and per ms
     mode: IntArray  # (row,) MODE_ flags
     reload: BoolArray  # (type, node) where a trip may end and the next begin
     visits: IntArray  # (row,) customers on a sortie
@@ -127,37 +92,15 @@ class World(NamedTuple):
 class Fleet(NamedTuple):
     """Routes, one a slot; the last two slots are scratch."""
 
-    route: Records  # (slot,) ROUTE
+    route: Records  # (slot,)
     cost: FloatArray  # (slot,)
     early: FloatArray  # (slot,) of it, what waiting costs where trips are held back
-    stop: Records  # (slot, position) STOP
-    halt: Records  # (slot, tier, position) HALT; no tiers where `TRIP.load` tells all
-    trip: Records  # (slot, trip) TRIP
-    sortie: Records  # (slot, sortie) SORTIE
-    where: Records  # (node,) PLACE
+    stop: Records  # (slot, position)
+    halt: Records  # (slot, tier, position); no tiers where the load of trips does
+    trip: Records  # (slot, trip)
+    sortie: Records  # (slot, sortie)
+    where: Records  # (node,)
     used: IntArray  # (type,) routes
-
-
-@inlined
-def copy_sequence(stop: Record, to: Record) -> None:
-    """Copy what is chosen of a stop. In place."""
-    to.node, to.kind, to.release = stop.node, stop.kind, stop.release
-
-
-@inlined
-def copy_lean(stop: Record, to: Record) -> None:
-    """Copy what a lean route needs of a stop. In place."""
-    copy_sequence(stop, to)
-    to.leave, to.latest, to.leg = stop.leave, stop.latest, stop.leg
-    to.gap, to.flying, to.trip = stop.gap, stop.flying, stop.trip
-
-
-@inlined
-def clear_trip(trip: Record) -> None:
-    """Let a trip be empty. In place."""
-    trip.first = trip.last = trip.release = trip.distance = 0
-    for dimension in range(TIER):
-        trip.load[dimension] = 0
 
 
 def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int,
@@ -166,15 +109,17 @@ def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int,
 
     Pages are touched only where routes are.
     """
-    routes = np.zeros(slots + 2, ROUTE)
+    def rows(name: str, *shape: int) -> Records:
+        return sparse_rows((slots + 2, *shape), dtype_of(name))
+
     return Fleet(
-        route=as_plain(routes) if is_plain(world.type[0]) else routes,
+        route=np.zeros(slots + 2, dtype_of("tandem_route")),
         cost=np.zeros(slots + 2),
         early=np.zeros(slots + 2),
-        stop=sparse_rows((slots + 2, stops), STOP),
-        halt=sparse_rows((slots + 2, world.amount.shape[1], stops), HALT),
-        trip=sparse_rows((slots + 2, trips), TRIP),
-        sortie=sparse_rows((slots + 2, sorties), SORTIE),
-        where=np.full(nodes, np.array((NOWHERE, NOWHERE, NOWHERE), PLACE)),
+        stop=rows("tandem_stop", stops),
+        halt=rows("tandem_halt", world.amount.shape[1], stops),
+        trip=rows("tandem_trip", trips),
+        sortie=rows("tandem_sortie", sorties),
+        where=np.full(nodes, np.array((NOWHERE,) * 3, dtype_of("tandem_place"))),
         used=np.zeros(world.num_types, np.int64),
     )

@@ -1,1 +1,0 @@
-"""Where a customer may be inserted, and what that costs."""

@@ -1,1 +1,0 @@
-"""What a turn of the search changes."""
