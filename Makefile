@@ -10,11 +10,13 @@ RULE_SETS ?= mdvrptw,sdvrptw,pcvrptw,vrpmtw,ovrp,vrpb,vrpspd
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 # On all cores; who is idle takes over what others have left. Threads of PyTorch's own would wait for
-# each other in vain. Tests of the engine find CMake there. Modules are kept compiled whatever the environment says: dozens of processes
-# load them all.
+# each other in vain. Tests of the engine find CMake there. Modules are kept compiled whatever the
+# environment says: dozens of processes load them all.
 PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --numprocesses auto --dist worksteal
 # What more customers need takes long to compile, and only slow tests need it.
 QUICK_CUSTOMERS := 3000
+=======
+PYTEST := OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --numprocesses auto --dist worksteal
 URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
@@ -28,7 +30,7 @@ engine: .venv/tools ## Compile what of the engine changed
 	@$(BIN)/python engine/backend.py
 
 serve: .venv/serving engine ## Run the service (PORT=8000, HOST=127.0.0.1)
-	@echo "Starting; the first time, plans wait some minutes until the search is compiled. Open $(URL) for the console, $(URL)/docs for the API or, in another terminal and in this folder, run"
+	@echo "Starting. Open $(URL) for the console, $(URL)/docs for the API or, in another terminal and in this folder, run"
 	@echo
 	@echo "  curl -H 'Content-Type: application/json' --data-binary @examples/table1.json $(URL)/plan"
 	@echo
@@ -40,12 +42,9 @@ plan: .venv/serving engine ## Plan examples/table1.json, write plan.json and che
 	@echo "The plan is in plan.json."
 
 test: prepared .venv/testing engine ## Install what the tests need and run them
-	@echo "Compiling what is tested, so that no test waits for that."
-	@$(BIN)/tandem warm
 	$(PYTEST)
 
 test-quick: .venv/testing engine ## Run many tests in under a minute, without browser, database and services
-	@TANDEM_MAX_CUSTOMERS=$(QUICK_CUSTOMERS) $(BIN)/tandem warm
 	$(PYTEST) -m "not slow"
 
 prepared:
@@ -80,11 +79,9 @@ latency: .venv/benching engine ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency
 
 study: .venv/serving engine ## Make the paper's study again, docs/study.md (20 minutes on 2 cores)
-	@$(BIN)/tandem warm
 	$(BIN)/python -m benchmarks.study
 
 study-quick: .venv/serving engine ## The same with few cases, build/study.md
-	@$(BIN)/tandem warm
 	$(BIN)/python -m benchmarks.study --quick
 
 screenshots: .venv/testing engine ## Make the pictures of the console in docs/screenshots, with Chromium

@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import pytest
 
-from model.kernel.compiled import SOURCES
 from tests.conftest import complete
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -42,63 +41,13 @@ MODEL = {
     "policy": ("problem", "engine", "kernel", "simulation"),
     "search": ("problem", "solution", "engine", "kernel"),
     "together": ("problem", "solution", "judge", "kernel", "search"),
-    "planner": ("problem", "solution", "judge", "kernel", "travel", "simulation", "policy",
-                "search", "together"),
+    "planner": ("problem", "solution", "judge", "kernel", "simulation", "policy", "search",
+                "together"),
     "replanning": ("problem", "solution", "judge", "planner"),
     "dialects": ("problem", "solution", "judge", "planner"),
 }
 """What each folder and file of `model` may import of the others."""
-MOST_ARROWS = 40
-
-INTERPRETED = {"solution", "problem/straight", "problem/travel"}
-"""Imported beside compiled functions, but nothing of it is compiled into them."""
-ASKING = {"kernel/warming", "planner", "search/compiling"}
-"""Compile nothing themselves, but ask what is compiled."""
-
-COMPILED_FOLDERS = ("kernel", "simulation", "policy", "search")
-
-HOMES = {
-    "kernel/start": {".begun", ".busy_until"},
-    "kernel/shift": {".max_sorties", ".max_stops", ".usual_end", ".usual_working"},
-    "kernel/stop": {".arrival_limit", ".drone_variant", ".service_duration", ".variant",
-                    ".window_earliest", ".window_latest"},
-    "kernel/flight": {".endurance", ".launch_duration", ".recovery_duration",
-                      ".relaunch_duration", ".waiting_counts",
-                      "UNREACHABLE"},
-    "kernel/energy": {".battery", ".charge", ".first_charge", ".lands",
-                      ".climb_duration", ".descent_duration", ".cruise", ".hover"},
-    "kernel/load": {".capacity", ".demand", ".payload", ".pickup_order"},
-    "kernel/clock": {".setup_duration", ".site", ".speed_changes", "FULL_SPEED",
-                     "arrival_by_profile", "leave_by_profile"},
-    "kernel/leg": {"LEG_DISTANCE", "LEG_DURATION"},
-}
-"""Where each rule stands in compiled code, and what nobody can apply it without.
-
-With a dot: a field, which may be read as an attribute or by its name in quotes.
-"""
-DESCRIBING = {
-    "kernel/instance": set.union(*HOMES.values()),
-    "kernel/battery_rows": HOMES["kernel/energy"],
-    "kernel/asked": {".demand", ".setup_duration", ".site"},
-    "kernel/drone_types": {".capacity", ".endurance", ".max_sorties", ".recovery_duration"},
-    "kernel/variants": {".service_duration", ".setup_duration", ".site"},
-    "policy/tokens": set.union(*HOMES.values()),
-    "policy/features": {".capacity", ".demand", ".endurance"},
-    "kernel/leg": {".setup_duration", ".site", "UNREACHABLE"},
-    "search/ground/lay": {".service_duration", ".setup_duration", ".site", ".window_earliest",
-                      ".window_latest"},
-    "search/world": set.union(*HOMES.values()),
-    "search/beginning/translate": {".capacity", ".demand", ".max_sorties", ".max_stops",
-                                   ".setup_duration", ".site"},
-}
-"""What states a limit but applies none: packs it, shows it to a network, ranks or makes room by it.
-"""
-LEG_TABLES = {"leg", "back", "legs", "flights", "inward", "onward", "drive", "fly", "duration",
-              "distance"}
-"""Names of tables of legs and of rows of one, whose elements `kernel/leg` reads alone."""
-LEGS_AT_ONCE = {"kernel/instance", "kernel/nearest", "kernel/variants", "policy/resampling",
-                "policy/tokens", "search/ground/lay", "search/ground/tables", "search/world"}
-"""What fills a table, or reads a whole one in plain Python."""
+MOST_ARROWS = 39
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 40
@@ -232,75 +181,6 @@ def test_parts_of_app_import_only_those_before_them() -> None:
 @pytest.mark.parametrize("part", [first_level, folder, str], ids=["part", "folder", "file"])
 def test_there_are_no_circles(package: str, part: Callable[[str], str]) -> None:
     TopologicalSorter(between(imported_files(package), part)).prepare()
-
-
-def test_compiled_code_is_filed_under_all_its_sources() -> None:
-    imports = imported_files("model")
-    users = {name for name, files in imports.items() if "kernel/compiled" in files} - ASKING
-    needed = users.union({"kernel/compiled"}, *(imports[name] for name in users)) - INTERPRETED
-    assert set(SOURCES) == needed
-
-
-def files_of_compiled_folders() -> dict[str, Path]:
-    """Return the files of folders with compiled code, by path within `model` without suffix."""
-    return {path.relative_to(ROOT / "model").with_suffix("").as_posix(): path
-            for part in COMPILED_FOLDERS for path in sources(f"model/{part}")}
-
-
-def names_in(tree: ast.AST) -> set[str]:
-    """Return the names that a file uses, imports or defines; those of fields also with a dot."""
-    found = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    found |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)
-              for alias in node.names}
-    fields = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
-    fields |= {node.value for node in ast.walk(tree)
-               if isinstance(node, ast.Constant) and isinstance(node.value, str)}
-    return found | fields | {f".{field}" for field in fields}
-
-
-@cache
-def names_in_file(path: Path) -> set[str]:
-    """Return what `names_in` does of a file."""
-    return names_in(ast.parse(path.read_text()))
-
-
-def tables_read(tree: ast.AST) -> set[str]:
-    """Return the names of the tables of legs of which a file takes elements or parts."""
-    read = [node.value for node in ast.walk(tree) if isinstance(node, ast.Subscript)]
-    return LEG_TABLES & ({table.id for table in read if isinstance(table, ast.Name)}
-                         | {table.attr for table in read if isinstance(table, ast.Attribute)})
-
-
-@pytest.mark.parametrize("home", HOMES)
-def test_compiled_rule_has_one_home(home: str) -> None:
-    elsewhere = {name: applied for name, path in files_of_compiled_folders().items()
-                 if name != home and (applied := (
-                     names_in_file(path) & HOMES[home] - DESCRIBING.get(name, set())))}
-    assert elsewhere == {}
-
-
-def test_legs_are_read_in_one_file() -> None:
-    elsewhere = {name: read for name, path in files_of_compiled_folders().items()
-                 if name not in {"kernel/leg", *LEGS_AT_ONCE}
-                 and (read := tables_read(ast.parse(path.read_text())))}
-    assert elsewhere == {}
-
-
-@pytest.mark.parametrize("applied", [
-    "start = max(arrival, place.window_earliest)", 'late = node["window_latest"] < arrivals',
-    'node[["demand", "release"]]', "flight <= world.type[k].endurance",
-    "load <= kind.capacity[dimension]", "from model.kernel.clock import leave_by_profile",
-    "world.leg[m, here, there, 0]", "onward[there, 1]", "setting.drive[here, there]",
-])
-def test_a_rule_applied_outside_its_home_is_found(applied: str) -> None:
-    tree = ast.parse(applied)
-    assert names_in(tree) & set.union(*HOMES.values()) or tables_read(tree)
-
-
-def test_only_one_file_imports_the_compiler() -> None:
-    importers = [name_of(path) for path in sources("app", "model", "training")
-                 if "numba" in imported_packages(path)]
-    assert importers == ["model/kernel/compiled.py"]
 
 
 def test_files_are_short() -> None:

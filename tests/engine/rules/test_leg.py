@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from model.kernel.leg import COMPUTED, GLOBE, LAW, POINT, AllLegs, ComputedLegs
+from model.engine.header import dtype_of
+from model.kernel.leg import COMPUTED, GLOBE, AllLegs, ComputedLegs
 from model.problem import UNREACHABLE, IntArray, Points, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
 from tests.engine.rules.asking import legs_of, write
@@ -28,7 +29,7 @@ def look_up(legs: AllLegs, back: AllLegs) -> tuple[IntArray, IntArray, IntArray]
 def computed(legs: StraightLegs) -> ComputedLegs:
     """Return legs as compiled code has them."""
     points = legs.points
-    point, law = np.zeros(COUNT, POINT), np.zeros(1, LAW)
+    point, law = np.zeros(COUNT, dtype_of("tandem_point")), np.zeros(1, dtype_of("tandem_leg_law"))
     for axis, at in zip("xyz", points.at.T, strict=False):
         point[axis] = at
     point["node"] = np.arange(COUNT)

@@ -12,7 +12,6 @@ from model.problem import UNREACHABLE, IntArray, Problem, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
 from model.search.compiling import LARGE_RARER, RARER, parts_for
 from model.search.ground.lay import NEAR_INSERTION, lay_ground
-from model.search.ground.tables import LATENESS_WEIGHT, WAITING_WEIGHT
 from training.instances import generate
 
 SOME = 90
@@ -55,7 +54,7 @@ def test_neighbours_who_fit_are_those_with_the_least_driving_waiting_and_latenes
         way = int(drive[origin, to])
         wait = other.earliest - (one.latest + one.service_duration) - way
         late = one.earliest + one.service_duration + way - other.latest
-        return way + WAITING_WEIGHT * max(wait, 0) + LATENESS_WEIGHT * max(late, 0)
+        return way + 0.2 * max(wait, 0) + 1.0 * max(late, 0)
 
     for node in range(depots, problem.num_nodes, 7):
         ranked = sorted(min(misfit(node, int(other)), misfit(int(other), node))
