@@ -4,10 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
-from model.kernel.records import record
 from model.kernel.sparse import HUGE, sparse_rows
 
-ROW = record("number", others=511)
+ROW = np.dtype([("number", np.int64), ("others", np.int64, 511)])
 """As long as a page."""
 
 LARGER_THAN_MEMORY = 2**43

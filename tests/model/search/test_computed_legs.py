@@ -9,9 +9,9 @@ import pytest
 
 from model.judge.check import check
 from model.kernel.instance import pack
+from model.kernel.variants import are_stated, ways_of
 from model.problem import Points, Problem, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW
-from model.search.compiling import LARGE, LARGE_RARER, PLAIN, RARER, parts_for
 from model.search.ground import lay
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
@@ -58,7 +58,7 @@ def by_64_bits(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> Solution:
 def test_plans_are_the_same_by_tables_of_64_bits(variant: str,
                                                  monkeypatch: pytest.MonkeyPatch) -> None:
     problem = generate(np.random.default_rng(11), 40, variant)
-    assert parts_for(problem)[0] in (PLAIN, RARER)
+    assert are_stated(problem, ways_of(problem))
     assert plan_of(problem) == by_64_bits(problem, monkeypatch)
 
 
@@ -68,7 +68,7 @@ def test_a_leg_that_does_not_fit_is_planned_with() -> None:
     legs[0, -1] = LONGEST_NARROW + 1
     # Nobody drives there.
     wide = replace(problem, travel=(*problem.travel, Travel(legs, legs)))
-    assert parts_for(wide)[0] in (LARGE, LARGE_RARER)
+    assert not are_stated(wide, ways_of(wide))
     assert plan_of(problem) == plan_of(wide)
 
 

@@ -10,7 +10,6 @@ from model.kernel.leg import ComputedLegs
 from model.kernel.variants import index_of, ways_of
 from model.problem import UNREACHABLE, IntArray, Problem, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
-from model.search.compiling import LARGE_RARER, RARER, parts_for
 from model.search.ground.lay import NEAR_INSERTION, lay_ground
 from training.instances import generate
 
@@ -88,8 +87,7 @@ def test_setups_are_added_to_legs_that_there_are(closed: bool) -> None:
         return np.minimum(durations, UNREACHABLE)
 
     fits = LONGEST_NARROW - longest
-    for setup, part, kind in ((1000, RARER, np.int32), (fits, RARER, np.int32),
-                              (fits + 1, LARGE_RARER, np.int64)):
+    for setup, kind in ((1000, np.int32), (fits, np.int32), (fits + 1, np.int64)):
         large = with_setup(setup)
         table = lay_ground(large, pack([large])).leg
         if isinstance(table, ComputedLegs):
@@ -99,4 +97,3 @@ def test_setups_are_added_to_legs_that_there_are(closed: bool) -> None:
         if kind == np.int32:
             found = np.where(found == NO_LEG, UNREACHABLE, found.astype(np.int64))
         assert (np.minimum(found, UNREACHABLE) == expected(setup)).all()
-        assert parts_for(large) == (part,)

@@ -11,7 +11,7 @@ from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.route.engine import ANY, BY_FAR, INFEASIBLE, anneal
-from model.search.route.layout import CHANGING, World
+from model.search.route.layout import World
 from model.search.route.state import Searcher
 from model.search.world import make_world
 from model.solution import Solution
@@ -53,7 +53,7 @@ def kept_places(world: World, searcher: Searcher) -> Iterator[tuple[int, IntArra
         anneal(world, searcher, TURNS, ANY)
         for slot in searcher.active[: searcher.count.active]:
             stamp = searcher.now.route[slot].stamp
-            assert stamp != CHANGING
+            assert stamp != 0  # that of a route which changes
             nodes = np.flatnonzero(searcher.kept[:, slot]["stamp"] == stamp)
             yield int(slot), nodes[searcher.now.where[nodes]["slot"] != slot]
 
